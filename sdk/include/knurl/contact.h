@@ -1,0 +1,40 @@
+/* Knurl: the shapes that can be touched. Contact itself happens inside a scene's tick.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_CONTACT_H
+#define KNURL_CONTACT_H
+
+#include <knurl/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A bounded plane: a rectangle centred on the surface's origin, in its xy plane, front towards +z. */
+typedef struct knurl_plane_desc {
+    uint32_t struct_size;   /**< set by knurl_plane_desc_init() */
+    uint32_t reserved;      /**< 0 */
+    double half_extents[2]; /**< m along the surface's x and y, > 0, finite; default 0.05 */
+} knurl_plane_desc;
+
+/** A triangle mesh in the surface's own frame; counter-clockwise triangles face out. All arrays are the caller's and
+ * are copied. Triangles without area are left out and counted. */
+typedef struct knurl_mesh_desc {
+    uint32_t struct_size;    /**< set by knurl_mesh_desc_init() */
+    uint32_t vertex_count;   /**< vertices in each array, 3 to 2^28 */
+    const float *positions;  /**< x, y, z a vertex: m, finite */
+    const float *tangents;   /**< x, y, z, w a vertex (w is not used), or null: the surface's x direction */
+    const float *uvs;        /**< u, v a vertex, or null: surface coordinates, and x where there are no tangents */
+    const uint32_t *indices; /**< three a triangle, each below vertex_count; or null: 0, 1, 2, ... in order */
+    uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 where indices is null */
+} knurl_mesh_desc;
+
+/** Fills in defaults; `size` is the caller's sizeof. [any thread] */
+KNURL_API void knurl_plane_desc_init(knurl_plane_desc *desc, uint32_t size);
+
+/** Fills in defaults; `size` is the caller's sizeof. [any thread] */
+KNURL_API void knurl_mesh_desc_init(knurl_mesh_desc *desc, uint32_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,83 @@
+/* Knurl: haptic gratings, methods S1 and S2 of the paper (section III).
+ * A grating is a height map that repeats along a surface's x and y. State per HIP and surface: one struct, no heap.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_GRATING_H
+#define KNURL_GRATING_H
+
+#include <knurl/vibration.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The spatial methods. S1 looks the height up at the position (Eqs. 10, 11); S2 plays complete T3 events at the
+ * frequency that the velocity calls for (Algorithm 7); LOCKED keeps S2's events in step with the surface and is not
+ * built yet: it is refused with a sentence. */
+enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3 };
+
+/** No event: S1, or S2 while idle. */
+#define KNURL_NO_EVENT (-1)
+
+/** Below this speed (m/s) S2 starts no event (Algorithm 7). */
+#define KNURL_S2_DEADBAND 0.001
+
+/** What a grating is; filled in by its owner, constant while it is felt. */
+typedef struct knurl_grating {
+    double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
+    double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
+    double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
+    int32_t method;              /**< KNURL_S1 or KNURL_S2 */
+    uint32_t reserved;           /**< 0 */
+} knurl_grating;
+
+/** Where one HIP is on one grating. Zero it to start anew. */
+typedef struct knurl_grating_state {
+    knurl_event event;   /**< S2: the event that plays; its amplitude and kind are held to its end */
+    int64_t event_count; /**< events started since the state was zeroed */
+    int32_t next_tick;   /**< S2: index into the event of the next tick */
+    int32_t playing;     /**< S2: 1 while an event has ticks left */
+} knurl_grating_state;
+
+/** What a grating does in one tick. */
+typedef struct knurl_grating_output {
+    double height;             /**< H: m */
+    double spatial_frequency;  /**< fs of Eq. 12: cycles per metre in the direction of motion; 0 when at rest */
+    double temporal_frequency; /**< f_t = max(fsx |vx|, fsy |vy|): Hz, as the motion asks for it, unclamped */
+    int64_t event;             /**< 0, 1, ...: which event plays since the state was zeroed, or KNURL_NO_EVENT */
+    uint32_t saturated;        /**< 1: f_t is above f_h/2, which no method can render */
+    uint32_t reserved;         /**< 0 */
+} knurl_grating_output;
+
+/** Checks a grating once, so that its steps need not. method KNURL_METHOD_DEFAULT is resolved to KNURL_S2 in place.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_UNSUPPORTED (KNURL_LOCKED). [any thread] */
+KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
+
+/** The temporal frequency of a scan, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
+ * spatial_frequency: cycles/m along x and y. velocity: m/s along x and y. [any thread; allowed in a tick] */
+KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]);
+
+/** S1 in 2D, Eq. 10: +amplitude while the fractional phase of position x spatial_frequency is below one half.
+ * position: m. spatial_frequency: cycles/m. amplitude: m. [any thread; allowed in a tick] */
+KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude);
+
+/** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars where one
+ * frequency is 0. position: m along x and y. [any thread; allowed in a tick] */
+KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude);
+
+/** One tick of a checked grating. position: m along the surface's x and y (S1). velocity: m/s along x and y, of the HIP
+ * relative to the surface. state and output: caller's. S2: a new period and amplitude are taken only when an event has
+ * ended (Algorithm 7); with no event and below the deadband the height is 0. [haptic thread] */
+KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
+                                  const double velocity[2], knurl_grating_output *output);
+
+/** "S1", "S2" or "locked" for a method, null for any other number. [any thread] */
+KNURL_API const char *knurl_method_name(int32_t method);
+
+/** The method of a name ("S1", "S2", "locked").
+ * Errors: KNURL_ERROR_UNKNOWN, with the names that are known. [any thread] */
+KNURL_API knurl_result knurl_method_from_name(const char *name, int32_t *method);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,16 @@
+/* Knurl: haptic gratings on force-feedback devices. This header includes every room.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_KNURL_H
+#define KNURL_KNURL_H
+
+#include <knurl/base.h>
+#include <knurl/contact.h>
+#include <knurl/device.h>
+#include <knurl/gltf.h>
+#include <knurl/grating.h>
+#include <knurl/loop.h>
+#include <knurl/motion.h>
+#include <knurl/scene.h>
+#include <knurl/vibration.h>
+
+#endif

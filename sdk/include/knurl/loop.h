@@ -1,0 +1,105 @@
+/* Knurl: the real-time loop. It reads a device, ticks a scene (or calls back), writes the force and keeps time.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_LOOP_H
+#define KNURL_LOOP_H
+
+#include <knurl/device.h>
+#include <knurl/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct knurl_loop knurl_loop;
+
+/** Gives a force instead of a scene: `tick` counts from 0; write N in device axes. [haptic thread] */
+typedef void (*knurl_force_callback)(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user);
+
+/** Sees every tick of a scene before its force is written, for recording; must keep the tick's rules. `output` is as
+ * sent: with the loop's ramp in its forces. [haptic thread] */
+typedef void (*knurl_tick_callback)(const knurl_tick_output *output, void *user);
+
+/** A monotonic clock to run by, for tests. [haptic thread] */
+typedef struct knurl_clock {
+    int64_t (*now_ns)(void *user);
+    void (*sleep_until_ns)(int64_t deadline_ns, void *user);
+    void *user;
+} knurl_clock;
+
+typedef struct knurl_loop_desc {
+    uint32_t struct_size;                /**< set by knurl_loop_desc_init() */
+    uint32_t hip;                        /**< which HIP of the scene; default 0 */
+    knurl_device *device;                /**< required; the loop's alone while it exists */
+    knurl_scene *scene;                  /**< committed, its HIP configured with the same update rate; or null */
+    knurl_force_callback force_callback; /**< used where scene is null */
+    knurl_tick_callback tick_callback;   /**< or null */
+    void *user;                          /**< passed to both callbacks */
+    double update_rate_hz;               /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
+    uint64_t tick_limit;                 /**< ends by itself after so many ticks; 0 (default): never */
+    double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
+    double watchdog_s;                   /**< s without a tick after which the motors are let go; default 0.05; 0: never */
+    const knurl_clock *clock;            /**< copied; null: the system's */
+} knurl_loop_desc;
+
+/** Nanoseconds, by percentile. */
+typedef struct knurl_percentiles {
+    double p50, p99, max;
+} knurl_percentiles;
+
+/** Why a loop is not running. */
+enum {
+    KNURL_LOOP_IDLE = 0,    /**< never started */
+    KNURL_LOOP_RUNNING = 1, /**< ticks */
+    KNURL_LOOP_DONE = 2,    /**< reached its tick limit, or was stopped */
+    KNURL_LOOP_LOST = 3     /**< the device no longer answered */
+};
+
+/** What a loop has done so far. An output: set struct_size with knurl_loop_stats_init() first. */
+typedef struct knurl_loop_stats {
+    uint32_t struct_size;
+    int32_t state;               /**< KNURL_LOOP_ */
+    uint64_t ticks;              /**< not counting the ramp at the end */
+    uint64_t overruns;           /**< ticks whose deadline had passed by more than half a period; they are not made up for
+                                      by a burst: the rhythm goes on from the next whole period */
+    uint64_t watchdogs;          /**< times the watchdog let go of the motors */
+    uint32_t realtime;           /**< 1: SCHED_FIFO was had */
+    uint32_t memory_locked;      /**< 1: the scene and the loop's stack are locked into RAM */
+    knurl_percentiles tick_ns;   /**< the scene's tick or the force callback alone; within 3 % */
+    knurl_percentiles jitter_ns; /**< wake-up after the deadline; within 3 % */
+} knurl_loop_stats;
+
+/** Fill in defaults; `size` is the caller's sizeof. [any thread] */
+KNURL_API void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size);
+KNURL_API void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size);
+
+/** Makes a loop; it does not run yet. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY. [game thread] */
+KNURL_API knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop);
+
+/** Stops and gives everything back; null is allowed. [game thread, not from a callback] */
+KNURL_API void knurl_loop_destroy(knurl_loop *loop);
+
+/** Starts the haptic thread, at an absolute-deadline rhythm, SCHED_FIFO where permitted (see stats.realtime).
+ * Errors: KNURL_ERROR_STATE (started before), KNURL_ERROR_SYSTEM. [game thread] */
+KNURL_API knurl_result knurl_loop_start(knurl_loop *loop);
+
+/** Instead of knurl_loop_start(): runs up to `ticks` ticks here and now, as fast as the machine can, with the same
+ * forces tick for tick. Fewer are run where the tick limit, a stop or a lost device comes first (see stats.state).
+ * Errors: KNURL_ERROR_STATE (a haptic thread was started). [game thread] */
+KNURL_API knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks);
+
+/** Asks for the end: the force goes to zero by the ramp, then the loop is done. Twice is fine. [any thread] */
+KNURL_API void knurl_loop_request_stop(knurl_loop *loop);
+
+/** Asks for the end and waits for it; from a callback it only asks. Twice is fine. [any thread] */
+KNURL_API void knurl_loop_stop(knurl_loop *loop);
+
+/** Waits up to `seconds` for the end; 1 if the loop is not running (any more), else 0. [any thread but the haptic] */
+KNURL_API uint32_t knurl_loop_wait(knurl_loop *loop, double seconds);
+
+/** What the loop has done so far. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+KNURL_API knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

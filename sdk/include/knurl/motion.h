@@ -1,0 +1,76 @@
+/* Knurl: velocity from (quantised) positions, and the map from a device's workspace into the scene.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_MOTION_H
+#define KNURL_MOTION_H
+
+#include <knurl/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Velocity estimators. FOAW: the widest window, up to 15 ticks, whose straight line stays within the quantisation
+ * (Janabi-Sharifi 2000). DIFFERENCE: the last two positions; right for positions without quantisation. AUTO: FOAW
+ * where the resolution is known (> 0), DIFFERENCE where it is 0. */
+enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2 };
+
+/** The widest FOAW window in ticks. 15 is the common choice of the field; wider ones only add delay. */
+#define KNURL_FOAW_WINDOW 15
+
+/** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
+typedef struct knurl_velocity {
+    int64_t history[3][16];  /**< FOAW: the newest positions in fixed point, 1024 steps a count, a ring per axis */
+    double last[3];          /**< DIFFERENCE: the previous position, m */
+    double rate;             /**< update rate, Hz */
+    double steps_per_m;      /**< FOAW: fixed-point steps per metre */
+    double m_per_step;       /**< FOAW: 1 / steps_per_m */
+    uint32_t count;          /**< positions seen, at most 16 */
+    uint32_t newest;         /**< FOAW: ring index of the newest position */
+    int32_t method;          /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
+    uint32_t reserved;       /**< 0 */
+} knurl_velocity;
+
+/** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, >= 0 (0: not quantised; FOAW
+ * needs > 0). update_rate_hz: 1 to 100,000 Hz.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
+KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
+                                           knurl_velocity *velocity);
+
+/** Takes the position (m, finite) of this tick and gives the velocity (m/s); the first tick gives 0. [haptic thread] */
+KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3], double out[3]);
+
+/** Forgets all positions, so that the next one is a first one again. [haptic thread] */
+KNURL_API void knurl_velocity_reset(knurl_velocity *velocity);
+
+/** Device to scene: scene = origin + rotation * scale * device. */
+typedef struct knurl_workspace {
+    double origin[3];   /**< scene position of the device's origin, m */
+    double rotation[9]; /**< device axes in the scene: a row-major rotation matrix (right-handed, orthonormal) */
+    double scale;       /**< scene metres per device metre, > 0; a wall of K N/m feels like K * scale */
+    double reserved;    /**< 0 */
+} knurl_workspace;
+
+/** origin 0, no rotation, scale 1. [any thread] */
+KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
+
+/** Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation off orthonormal by more than 1e-6. [any thread] */
+KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
+
+/** A device position (m) in the scene (m). [any thread; allowed in a tick] */
+KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]);
+
+/** A scene position (m) in device coordinates (m). [any thread; allowed in a tick] */
+KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]);
+
+/** Turns a device velocity (m/s) into the scene's, scale included. [any thread; allowed in a tick] */
+KNURL_API void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3],
+                                                 double scene[3]);
+
+/** Turns a scene direction or force (N) into device axes; lengths are kept. [any thread; allowed in a tick] */
+KNURL_API void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3],
+                                                double device[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,219 @@
+/* Knurl: surfaces with gratings, and the tick that renders them.
+ * Life of a scene: create, add surfaces, commit [game thread]; then tick [haptic thread], one thread per HIP.
+ * Frames are right-handed (glTF's), units SI. `in` and `out` below are from the library's point of view.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SCENE_H
+#define KNURL_SCENE_H
+
+#include <knurl/contact.h>
+#include <knurl/grating.h>
+#include <knurl/motion.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct knurl_scene knurl_scene;
+
+/** Names a surface inside one scene: index + generation. 0 names none; an id outlives its surface as a stale one. */
+typedef uint64_t knurl_surface;
+
+/** Surfaces that one HIP can touch at once. */
+#define KNURL_MAX_CONTACTS 4
+
+/** Update rates that a HIP can tick at, Hz. */
+#define KNURL_UPDATE_RATE_MIN 100.0
+#define KNURL_UPDATE_RATE_MAX 10000.0
+
+/** How a surface feels. K, A and fs are per scene metre. */
+typedef struct knurl_material_desc {
+    uint32_t struct_size;        /**< set by knurl_material_desc_init() */
+    int32_t method;              /**< KNURL_METHOD_DEFAULT (S2), KNURL_S1 or KNURL_S2; KNURL_LOCKED is refused */
+    double spatial_frequency[2]; /**< fsx, fsy: cycles/m along the surface's x and y, >= 0; [0, 0] is smooth */
+    double amplitude;            /**< A: m, half peak to peak of the square wave, >= 0 */
+    double stiffness;            /**< K: N/m, > 0 */
+    double damping;              /**< B: N s/m along the normal, >= 0 */
+    double friction;             /**< Coulomb coefficient; above 0 is refused until it is built */
+    double orientation;          /**< turns x and y counter-clockwise about the normal, rad */
+} knurl_material_desc;
+
+/** One surface: a plane or a mesh, where it stands, and its material. What is pointed to is copied. */
+typedef struct knurl_surface_desc {
+    uint32_t struct_size;                /**< set by knurl_surface_desc_init() */
+    uint32_t double_sided;               /**< 1: can be touched from behind as well */
+    const char *name;                    /**< UTF-8, for reports; null for "" */
+    const knurl_plane_desc *plane;       /**< exactly one of plane and mesh */
+    const knurl_mesh_desc *mesh;         /**< exactly one of plane and mesh */
+    const knurl_material_desc *material; /**< required */
+    double position[3];                  /**< the surface's origin in the scene, m */
+    double rotation[4];                  /**< surface to scene: unit quaternion x, y, z, w */
+    double axis[3];                      /**< the grating's x in the surface's frame (any length); 0, 0, 0: a plane's x,
+                                              a mesh's tangents, else its uvs. With an axis, surface coordinates are
+                                              metres from the surface's origin along it */
+} knurl_surface_desc;
+
+/** One haptic interaction point: how fast it ticks, where its device's workspace lies, what its device can do. */
+typedef struct knurl_hip_desc {
+    uint32_t struct_size;             /**< set by knurl_hip_desc_init() */
+    int32_t velocity_method;          /**< KNURL_VELOCITY_; default AUTO */
+    double update_rate_hz;            /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
+    double resolution;                /**< the device's position quantum, m, >= 0; default 0.055e-3 (Touch) */
+    double max_force;                 /**< N, > 0; longer forces are shortened to it; default 3.3 (Touch) */
+    const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
+                                           the centre of all surfaces' bounds */
+} knurl_hip_desc;
+
+typedef struct knurl_scene_desc {
+    uint32_t struct_size;             /**< set by knurl_scene_desc_init() */
+    uint32_t max_surfaces;            /**< capacity, 1 to 2^20; default 4096 */
+    uint32_t hip_count;               /**< HIPs, 1 to 8; default 1 */
+    uint32_t reserved;                /**< 0 */
+    const knurl_allocator *allocator; /**< copied; null: malloc and free */
+} knurl_scene_desc;
+
+/** What a surface came to be. An output: set struct_size with knurl_surface_info_init() first. */
+typedef struct knurl_surface_info {
+    uint32_t struct_size;
+    uint32_t triangle_count;      /**< 0 for a plane */
+    uint32_t dropped_triangles;   /**< left out for want of area */
+    uint32_t double_sided;        /**< as it was given */
+    const char *name;             /**< the scene's, valid while the surface is */
+    const char *shape;            /**< "plane" or "mesh": what was given; static */
+    const char *model;            /**< what a tick works on: "plane" or "mesh+bvh"; static */
+    uint64_t bytes;               /**< memory this surface holds in the scene */
+    double bounds_min[3];         /**< scene axes, m */
+    double bounds_max[3];         /**< scene axes, m */
+    double anchor[3];             /**< a point on the surface near the middle of its bounds, scene, m */
+    double anchor_x[3];           /**< unit, scene: the grating's x at the anchor */
+    double anchor_normal[3];      /**< unit, scene: the outward normal at the anchor */
+    double anchor_reach[4];       /**< m from the anchor to the bounds' edge along +x, -x, +y, -y */
+    double stretch[3];            /**< min, mean, max of d(surface coordinate)/d(metres travelled) along x; 1: true */
+    knurl_material_desc material; /**< as felt: method resolved */
+} knurl_surface_info;
+
+/** What a device says at one tick. */
+typedef struct knurl_tick_input {
+    double position[3];    /**< device frame, m */
+    double velocity[3];    /**< device frame, m/s; used where has_velocity is 1 */
+    uint32_t has_velocity; /**< 0: the HIP's own estimator gives the velocity */
+    uint32_t reserved;     /**< 0 */
+} knurl_tick_input;
+
+/** Bits of knurl_tick_output.flags. */
+enum {
+    KNURL_TICK_CONTACT = 1,    /**< some surface is in reach of its grating's crests */
+    KNURL_TICK_FORCE_LIMIT = 2, /**< the force was shortened to max_force */
+    KNURL_TICK_FREQUENCY = 4,  /**< f_t above f_h/2: the grating is finer than the update rate can render */
+    KNURL_TICK_NOT_FINITE = 8, /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
+    KNURL_TICK_CONTACTS_FULL = 16 /**< a further surface was in reach, beyond KNURL_MAX_CONTACTS */
+};
+
+/** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */
+typedef struct knurl_tick_output {
+    double device_force[3];    /**< what the device is to play: device axes, N, limited, always finite */
+    double force[3];           /**< the same in scene axes, N */
+    double hip[3];             /**< HIP position, m */
+    double hip_velocity[3];    /**< m/s */
+    double proxy[3];           /**< the point of the surface that holds the HIP, m; the HIP where there is no contact */
+    double normal[3];          /**< outward, unit; 0 without contact */
+    double surface_velocity[2]; /**< vx, vy of the HIP relative to the surface in the surface's frame, m/s */
+    double depth;              /**< -z: penetration depth, m, negative while the HIP is still outside; 0 w/o contact */
+    double height;             /**< H: m; 0 without contact */
+    double spatial_frequency;  /**< fs: cycles/m in the direction of motion */
+    double temporal_frequency; /**< f_t: Hz, as the motion asks for it */
+    int64_t event;             /**< the event that plays, counted since contact, or KNURL_NO_EVENT */
+    knurl_surface surface;     /**< the surface felt, or 0 */
+    uint64_t tick;             /**< 0, 1, ... since the HIP was configured */
+    uint32_t flags;            /**< KNURL_TICK_ bits */
+    uint32_t contacts;         /**< surfaces in contact, 0 to KNURL_MAX_CONTACTS */
+} knurl_tick_output;
+
+/** Sums over a HIP's ticks since it was configured. */
+typedef struct knurl_hip_counts {
+    uint64_t ticks;
+    uint64_t contact_ticks;         /**< with KNURL_TICK_CONTACT */
+    uint64_t events;                /**< S2 events started */
+    uint64_t force_limits;          /**< ticks with KNURL_TICK_FORCE_LIMIT */
+    uint64_t frequency_saturations; /**< ticks with KNURL_TICK_FREQUENCY */
+    uint64_t not_finite;            /**< ticks with KNURL_TICK_NOT_FINITE */
+    double force_max;               /**< N, longest force played */
+} knurl_hip_counts;
+
+/** Fill in defaults; `size` is the caller's sizeof. [any thread] */
+KNURL_API void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size);
+KNURL_API void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size);
+KNURL_API void knurl_surface_info_init(knurl_surface_info *info, uint32_t size);
+KNURL_API void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size);
+KNURL_API void knurl_scene_desc_init(knurl_scene_desc *desc, uint32_t size);
+
+/** Makes an empty scene. desc: null for all defaults.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY. [game thread] */
+KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene);
+
+/** Gives everything back; null is allowed. No tick may run or follow. [game thread] */
+KNURL_API void knurl_scene_destroy(knurl_scene *scene);
+
+/** Checks, copies and adds a surface; before the commit.
+ * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_UNSUPPORTED (locked, friction),
+ * KNURL_ERROR_FULL, KNURL_ERROR_MEMORY, KNURL_ERROR_STATE (committed). [game thread] */
+KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
+                                               knurl_surface *surface);
+
+/** Takes a surface out; its id is stale from then on; before the commit.
+ * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_STATE (committed). [game thread] */
+KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface);
+
+/** Gives a surface another material; before the commit.
+ * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_STATE (committed), and those of a material. [game thread] */
+KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface,
+                                                const knurl_material_desc *material);
+
+/** Closes the scene to edits and opens it to ticks.
+ * Errors: KNURL_ERROR_STATE (committed already). [game thread] */
+KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
+
+/** Surfaces in the scene. [any thread] */
+KNURL_API uint32_t knurl_scene_surface_count(const knurl_scene *scene);
+
+/** The id of the surface at place `index`, 0 <= index < count, in the order of adding; 0 beyond. [any thread] */
+KNURL_API knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index);
+
+/** The first surface of that name, in the order of adding.
+ * Errors: KNURL_ERROR_UNKNOWN, with the names that are there. [any thread] */
+KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface);
+
+/** Tells what a surface came to be. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+KNURL_API knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface,
+                                                knurl_surface_info *info);
+
+/** Memory that the scene holds now, in bytes, all of it. [game thread] */
+KNURL_API uint64_t knurl_scene_bytes(const knurl_scene *scene);
+
+/** Sets up one HIP and forgets what it did. hip: 0 to hip_count - 1. desc: null for all defaults. Until it is called a
+ * HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT. [game thread, while that HIP does not tick] */
+KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
+
+/** The workspace that a HIP's ticks use; after the commit also where it was left to the scene.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [game thread] */
+KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
+
+/** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B vn)
+ * along n for each surface in contact). Bounded time; no heap, lock, system call, clock, log or file.
+ * `output` is always filled in, with a zero force where the result is not KNURL_OK.
+ * Errors: KNURL_ERROR_STATE (not committed), KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
+KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
+                                        knurl_tick_output *output);
+
+/** The latest complete tick of a HIP, as one consistent snapshot, for cursors and plots. All zeros before the first.
+ * Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+KNURL_API knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
+                                            knurl_hip_counts *counts);
+
+/** Locks all memory of the scene into RAM (mlock), so that no tick waits for a page. knurl_loop calls it.
+ * Errors: KNURL_ERROR_SYSTEM (a limit of the system; the scene works all the same). [game thread] */
+KNURL_API knurl_result knurl_scene_lock_memory(knurl_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
