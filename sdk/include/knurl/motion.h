@@ -31,7 +31,7 @@ typedef struct knurl_velocity {
 } knurl_velocity;
 
 /** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, >= 0 (0: not quantised; FOAW
- * needs > 0). update_rate_hz: 1 to 100,000 Hz.
+ * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
                                            knurl_velocity *velocity);

@@ -56,9 +56,11 @@ typedef struct knurl_surface_desc {
 typedef struct knurl_hip_desc {
     uint32_t struct_size;             /**< set by knurl_hip_desc_init() */
     int32_t velocity_method;          /**< KNURL_VELOCITY_; default AUTO */
-    double update_rate_hz;            /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
-    double resolution;                /**< the device's position quantum, m, >= 0; default 0.055e-3 (Touch) */
-    double max_force;                 /**< N, > 0; longer forces are shortened to it; default 3.3 (Touch) */
+    double update_rate_hz;            /**< KNURL_UPDATE_RATE_MIN to _MAX; 0 (default): the loop's, without one 1000 */
+    double resolution;                /**< the device's position quantum, m; negative (default): as the loop's device says,
+                                           without one 0.055e-3 (Touch) */
+    double max_force;                 /**< N; longer forces are shortened to it; 0 (default): as the loop's device says,
+                                           without one 3.3 (Touch) */
     const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
 } knurl_hip_desc;
@@ -182,7 +184,10 @@ KNURL_API knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_
  * Errors: KNURL_ERROR_UNKNOWN, with the names that are there. [any thread] */
 KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface);
 
-/** Tells what a surface came to be. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+/** A surface's name, the scene's, valid while the surface is. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+KNURL_API knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name);
+
+/** Tells what a surface came to be; looks for its anchor, so not for every frame. Errors: KNURL_ERROR_STALE_ID. [any thread] */
 KNURL_API knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface,
                                                 knurl_surface_info *info);
 

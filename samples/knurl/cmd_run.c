@@ -1,0 +1,251 @@
+/* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "recorder.h"
+#include "stroke.h"
+#include "tool.h"
+
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct run_options {
+    const char *path, *device, *surface, *stroke, *trace, *method, *out;
+    double seconds, rate;
+    int fast, pretty;
+    int32_t stroke_id, method_id;
+} run_options;
+
+/* Everything that a run owns; zeroed, each part is freed only if it is there. */
+typedef struct run {
+    run_options options;
+    knurl_scene *scene;
+    knurl_device *device;
+    knurl_loop *loop;
+    recorder recorder;
+    uint64_t ticks; /* wanted */
+} run;
+
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number) {
+    (void)number;
+    interrupted = 1;
+}
+
+static int read_options(int argc, char **argv, run_options *o) {
+    const tool_option options[] = {{"--device", TOOL_TEXT, &o->device, 0, 0, ""},
+                                   {"--surface", TOOL_TEXT, &o->surface, 0, 0, ""},
+                                   {"--stroke", TOOL_TEXT, &o->stroke, 0, 0, ""},
+                                   {"--trace", TOOL_TEXT, &o->trace, 0, 0, ""},
+                                   {"--method", TOOL_TEXT, &o->method, 0, 0, ""},
+                                   {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
+                                   {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
+                                   {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
+                                   {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+                                   {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
+    o->seconds = NAN;
+    o->rate = 1000.0;
+    if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &o->path) != TOOL_OK) {
+        return TOOL_USAGE;
+    }
+    if (!o->path) {
+        return tool_error(TOOL_USAGE, "run: expected a .gltf or .glb file, found none");
+    }
+    if (o->stroke && o->trace) {
+        return tool_error(TOOL_USAGE, "run: expected --stroke or --trace, found both");
+    }
+    if (knurl_stroke_from_name(o->stroke ? o->stroke : "line", &o->stroke_id)) {
+        return tool_library_error(TOOL_USAGE, "run: --stroke");
+    }
+    if (o->method && knurl_method_from_name(o->method, &o->method_id)) {
+        return tool_library_error(TOOL_USAGE, "run: --method");
+    }
+    return TOOL_OK;
+}
+
+/* --method: for every surface, instead of its own. */
+static knurl_result set_methods(knurl_scene *scene, int32_t method) {
+    for (uint32_t i = 0; i < knurl_scene_surface_count(scene); i++) {
+        const knurl_surface surface = knurl_scene_surface_at(scene, i);
+        knurl_surface_info info;
+        knurl_surface_info_init(&info, sizeof info);
+        knurl_result result = knurl_scene_surface_info(scene, surface, &info);
+        info.material.method = method;
+        result = result ? result : knurl_scene_set_material(scene, surface, &info.material);
+        if (result) {
+            return knurl_fail(result, "surface '%s': %s", info.name, knurl_error_message());
+        }
+    }
+    return KNURL_OK;
+}
+
+static int load(run *r) {
+    const run_options *o = &r->options;
+    if (knurl_scene_create(NULL, &r->scene) || knurl_gltf_load_file(r->scene, o->path, NULL) ||
+        (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
+        return tool_library_error(TOOL_FAILURE, NULL);
+    }
+    if (knurl_scene_surface_count(r->scene) == 0) {
+        return tool_error(TOOL_FAILURE, "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' says how to tag",
+                          o->path);
+    }
+    return TOOL_OK;
+}
+
+static int open_device(run *r) {
+    const run_options *o = &r->options;
+    const knurl_result result = knurl_device_open(o->device ? o->device : "fake", &r->device);
+    if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
+        return tool_library_error(result == KNURL_ERROR_UNSUPPORTED ? TOOL_FAILURE : TOOL_USAGE, "run: --device");
+    }
+    knurl_surface surface = knurl_scene_surface_at(r->scene, 0);
+    if (o->surface && knurl_scene_find_surface(r->scene, o->surface, &surface)) {
+        return tool_library_error(TOOL_FAILURE, o->path);
+    }
+    double last_t = 0.0;
+    const int code = o->trace ? stroke_play(r->scene, r->device, o->trace, &last_t)
+                              : stroke_lay(r->scene, r->device, surface, o->stroke_id);
+    if (!isnan(o->seconds)) {
+        r->ticks = (uint64_t)fmax(1.0, floor(o->seconds * o->rate + 0.5));
+    } else if (o->trace) {
+        r->ticks = (uint64_t)floor(fmax(last_t, 0.0) * o->rate + 1e-6) + 1; /* its last row too */
+    } else {
+        r->ticks = (uint64_t)(5.0 * o->rate);
+    }
+    return code;
+}
+
+static int make_loop(run *r) {
+    knurl_loop_desc desc;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = r->device;
+    desc.scene = r->scene;
+    desc.update_rate_hz = r->options.rate;
+    desc.tick_limit = r->ticks;
+    if (r->options.out) {
+        const int code = recorder_open(&r->recorder, r->options.out, r->scene, r->options.rate);
+        if (code != TOOL_OK) {
+            return code;
+        }
+        desc.tick_callback = recorder_take;
+        desc.user = &r->recorder;
+    }
+    return knurl_loop_create(&desc, &r->loop) ? tool_library_error(TOOL_FAILURE, "run") : TOOL_OK;
+}
+
+static void show_progress(const run *r, uint64_t ticks) {
+    knurl_tick_output now;
+    knurl_hip_counts counts;
+    if (knurl_scene_get_tick(r->scene, 0, &now, &counts) == KNURL_OK && ticks > 0) {
+        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ", (double)ticks / r->options.rate,
+                (double)r->ticks / r->options.rate, 100.0 * (double)counts.contact_ticks / (double)counts.ticks,
+                now.temporal_frequency, sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
+    }
+}
+
+/* Until the loop is done: drains the recorder, shows progress on a terminal, obeys Ctrl-C. */
+static void play(run *r) {
+    const int terminal = isatty(STDERR_FILENO);
+    knurl_loop_stats stats;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    do {
+        if (r->options.fast) {
+            (void)knurl_loop_step(r->loop, 4096);
+        } else {
+            (void)knurl_loop_wait(r->loop, 0.05);
+        }
+        if (r->recorder.rows) {
+            recorder_drain(&r->recorder);
+        }
+        (void)knurl_loop_get_stats(r->loop, &stats);
+        if (terminal) {
+            show_progress(r, stats.ticks);
+        }
+        if (interrupted) {
+            knurl_loop_request_stop(r->loop);
+        }
+    } while (stats.state == KNURL_LOOP_RUNNING);
+    if (terminal) {
+        fputs("\r\033[K", stderr);
+    }
+}
+
+static void print_percentiles(tool_json *json, const char *key, const knurl_percentiles *p, double unit) {
+    json_open(json, key, '{');
+    json_number(json, "p50", p->p50 / unit);
+    json_number(json, "p99", p->p99 / unit);
+    json_number(json, "max", p->max / unit);
+    json_close(json, '}');
+}
+
+static void print_summary(const run *r, const knurl_loop_stats *stats) {
+    knurl_hip_counts counts;
+    knurl_device_info device;
+    tool_json json = {r->options.pretty, 0, 1};
+    knurl_device_info_init(&device, sizeof device);
+    memset(&counts, 0, sizeof counts);
+    (void)knurl_scene_get_tick(r->scene, 0, NULL, &counts);
+    (void)knurl_device_get_info(r->device, &device);
+    json_open(&json, NULL, '{');
+    json_string(&json, "device", device.name);
+    json_number(&json, "rate_hz", r->options.rate);
+    json_number(&json, "ticks", (double)stats->ticks);
+    json_number(&json, "contact_s", (double)counts.contact_ticks / r->options.rate);
+    json_number(&json, "events", (double)counts.events);
+    json_number(&json, "overruns", (double)stats->overruns);
+    json_number(&json, "watchdogs", (double)stats->watchdogs);
+    json_number(&json, "saturations", (double)counts.force_limits);
+    json_number(&json, "frequency_saturations", (double)counts.frequency_saturations);
+    json_number(&json, "not_finite", (double)counts.not_finite);
+    json_number(&json, "force_max_n", counts.force_max);
+    print_percentiles(&json, "tick_ns", &stats->tick_ns, 1.0);
+    print_percentiles(&json, "jitter_us", &stats->jitter_ns, 1000.0);
+    json_close(&json, '}');
+    json_end(&json);
+}
+
+static int perform(run *r) {
+    knurl_loop_stats stats;
+    int code = load(r);
+    code = code == TOOL_OK ? open_device(r) : code;
+    code = code == TOOL_OK ? make_loop(r) : code;
+    if (code != TOOL_OK) {
+        return code;
+    }
+    if (!r->options.fast && knurl_loop_start(r->loop)) {
+        return tool_library_error(TOOL_FAILURE, "run");
+    }
+    play(r);
+    knurl_loop_stats_init(&stats, sizeof stats);
+    (void)knurl_loop_get_stats(r->loop, &stats);
+    if (!r->options.fast && !stats.realtime) {
+        fputs("knurl: note: real-time scheduling is not permitted here (see ulimit -r); timing may suffer\n", stderr);
+    }
+    code = recorder_close(&r->recorder, 1);
+    if (stats.state == KNURL_LOOP_LOST) {
+        code = tool_error(TOOL_FAILURE, "run: the device was lost after %llu ticks", (unsigned long long)stats.ticks);
+    }
+    print_summary(r, &stats);
+    return code;
+}
+
+int cmd_run(int argc, char **argv) {
+    run r;
+    memset(&r, 0, sizeof r);
+    int code = read_options(argc, argv, &r.options);
+    if (code == TOOL_OK) {
+        struct sigaction action;
+        memset(&action, 0, sizeof action);
+        action.sa_handler = on_signal;
+        (void)sigaction(SIGINT, &action, NULL);
+        (void)sigaction(SIGTERM, &action, NULL);
+        code = perform(&r);
+    }
+    knurl_loop_destroy(r.loop);
+    (void)recorder_close(&r.recorder, 0);
+    knurl_device_close(r.device);
+    knurl_scene_destroy(r.scene);
+    return code;
+}

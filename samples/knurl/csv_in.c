@@ -1,0 +1,147 @@
+/* CSV input: a header, then numbers. SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "tool.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+#define MAX_COLUMNS 64
+
+/* Takes the line apart at its commas; spaces and the line's end go. Returns the number of cells. */
+static uint32_t split(char *line, char *cells[MAX_COLUMNS]) {
+    uint32_t count = 0;
+    char *rest = line;
+    while (rest && count < MAX_COLUMNS) {
+        char *cell = rest;
+        rest = strchr(cell, ',');
+        if (rest) {
+            *rest++ = 0;
+        }
+        cell += strspn(cell, " \t");
+        cell[strcspn(cell, "\r\n")] = 0;
+        for (size_t n = strlen(cell); n > 0 && (cell[n - 1] == ' ' || cell[n - 1] == '\t'); n--) {
+            cell[n - 1] = 0;
+        }
+        cells[count++] = cell;
+    }
+    return count;
+}
+
+static int column_of(char *const *cells, uint32_t count, const char *name) {
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(cells[i], name) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+/* Finds each name's column in the header. */
+static int read_header(const char *path, char *line, const char *const *names, uint32_t count, int *columns) {
+    char *cells[MAX_COLUMNS];
+    const uint32_t found = split(line, cells);
+    for (uint32_t i = 0; i < count; i++) {
+        columns[i] = column_of(cells, found, names[i]);
+        if (columns[i] < 0) {
+            return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found none", path, names[i]);
+        }
+    }
+    return TOOL_OK;
+}
+
+static int read_row(const char *path, uint64_t line_number, char *line, const char *const *names, uint32_t count,
+                    const int *columns, double *row) {
+    char *cells[MAX_COLUMNS];
+    const uint32_t found = split(line, cells);
+    for (uint32_t i = 0; i < count; i++) {
+        const char *cell = columns[i] < (int)found ? cells[columns[i]] : "";
+        char *end = NULL;
+        row[i] = strtod(cell, &end);
+        if (end == cell || *end || !isfinite(row[i])) {
+            return tool_error(TOOL_FAILURE, "%s: line %llu: %s: expected a finite number, found '%s'", path,
+                              (unsigned long long)line_number, names[i], cell);
+        }
+    }
+    return TOOL_OK;
+}
+
+static int grow(const char *path, tool_table *table, uint64_t *capacity) {
+    if (table->row_count < *capacity) {
+        return TOOL_OK;
+    }
+    *capacity = *capacity ? 2 * *capacity : 1024;
+    double *more = realloc(table->cells, (size_t)*capacity * table->columns * sizeof *more);
+    if (!more) {
+        return tool_error(TOOL_FAILURE, "%s: no memory for %llu rows", path, (unsigned long long)*capacity);
+    }
+    table->cells = more;
+    return TOOL_OK;
+}
+
+static int read_rows(const char *path, FILE *stream, const char *const *names, tool_table *table) {
+    int columns[MAX_COLUMNS];
+    char *line = NULL;
+    size_t size = 0;
+    uint64_t line_number = 0;
+    uint64_t capacity = 0;
+    int code = TOOL_OK;
+    while (code == TOOL_OK && getline(&line, &size, stream) != -1) {
+        line_number++;
+        if (line_number == 1) {
+            code = read_header(path, line, names, table->columns, columns);
+        } else if (line[strspn(line, " \t\r\n")]) {
+            code = grow(path, table, &capacity);
+            if (code == TOOL_OK) {
+                code = read_row(path, line_number, line, names, table->columns, columns,
+                                &table->cells[table->row_count * table->columns]);
+            }
+            table->row_count += code == TOOL_OK;
+        }
+    }
+    free(line);
+    if (code == TOOL_OK && ferror(stream)) {
+        code = tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    if (code == TOOL_OK && table->row_count == 0) {
+        code = tool_error(TOOL_FAILURE, "%s: expected a header and at least one row, found %s", path,
+                          line_number ? "no row" : "nothing");
+    }
+    return code;
+}
+
+int tool_read_csv(const char *path, const char *const *names, uint32_t count, tool_table *table) {
+    memset(table, 0, sizeof *table);
+    table->columns = count;
+    FILE *stream = fopen(path, "r");
+    if (!stream) {
+        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    const int code = read_rows(path, stream, names, table);
+    (void)fclose(stream);
+    if (code != TOOL_OK) {
+        free(table->cells);
+        memset(table, 0, sizeof *table);
+    }
+    return code;
+}
+
+int tool_csv_has(const char *path, const char *name) {
+    FILE *stream = fopen(path, "r");
+    char *line = NULL;
+    size_t size = 0;
+    int found = 0;
+    if (stream && getline(&line, &size, stream) != -1) {
+        char *cells[MAX_COLUMNS];
+        const uint32_t count = split(line, cells);
+        found = column_of(cells, count, name) >= 0;
+    }
+    free(line);
+    if (stream) {
+        (void)fclose(stream);
+    }
+    return found;
+}

@@ -1,0 +1,98 @@
+/* knurl: the command-line tool. SPDX-License-Identifier: MIT */
+#include "tool.h"
+
+#include <knurl/knurl.h>
+
+#include <string.h>
+
+static const char help[] =
+    "knurl: feel the gratings of a glTF scene, with or without a device\n"
+    "\n"
+    "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to (JSON)\n"
+    "  knurl run FILE [options]            load, stroke, tick; a summary (JSON)\n"
+    "      --device URI                    fake (default), fake:?key=value&...; see 'knurl devices'\n"
+    "      --surface NAME                  which surface to stroke (default: the first)\n"
+    "      --stroke NAME                   line (default), sweep, circle, press or rest, 1 mm below the surface\n"
+    "      --trace CSV                     instead: play HIP positions t,x,y,z (s, m) without a hand\n"
+    "      --seconds S                     default 5, or the trace's length\n"
+    "      --rate HZ                       update rate, 100 to 10000; default 1000\n"
+    "      --method S1|S2                  for all surfaces, instead of their own\n"
+    "      --fast                          as fast as the machine can, the same forces tick for tick\n"
+    "      --out CSV                       what was felt, a row a tick\n"
+    "      --pretty                        JSON over several lines\n"
+    "  knurl signal --method T1|T2|T3 --period-ms P --amplitude A --rate HZ --ticks N\n"
+    "                                      a temporal vibration (CSV: tick,value)\n"
+    "  knurl scan --method S1|S2 --fs FSX,FSY --amplitude A --rate HZ --in CSV\n"
+    "                                      a grating under given positions x,y or velocities vx,vy, a row a tick (CSV)\n"
+    "  knurl devices [--json]              the kinds of device, and the fake one's settings\n"
+    "  knurl --version\n"
+    "\n"
+    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device.\n";
+
+static int cmd_devices(int argc, char **argv) {
+    int json = 0;
+    int pretty = 0;
+    const tool_option options[] = {{"--json", TOOL_FLAG, &json, 0, 0, ""}, {"--pretty", TOOL_FLAG, &pretty, 0, 0, ""}};
+    if (tool_parse(argc, argv, options, 2, NULL) != TOOL_OK) {
+        return TOOL_USAGE;
+    }
+    knurl_device_listing listings[8];
+    const uint32_t count = knurl_device_list(listings, 8);
+    if (!json) {
+        for (uint32_t i = 0; i < count; i++) {
+            printf("%-8s %s%s%s\n", listings[i].uri, listings[i].name, listings[i].reason[0] ? ": " : "",
+                   listings[i].reason);
+        }
+        printf("\nfake:?key=value&key=value takes\n%s", knurl_fake_keys());
+        return TOOL_OK;
+    }
+    tool_json out = {pretty, 0, 1};
+    json_open(&out, NULL, '[');
+    for (uint32_t i = 0; i < count; i++) {
+        json_open(&out, NULL, '{');
+        json_string(&out, "uri", listings[i].uri);
+        json_string(&out, "name", listings[i].name);
+        json_string(&out, "unusable", listings[i].reason);
+        json_close(&out, '}');
+    }
+    json_close(&out, ']');
+    json_end(&out);
+    return TOOL_OK;
+}
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run}, {"signal", cmd_signal}, {"scan", cmd_scan}, {"devices", cmd_devices}};
+
+static int run_command(int argc, char **argv) {
+    if (argc < 2) {
+        fputs(help, stderr);
+        return TOOL_USAGE;
+    }
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0) {
+            fputs(help, stdout);
+            return TOOL_OK;
+        }
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("knurl %s\n", knurl_version_string());
+        return TOOL_OK;
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        if (strcmp(argv[1], commands[i].name) == 0) {
+            return commands[i].run(argc - 1, argv + 1);
+        }
+    }
+    return tool_error(TOOL_USAGE, "expected a command (inspect, run, signal, scan, devices), found '%s'; see 'knurl --help'",
+                      argv[1]);
+}
+
+int main(int argc, char **argv) {
+    const int code = run_command(argc, argv);
+    if (fflush(stdout) != 0 && code == TOOL_OK) { /* a full disk must not look like success */
+        return tool_error(TOOL_FAILURE, "standard output cannot be written");
+    }
+    return code;
+}

@@ -1,0 +1,84 @@
+/* A run's CSV. SPDX-License-Identifier: MIT */
+#include "recorder.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int recorder_open(recorder *r, const char *path, const knurl_scene *scene, double rate) {
+    memset(r, 0, sizeof *r);
+    r->scene = scene;
+    r->rate = rate;
+    r->rows = calloc(RECORDER_ROWS, sizeof *r->rows); /* touched before the run, not in a tick */
+    if (!r->rows) {
+        return tool_error(TOOL_FAILURE, "run: no memory to record with");
+    }
+    memset(r->rows, 0, RECORDER_ROWS * sizeof *r->rows);
+    const int code = tool_file_open(&r->file, path);
+    if (code == TOOL_OK) {
+        fputs("t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n", r->file.stream);
+    } else {
+        free(r->rows);
+        r->rows = NULL;
+    }
+    return code;
+}
+
+void recorder_take(const knurl_tick_output *output, void *user) {
+    recorder *r = user;
+    const uint64_t read = __atomic_load_n(&r->read, __ATOMIC_ACQUIRE);
+    if (r->written - read == RECORDER_ROWS) {
+        r->lost++;
+        return;
+    }
+    r->rows[r->written % RECORDER_ROWS] = *output;
+    __atomic_store_n(&r->written, r->written + 1, __ATOMIC_RELEASE);
+}
+
+static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
+    const double before[] = {(double)o->tick / r->rate, o->hip[0], o->hip[1], o->hip[2], o->surface_velocity[0],
+                             o->surface_velocity[1]};
+    const double after[] = {o->depth, o->spatial_frequency, o->temporal_frequency, o->height, o->force[0], o->force[1],
+                            o->force[2]};
+    const char *name = "none";
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
+        tool_print_number(f, before[i]);
+        fputc(',', f);
+    }
+    if (o->surface) {
+        (void)knurl_scene_surface_name(r->scene, o->surface, &name);
+    }
+    tool_print_cell(f, name);
+    for (size_t i = 0; i < sizeof after / sizeof *after; i++) {
+        fputc(',', f);
+        tool_print_number(f, after[i]);
+    }
+    fputc('\n', f);
+}
+
+void recorder_drain(recorder *r) {
+    const uint64_t written = __atomic_load_n(&r->written, __ATOMIC_ACQUIRE);
+    while (r->read < written) {
+        print_row(r->file.stream, r, &r->rows[r->read % RECORDER_ROWS]);
+        __atomic_store_n(&r->read, r->read + 1, __ATOMIC_RELEASE);
+    }
+}
+
+int recorder_close(recorder *r, int keep) {
+    int code = TOOL_OK;
+    if (!r->rows) {
+        return code;
+    }
+    recorder_drain(r);
+    if (keep) {
+        code = tool_file_keep(&r->file);
+        if (r->lost > 0) {
+            fprintf(stderr, "knurl: note: %llu rows could not be written in time and are missing from the CSV\n",
+                    (unsigned long long)r->lost);
+        }
+    } else {
+        tool_file_discard(&r->file);
+    }
+    free(r->rows);
+    r->rows = NULL;
+    return code;
+}

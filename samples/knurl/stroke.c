@@ -1,0 +1,93 @@
+/* Strokes and traces in scene coordinates. SPDX-License-Identifier: MIT */
+#include "stroke.h"
+
+#include "tool.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* How far a device position can go along +-direction before it leaves the workspace; negative outside. */
+static double room(const knurl_device_info *device, const double from[3], const double direction[3]) {
+    double reach = HUGE_VAL;
+    for (int axis = 0; axis < 3; axis++) {
+        const double space =
+            fmin(device->workspace_max[axis] - from[axis], from[axis] - device->workspace_min[axis]);
+        if (space < 0.0) {
+            return -1.0;
+        }
+        if (fabs(direction[axis]) > 1e-6) {
+            reach = fmin(reach, space / fabs(direction[axis]));
+        }
+    }
+    return reach;
+}
+
+/* Puts the workspace's origin on the surface's anchor. */
+static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, knurl_workspace *workspace) {
+    knurl_hip_desc desc;
+    knurl_hip_desc_init(&desc, sizeof desc);
+    for (int axis = 0; axis < 3; axis++) {
+        workspace->origin[axis] = info->anchor[axis];
+    }
+    desc.workspace = workspace;
+    if (knurl_scene_configure_hip(scene, 0, &desc)) {
+        return tool_library_error(TOOL_FAILURE, "run");
+    }
+    fprintf(stderr, "knurl: note: surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it\n",
+            info->name);
+    return TOOL_OK;
+}
+
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke) {
+    knurl_surface_info info;
+    knurl_device_info limits;
+    knurl_workspace workspace;
+    knurl_stroke_desc desc;
+    knurl_surface_info_init(&info, sizeof info);
+    knurl_device_info_init(&limits, sizeof limits);
+    knurl_stroke_desc_init(&desc, sizeof desc);
+    if (knurl_scene_surface_info(scene, surface, &info) || knurl_device_get_info(device, &limits) ||
+        knurl_scene_get_workspace(scene, 0, &workspace)) {
+        return tool_library_error(TOOL_FAILURE, "run");
+    }
+    double y[3];
+    knurl_workspace_to_device(&workspace, info.anchor, desc.centre);
+    knurl_workspace_vector_to_device(&workspace, info.anchor_x, desc.x);
+    knurl_workspace_vector_to_device(&workspace, info.anchor_normal, desc.normal);
+    if (room(&limits, desc.centre, desc.normal) < 0.01) { /* a stroke starts 5 mm above the surface */
+        const int code = move_workspace(scene, &info, &workspace);
+        if (code != TOOL_OK) {
+            return code;
+        }
+        knurl_workspace_to_device(&workspace, info.anchor, desc.centre);
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        y[i] = desc.normal[j] * desc.x[k] - desc.normal[k] * desc.x[j];
+    }
+    const double *edge = info.anchor_reach;
+    desc.stroke = stroke;
+    desc.reach[0] = fmax(1e-4, 0.9 * fmin(fmin(edge[0], edge[1]), room(&limits, desc.centre, desc.x)));
+    desc.reach[1] = fmax(1e-4, 0.9 * fmin(fmin(edge[2], edge[3]), room(&limits, desc.centre, y)));
+    return knurl_fake_set_stroke(device, &desc) ? tool_library_error(TOOL_FAILURE, "run") : TOOL_OK;
+}
+
+int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t) {
+    static const char *const columns[] = {"t", "x", "y", "z"};
+    tool_table table;
+    knurl_workspace workspace;
+    int code = tool_read_csv(path, columns, 4, &table);
+    if (code != TOOL_OK) {
+        return code;
+    }
+    knurl_result result = knurl_scene_get_workspace(scene, 0, &workspace);
+    for (uint64_t i = 0; i < table.row_count && !result; i++) {
+        double *row = &table.cells[4 * i];
+        knurl_workspace_to_device(&workspace, row + 1, row + 1);
+    }
+    *last_t = table.cells[4 * (table.row_count - 1)];
+    result = result ? result : knurl_fake_set_trace(device, table.cells, table.row_count);
+    free(table.cells);
+    return result ? tool_library_error(TOOL_FAILURE, path) : TOOL_OK;
+}

@@ -1,0 +1,14 @@
+/* Lays the fake device's stroke or trace over a scene. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TOOL_STROKE_H
+#define KNURL_TOOL_STROKE_H
+
+#include <knurl/knurl.h>
+
+/* Strokes along the surface's x, over nine tenths of it or of the workspace, 1 mm below it. Where the surface lies
+ * outside the workspace, the workspace is moved to it, and that is said on stderr. TOOL_ codes. */
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke);
+
+/* Plays a CSV of t,x,y,z in scene metres; *last_t: the time of its last row, s. TOOL_ codes. */
+int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t);
+
+#endif

@@ -1,0 +1,14 @@
+/* Atomics: C99 has none, every compiler that builds this has these built in. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_ATOMIC_H
+#define KNURL_SRC_ATOMIC_H
+
+#define knurl_load_relaxed(p)     __atomic_load_n((p), __ATOMIC_RELAXED)
+#define knurl_load_acquire(p)     __atomic_load_n((p), __ATOMIC_ACQUIRE)
+#define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)
+#define knurl_store_release(p, v) __atomic_store_n((p), (v), __ATOMIC_RELEASE)
+#define knurl_exchange(p, v)      __atomic_exchange_n((p), (v), __ATOMIC_ACQ_REL)
+
+/* For counters with one writer and any number of readers. */
+#define knurl_count_up(p) knurl_store_relaxed((p), knurl_load_relaxed(p) + 1)
+
+#endif

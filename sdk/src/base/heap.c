@@ -1,0 +1,100 @@
+/* Counted memory from a caller's allocator. SPDX-License-Identifier: MIT */
+#include "base/heap.h"
+
+#include "base/system.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ALIGNMENT 64 /* a cache line */
+
+struct knurl_block {
+    knurl_block *next;
+    knurl_block *previous;
+    size_t size; /* with this header */
+};
+
+/* C99 has no aligned allocation: what malloc gave stands just before what is handed out. */
+static void *default_allocate(size_t size, size_t alignment, void *user) {
+    (void)user;
+    if (size > SIZE_MAX - alignment - sizeof(void *)) {
+        return NULL;
+    }
+    char *raw = malloc(size + alignment + sizeof raw);
+    if (!raw) {
+        return NULL;
+    }
+    const uintptr_t start = (uintptr_t)raw + sizeof raw;
+    char *aligned = raw + sizeof raw + (alignment - start % alignment) % alignment;
+    memcpy(aligned - sizeof raw, &raw, sizeof raw);
+    return aligned;
+}
+
+static void default_release(void *memory, size_t size, void *user) {
+    char *raw;
+    (void)size;
+    (void)user;
+    memcpy(&raw, (char *)memory - sizeof raw, sizeof raw);
+    free(raw);
+}
+
+void knurl_heap_init(knurl_heap *heap, const knurl_allocator *allocator) {
+    memset(heap, 0, sizeof *heap);
+    if (allocator) {
+        heap->allocator = *allocator;
+    } else {
+        heap->allocator.allocate = default_allocate;
+        heap->allocator.release = default_release;
+    }
+}
+
+void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
+    const uint64_t limit = (SIZE_MAX - ALIGNMENT) / (size ? size : 1);
+    const size_t bytes = count > limit ? 0 : ALIGNMENT + (size_t)count * size;
+    knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
+    if (!block) {
+        knurl_fail(KNURL_ERROR_MEMORY, "memory: could not get %llu x %llu bytes", (unsigned long long)count,
+                   (unsigned long long)size);
+        return NULL;
+    }
+    memset(block, 0, bytes);
+    block->size = bytes;
+    block->next = heap->first;
+    if (heap->first) {
+        heap->first->previous = block;
+    }
+    heap->first = block;
+    heap->bytes += bytes;
+    return (char *)block + ALIGNMENT;
+}
+
+void knurl_heap_free(knurl_heap *heap, void *memory) {
+    if (!memory) {
+        return;
+    }
+    knurl_block *block = (knurl_block *)(void *)((char *)memory - ALIGNMENT);
+    if (block->previous) {
+        block->previous->next = block->next;
+    } else {
+        heap->first = block->next;
+    }
+    if (block->next) {
+        block->next->previous = block->previous;
+    }
+    heap->bytes -= block->size;
+    heap->allocator.release(block, block->size, heap->allocator.user);
+}
+
+uint64_t knurl_heap_size(const void *memory) {
+    return memory ? ((const knurl_block *)(const void *)((const char *)memory - ALIGNMENT))->size : 0;
+}
+
+knurl_result knurl_heap_lock(knurl_heap *heap) {
+    for (knurl_block *block = heap->first; block; block = block->next) {
+        if (!knurl_system_lock_memory(block, block->size)) {
+            return knurl_fail(KNURL_ERROR_SYSTEM, "memory: the system refused to lock %llu bytes into RAM (see ulimit -l)",
+                              (unsigned long long)heap->bytes);
+        }
+    }
+    return KNURL_OK;
+}

@@ -1,0 +1,31 @@
+/* An object's memory: the caller's allocator, counted, lockable into RAM. Not for use in a tick.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HEAP_H
+#define KNURL_SRC_HEAP_H
+
+#include <knurl/base.h>
+
+typedef struct knurl_block knurl_block;
+
+typedef struct knurl_heap {
+    knurl_allocator allocator;
+    knurl_block *first;
+    uint64_t bytes; /* held now, headers included */
+} knurl_heap;
+
+/* allocator: null for malloc and free. */
+void knurl_heap_init(knurl_heap *heap, const knurl_allocator *allocator);
+
+/* count * size zeroed bytes, aligned to 64; null (with an error message) when there are none, or on overflow. */
+void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size);
+
+/* Gives one allocation back; null is allowed. */
+void knurl_heap_free(knurl_heap *heap, void *memory);
+
+/* The bytes that an allocation costs, header included; 0 for null. */
+uint64_t knurl_heap_size(const void *memory);
+
+/* Locks all of it into RAM. Errors: KNURL_ERROR_SYSTEM. */
+knurl_result knurl_heap_lock(knurl_heap *heap);
+
+#endif

@@ -1,0 +1,22 @@
+/* Percentiles of nanoseconds in fixed memory: log-linear buckets, 32 an octave (3 % wide). One writer, any readers.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HISTOGRAM_H
+#define KNURL_SRC_HISTOGRAM_H
+
+#include <stdint.h>
+
+#define KNURL_HISTOGRAM_BUCKETS (32 * 60)
+
+typedef struct knurl_histogram {
+    uint64_t counts[KNURL_HISTOGRAM_BUCKETS];
+    uint64_t total;
+    uint64_t max;
+} knurl_histogram;
+
+/* [haptic thread] negative values count as 0 */
+void knurl_histogram_add(knurl_histogram *histogram, int64_t value);
+
+/* The value that a share (0..1) of what was added does not exceed, to the bucket's middle; 0 when empty. */
+double knurl_histogram_percentile(const knurl_histogram *histogram, double share);
+
+#endif

@@ -1,0 +1,35 @@
+/* What Knurl asks of the operating system: time, threads, locked memory. One implementation a system.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SYSTEM_H
+#define KNURL_SRC_SYSTEM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct knurl_thread knurl_thread;
+
+/* A monotonic clock, ns. No system call where the kernel offers a vDSO. */
+int64_t knurl_system_now_ns(void);
+
+/* Returns at once when the deadline has passed. */
+void knurl_system_sleep_until_ns(int64_t deadline_ns);
+
+/* A new thread with `stack_bytes` of stack; null when the system refuses. */
+knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *argument, size_t stack_bytes);
+
+/* Waits for its end and gives it back. */
+void knurl_system_join_thread(knurl_thread *thread);
+
+/* A number that differs for each living thread; never 0. */
+uintptr_t knurl_system_thread_id(void);
+
+/* Moves the calling thread to the real-time scheduler; 0 where that is not permitted. */
+int knurl_system_make_realtime(void);
+
+/* Keeps pages in RAM; 0 where that is not permitted. */
+int knurl_system_lock_memory(void *memory, size_t size);
+
+/* Touches and locks the next 64 KiB of the calling thread's stack; 0 where that is not permitted. */
+int knurl_system_lock_stack(void);
+
+#endif

@@ -1,0 +1,91 @@
+/* POSIX: time, threads, locked memory. SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "base/system.h"
+
+#include "base/base.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+
+/* Above the kernel's threaded interrupt handlers (50), where audio servers stand too; well below the watchdogs (99). */
+#define REALTIME_PRIORITY 70
+
+struct knurl_thread {
+    pthread_t handle;
+    void (*entry)(void *argument);
+    void *argument;
+};
+
+int64_t knurl_system_now_ns(void) {
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+void knurl_system_sleep_until_ns(int64_t deadline_ns) {
+    struct timespec deadline;
+    deadline.tv_sec = (time_t)(deadline_ns / 1000000000);
+    deadline.tv_nsec = (long)(deadline_ns % 1000000000);
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, NULL) == EINTR) {
+    }
+}
+
+static void *run_thread(void *argument) {
+    knurl_thread *thread = argument;
+    thread->entry(thread->argument);
+    return NULL;
+}
+
+knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *argument, size_t stack_bytes) {
+    knurl_thread *thread = calloc(1, sizeof *thread);
+    pthread_attr_t attributes;
+    if (!thread || pthread_attr_init(&attributes) != 0) {
+        free(thread);
+        return NULL;
+    }
+    thread->entry = entry;
+    thread->argument = argument;
+    const int failed = pthread_attr_setstacksize(&attributes, stack_bytes) ||
+                       pthread_create(&thread->handle, &attributes, run_thread, thread);
+    (void)pthread_attr_destroy(&attributes);
+    if (failed) {
+        free(thread);
+        return NULL;
+    }
+    return thread;
+}
+
+void knurl_system_join_thread(knurl_thread *thread) {
+    (void)pthread_join(thread->handle, NULL);
+    free(thread);
+}
+
+uintptr_t knurl_system_thread_id(void) {
+    static KNURL_THREAD_LOCAL char mine; /* its address is this thread's alone */
+    return (uintptr_t)&mine;
+}
+
+int knurl_system_make_realtime(void) {
+    struct sched_param parameters;
+    memset(&parameters, 0, sizeof parameters);
+    parameters.sched_priority = REALTIME_PRIORITY;
+    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+int knurl_system_lock_memory(void *memory, size_t size) {
+    return mlock(memory, size) == 0;
+}
+
+int knurl_system_lock_stack(void) {
+    volatile char pages[65536];
+    for (size_t i = 0; i < sizeof pages; i += 4096) {
+        pages[i] = 0;
+    }
+    return mlock((const void *)(uintptr_t)pages, sizeof pages) == 0;
+}

@@ -1,0 +1,204 @@
+/* Binned surface-area-heuristic build (Wald 2007), with an explicit stack. SPDX-License-Identifier: MIT */
+#include "contact/bvh.h"
+
+#include <string.h>
+
+#define BINS       16
+#define LEAF_SIZE  4
+#define SAH_DEPTH  32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
+
+typedef struct box {
+    float min[3];
+    float max[3];
+} box;
+
+typedef struct item {
+    box bounds;
+    uint32_t corners[3];
+} item;
+
+typedef struct range {
+    uint32_t begin, end;
+    uint32_t parent; /* whose right child this is, or UINT32_MAX */
+    uint32_t depth;
+} range;
+
+typedef struct split {
+    int axis; /* -1: none */
+    float low, scale;
+    uint32_t bin; /* items in bins below it go left */
+} split;
+
+static const box empty_box = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}};
+
+static void box_add(box *into, const box *other) {
+    for (int axis = 0; axis < 3; axis++) {
+        into->min[axis] = other->min[axis] < into->min[axis] ? other->min[axis] : into->min[axis];
+        into->max[axis] = other->max[axis] > into->max[axis] ? other->max[axis] : into->max[axis];
+    }
+}
+
+static double box_area(const box *b) {
+    const double x = (double)b->max[0] - (double)b->min[0];
+    const double y = (double)b->max[1] - (double)b->min[1];
+    const double z = (double)b->max[2] - (double)b->min[2];
+    return x < 0.0 ? 0.0 : x * y + y * z + z * x;
+}
+
+static float centre(const item *i, int axis) {
+    return 0.5f * i->bounds.min[axis] + 0.5f * i->bounds.max[axis];
+}
+
+static uint32_t bin_of(const item *i, const split *s) {
+    const float bin = (centre(i, s->axis) - s->low) * s->scale;
+    return bin < 0.0f ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin;
+}
+
+/* The cheapest of the 15 splits between the bins of one axis; its cost, or `best` where none is cheaper. */
+static double try_axis(const item *items, const range *r, split candidate, double best, split *chosen) {
+    box bounds[BINS];
+    uint32_t counts[BINS] = {0};
+    double right_area[BINS];
+    for (int i = 0; i < BINS; i++) {
+        bounds[i] = empty_box;
+    }
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        const uint32_t bin = bin_of(&items[i], &candidate);
+        box_add(&bounds[bin], &items[i].bounds);
+        counts[bin]++;
+    }
+    box sweep = empty_box;
+    for (int i = BINS - 1; i > 0; i--) {
+        box_add(&sweep, &bounds[i]);
+        right_area[i] = box_area(&sweep);
+    }
+    sweep = empty_box;
+    uint32_t left = 0;
+    for (uint32_t i = 1; i < BINS; i++) {
+        box_add(&sweep, &bounds[i - 1]);
+        left += counts[i - 1];
+        const uint32_t right = r->end - r->begin - left;
+        const double cost = box_area(&sweep) * left + right_area[i] * right;
+        if (left > 0 && right > 0 && cost < best) {
+            best = cost;
+            *chosen = candidate;
+            chosen->bin = i;
+        }
+    }
+    return best;
+}
+
+static split choose_split(const item *items, const range *r, const box *bounds) {
+    split chosen = {-1, 0.0f, 0.0f, 0};
+    box centres = empty_box;
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const float c = centre(&items[i], axis);
+            centres.min[axis] = c < centres.min[axis] ? c : centres.min[axis];
+            centres.max[axis] = c > centres.max[axis] ? c : centres.max[axis];
+        }
+    }
+    const uint32_t count = r->end - r->begin;
+    double best = count > LEAF_SIZE ? 1e300 : box_area(bounds) * count; /* small runs are split only where it pays */
+    for (int axis = 0; axis < 3; axis++) {
+        const float extent = centres.max[axis] - centres.min[axis];
+        if (extent > 0.0f) {
+            const split candidate = {axis, centres.min[axis], (float)BINS * 0.999f / extent, 0};
+            best = try_axis(items, r, candidate, best, &chosen);
+        }
+    }
+    return chosen;
+}
+
+/* Moves the left side's items to the front; returns where the right side begins. */
+static uint32_t partition(item *items, const range *r, const split *s) {
+    uint32_t left = r->begin;
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        if (bin_of(&items[i], s) < s->bin) {
+            const item moved = items[i];
+            items[i] = items[left];
+            items[left++] = moved;
+        }
+    }
+    return left;
+}
+
+/* Writes the node of one range; returns where to split it, or r->end for a leaf. */
+static uint32_t make_node(item *items, const range *r, knurl_bvh_node *node) {
+    box bounds = empty_box;
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        box_add(&bounds, &items[i].bounds);
+    }
+    memcpy(node->min, bounds.min, sizeof node->min);
+    memcpy(node->max, bounds.max, sizeof node->max);
+    const uint32_t count = r->end - r->begin;
+    split s = {-1, 0.0f, 0.0f, 0};
+    if (count > 1 && r->depth < SAH_DEPTH) {
+        s = choose_split(items, r, &bounds);
+    }
+    if (s.axis >= 0) {
+        return partition(items, r, &s);
+    }
+    return count > LEAF_SIZE ? r->begin + count / 2 : r->end; /* all centres alike, or very deep: halve */
+}
+
+static uint32_t build(item *items, uint32_t count, knurl_bvh_node *nodes) {
+    range stack[KNURL_BVH_MAX_DEPTH + 1];
+    uint32_t top = 0;
+    uint32_t node_count = 0;
+    stack[top++] = (range){0, count, UINT32_MAX, 0};
+    while (top > 0) {
+        const range r = stack[--top];
+        const uint32_t index = node_count++;
+        knurl_bvh_node *node = &nodes[index];
+        if (r.parent != UINT32_MAX) {
+            nodes[r.parent].first = index;
+        }
+        const uint32_t middle = make_node(items, &r, node);
+        if (middle == r.end) {
+            node->first = r.begin;
+            node->count = r.end - r.begin;
+            continue;
+        }
+        node->count = 0;
+        stack[top++] = (range){middle, r.end, index, r.depth + 1};
+        stack[top++] = (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* the left child comes right next */
+    }
+    return node_count;
+}
+
+static void fill_item(item *i, const float *positions, const uint32_t corners[3]) {
+    i->bounds = empty_box;
+    for (int corner = 0; corner < 3; corner++) {
+        box point;
+        memcpy(point.min, &positions[3 * (size_t)corners[corner]], sizeof point.min);
+        memcpy(point.max, point.min, sizeof point.max);
+        box_add(&i->bounds, &point);
+        i->corners[corner] = corners[corner];
+    }
+}
+
+knurl_result knurl_bvh_build(knurl_heap *heap, const float *positions, uint32_t *triangles, uint32_t triangle_count,
+                             knurl_bvh_node **nodes, uint32_t *node_count) {
+    item *items = knurl_heap_alloc(heap, triangle_count, sizeof *items);
+    knurl_bvh_node *scratch = knurl_heap_alloc(heap, 2 * (uint64_t)triangle_count, sizeof *scratch);
+    knurl_bvh_node *made = NULL;
+    if (items && scratch) {
+        for (uint32_t i = 0; i < triangle_count; i++) {
+            fill_item(&items[i], positions, &triangles[3 * (size_t)i]);
+        }
+        const uint32_t count = build(items, triangle_count, scratch);
+        made = knurl_heap_alloc(heap, count, sizeof *made); /* to size: half of the scratch is rarely needed */
+        if (made) {
+            memcpy(made, scratch, count * sizeof *made);
+            for (uint32_t i = 0; i < triangle_count; i++) {
+                memcpy(&triangles[3 * (size_t)i], items[i].corners, sizeof items[i].corners);
+            }
+            *nodes = made;
+            *node_count = count;
+        }
+    }
+    knurl_heap_free(heap, scratch);
+    knurl_heap_free(heap, items);
+    return made ? KNURL_OK : KNURL_ERROR_MEMORY;
+}

@@ -1,0 +1,49 @@
+/* A bounding volume hierarchy over triangles: built once, never changed, walked without recursion.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_BVH_H
+#define KNURL_SRC_BVH_H
+
+#include "base/heap.h"
+
+/* The build never makes a tree deeper than this, so a walk's stack has a fixed size. */
+#define KNURL_BVH_MAX_DEPTH 64
+
+/* 32 bytes. An inner node's left child stands right after it. */
+typedef struct knurl_bvh_node {
+    float min[3];
+    uint32_t first; /* leaf: its first triangle; inner: its right child */
+    float max[3];
+    uint32_t count; /* leaf: its triangles; inner: 0 */
+} knurl_bvh_node;
+
+/* Builds over triangles (three position indices each), which it reorders so that each leaf is a run of them.
+ * Nodes come from `heap`; scratch is given back.
+ * Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_bvh_build(knurl_heap *heap, const float *positions, uint32_t *triangles, uint32_t triangle_count,
+                             knurl_bvh_node **nodes, uint32_t *node_count);
+
+/* Squared distance from a point to a node's box; 0 inside. */
+static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const double p[3]) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double below = (double)node->min[axis] - p[axis];
+        const double above = p[axis] - (double)node->max[axis];
+        const double gap = below > above ? below : above;
+        sum += gap > 0.0 ? gap * gap : 0.0;
+    }
+    return sum;
+}
+
+/* Whether the box of a segment, widened by `margin`, meets a node's box. */
+static inline int knurl_bvh_overlaps(const knurl_bvh_node *node, const double a[3], const double b[3], double margin) {
+    for (int axis = 0; axis < 3; axis++) {
+        const double low = a[axis] < b[axis] ? a[axis] : b[axis];
+        const double high = a[axis] < b[axis] ? b[axis] : a[axis];
+        if (low - margin > (double)node->max[axis] || high + margin < (double)node->min[axis]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+#endif

@@ -1,0 +1,114 @@
+/* Questions to a mesh's hierarchy: what is nearest, what is crossed. Iterative, bounded by the number of nodes.
+ * SPDX-License-Identifier: MIT */
+#include "contact/contact.h"
+
+#include "contact/triangle.h"
+
+#include <string.h>
+
+/* Keeps a triangle's nearest point if it is nearer than `best2`; returns the smaller of the two distances, squared. */
+static double nearest_of(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
+                         knurl_contact *nearest) {
+    knurl_triangle t;
+    double weights[3];
+    double point[3];
+    double offset[3];
+    knurl_mesh_triangle(mesh, triangle, &t);
+    triangle_nearest((const double(*)[3])t.corners, p, weights);
+    triangle_point((const double(*)[3])t.corners, weights, point);
+    vec3_sub(point, p, offset);
+    const double distance2 = vec3_dot(offset, offset);
+    if (distance2 >= best2) {
+        return best2;
+    }
+    vec3_copy(point, nearest->proxy);
+    vec3_copy(weights, nearest->weights);
+    nearest->triangle = triangle;
+    return distance2;
+}
+
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest) {
+    uint32_t stack[KNURL_BVH_MAX_DEPTH];
+    uint32_t top = 0;
+    const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
+    double best2 = limit2;
+    stack[top++] = 0;
+    while (top > 0) {
+        const uint32_t index = stack[--top];
+        const knurl_bvh_node *node = &mesh->nodes[index];
+        if (knurl_bvh_distance2(node, p) >= best2) {
+            continue;
+        }
+        for (uint32_t i = 0; i < node->count; i++) {
+            best2 = nearest_of(mesh, node->first + i, p, best2, nearest);
+        }
+        if (node->count == 0) { /* the nearer child is looked at first */
+            const uint32_t left = index + 1;
+            const uint32_t right = node->first;
+            const int left_nearer =
+                knurl_bvh_distance2(&mesh->nodes[left], p) <= knurl_bvh_distance2(&mesh->nodes[right], p);
+            stack[top++] = left_nearer ? right : left;
+            stack[top++] = left_nearer ? left : right;
+        }
+    }
+    return best2 < limit2;
+}
+
+/* Where along a + s (b - a) a triangle is met, or a value above `best`. Edges are widened by 1e-7 of the triangle, so that
+ * nothing slips between two neighbours. */
+static double meet(const knurl_triangle *t, const double a[3], const double direction[3], double best, int double_sided,
+                   int *side) {
+    double edge1[3], edge2[3], p[3], q[3], from[3];
+    const double slack = 1e-7;
+    const double approach = vec3_dot(direction, t->normal);
+    if (approach == 0.0 || (approach > 0.0 && !double_sided)) {
+        return 2.0;
+    }
+    vec3_sub(t->corners[1], t->corners[0], edge1);
+    vec3_sub(t->corners[2], t->corners[0], edge2);
+    vec3_cross(direction, edge2, p);
+    const double det = vec3_dot(edge1, p);
+    vec3_sub(a, t->corners[0], from);
+    vec3_cross(from, edge1, q);
+    const double u = vec3_dot(from, p) / det;
+    const double v = vec3_dot(direction, q) / det;
+    const double s = vec3_dot(edge2, q) / det;
+    if (!(u >= -slack && v >= -slack && u + v <= 1.0 + slack && s >= -slack && s <= 1.0 + slack && s < best)) {
+        return 2.0;
+    }
+    *side = approach < 0.0 ? 1 : -1;
+    return s;
+}
+
+int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
+                     uint32_t *triangle) {
+    uint32_t stack[KNURL_BVH_MAX_DEPTH];
+    uint32_t top = 0;
+    double direction[3];
+    double best = 1.5;
+    int side = 0;
+    vec3_sub(b, a, direction);
+    const double margin = 1e-7 * vec3_length(direction) + 1e-9;
+    stack[top++] = 0;
+    while (top > 0) {
+        const uint32_t index = stack[--top];
+        const knurl_bvh_node *node = &mesh->nodes[index];
+        if (!knurl_bvh_overlaps(node, a, b, margin)) {
+            continue;
+        }
+        for (uint32_t i = 0; i < node->count; i++) {
+            knurl_triangle t;
+            knurl_mesh_triangle(mesh, node->first + i, &t);
+            const double s = meet(&t, a, direction, best, double_sided, &side);
+            if (s < best) {
+                best = s;
+                *triangle = node->first + i;
+            }
+        }
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            stack[top++] = index + 1;
+        }
+    }
+    return best < 1.5 ? side : 0;
+}

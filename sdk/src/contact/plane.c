@@ -1,0 +1,59 @@
+/* Contact with a bounded plane: z = 0, front towards +z. SPDX-License-Identifier: MIT */
+#include "contact/contact.h"
+
+#include "base/vec3.h"
+
+#include <string.h>
+
+static int above_rectangle(const double half_extents[2], const double p[3]) {
+    return fabs(p[0]) <= half_extents[0] && fabs(p[1]) <= half_extents[1];
+}
+
+/* The side that the HIP touches from, or 0: through the plane between two ticks, or within reach of it. */
+static int enter(const double half_extents[2], const knurl_contact_query *query, int32_t *inside) {
+    const double z = query->hip[2];
+    const int behind_allowed = query->double_sided;
+    if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
+        const double t = query->previous[2] / (query->previous[2] - z);
+        double crossing[3];
+        vec3_sub(query->hip, query->previous, crossing);
+        vec3_madd(query->previous, t, crossing, crossing);
+        const int side = query->previous[2] >= 0.0 ? 1 : -1;
+        if (above_rectangle(half_extents, crossing) && (side > 0 || behind_allowed)) {
+            *inside = 1;
+            return side;
+        }
+    }
+    *inside = 0;
+    if (z >= 0.0 && z <= query->reach) {
+        return 1;
+    }
+    if (z < 0.0 && -z <= query->reach && behind_allowed) {
+        return -1;
+    }
+    if (!query->has_previous && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
+        *inside = 1;
+        return 1;
+    }
+    return 0;
+}
+
+int knurl_plane_contact(const double half_extents[2], const knurl_contact_query *query, knurl_contact_state *state,
+                        knurl_contact *contact) {
+    const double *hip = query->hip;
+    if (!state->inside) { /* a HIP in front may go through at any tick */
+        state->side = enter(half_extents, query, &state->inside);
+    }
+    const double z = hip[2] * state->side;
+    state->inside = z < 0.0;
+    if (state->side == 0 || z > query->reach || !above_rectangle(half_extents, hip)) {
+        memset(state, 0, sizeof *state);
+        return 0;
+    }
+    memset(contact, 0, sizeof *contact);
+    contact->proxy[0] = hip[0];
+    contact->proxy[1] = hip[1];
+    contact->normal[2] = state->side;
+    contact->z = z;
+    return 1;
+}

@@ -1,0 +1,206 @@
+/* The fake device's driver. SPDX-License-Identifier: MIT */
+#include "device/fake/fake.h"
+
+#include "base/base.h"
+#include "base/vec3.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct fake {
+    knurl_device base;
+    knurl_fake_settings settings;
+    knurl_stroke_desc stroke;
+    double *trace; /* rows of t, x, y, z; null: a hand */
+    uint64_t trace_rows;
+    uint64_t trace_at; /* the row whose interval the time is in */
+    double dt;
+    uint64_t ticks; /* read since the start */
+    knurl_plant plant;
+    knurl_hand hand;
+    double target[3];
+} fake;
+
+static fake *of(knurl_device *device) {
+    return (fake *)(void *)device; /* its first member */
+}
+
+static knurl_result fake_open(const char *options, knurl_device **device) {
+    knurl_fake_settings settings;
+    const knurl_result result = knurl_fake_parse(options, &settings);
+    if (result) {
+        return result;
+    }
+    fake *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device fake: could not get %u bytes", (unsigned)sizeof *made);
+    }
+    made->base.driver = &knurl_fake_driver;
+    made->base.max_force = settings.max_force;
+    made->settings = settings;
+    knurl_stroke_desc_init(&made->stroke, sizeof made->stroke);
+    (void)knurl_stroke_check(&made->stroke); /* the default is right; this resolves its speed */
+    *device = &made->base;
+    return knurl_device_start(*device, 1000.0);
+}
+
+static void fake_close(knurl_device *device) {
+    free(of(device)->trace);
+    free(of(device));
+}
+
+static void fake_info(const knurl_device *device, knurl_device_info *info) {
+    const fake *f = (const fake *)(const void *)device;
+    const knurl_fake_settings *s = &f->settings;
+    const double size[3] = {s->width, s->height, s->depth};
+    const char *name = f->trace ? "fake (a trace)" : "fake (a simulated Touch in a simulated hand)";
+    memcpy(info->name, name, strlen(name) + 1);
+    for (int axis = 0; axis < 3; axis++) {
+        info->workspace_min[axis] = -0.5 * size[axis];
+        info->workspace_max[axis] = 0.5 * size[axis];
+    }
+    info->resolution = f->trace && !s->resolution_named ? 0.0 : s->resolution;
+    info->max_force = s->max_force;
+    info->delay = s->delay;
+}
+
+static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
+    fake *f = of(device);
+    const knurl_fake_settings *s = &f->settings;
+    const knurl_plant_config config = {s->mass,
+                                       s->viscous,
+                                       s->coulomb,
+                                       s->hand_stiffness,
+                                       s->hand_damping,
+                                       s->resolution,
+                                       s->max_force,
+                                       {0.5 * s->width, 0.5 * s->height, 0.5 * s->depth},
+                                       (int32_t)s->delay};
+    f->dt = 1.0 / update_rate_hz;
+    f->ticks = 0;
+    f->trace_at = 0;
+    knurl_hand_init(&f->hand, &f->stroke, s->tremor, (uint64_t)s->seed);
+    knurl_hand_target(&f->hand, 0.0, f->dt, f->target);
+    knurl_plant_init(&f->plant, &config, f->target);
+    return KNURL_OK;
+}
+
+/* The trace at the time of this tick, and quantised only where that was asked for. */
+static void play_trace(fake *f, double t, double position[3]) {
+    while (f->trace_at + 1 < f->trace_rows && f->trace[4 * (f->trace_at + 1)] <= t) {
+        f->trace_at++; /* a tick passes over as many rows as its period holds, each once in all */
+    }
+    const double *row = &f->trace[4 * f->trace_at];
+    vec3_copy(row + 1, position);
+    if (f->trace_at + 1 < f->trace_rows && t > row[0]) {
+        const double *next = row + 4;
+        const double part = (t - row[0]) / (next[0] - row[0]);
+        for (int axis = 0; axis < 3; axis++) {
+            position[axis] += part * (next[axis + 1] - row[axis + 1]);
+        }
+    }
+    if (f->settings.resolution_named) {
+        vec3_copy(position, f->plant.position);
+        knurl_plant_measure(&f->plant, position);
+    }
+}
+
+static void move_hand(fake *f, double t, double position[3]) {
+    double before[3];
+    double velocity[3];
+    if (f->ticks > 0) {
+        vec3_copy(f->target, before);
+        knurl_hand_target(&f->hand, t, f->dt, f->target);
+        vec3_sub(f->target, before, velocity);
+        vec3_scale(1.0 / f->dt, velocity, velocity);
+        knurl_plant_step(&f->plant, f->dt, f->target, velocity);
+    }
+    knurl_plant_measure(&f->plant, position);
+}
+
+static knurl_result fake_read(knurl_device *device, knurl_device_sample *sample) {
+    fake *f = of(device);
+    const double t = (double)f->ticks * f->dt;
+    if (f->settings.lose_at > 0.0 && t >= f->settings.lose_at) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    memset(sample, 0, sizeof *sample);
+    if (f->trace) {
+        play_trace(f, t, sample->position);
+    } else {
+        move_hand(f, t, sample->position);
+    }
+    f->ticks++;
+    return KNURL_OK;
+}
+
+static knurl_result fake_write(knurl_device *device, const double force[3]) {
+    fake *f = of(device);
+    if (f->settings.lose_at > 0.0 && (double)f->ticks * f->dt >= f->settings.lose_at) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    knurl_plant_write(&f->plant, force);
+    return KNURL_OK;
+}
+
+static knurl_result check_fake(const knurl_device *device, const char *what) {
+    if (device->driver != &knurl_fake_driver) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device: only the fake device takes a %s, found '%s'", what,
+                          device->driver->uri);
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {
+    knurl_stroke_desc stroke;
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    knurl_result result = check_fake(device, "stroke");
+    result = result ? result : knurl_desc_read("knurl_stroke_desc", desc, &stroke, sizeof stroke);
+    result = result ? result : knurl_stroke_check(&stroke);
+    if (!result) {
+        free(of(device)->trace);
+        of(device)->trace = NULL;
+        of(device)->stroke = stroke;
+    }
+    return result;
+}
+
+static knurl_result check_trace(const double *rows, uint64_t row_count) {
+    if (!rows || row_count == 0 || row_count > UINT64_C(1) << 32) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: expected 1 to 2^32 rows, found %llu", (unsigned long long)row_count);
+    }
+    for (uint64_t i = 0; i < row_count; i++) {
+        const double *row = &rows[4 * i];
+        if (!isfinite(row[0]) || !vec3_finite(row + 1)) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: row %llu: expected finite t, x, y, z, found %g, %g, %g, %g",
+                              (unsigned long long)(i + 1), row[0], row[1], row[2], row[3]);
+        }
+        if (i > 0 && !(row[0] > row[-4])) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: row %llu: expected t above the row before (%g s), found %g s",
+                              (unsigned long long)(i + 1), row[-4], row[0]);
+        }
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count) {
+    knurl_result result = check_fake(device, "trace");
+    result = result ? result : check_trace(rows, row_count);
+    if (result) {
+        return result;
+    }
+    double *copy = malloc((size_t)row_count * 4 * sizeof *copy);
+    if (!copy) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "trace: could not get memory for %llu rows", (unsigned long long)row_count);
+    }
+    memcpy(copy, rows, (size_t)row_count * 4 * sizeof *copy);
+    free(of(device)->trace);
+    of(device)->trace = copy;
+    of(device)->trace_rows = row_count;
+    of(device)->trace_at = 0;
+    return KNURL_OK;
+}
+
+const knurl_driver knurl_fake_driver = {
+    "fake", "a simulated Touch in a simulated hand", "", fake_open, fake_close, fake_info, fake_start, fake_read,
+    fake_write};

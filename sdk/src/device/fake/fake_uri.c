@@ -1,0 +1,83 @@
+/* What follows "fake:". SPDX-License-Identifier: MIT */
+#include "device/fake/fake.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct key {
+    const char *name;
+    const char *unit;
+    double least, greatest;
+    size_t offset;
+} key;
+
+static const key keys[] = {
+#define KNURL_FAKE_KEY(name, standard, least, greatest, unit, meaning)                                                 \
+    {#name, unit, least, greatest, offsetof(knurl_fake_settings, name)},
+    KNURL_FAKE_KEYS(KNURL_FAKE_KEY)
+#undef KNURL_FAKE_KEY
+};
+
+const char *knurl_fake_keys(void) {
+    return
+#define KNURL_FAKE_LINE(name, standard, least, greatest, unit, meaning) #name "=" #standard " " unit "\t" meaning "\n"
+        KNURL_FAKE_KEYS(KNURL_FAKE_LINE)
+#undef KNURL_FAKE_LINE
+        ;
+}
+
+static knurl_result set_value(const key *k, const char *text, size_t length, knurl_fake_settings *settings) {
+    char copy[64] = "";
+    char *end = copy;
+    if (length < sizeof copy) {
+        memcpy(copy, text, length);
+    }
+    const double value = strtod(copy, &end);
+    const int real = k->offset != offsetof(knurl_fake_settings, delay) && k->offset != offsetof(knurl_fake_settings, seed);
+    if (end == copy || *end || !(value >= k->least && value <= k->greatest) || !(real || value == floor(value))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'", k->name,
+                          real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit, (int)length, text);
+    }
+    memcpy((char *)settings + k->offset, &value, sizeof value);
+    settings->resolution_named |= k->offset == offsetof(knurl_fake_settings, resolution);
+    return KNURL_OK;
+}
+
+static knurl_result set_pair(const char *text, size_t length, knurl_fake_settings *settings) {
+    char known[256] = "";
+    const char *equals = memchr(text, '=', length);
+    const size_t name_length = equals ? (size_t)(equals - text) : length;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (equals && strlen(keys[i].name) == name_length && strncmp(keys[i].name, text, name_length) == 0) {
+            return set_value(&keys[i], equals + 1, length - name_length - 1, settings);
+        }
+        strncat(known, i ? ", " : "", sizeof known - strlen(known) - 1);
+        strncat(known, keys[i].name, sizeof known - strlen(known) - 1);
+    }
+    return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: expected key=value with a key of %s; found '%.*s'", known,
+                      (int)(length < 64 ? length : 64), text);
+}
+
+knurl_result knurl_fake_parse(const char *options, knurl_fake_settings *settings) {
+    knurl_fake_settings made = {
+#define KNURL_FAKE_DEFAULT(name, standard, least, greatest, unit, meaning) standard,
+        KNURL_FAKE_KEYS(KNURL_FAKE_DEFAULT)
+#undef KNURL_FAKE_DEFAULT
+            0, 0};
+    const char *text = options;
+    if (*text && *text++ != '?') {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: expected 'fake' or 'fake:?key=value&...', found 'fake:%s'",
+                          options);
+    }
+    while (*text) {
+        const size_t length = strcspn(text, "&");
+        const knurl_result result = set_pair(text, length, &made);
+        if (result) {
+            return result;
+        }
+        text += length + (text[length] == '&');
+    }
+    *settings = made;
+    return KNURL_OK;
+}

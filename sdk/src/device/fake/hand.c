@@ -1,0 +1,141 @@
+/* Strokes of the simulated hand. SPDX-License-Identifier: MIT */
+#include "device/fake/hand.h"
+
+#include "base/base.h"
+#include "base/vec3.h"
+
+#include <string.h>
+
+#define TWO_PI    6.283185307179586
+#define HOVER     0.005 /* m above the surface where a stroke starts */
+#define APPROACH  0.25  /* s to come down */
+#define TREMOR_HZ 10.0  /* physiological tremor of the hand: 8 to 12 Hz */
+
+static const struct {
+    int32_t stroke;
+    const char *name;
+} strokes[] = {{KNURL_STROKE_LINE, "line"},
+               {KNURL_STROKE_SWEEP, "sweep"},
+               {KNURL_STROKE_CIRCLE, "circle"},
+               {KNURL_STROKE_PRESS, "press"},
+               {KNURL_STROKE_REST, "rest"}};
+
+void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size) {
+    const knurl_stroke_desc defaults = {.stroke = KNURL_STROKE_LINE,
+                                        .x = {1.0, 0.0, 0.0},
+                                        .normal = {0.0, 1.0, 0.0},
+                                        .reach = {0.05, 0.02},
+                                        .depth = 0.001,
+                                        .period = 5.0};
+    knurl_desc_write(&defaults, sizeof defaults, desc, size);
+}
+
+knurl_result knurl_stroke_from_name(const char *name, int32_t *stroke) {
+    for (size_t i = 0; name && i < sizeof strokes / sizeof *strokes; i++) {
+        if (strcmp(strokes[i].name, name) == 0) {
+            *stroke = strokes[i].stroke;
+            return KNURL_OK;
+        }
+    }
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected line, sweep, circle, press or rest, found '%s'",
+                      name ? name : "(null)");
+}
+
+knurl_result knurl_stroke_check(knurl_stroke_desc *s) {
+    if (s->stroke < KNURL_STROKE_LINE || s->stroke > KNURL_STROKE_REST) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected one of KNURL_STROKE_, found %d", (int)s->stroke);
+    }
+    if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) || !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) ||
+        !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected a finite centre (m), and unit x and normal at right angles");
+    }
+    if (s->speed == 0.0) {
+        s->speed = s->stroke == KNURL_STROKE_SWEEP ? 0.25 : 0.1;
+    }
+    if (!(s->reach[0] > 0.0 && s->reach[0] <= 1.0 && s->reach[1] > 0.0 && s->reach[1] <= 1.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke.reach: expected above 0 and up to 1 m, found [%g, %g]", s->reach[0],
+                          s->reach[1]);
+    }
+    if (!(fabs(s->depth) <= 0.1 && s->speed > 0.0 && s->speed <= 10.0 && s->period > 0.0 && s->period <= 3600.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected depth up to 0.1 m, speed up to 10 m/s, period up to 3600 s, "
+                                                "found %g m, %g m/s, %g s",
+                          s->depth, s->speed, s->period);
+    }
+    return KNURL_OK;
+}
+
+void knurl_hand_init(knurl_hand *hand, const knurl_stroke_desc *stroke, double tremor, uint64_t seed) {
+    memset(hand, 0, sizeof *hand);
+    hand->stroke = *stroke;
+    hand->tremor = tremor;
+    hand->random = seed * 0x9e3779b97f4a7c15u + 0x2545f4914f6cdd1du;
+    vec3_cross(stroke->normal, stroke->x, hand->y);
+}
+
+/* xorshift64* (Vigna 2016); uniform in [-1, 1). */
+static double uniform(uint64_t *state) {
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return (double)((*state * 0x2545f4914f6cdd1du) >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/* Noise through a resonance at 10 Hz with damping 0.3. For white noise of variance s2 a step dt its position has the
+ * variance s2 dt / (4 zeta w^3) (Langevin), which sets the noise for the rms that is asked for. */
+static void shake(knurl_hand *hand, double dt, double target[3]) {
+    const double w = TWO_PI * TREMOR_HZ;
+    const double zeta = 0.3;
+    const double noise = hand->tremor * sqrt(4.0 * zeta * w * w * w / dt) * 1.7320508075688772; /* uniform: variance 1/3 */
+    for (int axis = 0; axis < 3; axis++) {
+        const double push = noise * uniform(&hand->random);
+        hand->shake_velocity[axis] +=
+            dt * (push - 2.0 * zeta * w * hand->shake_velocity[axis] - w * w * hand->shake[axis]);
+        hand->shake[axis] += dt * hand->shake_velocity[axis];
+        target[axis] += hand->shake[axis];
+    }
+}
+
+/* Where a point that goes back and forth over +-reach is after a path from the middle. */
+static double fold(double path, double reach) {
+    const double cycle = 4.0 * reach;
+    const double u = fmod(path + reach, cycle);
+    return u < 2.0 * reach ? u - reach : 3.0 * reach - u;
+}
+
+/* How fast the path grows at time t after the approach. */
+static double path_speed(const knurl_stroke_desc *s, double t) {
+    if (s->stroke == KNURL_STROKE_SWEEP) {
+        const double u = fmod(t, s->period) / s->period;
+        return s->speed * (u < 0.5 ? 2.0 * u : 2.0 - 2.0 * u);
+    }
+    return s->speed;
+}
+
+void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]) {
+    const knurl_stroke_desc *s = &hand->stroke;
+    const double down = fmin(1.0, t / APPROACH);
+    double height = HOVER - (HOVER + s->depth) * down * down * (3.0 - 2.0 * down); /* a smooth step: no jerk at touch */
+    double x = 0.0;
+    double y = 0.0;
+    const double moving = t - APPROACH;
+    if (moving > 0.0) {
+        hand->path += dt * path_speed(s, moving - 0.5 * dt);
+        if (s->stroke == KNURL_STROKE_LINE || s->stroke == KNURL_STROKE_SWEEP) {
+            x = fold(hand->path, s->reach[0]);
+        } else if (s->stroke == KNURL_STROKE_CIRCLE) { /* out to the circle from the middle within the first turn */
+            const double radius = fmin(s->reach[0], s->reach[1]);
+            const double angle = hand->path / radius;
+            const double grown = radius * fmin(1.0, angle / TWO_PI);
+            x = grown * sin(angle);
+            y = -grown * cos(angle);
+        } else if (s->stroke == KNURL_STROKE_PRESS) {
+            height -= s->depth * (1.0 - cos(TWO_PI * moving / s->period));
+        }
+    }
+    vec3_madd(s->centre, x, s->x, target);
+    vec3_madd(target, y, hand->y, target);
+    vec3_madd(target, height, s->normal, target);
+    if (hand->tremor > 0.0) {
+        shake(hand, dt, target);
+    }
+}

@@ -1,0 +1,26 @@
+/* Where the simulated hand wants to be: strokes, with a tremor. Pure computation. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HAND_H
+#define KNURL_SRC_HAND_H
+
+#include <knurl/device.h>
+
+typedef struct knurl_hand {
+    knurl_stroke_desc stroke; /* checked, speed resolved */
+    double y[3];              /* normal x x */
+    double tremor;            /* m, rms an axis */
+    double path;              /* m travelled along the stroke */
+    double shake[3];          /* the tremor's state: an oscillator an axis, driven by noise */
+    double shake_velocity[3];
+    uint64_t random;
+} knurl_hand;
+
+/* Checks a stroke. Errors: KNURL_ERROR_ARGUMENT. */
+knurl_result knurl_stroke_check(knurl_stroke_desc *stroke);
+
+/* stroke: checked. */
+void knurl_hand_init(knurl_hand *hand, const knurl_stroke_desc *stroke, double tremor, uint64_t seed);
+
+/* The target (m, device) at time t (s), having been asked dt earlier. */
+void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]);
+
+#endif

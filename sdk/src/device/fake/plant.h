@@ -1,0 +1,42 @@
+/* The one simulated plant of this project: a device's moving mass with friction, quantised, delayed, limited, held by a
+ * hand that is a spring and a damper. Pure computation, deterministic. Device frame, SI. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_PLANT_H
+#define KNURL_SRC_PLANT_H
+
+#include <stdint.h>
+
+#define KNURL_PLANT_MAX_DELAY 16 /* ticks */
+
+typedef struct knurl_plant_config {
+    double mass;              /* kg: the device's apparent mass and what of the hand moves with it */
+    double viscous;           /* N s/m */
+    double coulomb;           /* N */
+    double hand_stiffness;    /* N/m */
+    double hand_damping;      /* N s/m */
+    double resolution;        /* m; 0: not quantised */
+    double max_force;         /* N */
+    double half_workspace[3]; /* m: stops either side of the origin */
+    int32_t delay;            /* ticks from a force written to a force felt, 0 to KNURL_PLANT_MAX_DELAY */
+} knurl_plant_config;
+
+typedef struct knurl_plant {
+    knurl_plant_config config;
+    double position[3];
+    double velocity[3];
+    double forces[KNURL_PLANT_MAX_DELAY + 1][3]; /* a ring: the newest, and those still under way */
+    uint32_t newest;
+} knurl_plant;
+
+/* At rest at `position`, no force under way. */
+void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, const double position[3]);
+
+/* What the motors are told from now on. */
+void knurl_plant_write(knurl_plant *plant, const double force[3]);
+
+/* Moves on by dt (s), the hand pulling towards a target (m) that moves at target_velocity (m/s). */
+void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]);
+
+/* The position as the encoders tell it. */
+void knurl_plant_measure(const knurl_plant *plant, double position[3]);
+
+#endif

@@ -1,0 +1,119 @@
+/* Haptic gratings: S1 (Eqs. 10, 11), S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
+#include <knurl/grating.h>
+
+#include "vibration/ticks.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct {
+    int32_t method;
+    const char *name;
+} methods[] = {{KNURL_S1, "S1"}, {KNURL_S2, "S2"}, {KNURL_LOCKED, "locked"}};
+
+const char *knurl_method_name(int32_t method) {
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        if (methods[i].method == method) {
+            return methods[i].name;
+        }
+    }
+    return NULL;
+}
+
+knurl_result knurl_method_from_name(const char *name, int32_t *method) {
+    for (size_t i = 0; name && i < sizeof methods / sizeof *methods; i++) {
+        if (strcmp(methods[i].name, name) == 0) {
+            *method = methods[i].method;
+            return KNURL_OK;
+        }
+    }
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected S1, S2 or locked, found '%s'", name ? name : "(null)");
+}
+
+knurl_result knurl_grating_check(knurl_grating *grating) {
+    const double *fs = grating->spatial_frequency;
+    if (!(fs[0] >= 0.0 && isfinite(fs[0]) && fs[1] >= 0.0 && isfinite(fs[1]))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "spatial_frequency: expected finite numbers >= 0 (cycles/m), found [%g, %g]",
+                          fs[0], fs[1]);
+    }
+    if (!(grating->amplitude >= 0.0 && isfinite(grating->amplitude))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0 (m), found %g",
+                          grating->amplitude);
+    }
+    if (!(grating->update_rate_hz >= 1.0 && grating->update_rate_hz <= 100000.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz",
+                          grating->update_rate_hz);
+    }
+    switch (grating->method) {
+    case KNURL_METHOD_DEFAULT:
+        grating->method = KNURL_S2;
+        return KNURL_OK;
+    case KNURL_S1:
+    case KNURL_S2:
+        return KNURL_OK;
+    case KNURL_LOCKED:
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "method: 'locked' is not built yet in Knurl %s; use S2 (the default) or S1",
+                          knurl_version_string());
+    default:
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_S1 or KNURL_S2, found %d", (int)grating->method);
+    }
+}
+
+double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) {
+    const double along_x = spatial_frequency[0] * fabs(velocity[0]);
+    const double along_y = spatial_frequency[1] * fabs(velocity[1]);
+    return along_x > along_y ? along_x : along_y;
+}
+
+/* Which half of its cycle a phase (in cycles) is in. */
+static int first_half(double phase) {
+    return phase - floor(phase) < 0.5;
+}
+
+double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
+    return first_half(position * spatial_frequency) ? amplitude : -amplitude;
+}
+
+double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
+    /* cos(2 pi p) is positive where p + 1/4 is in the first half of its cycle. */
+    const int x = first_half(position[0] * spatial_frequency[0] + 0.25);
+    const int y = first_half(position[1] * spatial_frequency[1] + 0.25);
+    return x == y ? amplitude : -amplitude;
+}
+
+/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */
+static void step_s2(const knurl_grating *grating, knurl_grating_state *state, const double velocity[2],
+                    knurl_grating_output *output) {
+    if (!state->playing) {
+        const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
+        const double ticks = grating->update_rate_hz / output->temporal_frequency; /* infinite across no ridge */
+        if (speed2 < KNURL_S2_DEADBAND * KNURL_S2_DEADBAND || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+            return; /* idle: the height stays 0 */
+        }
+        (void)knurl_event_init(ticks, grating->amplitude, &state->event); /* checked: cannot fail */
+        state->playing = 1;
+        state->next_tick = 0;
+        state->event_count++;
+    }
+    output->height = knurl_event_height(&state->event, state->next_tick);
+    output->event = state->event_count - 1;
+    state->next_tick++;
+    state->playing = state->next_tick < state->event.length;
+}
+
+void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
+                        const double velocity[2], knurl_grating_output *output) {
+    const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
+    const double frequency = knurl_grating_frequency(grating->spatial_frequency, velocity);
+    memset(output, 0, sizeof *output);
+    output->temporal_frequency = frequency;
+    output->spatial_frequency = speed2 > 0.0 ? frequency / sqrt(speed2) : 0.0;
+    output->saturated = frequency > 0.5 * grating->update_rate_hz;
+    output->event = KNURL_NO_EVENT;
+    if (grating->method == KNURL_S2) {
+        step_s2(grating, state, velocity, output);
+    } else {
+        output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
+    }
+}

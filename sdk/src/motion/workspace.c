@@ -1,0 +1,55 @@
+/* From a device's workspace into the scene and back. SPDX-License-Identifier: MIT */
+#include <knurl/motion.h>
+
+#include "base/vec3.h"
+
+#include <string.h>
+
+void knurl_workspace_init(knurl_workspace *workspace) {
+    memset(workspace, 0, sizeof *workspace);
+    workspace->rotation[0] = workspace->rotation[4] = workspace->rotation[8] = 1.0;
+    workspace->scale = 1.0;
+}
+
+knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
+    const double *r = workspace->rotation;
+    double cross[3];
+    if (!vec3_finite(workspace->origin)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.origin: expected finite numbers (m), found [%g, %g, %g]",
+                          workspace->origin[0], workspace->origin[1], workspace->origin[2]);
+    }
+    if (!(workspace->scale > 0.0 && isfinite(workspace->scale))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.scale: expected a finite number > 0, found %g",
+                          workspace->scale);
+    }
+    vec3_cross(r, r + 3, cross); /* the third row of a rotation is the cross product of the others */
+    const double off = fmax(fabs(vec3_dot(r, r) - 1.0), fmax(fabs(vec3_dot(r + 3, r + 3) - 1.0), fabs(vec3_dot(r, r + 3))));
+    vec3_sub(cross, r + 6, cross);
+    if (!(off <= 1e-6 && vec3_length(cross) <= 1e-6)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.rotation: expected a right-handed rotation matrix, found one that "
+                                                "is off orthonormal by more than 1e-6");
+    }
+    return KNURL_OK;
+}
+
+void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]) {
+    double turned[3];
+    mat3_mul(workspace->rotation, device, turned);
+    vec3_madd(workspace->origin, workspace->scale, turned, scene);
+}
+
+void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]) {
+    double offset[3];
+    vec3_sub(scene, workspace->origin, offset);
+    vec3_scale(1.0 / workspace->scale, offset, offset);
+    mat3_mul_transposed(workspace->rotation, offset, device);
+}
+
+void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]) {
+    mat3_mul(workspace->rotation, device, scene);
+    vec3_scale(workspace->scale, scene, scene);
+}
+
+void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]) {
+    mat3_mul_transposed(workspace->rotation, scene, device);
+}

@@ -1,0 +1,74 @@
+/* Temporal signals: T1 (Algorithm 1), T2 (Algorithm 3, Eqs. 1-4), T3 (Algorithm 6). SPDX-License-Identifier: MIT */
+#include "vibration/ticks.h"
+
+#include <knurl/vibration.h>
+
+#include <math.h>
+
+/* Algorithm 3: the even periods either side, weighted so that period (Eq. 1) and energy (Eq. 2) come out right. */
+static knurl_result init_mix(knurl_wave *wave) {
+    const double period = wave->period_ticks; /* >= 2, so the lower part is never shorter than 2 */
+    const double upper = 2.0 * ceil(0.5 * period);
+    const double lower = 2.0 * floor(0.5 * period);
+    if (upper == lower) { /* an even multiple: Eqs. 3, 4 are 0/0, and one component is meant */
+        wave->part_count = 1;
+        return knurl_event_init(upper, wave->amplitude, &wave->parts[0]);
+    }
+    const double a = upper * fabs(period - lower);
+    const double b = lower * fabs(upper - period);
+    const double norm = sqrt(a * a + b * b);
+    wave->part_count = 2;
+    const knurl_result result = knurl_event_init(upper, wave->amplitude * a / norm, &wave->parts[0]);
+    return result ? result : knurl_event_init(lower, wave->amplitude * b / norm, &wave->parts[1]);
+}
+
+knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
+                             knurl_wave *wave) {
+    if (method != KNURL_T1 && method != KNURL_T2 && method != KNURL_T3) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d", (int)method);
+    }
+    if (!(period_s > 0.0 && period_s <= 10.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to 10 s, found %g s", period_s);
+    }
+    if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
+    }
+    if (!(amplitude >= 0.0 && isfinite(amplitude))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
+    }
+    const double ticks = knurl_snap_ticks(period_s * update_rate_hz);
+    knurl_wave made = {0};
+    made.method = method;
+    made.amplitude = amplitude;
+    made.saturated = ticks < 2.0;
+    made.period_ticks = ticks < 2.0 ? 2.0 : ticks;
+    knurl_result result = KNURL_OK;
+    if (method == KNURL_T2) {
+        result = init_mix(&made);
+    } else if (method == KNURL_T3) {
+        made.part_count = 1;
+        result = knurl_event_init(made.period_ticks, amplitude, &made.parts[0]);
+    }
+    if (!result) {
+        *wave = made;
+    }
+    return result;
+}
+
+/* Algorithm 1, decided on the fractional phase: a real modulo goes wrong at exact halves. */
+static double sample(const knurl_wave *wave, uint64_t tick) {
+    const double phase = (double)tick / wave->period_ticks;
+    return phase - floor(phase) < 0.5 ? wave->amplitude : -wave->amplitude;
+}
+
+double knurl_wave_value(const knurl_wave *wave, uint64_t tick) {
+    if (wave->method == KNURL_T1) {
+        return sample(wave, tick);
+    }
+    double value = 0.0;
+    for (int32_t i = 0; i < wave->part_count; i++) {
+        const knurl_event *part = &wave->parts[i];
+        value += knurl_event_height(part, (int32_t)(tick % (uint64_t)part->length));
+    }
+    return value;
+}
