@@ -1,6 +1,4 @@
 /* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "recorder.h"
 #include "stroke.h"
 #include "tool.h"
@@ -35,16 +33,17 @@ static void on_signal(int number) {
 }
 
 static int read_options(int argc, char **argv, run_options *o) {
-    const tool_option options[] = {{"--device", TOOL_TEXT, &o->device, 0, 0, ""},
-                                   {"--surface", TOOL_TEXT, &o->surface, 0, 0, ""},
-                                   {"--stroke", TOOL_TEXT, &o->stroke, 0, 0, ""},
-                                   {"--trace", TOOL_TEXT, &o->trace, 0, 0, ""},
-                                   {"--method", TOOL_TEXT, &o->method, 0, 0, ""},
-                                   {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
-                                   {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
-                                   {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
-                                   {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
-                                   {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
+    const tool_option options[] = {
+        {"--device", TOOL_TEXT, &o->device, 0, 0, ""},
+        {"--surface", TOOL_TEXT, &o->surface, 0, 0, ""},
+        {"--stroke", TOOL_TEXT, &o->stroke, 0, 0, ""},
+        {"--trace", TOOL_TEXT, &o->trace, 0, 0, ""},
+        {"--method", TOOL_TEXT, &o->method, 0, 0, ""},
+        {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
+        {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
+        {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
+        {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+        {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
     o->seconds = NAN;
     o->rate = 1000.0;
     if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &o->path) != TOOL_OK) {
@@ -88,7 +87,8 @@ static int load(run *r) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }
     if (knurl_scene_surface_count(r->scene) == 0) {
-        return tool_error(TOOL_FAILURE, "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' says how to tag",
+        return tool_error(TOOL_FAILURE,
+                          "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' says how to tag",
                           o->path);
     }
     return TOOL_OK;
@@ -139,9 +139,10 @@ static void show_progress(const run *r, uint64_t ticks) {
     knurl_tick_output now;
     knurl_hip_counts counts;
     if (knurl_scene_get_tick(r->scene, 0, &now, &counts) == KNURL_OK && ticks > 0) {
-        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ", (double)ticks / r->options.rate,
-                (double)r->ticks / r->options.rate, 100.0 * (double)counts.contact_ticks / (double)counts.ticks,
-                now.temporal_frequency, sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
+        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ",
+                (double)ticks / r->options.rate, (double)r->ticks / r->options.rate,
+                100.0 * (double)counts.contact_ticks / (double)counts.ticks, now.temporal_frequency,
+                sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
     }
 }
 

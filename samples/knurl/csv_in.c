@@ -1,6 +1,4 @@
 /* CSV input: a header, then numbers. SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "tool.h"
 
 #include <errno.h>
@@ -47,7 +45,8 @@ static int read_header(const char *path, char *line, const char *const *names, u
     for (uint32_t i = 0; i < count; i++) {
         columns[i] = column_of(cells, found, names[i]);
         if (columns[i] < 0) {
-            return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found none", path, names[i]);
+            return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found none", path,
+                              names[i]);
         }
     }
     return TOOL_OK;
@@ -93,7 +92,7 @@ static int read_rows(const char *path, FILE *stream, const char *const *names, t
         line_number++;
         if (line_number == 1) {
             code = read_header(path, line, names, table->columns, columns);
-        } else if (line[strspn(line, " \t\r\n")]) {
+        } else if (strspn(line, " \t\r\n") < strlen(line)) {
             code = grow(path, table, &capacity);
             if (code == TOOL_OK) {
                 code = read_row(path, line_number, line, names, table->columns, columns,

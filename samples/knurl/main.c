@@ -63,7 +63,8 @@ static int cmd_devices(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run}, {"signal", cmd_signal}, {"scan", cmd_scan}, {"devices", cmd_devices}};
+} commands[] = {
+    {"inspect", cmd_inspect}, {"run", cmd_run}, {"signal", cmd_signal}, {"scan", cmd_scan}, {"devices", cmd_devices}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -85,7 +86,8 @@ static int run_command(int argc, char **argv) {
             return commands[i].run(argc - 1, argv + 1);
         }
     }
-    return tool_error(TOOL_USAGE, "expected a command (inspect, run, signal, scan, devices), found '%s'; see 'knurl --help'",
+    return tool_error(TOOL_USAGE,
+                      "expected a command (inspect, run, signal, scan, devices), found '%s'; see 'knurl --help'",
                       argv[1]);
 }
 

@@ -19,7 +19,8 @@ int tool_error(int code, const char *format, ...) {
 }
 
 int tool_library_error(int code, const char *what) {
-    return what ? tool_error(code, "%s: %s", what, knurl_error_message()) : tool_error(code, "%s", knurl_error_message());
+    return what ? tool_error(code, "%s: %s", what, knurl_error_message())
+                : tool_error(code, "%s", knurl_error_message());
 }
 
 static int set_value(const tool_option *option, const char *text) {
@@ -30,8 +31,8 @@ static int set_value(const tool_option *option, const char *text) {
     char *end = NULL;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= option->least && value <= option->greatest)) {
-        return tool_error(TOOL_USAGE, "%s: expected a number from %g to %g%s%s, found '%s'", option->name, option->least,
-                          option->greatest, option->unit[0] ? " " : "", option->unit, text);
+        return tool_error(TOOL_USAGE, "%s: expected a number from %g to %g%s%s, found '%s'", option->name,
+                          option->least, option->greatest, option->unit[0] ? " " : "", option->unit, text);
     }
     *(double *)option->value = value;
     return TOOL_OK;

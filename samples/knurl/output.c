@@ -1,6 +1,4 @@
 /* Files that are whole or not there, numbers that read back, JSON. SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "tool.h"
 
 #include <errno.h>

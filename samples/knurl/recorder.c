@@ -37,8 +37,8 @@ void recorder_take(const knurl_tick_output *output, void *user) {
 static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
     const double before[] = {(double)o->tick / r->rate, o->hip[0], o->hip[1], o->hip[2], o->surface_velocity[0],
                              o->surface_velocity[1]};
-    const double after[] = {o->depth, o->spatial_frequency, o->temporal_frequency, o->height, o->force[0], o->force[1],
-                            o->force[2]};
+    const double after[] = {o->depth,    o->spatial_frequency, o->temporal_frequency, o->height, o->force[0],
+                            o->force[1], o->force[2]};
     const char *name = "none";
     for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
         tool_print_number(f, before[i]);

@@ -10,8 +10,7 @@
 static double room(const knurl_device_info *device, const double from[3], const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
-        const double space =
-            fmin(device->workspace_max[axis] - from[axis], from[axis] - device->workspace_min[axis]);
+        const double space = fmin(device->workspace_max[axis] - from[axis], from[axis] - device->workspace_min[axis]);
         if (space < 0.0) {
             return -1.0;
         }
@@ -33,7 +32,8 @@ static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, kn
     if (knurl_scene_configure_hip(scene, 0, &desc)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    fprintf(stderr, "knurl: note: surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it\n",
+    fprintf(stderr,
+            "knurl: note: surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it\n",
             info->name);
     return TOOL_OK;
 }

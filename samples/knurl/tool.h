@@ -74,8 +74,8 @@ typedef struct tool_table {
     uint32_t columns;
 } tool_table;
 
-/* Reads a CSV of finite numbers whose header holds all of `names` (count of them, in any order, others are passed over).
- * Returns TOOL_OK, or TOOL_FAILURE having said which line. */
+/* Reads a CSV of finite numbers whose header holds all of `names` (count of them, in any order, others are passed
+ * over). Returns TOOL_OK, or TOOL_FAILURE having said which line. */
 int tool_read_csv(const char *path, const char *const *names, uint32_t count, tool_table *table);
 
 /* 1 if the file's header line holds the name. */

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws what was felt: the CSV of `knurl run ... --out RUN.csv` as one picture.
 
-Top left the path over the surface, coloured by speed, over the grating where that is coarse enough to draw (a stroke along one line
-is unfolded in time); top right a few milliseconds of the height map. Below, over time: height map, force, the temporal
+Top left the path, coloured by speed, over the grating where that is coarse enough to draw (a stroke along one line is
+unfolded in time); top right a few milliseconds of the height map. Below, over time: height map, force, the temporal
 frequency f_t that the motion asked for, and a spectrogram of the force with f_t as a thin line. Grey: no contact.
 
 SPDX-License-Identifier: MIT
@@ -30,10 +30,11 @@ INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#
 SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
 SPEEDS = LinearSegmentedColormap.from_list("speeds", SHADES([0.25, 0.5, 0.75, 1.0]))
 STRIPES = LinearSegmentedColormap.from_list("stripes", ["#e3e9eb", "#ffffff"])
-STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": RULE,
-         "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY, "ytick.color": GREY,
-         "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5, "axes.titlesize": 9.5,
-         "axes.titlelocation": "left", "axes.formatter.useoffset": False, "figure.dpi": 160, "path.simplify": False}
+STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
+         "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
+         "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
+         "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.formatter.useoffset": False, "figure.dpi": 160,
+         "path.simplify": False}
 
 
 class BadRun(Exception):
@@ -72,7 +73,8 @@ def read_run(path):
     steps = np.diff(data[:, 0])
     if np.any(steps <= 0):
         raise BadRun(f"{path}: expected t to ascend, found another step after t = {data[np.argmax(steps <= 0), 0]:g} s")
-    run = SimpleNamespace(**dict(zip([c for c in COLUMNS if c != "surface"], data.T)), name=names, touching=names != "none")
+    run = SimpleNamespace(**dict(zip([c for c in COLUMNS if c != "surface"], data.T)))
+    run.name, run.touching = names, names != "none"
     run.position, run.force = data[:, 1:4], np.linalg.norm(data[:, -3:], axis=1)
     run.speed = np.where(run.touching, np.hypot(run.vx, run.vy), np.nan)
     run.ft, run.height = (np.where(run.touching, values, np.nan) for values in (run.ft, run.height))
@@ -95,9 +97,9 @@ def thin(t, y, count=6000):
     return np.repeat(t[:blocks.size:size], 2), peaks.ravel()
 
 
-def smooth(values, run):
-    """Mean over the 50 ms around each tick; NaN are left out and stay."""
-    kernel, there = np.ones(max(1, min(int(0.05 * (run.rate or 0)), len(values)))), np.isfinite(values)
+def smooth(values, run, seconds):
+    """Mean over the time around each tick; NaN are left out and stay."""
+    kernel, there = np.ones(max(1, min(int(seconds * (run.rate or 0)), len(values)))), np.isfinite(values)
     total = np.convolve(np.where(there, values, 0.0), kernel, "same")
     return np.where(there, total / np.maximum(np.convolve(there * 1.0, kernel, "same"), 1.0), np.nan)
 
@@ -140,8 +142,8 @@ def draw_grating(ax, found):
         x, y = np.meshgrid(np.linspace(left, right, int(box.width)), np.linspace(bottom, top, int(box.height)))
         waves = [np.cos(2 * np.pi * sum(p * d for p, d in zip((x, y), direction)) / period)
                  for (direction, _), period in zip(found, periods)]
-        ax.imshow(np.tanh(2.5 * np.prod(waves, axis=0)), extent=(left, right, bottom, top), origin="lower", aspect="auto",
-                  cmap=STRIPES, zorder=0)
+        ax.imshow(np.tanh(2.5 * np.prod(waves, axis=0)), extent=(left, right, bottom, top), origin="lower",
+                  aspect="auto", cmap=STRIPES, zorder=0)
     return f", over a {' x '.join(f'{p:.3g}' for p in periods)} mm {'grating' if len(found) < 2 else 'grid'}"
 
 
@@ -169,7 +171,8 @@ def draw_path(ax, bar, run):
     ax.plot(x, y, color="#aab5ba", lw=0.8, zorder=1)
     points = np.stack([x, y], axis=1)[::-(-len(x) // 20000)]
     speed = run.speed[::-(-len(x) // 20000)] * 1e3
-    lines = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap=SPEEDS, array=speed[:-1], lw=2, capstyle="round")
+    lines = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap=SPEEDS, array=speed[:-1], lw=2,
+                           capstyle="round")
     lines.set_clim(0, max(most(run.speed) * 1e3, 1.0))
     ax.add_collection(lines, autolim=False)
     ax.plot(x[:1], y[:1], "o", ms=5, mfc="white", mec=INK, mew=1.2, zorder=3)
@@ -192,7 +195,7 @@ def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, 
 
 def choose_moment(run):
     """(from, to) in s: about eight periods where f_t was highest for a while, or None."""
-    asked = smooth(np.where((run.height != 0) & (run.ft > 0), run.ft, np.nan), run)
+    asked = smooth(np.where((run.height != 0) & (run.ft > 0), run.ft, np.nan), run, 0.4)
     if not run.rate or not np.isfinite(asked).any():
         return None
     half = min(max(4 / most(asked), 6 / run.rate, 0.004), 0.1)
@@ -219,7 +222,7 @@ def draw_moment(ax, run, moment):
 
 def draw_height(ax, run, moment):
     ax.plot(*thin(run.t, run.height * 1e3), color=ACCENT, lw=0.5, drawstyle="steps-post")
-    ax.set_ylim(*np.array([-1.25, 1.25]) * max(most(np.abs(run.height)) * 1e3, 1e-3))
+    ax.set_ylim(*np.array([-1.25, 1.25]) * max(most(np.abs(run.height)) * 1e3, 0.01))
     ax.set_ylabel("height\n(mm)")
     if moment:
         ax.axvspan(*moment, color=RULE, lw=0.8, zorder=-1)
@@ -230,14 +233,15 @@ def draw_height(ax, run, moment):
 def draw_force(ax, run):
     highest = most(run.force)
     ax.plot(*thin(run.t, run.force), color=SOFT, lw=0.5)
-    ax.plot(*thin(run.t, smooth(run.force, run)), color=SHADES(1.0), lw=1.3)
+    ax.plot(*thin(run.t, smooth(run.force, run, 0.05)), color=SHADES(1.0), lw=1.3)
     ax.set_ylim(0, max(1.15 * highest, 0.01))
     if highest > 0.7 * TOUCH_MAX_FORCE:
         ax.set_ylim(0, 1.15 * max(highest, TOUCH_MAX_FORCE))
         ax.axhline(TOUCH_MAX_FORCE, color=ASKED, lw=0.9, ls=(0, (4, 3)))
-        say(ax, "3.3 N, a Touch's limit", 0.995, TOUCH_MAX_FORCE, "right", "bottom", 8, ASKED, within=("axes fraction", "data"))
+        say(ax, "3.3 N, a Touch's limit", 0.995, TOUCH_MAX_FORCE, "right", "bottom", 8, ASKED,
+            within=("axes fraction", "data"))
     ax.set_ylabel("force\n(N)")
-    say(ax, "dark: mean of 50 ms", 0.995, 0.04, "right", "bottom", 8)
+    say(ax, "dark: mean of 50 ms", 0.995, 1, "right", "bottom", 8, dy=1)
 
 
 def draw_frequency(ax, run):
@@ -253,7 +257,8 @@ def draw_frequency(ax, run):
 
 
 def spectrogram(t, values, rate):
-    """Amplitude in dB re 1 N (frequency x time) from Hann windows of about 0.13 s, and the first and last one's time; or None."""
+    """Amplitude in dB re 1 N (frequency x time) from Hann windows of about 0.13 s, and the times of the first
+    and the last one; or None."""
     there, size = np.isfinite(values), 2 ** max(4, int(round(np.log2(0.13 * rate)))) if rate else 0
     if there.sum() < 2 or (t[-1] - t[0]) * rate + 1 < size:
         return None
@@ -311,8 +316,8 @@ def draw(run, path, title):
     draw_spectrogram(last, figure.add_axes([right + 0.01, 0.055, 0.008, 0.152]), run)
     last.set_xlim(run.t[0], run.t[-1] if run.rate else run.t[0] + 1e-3)
     for ax in (*upper, last):
-        ax.fill_between(run.t, 0, 1, where=~run.touching, step="post", transform=ax.get_xaxis_transform(), color=PALE, lw=0,
-                        zorder=-2)
+        ax.fill_between(run.t, 0, 1, where=~run.touching, step="post", transform=ax.get_xaxis_transform(), color=PALE,
+                        lw=0, zorder=-2)
         ax.tick_params(length=2, labelbottom=ax is last)
         ax.yaxis.set_label_coords(-0.045, 0.5)
     return figure

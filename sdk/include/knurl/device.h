@@ -108,10 +108,9 @@ KNURL_API const char *knurl_fake_keys(void);
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device). [game thread] */
 KNURL_API knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc);
 
-/** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated linearly,
- * the last one held. The positions are exact unless the URI names a resolution; no force moves them.
- * Errors: KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_MEMORY.
- * [game thread] */
+/** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated
+ * linearly, the last one held. The positions are exact unless the URI names a resolution; no force moves them. Errors:
+ * KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count);
 
 /** The stroke of a name ("line", "sweep", "circle", "press", "rest").

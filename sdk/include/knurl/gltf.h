@@ -13,9 +13,9 @@ extern "C" {
 /** What a load came to. An output: set struct_size with knurl_gltf_report_init() first. */
 typedef struct knurl_gltf_report {
     uint32_t struct_size;
-    uint32_t surfaces;  /**< added to the scene: one a node and tagged primitive */
-    uint32_t skipped;   /**< primitives that carry no tag, one a node that shows them */
-    uint32_t reserved;  /**< 0 */
+    uint32_t surfaces; /**< added to the scene: one a node and tagged primitive */
+    uint32_t skipped;  /**< primitives that carry no tag, one a node that shows them */
+    uint32_t reserved; /**< 0 */
 } knurl_gltf_report;
 
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */

@@ -37,8 +37,8 @@ typedef struct knurl_loop_desc {
     double update_rate_hz;               /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
     uint64_t tick_limit;                 /**< ends by itself after so many ticks; 0 (default): never */
     double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
-    double watchdog_s;                   /**< s without a tick after which the motors are let go; default 0.05; 0: never */
-    const knurl_clock *clock;            /**< copied; null: the system's */
+    double watchdog_s;        /**< s without a tick after which the motors are let go; default 0.05; 0: never */
+    const knurl_clock *clock; /**< copied; null: the system's */
 } knurl_loop_desc;
 
 /** Nanoseconds, by percentile. */
@@ -57,14 +57,14 @@ enum {
 /** What a loop has done so far. An output: set struct_size with knurl_loop_stats_init() first. */
 typedef struct knurl_loop_stats {
     uint32_t struct_size;
-    int32_t state;               /**< KNURL_LOOP_ */
-    uint64_t ticks;              /**< not counting the ramp at the end */
-    uint64_t overruns;           /**< ticks whose deadline had passed by more than half a period; they are not made up for
-                                      by a burst: the rhythm goes on from the next whole period */
-    uint64_t watchdogs;          /**< times the watchdog let go of the motors */
-    uint32_t realtime;           /**< 1: SCHED_FIFO was had */
-    uint32_t memory_locked;      /**< 1: the scene and the loop's stack are locked into RAM */
-    knurl_percentiles tick_ns;   /**< the scene's tick or the force callback alone; within 3 % */
+    int32_t state;             /**< KNURL_LOOP_ */
+    uint64_t ticks;            /**< not counting the ramp at the end */
+    uint64_t overruns;         /**< ticks whose deadline had passed by more than half a period; they are not made up for
+                                    by a burst: the rhythm goes on from the next whole period */
+    uint64_t watchdogs;        /**< times the watchdog let go of the motors */
+    uint32_t realtime;         /**< 1: SCHED_FIFO was had */
+    uint32_t memory_locked;    /**< 1: the scene and the loop's stack are locked into RAM */
+    knurl_percentiles tick_ns; /**< the scene's tick or the force callback alone; within 3 % */
     knurl_percentiles jitter_ns; /**< wake-up after the deadline; within 3 % */
 } knurl_loop_stats;
 

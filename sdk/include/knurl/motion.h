@@ -19,15 +19,15 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 
 /** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
 typedef struct knurl_velocity {
-    int64_t history[3][16];  /**< FOAW: the newest positions in fixed point, 1024 steps a count, a ring per axis */
-    double last[3];          /**< DIFFERENCE: the previous position, m */
-    double rate;             /**< update rate, Hz */
-    double steps_per_m;      /**< FOAW: fixed-point steps per metre */
-    double m_per_step;       /**< FOAW: 1 / steps_per_m */
-    uint32_t count;          /**< positions seen, at most 16 */
-    uint32_t newest;         /**< FOAW: ring index of the newest position */
-    int32_t method;          /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
-    uint32_t reserved;       /**< 0 */
+    int64_t history[3][16]; /**< FOAW: the newest positions in fixed point, 1024 steps a count, a ring per axis */
+    double last[3];         /**< DIFFERENCE: the previous position, m */
+    double rate;            /**< update rate, Hz */
+    double steps_per_m;     /**< FOAW: fixed-point steps per metre */
+    double m_per_step;      /**< FOAW: 1 / steps_per_m */
+    uint32_t count;         /**< positions seen, at most 16 */
+    uint32_t newest;        /**< FOAW: ring index of the newest position */
+    int32_t method;         /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
+    uint32_t reserved;      /**< 0 */
 } knurl_velocity;
 
 /** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, >= 0 (0: not quantised; FOAW
@@ -53,7 +53,8 @@ typedef struct knurl_workspace {
 /** origin 0, no rotation, scale 1. [any thread] */
 KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
 
-/** Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation off orthonormal by more than 1e-6. [any thread] */
+/** Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation off orthonormal by more than 1e-6. [any thread]
+ */
 KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
 
 /** A device position (m) in the scene (m). [any thread; allowed in a tick] */

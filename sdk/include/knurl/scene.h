@@ -54,13 +54,13 @@ typedef struct knurl_surface_desc {
 
 /** One haptic interaction point: how fast it ticks, where its device's workspace lies, what its device can do. */
 typedef struct knurl_hip_desc {
-    uint32_t struct_size;             /**< set by knurl_hip_desc_init() */
-    int32_t velocity_method;          /**< KNURL_VELOCITY_; default AUTO */
-    double update_rate_hz;            /**< KNURL_UPDATE_RATE_MIN to _MAX; 0 (default): the loop's, without one 1000 */
-    double resolution;                /**< the device's position quantum, m; negative (default): as the loop's device says,
-                                           without one 0.055e-3 (Touch) */
-    double max_force;                 /**< N; longer forces are shortened to it; 0 (default): as the loop's device says,
-                                           without one 3.3 (Touch) */
+    uint32_t struct_size;    /**< set by knurl_hip_desc_init() */
+    int32_t velocity_method; /**< KNURL_VELOCITY_; default AUTO */
+    double update_rate_hz;   /**< KNURL_UPDATE_RATE_MIN to _MAX; 0 (default): the loop's, without one 1000 */
+    double resolution;       /**< the device's position quantum, m; negative (default): as the loop's device says,
+                                  without one 0.055e-3 (Touch) */
+    double max_force;        /**< N; longer forces are shortened to it; 0 (default): as the loop's device says,
+                                  without one 3.3 (Touch) */
     const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
 } knurl_hip_desc;
@@ -103,31 +103,31 @@ typedef struct knurl_tick_input {
 
 /** Bits of knurl_tick_output.flags. */
 enum {
-    KNURL_TICK_CONTACT = 1,    /**< some surface is in reach of its grating's crests */
-    KNURL_TICK_FORCE_LIMIT = 2, /**< the force was shortened to max_force */
-    KNURL_TICK_FREQUENCY = 4,  /**< f_t above f_h/2: the grating is finer than the update rate can render */
-    KNURL_TICK_NOT_FINITE = 8, /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
+    KNURL_TICK_CONTACT = 1,       /**< some surface is in reach of its grating's crests */
+    KNURL_TICK_FORCE_LIMIT = 2,   /**< the force was shortened to max_force */
+    KNURL_TICK_FREQUENCY = 4,     /**< f_t above f_h/2: the grating is finer than the update rate can render */
+    KNURL_TICK_NOT_FINITE = 8,    /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
     KNURL_TICK_CONTACTS_FULL = 16 /**< a further surface was in reach, beyond KNURL_MAX_CONTACTS */
 };
 
 /** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */
 typedef struct knurl_tick_output {
-    double device_force[3];    /**< what the device is to play: device axes, N, limited, always finite */
-    double force[3];           /**< the same in scene axes, N */
-    double hip[3];             /**< HIP position, m */
-    double hip_velocity[3];    /**< m/s */
-    double proxy[3];           /**< the point of the surface that holds the HIP, m; the HIP where there is no contact */
-    double normal[3];          /**< outward, unit; 0 without contact */
+    double device_force[3]; /**< what the device is to play: device axes, N, limited, always finite */
+    double force[3];        /**< the same in scene axes, N */
+    double hip[3];          /**< HIP position, m */
+    double hip_velocity[3]; /**< m/s */
+    double proxy[3];        /**< the point of the surface that holds the HIP, m; the HIP where there is no contact */
+    double normal[3];       /**< outward, unit; 0 without contact */
     double surface_velocity[2]; /**< vx, vy of the HIP relative to the surface in the surface's frame, m/s */
-    double depth;              /**< -z: penetration depth, m, negative while the HIP is still outside; 0 w/o contact */
-    double height;             /**< H: m; 0 without contact */
-    double spatial_frequency;  /**< fs: cycles/m in the direction of motion */
-    double temporal_frequency; /**< f_t: Hz, as the motion asks for it */
-    int64_t event;             /**< the event that plays, counted since contact, or KNURL_NO_EVENT */
-    knurl_surface surface;     /**< the surface felt, or 0 */
-    uint64_t tick;             /**< 0, 1, ... since the HIP was configured */
-    uint32_t flags;            /**< KNURL_TICK_ bits */
-    uint32_t contacts;         /**< surfaces in contact, 0 to KNURL_MAX_CONTACTS */
+    double depth;               /**< -z: penetration depth, m, negative while the HIP is still outside; 0 w/o contact */
+    double height;              /**< H: m; 0 without contact */
+    double spatial_frequency;   /**< fs: cycles/m in the direction of motion */
+    double temporal_frequency;  /**< f_t: Hz, as the motion asks for it */
+    int64_t event;              /**< the event that plays, counted since contact, or KNURL_NO_EVENT */
+    knurl_surface surface;      /**< the surface felt, or 0 */
+    uint64_t tick;              /**< 0, 1, ... since the HIP was configured */
+    uint32_t flags;             /**< KNURL_TICK_ bits */
+    uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_MAX_CONTACTS */
 } knurl_tick_output;
 
 /** Sums over a HIP's ticks since it was configured. */
@@ -187,7 +187,8 @@ KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const 
 /** A surface's name, the scene's, valid while the surface is. Errors: KNURL_ERROR_STALE_ID. [any thread] */
 KNURL_API knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name);
 
-/** Tells what a surface came to be; looks for its anchor, so not for every frame. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+/** Tells what a surface came to be; looks for its anchor, so not for every frame. Errors: KNURL_ERROR_STALE_ID. [any
+ * thread] */
 KNURL_API knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface,
                                                 knurl_surface_info *info);
 
@@ -202,10 +203,10 @@ KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hi
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [game thread] */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
 
-/** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B vn)
- * along n for each surface in contact). Bounded time; no heap, lock, system call, clock, log or file.
- * `output` is always filled in, with a zero force where the result is not KNURL_OK.
- * Errors: KNURL_ERROR_STATE (not committed), KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
+/** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B
+ * vn) along n for each surface in contact). Bounded time; no heap, lock, system call, clock, log or file. `output` is
+ * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed),
+ * KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output);
 

@@ -11,8 +11,8 @@
 #define KNURL_THREAD_LOCAL __thread /* C99 has none; every other compiler that builds this has this one */
 #endif
 
-/* Writes a filled-in local struct (its first field a uint32_t struct_size) into a caller's of `size` bytes, which may be
- * older and shorter, or newer and longer: what this version does not know becomes 0. */
+/* Writes a filled-in local struct (its first field a uint32_t struct_size) into a caller's of `size` bytes, which may
+ * be older and shorter, or newer and longer: what this version does not know becomes 0. */
 void knurl_desc_write(const void *local, uint32_t local_size, void *caller, uint32_t size);
 
 /* The same for a struct that is an output and whose caller has set struct_size. Errors: KNURL_ERROR_ARGUMENT. */

@@ -82,8 +82,8 @@ knurl_result knurl_desc_read(const char *type, const void *caller, void *local, 
     }
     for (uint32_t i = local_size; i < size; i++) {
         if (((const unsigned char *)caller)[i] != 0) {
-            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: byte %u is set, but Knurl %s knows only %u bytes of it", type,
-                              (unsigned)i, knurl_version_string(), (unsigned)local_size);
+            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: byte %u is set, but Knurl %s knows only %u bytes of it",
+                              type, (unsigned)i, knurl_version_string(), (unsigned)local_size);
         }
     }
     memcpy(local, caller, size < local_size ? size : local_size);

@@ -92,7 +92,8 @@ uint64_t knurl_heap_size(const void *memory) {
 knurl_result knurl_heap_lock(knurl_heap *heap) {
     for (knurl_block *block = heap->first; block; block = block->next) {
         if (!knurl_system_lock_memory(block, block->size)) {
-            return knurl_fail(KNURL_ERROR_SYSTEM, "memory: the system refused to lock %llu bytes into RAM (see ulimit -l)",
+            return knurl_fail(KNURL_ERROR_SYSTEM,
+                              "memory: the system refused to lock %llu bytes into RAM (see ulimit -l)",
                               (unsigned long long)heap->bytes);
         }
     }

@@ -1,6 +1,4 @@
 /* POSIX: time, threads, locked memory. SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "base/system.h"
 
 #include "base/base.h"
@@ -32,8 +30,7 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     struct timespec deadline;
     deadline.tv_sec = (time_t)(deadline_ns / 1000000000);
     deadline.tv_nsec = (long)(deadline_ns % 1000000000);
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, NULL) == EINTR) {
-    }
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
 }
 
 static void *run_thread(void *argument) {
@@ -83,9 +80,10 @@ int knurl_system_lock_memory(void *memory, size_t size) {
 }
 
 int knurl_system_lock_stack(void) {
-    volatile char pages[65536];
+    char pages[65536];
+    volatile char *touched = pages;
     for (size_t i = 0; i < sizeof pages; i += 4096) {
-        pages[i] = 0;
+        touched[i] = 0;
     }
-    return mlock((const void *)(uintptr_t)pages, sizeof pages) == 0;
+    return mlock(pages, sizeof pages) == 0;
 }

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define BINS       16
-#define LEAF_SIZE  4
-#define SAH_DEPTH  32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
+#define BINS      16
+#define LEAF_SIZE 4
+#define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
 
 typedef struct box {
     float min[3];
@@ -88,7 +88,7 @@ static double try_axis(const item *items, const range *r, split candidate, doubl
     return best;
 }
 
-static split choose_split(const item *items, const range *r, const box *bounds) {
+static split choose_split(const item *items, const range *r) {
     split chosen = {-1, 0.0f, 0.0f, 0};
     box centres = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
@@ -98,8 +98,7 @@ static split choose_split(const item *items, const range *r, const box *bounds) 
             centres.max[axis] = c > centres.max[axis] ? c : centres.max[axis];
         }
     }
-    const uint32_t count = r->end - r->begin;
-    double best = count > LEAF_SIZE ? 1e300 : box_area(bounds) * count; /* small runs are split only where it pays */
+    double best = 1e300;
     for (int axis = 0; axis < 3; axis++) {
         const float extent = centres.max[axis] - centres.min[axis];
         if (extent > 0.0f) {
@@ -133,8 +132,8 @@ static uint32_t make_node(item *items, const range *r, knurl_bvh_node *node) {
     memcpy(node->max, bounds.max, sizeof node->max);
     const uint32_t count = r->end - r->begin;
     split s = {-1, 0.0f, 0.0f, 0};
-    if (count > 1 && r->depth < SAH_DEPTH) {
-        s = choose_split(items, r, &bounds);
+    if (count > LEAF_SIZE && r->depth < SAH_DEPTH) {
+        s = choose_split(items, r);
     }
     if (s.axis >= 0) {
         return partition(items, r, &s);

@@ -30,8 +30,8 @@ typedef struct knurl_contact_query {
 
 typedef struct knurl_contact {
     double proxy[3];
-    double normal[3]; /* unit, towards the side that the HIP came from */
-    double z;         /* m along the normal, negative inside */
+    double normal[3];  /* unit, towards the side that the HIP came from */
+    double z;          /* m along the normal, negative inside */
     double weights[3]; /* mesh: barycentric coordinates of the proxy */
     uint32_t triangle; /* mesh: which; plane: 0 */
 } knurl_contact;

@@ -11,20 +11,21 @@
 
 /* Single precision for what is stored (half the bytes; 4e-9 m on a 0.1 m object), double for all that is computed. */
 typedef struct knurl_mesh {
-    float *positions;      /* x, y, z a vertex */
-    float *tangents;       /* x, y, z a vertex, or null */
-    float *uvs;            /* u, v a vertex, or null */
-    uint32_t *triangles;   /* three vertices each, in the hierarchy's leaf order */
-    uint32_t *welds;       /* the first vertex that stands where this one stands: seams do not cut the surface */
-    uint32_t *fan_starts;  /* of each vertex: where its fan begins; vertex_count + 1 entries; empty unless a weld's first */
-    uint32_t *fans;        /* the triangles round each vertex, one run after another */
+    float *positions;    /* x, y, z a vertex */
+    float *tangents;     /* x, y, z a vertex, or null */
+    float *uvs;          /* u, v a vertex, or null */
+    uint32_t *triangles; /* three vertices each, in the hierarchy's leaf order */
+    uint32_t *welds;     /* the first vertex that stands where this one stands: seams do not cut the surface */
+    uint32_t
+        *fan_starts; /* of each vertex: where its fan begins; vertex_count + 1 entries; empty unless a weld's first */
+    uint32_t *fans;  /* the triangles round each vertex, one run after another */
     knurl_bvh_node *nodes; /* the hierarchy; [0] is the root */
     uint32_t vertex_count;
     uint32_t triangle_count;
     uint32_t node_count;
-    uint32_t dropped;      /* triangles left out for want of area */
-    double uv_scale[2];    /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
-    double stretch_u[3];   /* min, mean, max over area of su / |dP/du|; 1 without uvs */
+    uint32_t dropped;    /* triangles left out for want of area */
+    double uv_scale[2];  /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
+    double stretch_u[3]; /* min, mean, max over area of su / |dP/du|; 1 without uvs */
 } knurl_mesh;
 
 /* What triangle-relative geometry a contact needs. */

@@ -33,8 +33,8 @@ static double nearest_on(const knurl_mesh *mesh, uint32_t triangle, const double
     knurl_triangle t;
     double offset[3];
     knurl_mesh_triangle(mesh, triangle, &t);
-    triangle_nearest((const double(*)[3])t.corners, hip, c->weights);
-    triangle_point((const double(*)[3])t.corners, c->weights, c->proxy);
+    triangle_nearest((const double (*)[3])t.corners, hip, c->weights);
+    triangle_point((const double (*)[3])t.corners, c->weights, c->proxy);
     vec3_copy(t.normal, c->normal);
     c->triangle = triangle;
     vec3_sub(hip, c->proxy, offset);
@@ -50,7 +50,8 @@ static double walk(const knurl_mesh *mesh, uint32_t start, const double hip[3], 
         const double before2 = best2;
         for (uint32_t corner = 0; corner < 3; corner++) {
             const uint32_t *fan;
-            if (c->triangle != here || c->weights[corner] == 0.0 || c->weights[0] * c->weights[1] * c->weights[2] != 0.0) {
+            if (c->triangle != here || c->weights[corner] == 0.0 ||
+                c->weights[0] * c->weights[1] * c->weights[2] != 0.0) {
                 continue; /* only round the corners that the point rests on; none round an inner point */
             }
             const uint32_t count = fan_of(mesh, weld_of(mesh, here, corner), &fan);
@@ -90,7 +91,7 @@ static int edge_users(const knurl_mesh *mesh, uint32_t a, uint32_t b) {
 
 /* Whether a proxy on an edge or a corner is on the rim of an open mesh. */
 static int on_rim(const knurl_mesh *mesh, const knurl_contact *c) {
-    uint32_t held[3];
+    uint32_t held[3] = {0, 0, 0};
     uint32_t count = 0;
     for (uint32_t corner = 0; corner < 3; corner++) {
         if (c->weights[corner] != 0.0) {
@@ -127,7 +128,8 @@ static void pseudonormal(const knurl_mesh *mesh, const knurl_contact *c, double 
     }
     corner = at_vertex || c->weights[corner] != 0.0 ? corner : 0;
     const uint32_t vertex = weld_of(mesh, c->triangle, corner);
-    const uint32_t next = weld_of(mesh, c->triangle, c->weights[(corner + 1) % 3] != 0.0 ? (corner + 1) % 3 : (corner + 2) % 3);
+    const uint32_t next =
+        weld_of(mesh, c->triangle, c->weights[(corner + 1) % 3] != 0.0 ? (corner + 1) % 3 : (corner + 2) % 3);
     const uint32_t *fan;
     const uint32_t count = fan_of(mesh, vertex, &fan);
     out[0] = out[1] = out[2] = 0.0;
@@ -150,8 +152,8 @@ static void pseudonormal(const knurl_mesh *mesh, const knurl_contact *c, double 
     }
 }
 
-/* Turns a nearest point into a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped over
- * the rim of an open mesh. */
+/* Turns a nearest point into a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped
+ * over the rim of an open mesh. */
 static int finish(const knurl_mesh *mesh, const double hip[3], int32_t side, knurl_contact *c) {
     double offset[3];
     double face[3];
@@ -212,8 +214,8 @@ static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, knurl
     return c->z >= 0.0 ? c->z <= query->reach : !query->has_previous;
 }
 
-/* A HIP inside: the proxy walks after it. Over the rim it may still be held by another part (meshes with T-junctions have
- * rims in their middle). */
+/* A HIP inside: the proxy walks after it. Over the rim it may still be held by another part (meshes with T-junctions
+ * have rims in their middle). */
 static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, const knurl_contact_state *state,
                   knurl_contact *c) {
     const double *hip = query->hip;

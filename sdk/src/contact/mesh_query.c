@@ -14,8 +14,8 @@ static double nearest_of(const knurl_mesh *mesh, uint32_t triangle, const double
     double point[3];
     double offset[3];
     knurl_mesh_triangle(mesh, triangle, &t);
-    triangle_nearest((const double(*)[3])t.corners, p, weights);
-    triangle_point((const double(*)[3])t.corners, weights, point);
+    triangle_nearest((const double (*)[3])t.corners, p, weights);
+    triangle_point((const double (*)[3])t.corners, weights, point);
     vec3_sub(point, p, offset);
     const double distance2 = vec3_dot(offset, offset);
     if (distance2 >= best2) {
@@ -54,8 +54,8 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
     return best2 < limit2;
 }
 
-/* Where along a + s (b - a) a triangle is met, or a value above `best`. Edges are widened by 1e-7 of the triangle, so that
- * nothing slips between two neighbours. */
+/* Where along a + s (b - a) a triangle is met, or a value above `best`. Edges are widened by 1e-7 of the triangle, so
+ * that nothing slips between two neighbours. */
 static double meet(const knurl_triangle *t, const double a[3], const double direction[3], double best, int double_sided,
                    int *side) {
     double edge1[3], edge2[3], p[3], q[3], from[3];

@@ -9,7 +9,8 @@
 
 /* The drivers that this version does not have are listed with the reason, so that nobody looks for a cable. */
 static const knurl_driver touch = {
-    "touch", "3D Systems Touch", "its driver (OpenHaptics, loaded at run time) is not in this version", 0, 0, 0, 0, 0, 0};
+    "touch", "3D Systems Touch", "its driver (OpenHaptics, loaded at run time) is not in this version", 0, 0, 0, 0, 0,
+    0};
 static const knurl_driver falcon = {
     "falcon", "Novint Falcon", "its driver (libusb) is not in this version", 0, 0, 0, 0, 0, 0};
 static const knurl_driver rawhid = {
@@ -35,7 +36,8 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
         }
         return driver->open(uri[length] == ':' ? uri + length + 1 : "", device);
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'", uri ? uri : "(null)");
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'",
+                      uri ? uri : "(null)");
 }
 
 void knurl_device_close(knurl_device *device) {

@@ -33,8 +33,8 @@ knurl_result knurl_method_from_name(const char *name, int32_t *method) {
 knurl_result knurl_grating_check(knurl_grating *grating) {
     const double *fs = grating->spatial_frequency;
     if (!(fs[0] >= 0.0 && isfinite(fs[0]) && fs[1] >= 0.0 && isfinite(fs[1]))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "spatial_frequency: expected finite numbers >= 0 (cycles/m), found [%g, %g]",
-                          fs[0], fs[1]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "spatial_frequency: expected finite numbers >= 0 (cycles/m), found [%g, %g]", fs[0], fs[1]);
     }
     if (!(grating->amplitude >= 0.0 && isfinite(grating->amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0 (m), found %g",

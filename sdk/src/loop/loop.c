@@ -75,7 +75,8 @@ static int run_tick(knurl_loop *loop) {
 }
 
 static int at_end(const knurl_loop *loop) {
-    return knurl_load_acquire(&loop->stop_requested) || (loop->desc.tick_limit > 0 && loop->ticks >= loop->desc.tick_limit);
+    return knurl_load_acquire(&loop->stop_requested) ||
+           (loop->desc.tick_limit > 0 && loop->ticks >= loop->desc.tick_limit);
 }
 
 /* From the latest force down to none. The device is still read: it may need that to write. */
@@ -151,7 +152,8 @@ static knurl_result check(const knurl_loop_desc *d) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.device: expected a device, found null");
     }
     if (!d->scene == !d->force_callback) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc: expected exactly one of scene and force_callback, found %s",
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_loop_desc: expected exactly one of scene and force_callback, found %s",
                           d->scene ? "both" : "none");
     }
     if (d->scene && !d->scene->committed) {
@@ -162,8 +164,9 @@ static knurl_result check(const knurl_loop_desc *d) {
                           KNURL_UPDATE_RATE_MAX, d->update_rate_hz);
     }
     if (!(d->ramp_s >= 0.0 && d->ramp_s <= 1.0) || !(d->watchdog_s >= 0.0 && d->watchdog_s <= 10.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc: expected ramp_s 0 to 1 s and watchdog_s 0 to 10 s, found %g "
-                                                "and %g",
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_loop_desc: expected ramp_s 0 to 1 s and watchdog_s 0 to 10 s, found %g "
+                          "and %g",
                           d->ramp_s, d->watchdog_s);
     }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Positions become fixed point with this many steps a count: what sits on an encoder's counts stays exact, and what does
- * not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
+/* Positions become fixed point with this many steps a count: what sits on an encoder's counts stays exact, and what
+ * does not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
 #define STEPS_PER_COUNT 1024
 
 /* 16 positions are kept: the newest and the 15 before it. */
@@ -18,7 +18,8 @@
 
 knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity) {
     if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_FOAW) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE or FOAW, found %d", (int)method);
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE or FOAW, found %d",
+                          (int)method);
     }
     if (!(resolution >= 0.0 && resolution <= 1.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: expected 0 to 1 m, found %g m", resolution);
@@ -64,13 +65,13 @@ static int64_t to_steps(double position, double steps_per_m) {
     return steps < -limit ? -(int64_t)limit : (int64_t)(steps + (steps < 0.0 ? -0.5 : 0.5));
 }
 
-/* The slope, in steps per tick, of the line through the newest and the oldest sample of the widest window whose interior
- * samples all lie within one count of that line. Sample i back lies within it when the slope is in
- * [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals grows with the window, so one pass does. */
+/* The slope, in steps per tick, of the line through the newest and the oldest sample of the widest window whose
+ * interior samples all lie within one count of that line. Sample i back lies within it when the slope is in
+ * [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals grows with the window, so one pass does.
+ */
 static double widest_slope(const int64_t *ring, uint32_t newest, uint32_t count) {
-    static const int64_t scale[RING] = {0,           LCM / 1,  LCM / 2,  LCM / 3,  LCM / 4,  LCM / 5,
-                                        LCM / 6,     LCM / 7,  LCM / 8,  LCM / 9,  LCM / 10, LCM / 11,
-                                        LCM / 12,    LCM / 13, LCM / 14, LCM / 15};
+    static const int64_t scale[RING] = {0,       LCM / 1, LCM / 2,  LCM / 3,  LCM / 4,  LCM / 5,  LCM / 6,  LCM / 7,
+                                        LCM / 8, LCM / 9, LCM / 10, LCM / 11, LCM / 12, LCM / 13, LCM / 14, LCM / 15};
     const int64_t x0 = ring[newest];
     int64_t low = INT64_MIN;
     int64_t high = INT64_MAX;

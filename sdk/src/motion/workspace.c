@@ -23,11 +23,13 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
                           workspace->scale);
     }
     vec3_cross(r, r + 3, cross); /* the third row of a rotation is the cross product of the others */
-    const double off = fmax(fabs(vec3_dot(r, r) - 1.0), fmax(fabs(vec3_dot(r + 3, r + 3) - 1.0), fabs(vec3_dot(r, r + 3))));
+    const double off =
+        fmax(fabs(vec3_dot(r, r) - 1.0), fmax(fabs(vec3_dot(r + 3, r + 3) - 1.0), fabs(vec3_dot(r, r + 3))));
     vec3_sub(cross, r + 6, cross);
     if (!(off <= 1e-6 && vec3_length(cross) <= 1e-6)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.rotation: expected a right-handed rotation matrix, found one that "
-                                                "is off orthonormal by more than 1e-6");
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "workspace.rotation: expected a right-handed rotation matrix, found one that "
+                          "is off orthonormal by more than 1e-6");
     }
     return KNURL_OK;
 }

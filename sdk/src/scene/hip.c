@@ -13,8 +13,8 @@ void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
 
 static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     if (hip >= scene->hip_count) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u", (unsigned)scene->hip_count,
-                          (unsigned)hip);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
+                          (unsigned)scene->hip_count, (unsigned)hip);
     }
     return KNURL_OK;
 }
@@ -33,12 +33,13 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
                           KNURL_UPDATE_RATE_MAX, made.rate);
     }
     if (!(made.max_force > 0.0 && isfinite(made.max_force))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g", made.max_force);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g",
+                          made.max_force);
     }
     knurl_result result = d->workspace ? knurl_workspace_check(d->workspace) : KNURL_OK;
     result = result ? result
-                    : knurl_velocity_init(d->velocity_method, d->resolution < 0.0 ? resolution : d->resolution, made.rate,
-                                          &made.velocity);
+                    : knurl_velocity_init(d->velocity_method, d->resolution < 0.0 ? resolution : d->resolution,
+                                          made.rate, &made.velocity);
     if (result) {
         return result;
     }
@@ -71,7 +72,8 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double u
     knurl_hip_desc d = h->given;
     const knurl_workspace workspace = h->workspace;
     if (d.update_rate_hz != 0.0 && d.update_rate_hz != update_rate_hz) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
                           (unsigned)hip, d.update_rate_hz, update_rate_hz);
     }
     d.workspace = h->centred ? NULL : &workspace;

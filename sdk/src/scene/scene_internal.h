@@ -15,9 +15,9 @@ typedef struct knurl_surface_data {
     double half_extents[2];       /* plane */
     double position[3];           /* surface to scene */
     double rotation[9];
-    double axis[3]; /* unit, surface frame; used where has_axis */
-    double turn[2]; /* cosine and sine of the orientation */
-    double reach;   /* the highest crest: m in front of the surface where contact begins */
+    double axis[3];       /* unit, surface frame; used where has_axis */
+    double turn[2];       /* cosine and sine of the orientation */
+    double reach;         /* the highest crest: m in front of the surface where contact begins */
     double bounds_min[3]; /* scene axes, m */
     double bounds_max[3];
     int32_t has_axis;
@@ -73,8 +73,8 @@ void knurl_surface_release(knurl_heap *heap, knurl_surface_data *surface);
 /* Checks a material and sets it, with all that follows from it. Errors: as knurl_scene_set_material(). */
 knurl_result knurl_surface_set_material(knurl_surface_data *surface, const knurl_material_desc *desc);
 
-/* A surface's tangent frame and coordinates at a contact, in its own frame (surface_frame.c). x, y: unit, tangent to the
- * contact's normal. coordinates: m, what S1 looks up. Allowed in a tick. */
+/* A surface's tangent frame and coordinates at a contact, in its own frame (surface_frame.c). x, y: unit, tangent to
+ * the contact's normal. coordinates: m, what S1 looks up. Allowed in a tick. */
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_contact *contact, double x[3], double y[3],
                          double coordinates[2]);
 

@@ -27,11 +27,13 @@ static knurl_result check_material(knurl_material_desc *m) {
     result = result ? result : check_positive("damping", "N s/m", m->damping, 1);
     result = result ? result : check_positive("friction", "coefficient", m->friction, 1);
     if (!result && m->friction > 0.0) {
-        return knurl_fail(KNURL_ERROR_UNSUPPORTED, "friction: Knurl %s renders frictionless surfaces only; expected 0, found %g",
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "friction: Knurl %s renders frictionless surfaces only; expected 0, found %g",
                           knurl_version_string(), m->friction);
     }
     if (!result && !isfinite(m->orientation)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "orientation: expected a finite number (rad), found %g", m->orientation);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "orientation: expected a finite number (rad), found %g",
+                          m->orientation);
     }
     return result;
 }
@@ -49,7 +51,8 @@ knurl_result knurl_surface_set_material(knurl_surface_data *surface, const knurl
         return result;
     }
     if (m.method == KNURL_S1 && !is_smooth(&m) && surface->mesh && !surface->mesh->uvs && !surface->has_axis) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }
     surface->material = m;
     surface->turn[0] = cos(m.orientation);
@@ -62,12 +65,13 @@ static knurl_result set_pose(const knurl_surface_desc *d, knurl_surface_data *su
     const double *q = d->rotation;
     const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!vec3_finite(d->position)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers (m), found [%g, %g, %g]", d->position[0],
-                          d->position[1], d->position[2]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers (m), found [%g, %g, %g]",
+                          d->position[0], d->position[1], d->position[2]);
     }
     if (!(fabs(norm - 1.0) <= 1e-3)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "rotation: expected a unit quaternion x, y, z, w, found [%g, %g, %g, %g]", q[0],
-                          q[1], q[2], q[3]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "rotation: expected a unit quaternion x, y, z, w, found [%g, %g, %g, %g]", q[0], q[1], q[2],
+                          q[3]);
     }
     const double unit[4] = {q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm};
     vec3_copy(d->position, surface->position);
@@ -77,8 +81,8 @@ static knurl_result set_pose(const knurl_surface_desc *d, knurl_surface_data *su
 
 static knurl_result set_axis(const knurl_surface_desc *d, knurl_surface_data *surface) {
     if (!vec3_finite(d->axis)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected finite numbers, found [%g, %g, %g]", d->axis[0], d->axis[1],
-                          d->axis[2]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected finite numbers, found [%g, %g, %g]", d->axis[0],
+                          d->axis[1], d->axis[2]);
     }
     vec3_copy(d->axis, surface->axis);
     surface->has_axis = vec3_normalise(surface->axis) > 0.0;

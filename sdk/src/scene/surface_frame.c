@@ -1,4 +1,5 @@
-/* Surface coordinates: which way x and y run at a contact, and where on the grating it is. SPDX-License-Identifier: MIT */
+/* Surface coordinates: which way x and y run at a contact, and where on the grating it is. SPDX-License-Identifier: MIT
+ */
 #include "scene/scene_internal.h"
 
 #include "base/vec3.h"
@@ -46,7 +47,8 @@ void knurl_surface_frame(const knurl_surface_data *surface, const knurl_contact 
     }
     vec3_copy(along, x);
     vec3_make_tangent(contact->normal, x);
-    if (!(vec3_length(x) > 1e-9 * vec3_length(along))) { /* x stands on the surface like a post: any direction is as good */
+    if (!(vec3_length(x) >
+          1e-9 * vec3_length(along))) { /* x stands on the surface like a post: any direction is as good */
         vec3_any_tangent(contact->normal, x);
     }
     vec3_normalise(x);

@@ -46,8 +46,8 @@ static void anchor_on_mesh(const knurl_surface_data *surface, knurl_contact *anc
 static double reach_along(const knurl_surface_data *surface, const double point[3], const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
-        const double room = direction[axis] > 0.0 ? surface->bounds_max[axis] - point[axis]
-                                                  : surface->bounds_min[axis] - point[axis];
+        const double room =
+            direction[axis] > 0.0 ? surface->bounds_max[axis] - point[axis] : surface->bounds_min[axis] - point[axis];
         if (fabs(direction[axis]) > 1e-6) {
             reach = fmin(reach, fmax(0.0, room / direction[axis]));
         }

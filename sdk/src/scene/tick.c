@@ -36,8 +36,8 @@ static int find_contact(const knurl_surface_data *surface, const knurl_hip *hip,
 }
 
 /* From a contact to a force: the grating's height at the HIP's velocity over the surface, then Eq. 9. */
-static void render(const knurl_surface_data *surface, double rate, const double velocity[3], const knurl_contact *contact,
-                   knurl_grating_state *state, touch *out) {
+static void render(const knurl_surface_data *surface, double rate, const double velocity[3],
+                   const knurl_contact *contact, knurl_grating_state *state, touch *out) {
     const knurl_material_desc *m = &surface->material;
     double local_velocity[3];
     double x[3];
@@ -47,8 +47,11 @@ static void render(const knurl_surface_data *surface, double rate, const double 
     knurl_surface_frame(surface, contact, x, y, coordinates);
     out->velocity[0] = vec3_dot(local_velocity, x);
     out->velocity[1] = vec3_dot(local_velocity, y);
-    const knurl_grating grating = {
-        {m->spatial_frequency[0], m->spatial_frequency[1]}, surface->reach > 0.0 ? m->amplitude : 0.0, rate, m->method, 0};
+    const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
+                                   surface->reach > 0.0 ? m->amplitude : 0.0,
+                                   rate,
+                                   m->method,
+                                   0};
     knurl_grating_step(&grating, state, coordinates, out->velocity, &out->grating);
     const double height = out->grating.height;
     const double approach = vec3_dot(local_velocity, contact->normal);
@@ -89,7 +92,7 @@ static int touch_surface(const knurl_scene *scene, knurl_hip *hip, knurl_slot *s
     const knurl_surface_data *surface = &scene->surfaces[slot->surface];
     const int64_t events = slot->grating.event_count;
     knurl_contact contact;
-    touch t;
+    touch t = {0};
     if (!find_contact(surface, hip, out->hip, &slot->contact, &contact)) {
         memset(slot, 0, sizeof *slot);
         return 0;

@@ -23,8 +23,8 @@ static void init_even(int32_t length, double amplitude, knurl_event *event) {
 /* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly. */
 static void init_odd(int32_t length, double amplitude, knurl_event *event) {
     const double period = length;
-    const double positive = (double)((length + 1) / 2);
-    const double negative = (double)((length - 1) / 2);
+    const double positive = 0.5 * (period + 1.0);
+    const double negative = 0.5 * (period - 1.0);
     event->kind = KNURL_EVENT_ODD;
     event->length = length;
     event->positive_ticks = (length + 1) / 2;

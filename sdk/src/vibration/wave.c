@@ -25,7 +25,8 @@ static knurl_result init_mix(knurl_wave *wave) {
 knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
                              knurl_wave *wave) {
     if (method != KNURL_T1 && method != KNURL_T2 && method != KNURL_T3) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d", (int)method);
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d",
+                          (int)method);
     }
     if (!(period_s > 0.0 && period_s <= 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to 10 s, found %g s", period_s);

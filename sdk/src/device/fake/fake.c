@@ -67,15 +67,10 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
 static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     fake *f = of(device);
     const knurl_fake_settings *s = &f->settings;
-    const knurl_plant_config config = {s->mass,
-                                       s->viscous,
-                                       s->coulomb,
-                                       s->hand_stiffness,
-                                       s->hand_damping,
-                                       s->resolution,
-                                       s->max_force,
-                                       {0.5 * s->width, 0.5 * s->height, 0.5 * s->depth},
-                                       (int32_t)s->delay};
+    const knurl_plant_config config = {
+        s->mass,          s->viscous,    s->coulomb,   s->hand_stiffness,
+        s->hand_damping,  s->resolution, s->max_force, {0.5 * s->width, 0.5 * s->height, 0.5 * s->depth},
+        (int32_t)s->delay};
     f->dt = 1.0 / update_rate_hz;
     f->ticks = 0;
     f->trace_at = 0;
@@ -167,17 +162,20 @@ knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc
 
 static knurl_result check_trace(const double *rows, uint64_t row_count) {
     if (!rows || row_count == 0 || row_count > UINT64_C(1) << 32) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: expected 1 to 2^32 rows, found %llu", (unsigned long long)row_count);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: expected 1 to 2^32 rows, found %llu",
+                          (unsigned long long)row_count);
     }
     for (uint64_t i = 0; i < row_count; i++) {
         const double *row = &rows[4 * i];
+        const unsigned long long number = i + 1;
         if (!isfinite(row[0]) || !vec3_finite(row + 1)) {
             return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: row %llu: expected finite t, x, y, z, found %g, %g, %g, %g",
-                              (unsigned long long)(i + 1), row[0], row[1], row[2], row[3]);
+                              number, row[0], row[1], row[2], row[3]);
         }
         if (i > 0 && !(row[0] > row[-4])) {
-            return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: row %llu: expected t above the row before (%g s), found %g s",
-                              (unsigned long long)(i + 1), row[-4], row[0]);
+            return knurl_fail(KNURL_ERROR_ARGUMENT,
+                              "trace: row %llu: expected t above the row before (%g s), found %g s", number, row[-4],
+                              row[0]);
         }
     }
     return KNURL_OK;
@@ -191,7 +189,8 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     }
     double *copy = malloc((size_t)row_count * 4 * sizeof *copy);
     if (!copy) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "trace: could not get memory for %llu rows", (unsigned long long)row_count);
+        return knurl_fail(KNURL_ERROR_MEMORY, "trace: could not get memory for %llu rows",
+                          (unsigned long long)row_count);
     }
     memcpy(copy, rows, (size_t)row_count * 4 * sizeof *copy);
     free(of(device)->trace);
@@ -202,5 +201,5 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
 }
 
 const knurl_driver knurl_fake_driver = {
-    "fake", "a simulated Touch in a simulated hand", "", fake_open, fake_close, fake_info, fake_start, fake_read,
+    "fake",    "a simulated Touch in a simulated hand", "", fake_open, fake_close, fake_info, fake_start, fake_read,
     fake_write};

@@ -24,7 +24,7 @@ const char *knurl_fake_keys(void) {
 #define KNURL_FAKE_LINE(name, standard, least, greatest, unit, meaning) #name "=" #standard " " unit "\t" meaning "\n"
         KNURL_FAKE_KEYS(KNURL_FAKE_LINE)
 #undef KNURL_FAKE_LINE
-        ;
+            ;
 }
 
 static knurl_result set_value(const key *k, const char *text, size_t length, knurl_fake_settings *settings) {
@@ -34,10 +34,12 @@ static knurl_result set_value(const key *k, const char *text, size_t length, knu
         memcpy(copy, text, length);
     }
     const double value = strtod(copy, &end);
-    const int real = k->offset != offsetof(knurl_fake_settings, delay) && k->offset != offsetof(knurl_fake_settings, seed);
+    const int real =
+        k->offset != offsetof(knurl_fake_settings, delay) && k->offset != offsetof(knurl_fake_settings, seed);
     if (end == copy || *end || !(value >= k->least && value <= k->greatest) || !(real || value == floor(value))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'", k->name,
-                          real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit, (int)length, text);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'",
+                          k->name, real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit,
+                          (int)length, text);
     }
     memcpy((char *)settings + k->offset, &value, sizeof value);
     settings->resolution_named |= k->offset == offsetof(knurl_fake_settings, resolution);
@@ -64,12 +66,14 @@ knurl_result knurl_fake_parse(const char *options, knurl_fake_settings *settings
 #define KNURL_FAKE_DEFAULT(name, standard, least, greatest, unit, meaning) standard,
         KNURL_FAKE_KEYS(KNURL_FAKE_DEFAULT)
 #undef KNURL_FAKE_DEFAULT
-            0, 0};
+            0,
+        0};
     const char *text = options;
-    if (*text && *text++ != '?') {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: expected 'fake' or 'fake:?key=value&...', found 'fake:%s'",
-                          options);
+    if (*text && *text != '?') {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "device fake: expected 'fake' or 'fake:?key=value&...', found 'fake:%s'", options);
     }
+    text += *text == '?';
     while (*text) {
         const size_t length = strcspn(text, "&");
         const knurl_result result = set_pair(text, length, &made);

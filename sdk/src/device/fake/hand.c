@@ -45,20 +45,22 @@ knurl_result knurl_stroke_check(knurl_stroke_desc *s) {
     if (s->stroke < KNURL_STROKE_LINE || s->stroke > KNURL_STROKE_REST) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected one of KNURL_STROKE_, found %d", (int)s->stroke);
     }
-    if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) || !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) ||
-        !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected a finite centre (m), and unit x and normal at right angles");
+    if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) ||
+        !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) || !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "stroke: expected a finite centre (m), and unit x and normal at right angles");
     }
     if (s->speed == 0.0) {
         s->speed = s->stroke == KNURL_STROKE_SWEEP ? 0.25 : 0.1;
     }
     if (!(s->reach[0] > 0.0 && s->reach[0] <= 1.0 && s->reach[1] > 0.0 && s->reach[1] <= 1.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke.reach: expected above 0 and up to 1 m, found [%g, %g]", s->reach[0],
-                          s->reach[1]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke.reach: expected above 0 and up to 1 m, found [%g, %g]",
+                          s->reach[0], s->reach[1]);
     }
     if (!(fabs(s->depth) <= 0.1 && s->speed > 0.0 && s->speed <= 10.0 && s->period > 0.0 && s->period <= 3600.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected depth up to 0.1 m, speed up to 10 m/s, period up to 3600 s, "
-                                                "found %g m, %g m/s, %g s",
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "stroke: expected depth up to 0.1 m, speed up to 10 m/s, period up to 3600 s, "
+                          "found %g m, %g m/s, %g s",
                           s->depth, s->speed, s->period);
     }
     return KNURL_OK;
@@ -85,7 +87,8 @@ static double uniform(uint64_t *state) {
 static void shake(knurl_hand *hand, double dt, double target[3]) {
     const double w = TWO_PI * TREMOR_HZ;
     const double zeta = 0.3;
-    const double noise = hand->tremor * sqrt(4.0 * zeta * w * w * w / dt) * 1.7320508075688772; /* uniform: variance 1/3 */
+    const double noise =
+        hand->tremor * sqrt(4.0 * zeta * w * w * w / dt) * 1.7320508075688772; /* uniform: variance 1/3 */
     for (int axis = 0; axis < 3; axis++) {
         const double push = noise * uniform(&hand->random);
         hand->shake_velocity[axis] +=
@@ -95,11 +98,14 @@ static void shake(knurl_hand *hand, double dt, double target[3]) {
     }
 }
 
-/* Where a point that goes back and forth over +-reach is after a path from the middle. */
-static double fold(double path, double reach) {
-    const double cycle = 4.0 * reach;
-    const double u = fmod(path + reach, cycle);
-    return u < 2.0 * reach ? u - reach : 3.0 * reach - u;
+/* Where a point that goes back and forth over +-reach is after a path from the middle: a triangle wave whose turns are
+ * rounded, as a hand's are. Nowhere faster than the path; at its full speed in the middle, at half of it 5 % before an
+ * end. */
+static double back_and_forth(double path, double reach) {
+    const double roundness =
+        0.9; /* 0: a sine, 1: sharp turns, at which the hand's spring throws the mass past 300 mm/s */
+    const double quarter = asin(roundness);
+    return reach / quarter * asin(roundness * sin(path * quarter / (roundness * reach)));
 }
 
 /* How fast the path grows at time t after the approach. */
@@ -121,7 +127,7 @@ void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]) 
     if (moving > 0.0) {
         hand->path += dt * path_speed(s, moving - 0.5 * dt);
         if (s->stroke == KNURL_STROKE_LINE || s->stroke == KNURL_STROKE_SWEEP) {
-            x = fold(hand->path, s->reach[0]);
+            x = back_and_forth(hand->path, s->reach[0]);
         } else if (s->stroke == KNURL_STROKE_CIRCLE) { /* out to the circle from the middle within the first turn */
             const double radius = fmin(s->reach[0], s->reach[1]);
             const double angle = hand->path / radius;

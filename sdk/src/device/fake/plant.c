@@ -35,14 +35,16 @@ void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], con
     const double h = dt / SUBSTEPS;
     for (int step = 0; step < SUBSTEPS; step++) {
         for (int axis = 0; axis < 3; axis++) {
-            const double reached = target[axis] - (dt - h * (step + 1)) * target_velocity[axis]; /* target is at the end */
+            const double reached =
+                target[axis] - (dt - h * (step + 1)) * target_velocity[axis]; /* target is at the end */
             const double hand = c->hand_stiffness * (reached - plant->position[axis]) +
                                 c->hand_damping * (target_velocity[axis] - plant->velocity[axis]);
             const double force = motor[axis] + hand - c->viscous * plant->velocity[axis];
             plant->velocity[axis] += h * force / c->mass;
         }
         apply_coulomb(plant, h);
-        for (int axis = 0; axis < 3; axis++) { /* the new velocity moves it: symplectic Euler keeps the energy bounded */
+        for (int axis = 0; axis < 3;
+             axis++) { /* the new velocity moves it: symplectic Euler keeps the energy bounded */
             const double stop = c->half_workspace[axis];
             plant->position[axis] += h * plant->velocity[axis];
             if (fabs(plant->position[axis]) > stop) {
