@@ -57,7 +57,7 @@ static int read_row(const char *path, uint64_t line_number, char *line, const ch
     char *cells[MAX_COLUMNS];
     const uint32_t found = split(line, cells);
     for (uint32_t i = 0; i < count; i++) {
-        const char *cell = columns[i] < (int)found ? cells[columns[i]] : "";
+        const char *cell = columns[i] >= 0 && columns[i] < (int)found ? cells[columns[i]] : "";
         char *end = NULL;
         row[i] = strtod(cell, &end);
         if (end == cell || *end || !isfinite(row[i])) {
@@ -68,21 +68,26 @@ static int read_row(const char *path, uint64_t line_number, char *line, const ch
     return TOOL_OK;
 }
 
-static int grow(const char *path, tool_table *table, uint64_t *capacity) {
-    if (table->row_count < *capacity) {
-        return TOOL_OK;
+/* Adds a row, doubling the room where it is used up. */
+static int append(const char *path, tool_table *table, uint64_t *capacity, const double *row) {
+    const size_t bytes = table->columns * sizeof *row;
+    if (table->row_count == *capacity) {
+        const uint64_t wanted = *capacity ? 2 * *capacity : 1024;
+        double *more = realloc(table->cells, (size_t)wanted * bytes);
+        if (!more) {
+            return tool_error(TOOL_FAILURE, "%s: no memory for %llu rows", path, (unsigned long long)wanted);
+        }
+        table->cells = more;
+        *capacity = wanted;
     }
-    *capacity = *capacity ? 2 * *capacity : 1024;
-    double *more = realloc(table->cells, (size_t)*capacity * table->columns * sizeof *more);
-    if (!more) {
-        return tool_error(TOOL_FAILURE, "%s: no memory for %llu rows", path, (unsigned long long)*capacity);
-    }
-    table->cells = more;
+    memcpy(table->cells + table->row_count * table->columns, row, bytes);
+    table->row_count++;
     return TOOL_OK;
 }
 
 static int read_rows(const char *path, FILE *stream, const char *const *names, tool_table *table) {
-    int columns[MAX_COLUMNS];
+    int columns[MAX_COLUMNS] = {0};
+    double row[MAX_COLUMNS];
     char *line = NULL;
     size_t size = 0;
     uint64_t line_number = 0;
@@ -93,12 +98,8 @@ static int read_rows(const char *path, FILE *stream, const char *const *names, t
         if (line_number == 1) {
             code = read_header(path, line, names, table->columns, columns);
         } else if (strspn(line, " \t\r\n") < strlen(line)) {
-            code = grow(path, table, &capacity);
-            if (code == TOOL_OK) {
-                code = read_row(path, line_number, line, names, table->columns, columns,
-                                &table->cells[table->row_count * table->columns]);
-            }
-            table->row_count += code == TOOL_OK;
+            code = read_row(path, line_number, line, names, table->columns, columns, row);
+            code = code == TOOL_OK ? append(path, table, &capacity, row) : code;
         }
     }
     free(line);
