@@ -70,17 +70,17 @@ static int read_row(const char *path, uint64_t line_number, char *line, const ch
 
 /* Adds a row, doubling the room where it is used up. */
 static int append(const char *path, tool_table *table, uint64_t *capacity, const double *row) {
-    const size_t bytes = table->columns * sizeof *row;
+    const size_t columns = table->columns;
     if (table->row_count == *capacity) {
         const uint64_t wanted = *capacity ? 2 * *capacity : 1024;
-        double *more = realloc(table->cells, (size_t)wanted * bytes);
+        double *more = columns > 0 ? realloc(table->cells, (size_t)wanted * columns * sizeof *more) : NULL;
         if (!more) {
             return tool_error(TOOL_FAILURE, "%s: no memory for %llu rows", path, (unsigned long long)wanted);
         }
         table->cells = more;
         *capacity = wanted;
     }
-    memcpy(table->cells + table->row_count * table->columns, row, bytes);
+    memcpy(table->cells + table->row_count * columns, row, columns * sizeof *row);
     table->row_count++;
     return TOOL_OK;
 }

@@ -66,7 +66,8 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
 
 /** One tick of a checked grating. position: m along the surface's x and y (S1). velocity: m/s along x and y, of the HIP
  * relative to the surface. state and output: caller's. S2: a new period and amplitude are taken only when an event has
- * ended (Algorithm 7); with no event and below the deadband the height is 0. [haptic thread] */
+ * ended (Algorithm 7); with no event, below the deadband or where an event would last over 1e6 ticks, the height is 0.
+ * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                                   const double velocity[2], knurl_grating_output *output);
 

@@ -30,8 +30,8 @@ typedef struct knurl_velocity {
     uint32_t reserved;      /**< 0 */
 } knurl_velocity;
 
-/** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, >= 0 (0: not quantised; FOAW
- * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz.
+/** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
+ * needs >= 1e-9; it can tell 2^31 quanta either side of 0 apart, 1 m at 1e-9). update_rate_hz: 1 to 100,000 Hz.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
                                            knurl_velocity *velocity);

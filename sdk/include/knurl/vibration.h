@@ -24,7 +24,7 @@ typedef struct knurl_event {
     int32_t length;         /**< ticks, >= 2 */
     int32_t positive_ticks; /**< ticks of the first part; unused for MIXED */
     int32_t kind;           /**< KNURL_EVENT_EVEN, _ODD or _MIXED */
-    uint32_t saturated;     /**< 1: the period asked for was below 2 ticks and is played as 2 */
+    uint32_t saturated;     /**< 1: the period given was below 2 ticks and is played as 2 */
 } knurl_event;
 
 /** A temporal signal of method T1, T2 or T3, ready to be played. */

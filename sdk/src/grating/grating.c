@@ -87,8 +87,9 @@ static void step_s2(const knurl_grating *grating, knurl_grating_state *state, co
                     knurl_grating_output *output) {
     if (!state->playing) {
         const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-        const double ticks = grating->update_rate_hz / output->temporal_frequency; /* infinite across no ridge */
-        if (speed2 < KNURL_S2_DEADBAND * KNURL_S2_DEADBAND || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+        /* infinite across no ridge; below a tick, however fast, it is played as 2 */
+        const double ticks = fmax(1.0, grating->update_rate_hz / output->temporal_frequency);
+        if (!(speed2 >= KNURL_S2_DEADBAND * KNURL_S2_DEADBAND) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
             return; /* idle: the height stays 0 */
         }
         (void)knurl_event_init(ticks, grating->amplitude, &state->event); /* checked: cannot fail */

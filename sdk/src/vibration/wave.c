@@ -56,10 +56,19 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
     return result;
 }
 
-/* Algorithm 1, decided on the fractional phase: a real modulo goes wrong at exact halves. */
+/* Algorithm 1, decided on the fractional phase. Periods that are whole quarters of a tick (the snapped ones) are
+ * counted in integers, at any tick. For the others, a tick that lies on an edge but for rounding (a relative 1e-15,
+ * some ulp) is meant to lie on it: 35 ticks are 15 periods of 7/3 ticks, and begin the sixteenth. */
 static double sample(const knurl_wave *wave, uint64_t tick) {
-    const double phase = (double)tick / wave->period_ticks;
-    return phase - floor(phase) < 0.5 ? wave->amplitude : -wave->amplitude;
+    const double quarters = 4.0 * wave->period_ticks;
+    if (quarters == floor(quarters)) {
+        const uint64_t n = (uint64_t)quarters;
+        return 2 * (4 * (tick % n) % n) < n ? wave->amplitude : -wave->amplitude;
+    }
+    const double halves = 2.0 * ((double)tick / wave->period_ticks);
+    const double edge = floor(halves + 0.5);
+    const double half = fabs(halves - edge) <= 1e-15 * edge ? edge : floor(halves);
+    return fmod(half, 2.0) == 0.0 ? wave->amplitude : -wave->amplitude;
 }
 
 double knurl_wave_value(const knurl_wave *wave, uint64_t tick) {

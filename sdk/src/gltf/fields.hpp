@@ -1,0 +1,82 @@
+// Knurl: typed reading of one JSON object's keys. tinygltf passes over a wrong type in silence and cuts large integers
+// to 32 bits, so types and ranges are checked here, before it sees them.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_FIELDS_HPP
+#define KNURL_GLTF_FIELDS_HPP
+
+#include "failure.hpp"
+#include "json_text.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace knurl::gltf {
+
+/** The largest whole number that is taken: an int in tinygltf, and above any offset in a file of bytes_max. */
+constexpr uint32_t whole_max = 0x7FFFFFFF;
+
+/** For the file's root, which is one of a kind. */
+constexpr size_t no_index = SIZE_MAX;
+
+/** A JSON object, and how messages call it. */
+class Fields {
+  public:
+    /** kind, index: "material" 3; "" and no_index for the root. object: must outlive this. */
+    Fields(const nlohmann::json &object, const char *kind, size_t index);
+
+    /** The object under `key`, none where it is absent. Messages call its keys "key.name". */
+    std::optional<Fields> object(const char *key) const;
+    /** One object of the array under `key`; messages call its keys "key[i].name". */
+    Fields element(const char *key, size_t i) const;
+
+    const nlohmann::json &json() const {
+        return *object_;
+    }
+    /** "material 'bars' (0)" */
+    std::string where() const;
+    /** The object's name, "" where it has none. */
+    std::string_view name() const;
+
+    /** The value under a key, null where it is absent. */
+    const nlohmann::json *find(const char *key) const;
+    std::optional<uint32_t> whole(const char *key, uint32_t least = 0, uint32_t most = whole_max) const;
+    /** An index into an array of `size` things called `kind`. */
+    std::optional<uint32_t> index(const char *key, size_t size, const char *kind) const;
+    /** Exactly `count` numbers. */
+    std::optional<std::vector<double>> numbers(const char *key, size_t count) const;
+    std::optional<bool> flag(const char *key) const;
+    const std::string *text(const char *key) const;
+    /** The length of the array under `key`; 0 where it is absent. */
+    size_t array_size(const char *key) const;
+    /** Indices into an array of `size` things called `kind`; empty where it is absent. */
+    std::vector<uint32_t> indices(const char *key, size_t size, const char *kind) const;
+
+    /** Throws "where: key: expected `expected`, found ..." */
+    [[noreturn]] void refuse_value(const std::string &key, const std::string &expected,
+                                   const nlohmann::json &found) const;
+    /** Throws "where: key: what". */
+    [[noreturn]] void refuse_key(const std::string &key, const std::string &what,
+                                 knurl_result code = KNURL_ERROR_FORMAT) const;
+    /** `value`, or throws "where: key: missing: expected ..." */
+    template <typename T>
+    T required(std::optional<T> value, const char *key, const char *expected) const {
+        if (!value)
+            refuse_key(key, std::string("missing: expected ") + expected);
+        return *std::move(value);
+    }
+
+  private:
+    Fields(const nlohmann::json &object, const Fields &parent, std::string prefix);
+    uint32_t index_of(const nlohmann::json &value, const std::string &key, size_t size, const char *kind) const;
+    void check() const;
+
+    const nlohmann::json *object_;
+    const nlohmann::json *named_; ///< whose name messages use
+    const char *kind_;
+    size_t index_;
+    std::string prefix_; ///< of keys in messages
+};
+
+} // namespace knurl::gltf
+#endif

@@ -1,0 +1,38 @@
+// Knurl: bytes from disk and from URIs; what a glTF file may not reach is refused here.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_FILES_HPP
+#define KNURL_GLTF_FILES_HPP
+
+#include "failure.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace knurl::gltf {
+
+/** Files, and the buffers of one load taken together, may not be larger. */
+constexpr uint64_t bytes_max = uint64_t{1} << 30U;
+
+/** Bytes that somebody else owns. */
+struct Bytes {
+    const unsigned char *data = nullptr;
+    size_t size = 0;
+};
+
+/** A whole regular file of at most bytes_max. */
+std::vector<unsigned char> read_file(const std::filesystem::path &path);
+
+/** Where a glTF file's buffers may come from. */
+struct Resources {
+    std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
+    std::optional<std::filesystem::path> folder; ///< external files lie in it or below; none: they are refused
+};
+
+/** The first `size` bytes of what a buffer's URI names: data: or a file below the folder. where: for messages. */
+std::vector<unsigned char> read_uri(const std::string &uri, uint64_t size, const Resources &resources,
+                                    const std::string &where);
+
+} // namespace knurl::gltf
+#endif

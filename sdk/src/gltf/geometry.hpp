@@ -1,0 +1,22 @@
+// Knurl: one primitive's triangles and vertices as arrays that knurl_mesh_desc takes.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_GEOMETRY_HPP
+#define KNURL_GLTF_GEOMETRY_HPP
+
+#include "accessor.hpp"
+
+namespace knurl::gltf {
+
+struct Geometry {
+    std::vector<float> positions;  ///< x, y, z
+    std::vector<float> tangents;   ///< x, y, z, w; empty: none
+    std::vector<float> uvs;        ///< u, v; empty: none
+    std::vector<uint32_t> indices; ///< three a triangle; never empty
+};
+
+/** Reads a primitive in its mesh's frame: triangles, strips and fans as triangles, counter-clockwise out.
+ * where: "mesh 'm' (0), primitive 1". Throws Failure. */
+Geometry read_geometry(const tinygltf::Model &model, const tinygltf::Primitive &primitive, const std::string &where);
+
+} // namespace knurl::gltf
+#endif

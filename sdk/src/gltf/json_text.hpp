@@ -1,0 +1,27 @@
+// Knurl: JSON text to a tree, with limits that hostile files run into.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_JSON_TEXT_HPP
+#define KNURL_GLTF_JSON_TEXT_HPP
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace knurl::gltf {
+
+/** Objects and arrays inside each other; a plain glTF file has 7. */
+constexpr size_t json_depth_max = 32;
+
+/** Values in a file: a tree takes some 100 bytes for each, however short its text. */
+constexpr size_t json_values_max = size_t{1} << 24U;
+
+/** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that stands twice in one
+ * object (of which readers would keep different ones). */
+nlohmann::json parse_json(std::string_view text);
+
+/** What a value is, for "found ...". */
+std::string described(const nlohmann::json &value);
+
+} // namespace knurl::gltf
+#endif

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "outline.hpp"
+#include "hierarchy.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <unordered_map>
+
+namespace knurl::gltf {
+namespace {
+
+using Json = nlohmann::json;
+using Tags = std::map<size_t, Tag>;
+
+/// Extensions that change neither shapes nor TEXCOORD_0: looks, lights, images (which are never loaded), metadata, and
+/// quantised accessors, which are read like all others.
+bool is_harmless(const std::string &extension) {
+    static const char *const known[] = {
+        "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",
+        "KHR_xmp_json_ld",       "EXT_texture_webp",      "EXT_texture_avif",   "MSFT_texture_dds",
+    };
+    if (extension.rfind("KHR_materials_", 0) == 0)
+        return true;
+    for (const char *name : known)
+        if (extension == name)
+            return true;
+    return false;
+}
+
+void check_asset(const Fields &root) {
+    const std::optional<Fields> asset = root.object("asset");
+    if (!asset)
+        root.refuse_key("asset", "missing: expected an object with the glTF version: is this a glTF 2.0 file?");
+    const std::string *version = asset->text("version");
+    if (version == nullptr)
+        asset->refuse_key("version", "missing: expected '2.0'");
+    if (version->rfind("2.", 0) != 0)
+        asset->refuse_key("version", "expected '2.0', found " + in_quotes(*version), KNURL_ERROR_UNSUPPORTED);
+    const std::string *least = asset->text("minVersion");
+    if (least != nullptr && *least != "2.0")
+        asset->refuse_key("minVersion", "expected '2.0', found " + in_quotes(*least), KNURL_ERROR_UNSUPPORTED);
+    for (size_t i = 0; i < root.array_size("extensionsRequired"); ++i) {
+        const Json &name = root.json().at("extensionsRequired")[i];
+        if (!name.is_string())
+            root.refuse_value("extensionsRequired", "an array of strings", name);
+        if (!is_harmless(name.get_ref<const std::string &>()))
+            root.refuse_key("extensionsRequired",
+                            "the extension " + in_quotes(name.get_ref<const std::string &>()) + " is not supported",
+                            KNURL_ERROR_UNSUPPORTED);
+    }
+}
+
+/// Every tag of the array under `key`, also of what the scene does not show: a mistake is better told than kept.
+Tags read_tags(const Fields &root, const char *key, const char *kind) {
+    Tags tags;
+    for (size_t i = 0; i < root.array_size(key); ++i)
+        if (std::optional<Tag> tag = read_tag(Fields(root.json().at(key)[i], kind, i)))
+            tags.emplace(i, *std::move(tag));
+    return tags;
+}
+
+const Tag *find(const Tags &tags, std::optional<size_t> index) {
+    const auto found = index ? tags.find(*index) : tags.end();
+    return found == tags.end() ? nullptr : &found->second;
+}
+
+/// What a mesh's primitives are, whichever node shows them.
+struct MeshPlan {
+    std::vector<std::optional<uint32_t>> materials; ///< of each primitive
+    std::vector<uint32_t> tagged;                   ///< primitives that carry a tag by material or mesh
+};
+
+class Reader {
+  public:
+    explicit Reader(const Json &json) : root_(json, "", no_index) {}
+
+    Outline read() {
+        check_asset(root_);
+        Hierarchy hierarchy = read_hierarchy(root_);
+        materials_ = read_tags(root_, "materials", "material");
+        meshes_ = read_tags(root_, "meshes", "mesh");
+        nodes_ = read_tags(root_, "nodes", "node");
+        refuse_lost_tags();
+        check_count(hierarchy.shown);
+        for (const uint32_t node : hierarchy.shown)
+            show(node);
+        outline_.parents = std::move(hierarchy.parents);
+        return std::move(outline_);
+    }
+
+  private:
+    Fields at(const char *key, const char *kind, size_t index) const {
+        return {root_.json().at(key).at(index), kind, index};
+    }
+
+    void refuse_lost_tags() const {
+        refuse_tag(root_, "tag a material, mesh or node");
+        for (size_t i = 0; i < root_.array_size("scenes"); ++i)
+            refuse_tag(at("scenes", "scene", i), "tag a material, mesh or node");
+        for (const auto &[index, tag] : nodes_)
+            if (at("nodes", "node", index).find("mesh") == nullptr)
+                refuse_tag(at("nodes", "node", index),
+                           "the node shows no mesh; tag nodes below it that do, their meshes or materials");
+    }
+
+    const MeshPlan &plan(uint32_t index) {
+        const auto known = plans_.find(index);
+        if (known != plans_.end())
+            return known->second;
+        MeshPlan made;
+        const Fields mesh = at("meshes", "mesh", index);
+        const bool mesh_tagged = find(meshes_, index) != nullptr;
+        for (size_t i = 0; i < mesh.array_size("primitives"); ++i) {
+            const Fields primitive = mesh.element("primitives", i);
+            refuse_tag(primitive, "tag the mesh, its node or a material");
+            const auto material = primitive.index("material", root_.array_size("materials"), "materials");
+            made.materials.push_back(material);
+            if (mesh_tagged || find(materials_, material) != nullptr)
+                made.tagged.push_back(static_cast<uint32_t>(i));
+        }
+        if (made.materials.empty() && mesh_tagged)
+            mesh.refuse_key("primitives", "missing: expected at least one in a tagged mesh");
+        return plans_.emplace(index, std::move(made)).first->second;
+    }
+
+    std::optional<uint32_t> mesh_of(uint32_t node) const {
+        return at("nodes", "node", node).index("mesh", root_.array_size("meshes"), "meshes");
+    }
+
+    /// Counts before it makes: nodes times primitives is soon more than memory holds.
+    void check_count(const std::vector<uint32_t> &shown) {
+        uint64_t total = 0;
+        for (const uint32_t node : shown)
+            if (const auto mesh = mesh_of(node)) {
+                const MeshPlan &shape = plan(*mesh);
+                total += find(nodes_, node) != nullptr ? shape.materials.size() : shape.tagged.size();
+            }
+        if (total > surfaces_max)
+            throw Failure(KNURL_ERROR_FULL, "expected at most " + std::to_string(surfaces_max) +
+                                                " tagged surfaces, found " + std::to_string(total));
+    }
+
+    void show(uint32_t index) {
+        const Fields node = at("nodes", "node", index);
+        const std::optional<uint32_t> mesh = mesh_of(index);
+        if (!mesh)
+            return;
+        const MeshPlan &shape = plan(*mesh);
+        const bool all = find(nodes_, index) != nullptr;
+        const size_t count = all ? shape.materials.size() : shape.tagged.size();
+        for (size_t i = 0; i < count; ++i)
+            add(node, index, *mesh, all ? static_cast<uint32_t>(i) : shape.tagged[i], shape);
+        const size_t room = std::numeric_limits<uint32_t>::max() - outline_.skipped;
+        outline_.skipped += static_cast<uint32_t>(std::min(room, shape.materials.size() - count));
+    }
+
+    void add(const Fields &node, uint32_t index, uint32_t mesh_index, uint32_t primitive, const MeshPlan &shape) {
+        const Fields mesh = at("meshes", "mesh", mesh_index);
+        const std::optional<uint32_t> material_index = shape.materials[primitive];
+        Instance instance;
+        instance.node = index;
+        instance.mesh = mesh_index;
+        instance.primitive = primitive;
+        for (const Tag *tag : {find(materials_, material_index), find(meshes_, mesh_index), find(nodes_, index)})
+            if (tag != nullptr)
+                instance.tag.override_with(*tag);
+        if (const char *key = instance.tag.missing_key())
+            refuse(where_of(root_.json(), instance),
+                   std::string("knurl.") + key + ": missing: expected in extras of " +
+                       (material_index ? at("materials", "material", *material_index).where() + ", " : "") +
+                       mesh.where() + " or " + node.where());
+        if (node.find("skin") != nullptr)
+            refuse(where_of(root_.json(), instance), "skin: a tagged mesh cannot be skinned", KNURL_ERROR_UNSUPPORTED);
+        if (mesh.element("primitives", primitive).array_size("targets") > 0)
+            refuse(where_of(root_.json(), instance), "targets: a tagged mesh cannot have morph targets",
+                   KNURL_ERROR_UNSUPPORTED);
+        if (material_index)
+            instance.double_sided = at("materials", "material", *material_index).flag("doubleSided").value_or(false);
+        instance.name = surface_name(node, index, mesh, primitive, material_index, shape.materials.size());
+        outline_.instances.push_back(std::move(instance));
+    }
+
+    /// The same whatever else is tagged, so that a script may rely on it.
+    std::string surface_name(const Fields &node, uint32_t index, const Fields &mesh, uint32_t primitive,
+                             std::optional<uint32_t> material, size_t primitives) const {
+        std::string name(!node.name().empty() ? node.name() : mesh.name());
+        if (name.empty())
+            name = "node " + std::to_string(index);
+        if (primitives < 2)
+            return name;
+        const std::string_view part = material ? at("materials", "material", *material).name() : std::string_view();
+        return name + " / " + (part.empty() ? "primitive " + std::to_string(primitive) : std::string(part));
+    }
+
+    Fields root_;
+    Tags materials_;
+    Tags meshes_;
+    Tags nodes_;
+    std::unordered_map<uint32_t, MeshPlan> plans_;
+    Outline outline_;
+};
+
+} // namespace
+
+Outline read_outline(const Json &root) {
+    if (!root.is_object())
+        refuse("JSON", "expected an object at its root, found " + described(root));
+    return Reader(root).read();
+}
+
+std::string where_of(const Json &root, const Instance &instance) {
+    return Fields(root.at("nodes").at(instance.node), "node", instance.node).where() + ", " +
+           Fields(root.at("meshes").at(instance.mesh), "mesh", instance.mesh).where() + ", primitive " +
+           std::to_string(instance.primitive);
+}
+
+} // namespace knurl::gltf

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "tags.hpp"
+
+#include <knurl/grating.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knurl::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+/// One key's value, and what is needed to refuse it. Keys: "knurl.stiffness", or flat "knurl_stiffness".
+struct Entry {
+    const Fields &extras;
+    std::string key;
+    const Json &value;
+
+    [[noreturn]] void refuse(const char *expected) const {
+        extras.refuse_value(key, expected, value);
+    }
+};
+
+double number(const Entry &entry, const Json &value, const char *expected) {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+        entry.refuse(expected);
+    return value.get<double>();
+}
+
+double number_from_0(const Entry &entry, const Json &value, const char *expected) {
+    const double x = number(entry, value, expected);
+    if (x < 0.0)
+        entry.refuse(expected);
+    return x;
+}
+
+void read_version(Tag & /*tag*/, const Entry &entry) {
+    if (!entry.value.is_number() || entry.value.get<double>() != 1.0)
+        entry.refuse("1, the version that this library reads");
+}
+
+void read_spatial_frequency(Tag &tag, const Entry &entry) {
+    const char *expected = "a number >= 0 or an array of 2 of them (cycles/m)";
+    if (entry.value.is_number()) {
+        tag.spatial_frequency = {number_from_0(entry, entry.value, expected), 0.0};
+        return;
+    }
+    if (!entry.value.is_array() || entry.value.size() != 2)
+        entry.refuse(expected);
+    tag.spatial_frequency = {number_from_0(entry, entry.value[0], expected),
+                             number_from_0(entry, entry.value[1], expected)};
+}
+
+void read_amplitude(Tag &tag, const Entry &entry) {
+    tag.amplitude = number_from_0(entry, entry.value, "a number >= 0 (m)");
+}
+
+void read_stiffness(Tag &tag, const Entry &entry) {
+    const char *expected = "a number > 0 (N/m)";
+    tag.stiffness = number_from_0(entry, entry.value, expected);
+    if (*tag.stiffness == 0.0)
+        entry.refuse(expected);
+}
+
+void read_damping(Tag &tag, const Entry &entry) {
+    tag.damping = number_from_0(entry, entry.value, "a number >= 0 (N s/m)");
+}
+
+void read_friction(Tag &tag, const Entry &entry) {
+    tag.friction = number_from_0(entry, entry.value, "a number >= 0 (a Coulomb coefficient)");
+}
+
+void read_orientation(Tag &tag, const Entry &entry) {
+    tag.orientation = number(entry, entry.value, "a number (rad)");
+}
+
+void read_axis(Tag &tag, const Entry &entry) {
+    const char *expected = "an array of 3 numbers that are not all 0 (a direction in object space)";
+    if (!entry.value.is_array() || entry.value.size() != 3)
+        entry.refuse(expected);
+    std::array<double, 3> axis{};
+    for (size_t i = 0; i < axis.size(); ++i)
+        axis[i] = number(entry, entry.value[i], expected);
+    // Scaled to 1, so that squares of tiny and of huge components stay what they are.
+    const double largest = std::max({std::fabs(axis[0]), std::fabs(axis[1]), std::fabs(axis[2])});
+    if (largest == 0.0)
+        entry.refuse(expected);
+    for (double &component : axis)
+        component /= largest;
+    tag.axis = axis;
+}
+
+void read_method(Tag &tag, const Entry &entry) {
+    if (!entry.value.is_string())
+        entry.refuse("a string: 'S1', 'S2' or 'locked'");
+    int32_t method = KNURL_METHOD_DEFAULT;
+    const knurl_result result = knurl_method_from_name(entry.value.get_ref<const std::string &>().c_str(), &method);
+    if (result != KNURL_OK)
+        entry.refuse("'S1', 'S2' or 'locked'");
+    tag.method = method;
+}
+
+struct Key {
+    const char *name;
+    void (*read)(Tag &, const Entry &);
+};
+
+constexpr std::array<Key, 9> keys = {{{"version", read_version},
+                                      {"spatial_frequency", read_spatial_frequency},
+                                      {"amplitude", read_amplitude},
+                                      {"stiffness", read_stiffness},
+                                      {"damping", read_damping},
+                                      {"friction", read_friction},
+                                      {"orientation", read_orientation},
+                                      {"axis", read_axis},
+                                      {"method", read_method}}};
+
+/// `prefix` is what the keys begin with in messages: "knurl." or "knurl_".
+void read_entry(Tag &tag, const Fields &extras, const std::string &prefix, std::string_view name, const Json &value) {
+    for (const Key &key : keys)
+        if (name == key.name) {
+            key.read(tag, {extras, prefix + key.name, value});
+            return;
+        }
+    std::string known;
+    for (const Key &key : keys)
+        known += (known.empty() ? "" : ", ") + prefix + key.name;
+    extras.refuse_key(prefix + shortened(name), "unknown key; known are " + known);
+}
+
+constexpr std::string_view flat_prefix = "knurl_";
+
+bool is_flat(std::string_view key) {
+    return key.substr(0, flat_prefix.size()) == flat_prefix;
+}
+
+} // namespace
+
+void Tag::override_with(const Tag &other) {
+    const auto take = [](auto &mine, const auto &theirs) {
+        if (theirs)
+            mine = theirs;
+    };
+    take(spatial_frequency, other.spatial_frequency);
+    take(amplitude, other.amplitude);
+    take(stiffness, other.stiffness);
+    take(damping, other.damping);
+    take(friction, other.friction);
+    take(orientation, other.orientation);
+    take(axis, other.axis);
+    take(method, other.method);
+}
+
+const char *Tag::missing_key() const {
+    if (!spatial_frequency)
+        return "spatial_frequency";
+    if (!amplitude)
+        return "amplitude";
+    return stiffness ? nullptr : "stiffness";
+}
+
+std::optional<Tag> read_tag(const Fields &owner) {
+    const Json *extras = owner.find("extras");
+    if (extras == nullptr || !extras->is_object())
+        return std::nullopt; // extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
+    const auto nested = extras->find("knurl");
+    std::optional<Tag> tag;
+    if (nested != extras->end()) {
+        if (!nested->is_object())
+            owner.refuse_value("extras.knurl", "an object", *nested);
+        tag.emplace();
+        if (!nested->contains("version"))
+            owner.refuse_key("knurl.version", "missing: expected 1");
+        for (const auto &[name, value] : nested->get_ref<const Json::object_t &>())
+            read_entry(*tag, owner, "knurl.", name, value);
+    }
+    const auto &members = extras->get_ref<const Json::object_t &>();
+    for (auto member = members.lower_bound(std::string(flat_prefix)); member != members.end() && is_flat(member->first);
+         ++member) {
+        if (nested != extras->end())
+            owner.refuse_key("extras", "holds both an object 'knurl' and flat keys such as " +
+                                           in_quotes(member->first) + ": expected one form of the tag");
+        if (!tag)
+            tag.emplace();
+        read_entry(*tag, owner, std::string(flat_prefix), std::string_view(member->first).substr(flat_prefix.size()),
+                   member->second);
+    }
+    return tag;
+}
+
+void refuse_tag(const Fields &owner, const std::string &instead) {
+    const Json *extras = owner.find("extras");
+    if (extras == nullptr || !extras->is_object())
+        return;
+    const auto &members = extras->get_ref<const Json::object_t &>();
+    const auto flat = members.lower_bound(std::string(flat_prefix));
+    if (members.count("knurl") != 0 || (flat != members.end() && is_flat(flat->first)))
+        owner.refuse_key("extras", "a knurl tag would be lost here: " + instead);
+}
+
+} // namespace knurl::gltf

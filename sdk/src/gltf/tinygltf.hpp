@@ -1,0 +1,14 @@
+// Knurl: tinygltf as this room uses it: without images and without files of its own accord. model.cpp compiles it in.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_TINYGLTF_HPP
+#define KNURL_GLTF_TINYGLTF_HPP
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#include <fstream> // the header needs it and, with NO_FS, forgets it
+
+#include <tiny_gltf.h>
+
+#endif

@@ -1,0 +1,71 @@
+/* What the unit tests of the pure rooms share: cmocka's headers, comparisons, refusals, random numbers.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_CLOSE_H
+#define KNURL_TEST_CLOSE_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <knurl/base.h>
+
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+
+/** A test of cmocka's, for those that need no state. */
+#define TEST(name) static void name(void **state __attribute__((unused)))
+
+/** |actual - expected| <= tolerance; a NaN is never close. */
+#define CHECK_CLOSE(actual, expected, tolerance) check_close(actual, expected, tolerance, __FILE__, __LINE__)
+
+/** The very same number. */
+#define CHECK_SAME(actual, expected) check_close(actual, expected, 0.0L, __FILE__, __LINE__)
+
+static inline void check_close(long double actual, long double expected, long double tolerance, const char *file,
+                               int line) {
+    if (!(fabsl(actual - expected) <= tolerance)) {
+        print_error("%.17Lg is not %.17Lg to within %.3Lg\n", actual, expected, tolerance);
+        _fail(file, line);
+    }
+}
+
+/** `call` gives `code` and a fresh, non-empty sentence, and leaves every byte of `object` as it was. */
+#define CHECK_REFUSED(call, code, object)                                                                              \
+    do {                                                                                                               \
+        unsigned char before_[sizeof(object)];                                                                         \
+        memcpy(before_, &(object), sizeof(object));                                                                    \
+        (void)knurl_fail(KNURL_ERROR_STATE, "stale message");                                                          \
+        check_refusal(call, code, __FILE__, __LINE__);                                                                 \
+        assert_memory_equal(before_, &(object), sizeof(object));                                                       \
+    } while (0)
+
+static inline void check_refusal(knurl_result result, knurl_result expected, const char *file, int line) {
+    const char *message = knurl_error_message();
+    if (result != expected || message[0] == '\0' || strcmp(message, "stale message") == 0) {
+        print_error("result %d instead of %d, message \"%s\"\n", (int)result, (int)expected, message);
+        _fail(file, line);
+    }
+}
+
+/** Reproducible random numbers (xorshift64); `state` is never 0. */
+static inline uint64_t random_bits(uint64_t *state) {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    return *state;
+}
+
+/** Evenly in [low, high). */
+static inline double random_between(uint64_t *state, double low, double high) {
+    return low + (high - low) * ((double)(random_bits(state) >> 11) / 9007199254740992.0);
+}
+
+/** Evenly among low, low + 1, ... high. */
+static inline int64_t random_integer(uint64_t *state, int64_t low, int64_t high) {
+    return low + (int64_t)(random_bits(state) % (uint64_t)(high - low + 1));
+}
+
+#endif

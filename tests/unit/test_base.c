@@ -1,0 +1,357 @@
+/* Results and messages, growable structs, histograms, snapshots, time and threads, against what their headers promise.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "base/base.h"
+#include "base/histogram.h"
+#include "base/seqlock.h"
+#include "base/system.h"
+
+#include <limits.h>
+#include <pthread.h>
+#include <stdio.h>
+
+static const knurl_result results[] = {
+#define RESULT_CODE(name, value, text) name,
+    KNURL_RESULTS(RESULT_CODE)
+#undef RESULT_CODE
+};
+
+TEST(every_result_code_has_its_own_sentence) {
+    const char *unknown = knurl_result_string(-9999);
+    assert_non_null(unknown);
+    assert_true(unknown[0] != '\0');
+    assert_string_equal(knurl_result_string(1), unknown);
+    assert_string_equal(knurl_result_string(INT32_MIN), unknown);
+    for (size_t i = 0; i < COUNT_OF(results); i++) {
+        const char *text = knurl_result_string(results[i]);
+        assert_true(text[0] != '\0');
+        assert_string_not_equal(text, unknown);
+        for (size_t j = 0; j < i; j++) {
+            assert_string_not_equal(text, knurl_result_string(results[j]));
+            assert_int_not_equal(results[i], results[j]);
+        }
+    }
+}
+
+TEST(ok_is_zero_and_every_error_is_negative) {
+    assert_int_equal(KNURL_OK, 0);
+    for (size_t i = 0; i < COUNT_OF(results); i++) {
+        assert_true(results[i] == KNURL_OK || results[i] < 0);
+    }
+}
+
+TEST(fail_returns_its_code_and_keeps_the_sentence) {
+    assert_int_equal(knurl_fail(KNURL_ERROR_IO, "%s: expected %d, found %g", "plate", 3, 0.5), KNURL_ERROR_IO);
+    assert_string_equal(knurl_error_message(), "plate: expected 3, found 0.5");
+    (void)knurl_result_string(KNURL_ERROR_MEMORY); /* what succeeds leaves it alone */
+    (void)knurl_version_string();
+    assert_string_equal(knurl_error_message(), "plate: expected 3, found 0.5");
+    (void)knurl_fail(KNURL_ERROR_STATE, "next");
+    assert_string_equal(knurl_error_message(), "next");
+}
+
+TEST(fail_makes_one_line_of_control_characters_and_leaves_utf8_alone) {
+    char hostile[40] = "";
+    char expected[40] = "";
+    for (char c = 1; c < 0x20; c++) {
+        hostile[c - 1] = c;
+        expected[c - 1] = ' ';
+    }
+    hostile[31] = 0x7f;
+    expected[31] = ' ';
+    (void)knurl_fail(KNURL_ERROR_FORMAT, "%s", hostile);
+    assert_string_equal(knurl_error_message(), expected);
+    (void)knurl_fail(KNURL_ERROR_FORMAT, "caf\xc3\xa9 \xe2\x82\xac");
+    assert_string_equal(knurl_error_message(), "caf\xc3\xa9 \xe2\x82\xac");
+}
+
+TEST(fail_cuts_a_long_sentence_after_1023_bytes) {
+    static char letters[3000];
+    memset(letters, 'x', sizeof letters - 1);
+    for (size_t length = 1022; length <= 1025; length++) {
+        (void)knurl_fail(KNURL_ERROR_FORMAT, "%.*s", (int)length, letters);
+        assert_int_equal(strlen(knurl_error_message()), length < 1023 ? length : 1023);
+    }
+    (void)knurl_fail(KNURL_ERROR_FORMAT, "begin %s", letters);
+    assert_int_equal(strlen(knurl_error_message()), 1023);
+    assert_memory_equal(knurl_error_message(), "begin xxx", 9);
+}
+
+TEST(fail_may_quote_the_sentence_before) {
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: below 0");
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "surface 'top': %s", knurl_error_message());
+    assert_string_equal(knurl_error_message(), "surface 'top': amplitude: below 0");
+}
+
+static void *fail_elsewhere(void *seen) {
+    char (*messages)[32] = seen;
+    (void)snprintf(messages[0], 32, "%s", knurl_error_message());
+    (void)knurl_fail(KNURL_ERROR_IO, "theirs");
+    (void)snprintf(messages[1], 32, "%s", knurl_error_message());
+    return NULL;
+}
+
+TEST(each_thread_has_its_own_message) {
+    char theirs[2][32] = {"?", "?"};
+    pthread_t thread;
+    (void)knurl_fail(KNURL_ERROR_IO, "ours");
+    assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, theirs), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_string_equal(theirs[0], ""); /* before the first failing call */
+    assert_string_equal(theirs[1], "theirs");
+    assert_string_equal(knurl_error_message(), "ours");
+}
+
+TEST(version_is_that_of_the_header) {
+    char expected[32];
+    (void)snprintf(expected, sizeof expected, "%d.%d.%d", KNURL_VERSION_MAJOR, KNURL_VERSION_MINOR,
+                   KNURL_VERSION_PATCH);
+    assert_string_equal(knurl_version_string(), expected);
+}
+
+/* --- growable structs --- */
+
+typedef struct growable {
+    uint32_t struct_size;
+    uint32_t first;
+    uint32_t second;
+    uint32_t third;
+} growable;
+
+typedef struct grown {
+    growable known;
+    unsigned char more[12]; /* no padding: a caller need not clear that */
+} grown;
+
+static const growable defaults = {sizeof(growable), 11, 22, 33};
+
+TEST(a_struct_is_written_as_long_as_the_caller_has_it) {
+    for (uint32_t size = 4; size <= sizeof(grown); size++) {
+        grown caller;
+        memset(&caller, 0xaa, sizeof caller);
+        knurl_desc_write(&defaults, sizeof defaults, &caller, size);
+        const unsigned char *bytes = (const unsigned char *)&caller;
+        assert_int_equal(caller.known.struct_size, size);
+        for (uint32_t i = 4; i < sizeof caller; i++) {
+            const unsigned char known = i < sizeof defaults ? ((const unsigned char *)&defaults)[i] : 0;
+            assert_int_equal(bytes[i], i < size ? known : 0xaa);
+        }
+    }
+}
+
+TEST(an_older_callers_missing_fields_keep_their_defaults) {
+    const growable caller = {12, 1, 2, 3}; /* knows no `third` */
+    growable local = defaults;
+    assert_int_equal(knurl_desc_read("growable", &caller, &local, sizeof local), KNURL_OK);
+    assert_int_equal(local.first, 1);
+    assert_int_equal(local.second, 2);
+    assert_int_equal(local.third, 33);
+    assert_int_equal(local.struct_size, sizeof local);
+}
+
+TEST(a_newer_callers_extra_fields_must_be_zero) {
+    grown caller = {{sizeof(grown), 1, 2, 3}, {0}};
+    growable local = defaults;
+    assert_int_equal(knurl_desc_read("growable", &caller, &local, sizeof local), KNURL_OK);
+    assert_int_equal(local.third, 3);
+    assert_int_equal(local.struct_size, sizeof local);
+    for (size_t i = 0; i < sizeof caller.more; i++) {
+        local = defaults;
+        caller.more[i] = 1;
+        CHECK_REFUSED(knurl_desc_read("growable", &caller, &local, sizeof local), KNURL_ERROR_UNSUPPORTED, local);
+        assert_non_null(strstr(knurl_error_message(), "growable"));
+        caller.more[i] = 0;
+    }
+}
+
+TEST(a_struct_whose_size_was_never_set_is_refused) {
+    const uint32_t sizes[] = {0, 1, 7, 65537, UINT32_MAX};
+    growable local = defaults;
+    for (size_t i = 0; i < COUNT_OF(sizes); i++) {
+        growable caller = {sizes[i], 1, 2, 3};
+        CHECK_REFUSED(knurl_desc_read("growable", &caller, &local, sizeof local), KNURL_ERROR_ARGUMENT, local);
+        assert_non_null(strstr(knurl_error_message(), "struct_size"));
+        CHECK_REFUSED(knurl_desc_return("growable", &defaults, sizeof defaults, &caller), KNURL_ERROR_ARGUMENT, caller);
+    }
+    CHECK_REFUSED(knurl_desc_read("growable", NULL, &local, sizeof local), KNURL_ERROR_ARGUMENT, local);
+    CHECK_REFUSED(knurl_desc_return("growable", &defaults, sizeof defaults, NULL), KNURL_ERROR_ARGUMENT, local);
+}
+
+TEST(an_output_struct_is_filled_as_far_as_its_caller_knows_it) {
+    growable caller = {12, 0, 0, 77};
+    assert_int_equal(knurl_desc_return("growable", &defaults, sizeof defaults, &caller), KNURL_OK);
+    assert_int_equal(caller.struct_size, 12);
+    assert_int_equal(caller.first, 11);
+    assert_int_equal(caller.second, 22);
+    assert_int_equal(caller.third, 77);
+}
+
+/* --- histogram --- */
+
+static knurl_histogram histogram; /* 15 KiB */
+
+/* The histogram's percentile is within 3 % (or half a nanosecond) of the exact one, which an ascending array gives. */
+static void check_percentiles(const int64_t *ascending, size_t count) {
+    static const double shares[] = {0.01, 0.25, 0.5, 0.9, 0.99, 0.999, 1.0};
+    memset(&histogram, 0, sizeof histogram);
+    for (size_t i = 0; i < count; i++) {
+        knurl_histogram_add(&histogram, ascending[i * 7919 % count]); /* in no order: 7919 is a prime above any count */
+    }
+    for (size_t i = 0; i < COUNT_OF(shares); i++) {
+        const double exact = (double)ascending[(size_t)ceil(shares[i] * (double)count) - 1];
+        CHECK_CLOSE(knurl_histogram_percentile(&histogram, shares[i]), exact, fmax(0.5, 0.03 * exact));
+    }
+    assert_int_equal(histogram.max, (uint64_t)ascending[count - 1]);
+    assert_int_equal(histogram.total, count);
+}
+
+TEST(percentiles_of_known_distributions_are_within_three_percent) {
+    static int64_t values[5000];
+    for (size_t i = 0; i < COUNT_OF(values); i++) {
+        values[i] = (int64_t)i * 20;
+    }
+    check_percentiles(values, COUNT_OF(values)); /* uniform */
+    for (size_t i = 0; i < COUNT_OF(values); i++) {
+        values[i] = (int64_t)(10.0 * exp(0.008 * (double)i)); /* logarithmic, to 2.3e18 ns */
+    }
+    check_percentiles(values, COUNT_OF(values));
+    for (size_t i = 0; i < COUNT_OF(values); i++) {
+        values[i] = i < 4900 ? 230 : 1000000; /* 2 % outliers: the 99th percentile is one of them, the 90th is not */
+    }
+    check_percentiles(values, COUNT_OF(values));
+}
+
+TEST(every_single_value_is_told_within_three_percent) {
+    uint64_t random = 99;
+    for (int i = 0; i < 2000; i++) {
+        const int64_t value = (int64_t)(random_bits(&random) >> (1 + i % 63));
+        check_percentiles(&value, 1);
+    }
+}
+
+TEST(values_below_32_are_told_exactly) {
+    for (int64_t value = 0; value < 32; value++) {
+        memset(&histogram, 0, sizeof histogram);
+        knurl_histogram_add(&histogram, value);
+        CHECK_SAME(knurl_histogram_percentile(&histogram, 0.5), (long double)value);
+    }
+}
+
+TEST(an_empty_histogram_gives_zero_and_its_extremes_hold) {
+    memset(&histogram, 0, sizeof histogram);
+    CHECK_SAME(knurl_histogram_percentile(&histogram, 0.5), 0.0L);
+    knurl_histogram_add(&histogram, INT64_MIN);
+    knurl_histogram_add(&histogram, -1);
+    CHECK_SAME(knurl_histogram_percentile(&histogram, 1.0), 0.0L);
+    assert_int_equal(histogram.max, 0);
+    knurl_histogram_add(&histogram, INT64_MAX);
+    CHECK_CLOSE(knurl_histogram_percentile(&histogram, 1.0), 9.223372036854775807e18L, 0.03L * 9.3e18L);
+    CHECK_SAME(knurl_histogram_percentile(&histogram, 0.0), 0.0L);
+    assert_true(histogram.max == (uint64_t)INT64_MAX);
+}
+
+/* --- snapshots --- */
+
+typedef struct snapshot {
+    uint64_t words[16];
+} snapshot;
+
+typedef struct published {
+    KNURL_SEQLOCK(snapshot) lock;
+    uint32_t done;
+} published;
+
+#define SNAPSHOTS 200000
+
+static void *write_snapshots(void *argument) {
+    published *p = argument;
+    snapshot value;
+    for (uint64_t i = 1; i <= SNAPSHOTS; i++) {
+        for (size_t word = 0; word < COUNT_OF(value.words); word++) {
+            value.words[word] = i * (word + 1);
+        }
+        knurl_seqlock_write(&p->lock.sequence, p->lock.words, &value, sizeof value);
+    }
+    knurl_store_release(&p->done, 1u);
+    return NULL;
+}
+
+TEST(a_snapshot_is_never_torn_and_never_older_than_the_one_before) {
+    static published p;
+    pthread_t thread;
+    snapshot value;
+    uint64_t latest = 0;
+    uint32_t done = 0;
+    memset(&p, 0, sizeof p);
+    knurl_seqlock_read(&p.lock.sequence, p.lock.words, &value, sizeof value);
+    assert_int_equal(value.words[15], 0); /* zeroed memory is a valid, zero value */
+    assert_int_equal(pthread_create(&thread, NULL, write_snapshots, &p), 0);
+    while (!done) {
+        done = knurl_load_acquire(&p.done);
+        knurl_seqlock_read(&p.lock.sequence, p.lock.words, &value, sizeof value);
+        assert_true(value.words[0] >= latest);
+        latest = value.words[0];
+        for (size_t word = 0; word < COUNT_OF(value.words); word++) {
+            assert_true(value.words[word] == latest * (word + 1));
+        }
+    }
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_int_equal(latest, SNAPSHOTS); /* what is read after the last write is the last write */
+}
+
+/* --- time and threads --- */
+
+TEST(sleeping_ends_at_its_deadline_and_not_before) {
+    const int64_t start = knurl_system_now_ns();
+    knurl_system_sleep_until_ns(start + 3000000);
+    assert_true(knurl_system_now_ns() >= start + 3000000);
+    knurl_system_sleep_until_ns(start); /* long past */
+    knurl_system_sleep_until_ns(-1);
+}
+
+static void tell_id(void *argument) {
+    *(uintptr_t *)argument = knurl_system_thread_id();
+}
+
+TEST(a_thread_runs_its_entry_and_has_an_id_of_its_own) {
+    uintptr_t theirs = 0;
+    knurl_thread *thread = knurl_system_start_thread(tell_id, &theirs, (size_t)256 * 1024);
+    assert_non_null(thread);
+    knurl_system_join_thread(thread);
+    assert_true(theirs != 0 && theirs != knurl_system_thread_id());
+    assert_true(knurl_system_thread_id() != 0 && knurl_system_thread_id() == knurl_system_thread_id());
+}
+
+TEST(a_thread_that_the_system_refuses_is_null) {
+    uintptr_t theirs = 0;
+    assert_null(knurl_system_start_thread(tell_id, &theirs, 1)); /* below any system's least stack */
+    assert_int_equal(theirs, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_result_code_has_its_own_sentence),
+        cmocka_unit_test(ok_is_zero_and_every_error_is_negative),
+        cmocka_unit_test(fail_returns_its_code_and_keeps_the_sentence),
+        cmocka_unit_test(fail_makes_one_line_of_control_characters_and_leaves_utf8_alone),
+        cmocka_unit_test(fail_cuts_a_long_sentence_after_1023_bytes),
+        cmocka_unit_test(fail_may_quote_the_sentence_before),
+        cmocka_unit_test(each_thread_has_its_own_message),
+        cmocka_unit_test(version_is_that_of_the_header),
+        cmocka_unit_test(a_struct_is_written_as_long_as_the_caller_has_it),
+        cmocka_unit_test(an_older_callers_missing_fields_keep_their_defaults),
+        cmocka_unit_test(a_newer_callers_extra_fields_must_be_zero),
+        cmocka_unit_test(a_struct_whose_size_was_never_set_is_refused),
+        cmocka_unit_test(an_output_struct_is_filled_as_far_as_its_caller_knows_it),
+        cmocka_unit_test(percentiles_of_known_distributions_are_within_three_percent),
+        cmocka_unit_test(every_single_value_is_told_within_three_percent),
+        cmocka_unit_test(values_below_32_are_told_exactly),
+        cmocka_unit_test(an_empty_histogram_gives_zero_and_its_extremes_hold),
+        cmocka_unit_test(a_snapshot_is_never_torn_and_never_older_than_the_one_before),
+        cmocka_unit_test(sleeping_ends_at_its_deadline_and_not_before),
+        cmocka_unit_test(a_thread_runs_its_entry_and_has_an_id_of_its_own),
+        cmocka_unit_test(a_thread_that_the_system_refuses_is_null),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,404 @@
+/* Gratings S1 and S2 against Eqs. 10 to 13, Algorithm 7 and the paper's last table.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/paper.h"
+
+#include <knurl/grating.h>
+
+static const double origin[2] = {0.0, 0.0};
+
+static knurl_grating make_grating(int32_t method, double fsx, double fsy, double amplitude, double rate) {
+    knurl_grating grating;
+    memset(&grating, 0, sizeof(grating));
+    grating.spatial_frequency[0] = fsx;
+    grating.spatial_frequency[1] = fsy;
+    grating.amplitude = amplitude;
+    grating.update_rate_hz = rate;
+    grating.method = method;
+    assert_int_equal(knurl_grating_check(&grating), KNURL_OK);
+    return grating;
+}
+
+/* One tick at a velocity; the position is that of S2, which does not look at it. */
+static knurl_grating_output step(const knurl_grating *grating, knurl_grating_state *state, double vx, double vy) {
+    const double velocity[2] = {vx, vy};
+    knurl_grating_output out;
+    memset(&out, 0xA5, sizeof(out));
+    knurl_grating_step(grating, state, origin, velocity, &out);
+    return out;
+}
+
+/* The speed along x that gives a period of `milliticks` thousandths of a tick. */
+static double speed_for(const knurl_grating *grating, int64_t milliticks) {
+    return grating->update_rate_hz * 1000.0 / ((double)milliticks * grating->spatial_frequency[0]);
+}
+
+TEST(s1_line_is_high_while_the_fractional_phase_is_below_half) {
+    /* Eq. 10 with the last table's rule at exactly one half; 1024 cycles a metre: exact phases */
+    for (int64_t eighth = -64; eighth <= 64; eighth++) {
+        const double expected = (eighth + 64) % 8 < 4 ? 0.5 : -0.5;
+        CHECK_SAME(knurl_grating_s1_line((double)eighth / 8192.0, 1024.0, 0.5), expected);
+    }
+    CHECK_SAME(knurl_grating_s1_line(1.0 / 2048.0, 1024.0, 0.5), -0.5);
+    CHECK_SAME(knurl_grating_s1_line(-1.0 / 2048.0, 1024.0, 0.5), -0.5);
+    CHECK_SAME(knurl_grating_s1_line(-1e-6, 1024.0, 0.5), -0.5);
+    CHECK_SAME(knurl_grating_s1_line(-1e-25, 1024.0, 0.5), -0.5);
+    CHECK_SAME(knurl_grating_s1_line(0.4, 0.0, 0.5), 0.5);
+}
+
+TEST(s1_line_alternates_at_half_a_period_a_tick) {
+    /* as Algorithm 1 at T = 2 ticks; Eq. 10 as printed never changes sign here */
+    for (int64_t k = -20; k <= 20; k++) {
+        CHECK_SAME(knurl_grating_s1_line((double)k / 2048.0, 1024.0, 1.0), k % 2 == 0 ? 1.0 : -1.0);
+    }
+}
+
+TEST(s1_line_follows_the_sign_of_the_sine) {
+    const long double pi = acosl(-1.0L);
+    uint64_t seed = 1;
+    for (int i = 0; i < 20000; i++) {
+        const double x = random_between(&seed, -0.1, 0.1);
+        const double fs = random_between(&seed, 10.0, 3000.0);
+        const long double sine = sinl(2.0L * pi * fs * x);
+        if (fabsl(sine) > 1e-9L) {
+            CHECK_SAME(knurl_grating_s1_line(x, fs, 0.3), sine >= 0.0L ? 0.3 : -0.3);
+        }
+    }
+}
+
+TEST(s1_follows_the_product_of_cosines) {
+    const long double pi = acosl(-1.0L);
+    uint64_t seed = 2;
+    for (int i = 0; i < 20000; i++) {
+        const double x[2] = {random_between(&seed, -0.1, 0.1), random_between(&seed, -0.1, 0.1)};
+        const double fs[2] = {random_between(&seed, 10.0, 3000.0),
+                              i % 8 == 0 ? 0.0 : random_between(&seed, 1.0, 900.0)};
+        const long double product = cosl(2.0L * pi * fs[0] * x[0]) * cosl(2.0L * pi * fs[1] * x[1]);
+        if (fabsl(product) > 1e-9L) {
+            CHECK_SAME(knurl_grating_s1(x, fs, 0.3), product >= 0.0L ? 0.3 : -0.3);
+        }
+    }
+}
+
+TEST(s1_on_an_axis_is_the_line_a_quarter_period_on) {
+    static const double both[2] = {512.0, 256.0};
+    static const double bars[2] = {512.0, 0.0};
+    for (int64_t i = -64; i <= 64; i++) { /* sixteenths of a period: every edge is met exactly */
+        const double x[2] = {(double)i / 8192.0, 0.0};
+        const double y[2] = {0.0, (double)i / 4096.0};
+        const double aside[2] = {x[0], 0.7};
+        const double expected = knurl_grating_s1_line(x[0] + 1.0 / 2048.0, 512.0, 1.0);
+        CHECK_SAME(expected, (i + 68) % 16 < 8 ? 1.0 : -1.0);
+        CHECK_SAME(knurl_grating_s1(x, both, 1.0), expected);
+        CHECK_SAME(knurl_grating_s1(y, both, 1.0), expected);
+        CHECK_SAME(knurl_grating_s1(aside, bars, 1.0), expected);
+    }
+}
+
+TEST(s1_step_looks_the_height_up_and_plays_no_event) {
+    const knurl_grating grating = make_grating(KNURL_S1, 1000.0, 500.0, 0.002, 1000.0);
+    const double velocity[2] = {0.25, 0.0};
+    knurl_grating_state s = {0};
+    knurl_grating_output out;
+    uint64_t seed = 3;
+    for (int i = 0; i < 1000; i++) {
+        const double x[2] = {random_between(&seed, -0.1, 0.1), random_between(&seed, -0.1, 0.1)};
+        knurl_grating_step(&grating, &s, x, velocity, &out);
+        CHECK_SAME(out.height, knurl_grating_s1(x, grating.spatial_frequency, 0.002));
+        assert_true(out.event == KNURL_NO_EVENT);
+        CHECK_SAME(out.temporal_frequency, 250.0);
+        assert_int_equal(out.saturated, 0);
+    }
+}
+
+TEST(frequency_is_eqs_12_and_13_without_trigonometry) {
+    uint64_t seed = 4;
+    for (int i = 0; i < 20000; i++) {
+        const double fs[2] = {random_between(&seed, 1.0, 3000.0), random_between(&seed, 1.0, 3000.0)};
+        const double v[2] = {random_between(&seed, -0.5, 0.5), random_between(&seed, -0.5, 0.5)};
+        const long double theta = atan2l(fabsl((long double)v[1]), fabsl((long double)v[0]));
+        const long double edge = atan2l((long double)fs[0], (long double)fs[1]);
+        const long double along = theta <= edge ? fs[0] * cosl(theta) : fs[1] * sinl(theta);
+        const long double expected = along * hypotl((long double)v[0], (long double)v[1]);
+        CHECK_CLOSE(knurl_grating_frequency(fs, v), expected, 1e-14L * expected);
+    }
+}
+
+TEST(frequency_along_the_ridges_is_exactly_zero) {
+    static const double bars[2] = {1000.0, 0.0};
+    static const double along[2] = {0.0, -0.25}; /* cos(pi/2) is 6e-17 and not 0 */
+    static const double across[2] = {-0.25, 0.1};
+    CHECK_SAME(knurl_grating_frequency(bars, along), 0.0);
+    CHECK_SAME(knurl_grating_frequency(bars, across), 250.0);
+}
+
+TEST(output_reports_frequencies_in_the_direction_of_motion) {
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2};
+    for (size_t i = 0; i < COUNT_OF(methods); i++) {
+        const knurl_grating grating = make_grating(methods[i], 1000.0, 500.0, 1.0, 1000.0);
+        knurl_grating_state s = {0};
+        knurl_grating_output out = step(&grating, &s, 0.03, -0.04); /* cos = 0.6, sin = 0.8: max(30, 20) Hz */
+        CHECK_CLOSE(out.temporal_frequency, 30.0, 1e-12L);
+        CHECK_CLOSE(out.spatial_frequency, 600.0, 1e-9L);
+        out = step(&grating, &s, 0.0, 0.0);
+        CHECK_SAME(out.temporal_frequency, 0.0);
+        CHECK_SAME(out.spatial_frequency, 0.0);
+    }
+}
+
+TEST(s2_at_constant_speed_is_t3_events_end_to_end) {
+    for (int64_t m = 2003; m <= 24000; m += 97) {
+        const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 0.0027, 1000.0);
+        const int64_t length = paper_t3_length(m);
+        knurl_grating_state s = {0};
+        for (int64_t k = 0; k < 60; k++) {
+            const knurl_grating_output out = step(&grating, &s, speed_for(&grating, m), 0.0);
+            CHECK_CLOSE(out.height, paper_t3((uint64_t)(k % length), m, 0.0027L), 1e-16L);
+            assert_true(out.event == k / length);
+            assert_true(s.event_count == k / length + 1);
+        }
+    }
+}
+
+TEST(s2_thresholds_are_decided_on_ticks_at_every_rate) {
+    static const double rates[] = {1000.0, 2000.0, 3000.0, 10000.0};
+    static const double frequencies[] = {300.0, 1000.0, 1400.0, 2100.0};
+    static const int64_t periods[] = {2250, 2750, 3500, 4500, 5500, 22500};
+    for (size_t i = 0; i < COUNT_OF(rates) * COUNT_OF(frequencies) * COUNT_OF(periods); i++) {
+        const int64_t m = periods[i % 6];
+        const knurl_grating grating = make_grating(KNURL_S2, frequencies[i / 6 % 4], 0.0, 1.0, rates[i / 24]);
+        knurl_grating_state s = {0};
+        (void)step(&grating, &s, speed_for(&grating, m), 0.0);
+        assert_int_equal(s.event.length, paper_t3_length(m));
+    }
+}
+
+TEST(s2_at_400_hz_plays_the_six_tick_mix_to_its_end) {
+    const knurl_grating grating = make_grating(KNURL_S2, 1600.0, 0.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    /* Algorithm 7 as printed asks again with Ta = 6 and plays +++--- from the second tick on */
+    for (int64_t k = 0; k < 6; k++) {
+        const double later[] = {0.25, 0.25, 0.02, 0.0, 0.2, 0.3}; /* 400 Hz at the start; the rest must not matter */
+        CHECK_CLOSE(step(&grating, &s, later[k], 0.0).height, paper_mixed((uint64_t)k, 1.0L), 1e-15L);
+    }
+    for (int64_t k = 0; k < 12; k++) {
+        CHECK_CLOSE(step(&grating, &s, 0.25, 0.0).height, paper_mixed((uint64_t)k, 1.0L), 1e-15L);
+    }
+}
+
+TEST(s2_holds_amplitude_and_period_until_the_event_ends) {
+    knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    for (uint64_t k = 0; k < 12; k++) { /* five ticks of amplitude 1, then seven of 3 */
+        const long double expected = k < 5 ? paper_t3(k, 5000, 1.0L) : paper_t3(k - 5, 7000, 3.0L);
+        CHECK_CLOSE(step(&grating, &s, k == 0 ? 0.2 : 1.0 / 7.0, 0.0).height, expected, 1e-15L);
+        grating.amplitude = 3.0;
+        grating.spatial_frequency[1] = 100.0;
+    }
+}
+
+TEST(s2_starts_no_event_below_one_millimetre_a_second) {
+    static const double slow[][2] = {{0.0, 0.0}, {0.000999, 0.0}, {-0.000999, 0.0}, {0.0007, 0.0007}, {0.0, 0.000999}};
+    static const double moving[][2] = {{0.001, 0.0}, {-0.001, 0.0}, {0.0008, 0.0008}, {0.0, -0.001001}};
+    const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 1000.0, 1.0, 1000.0);
+    for (size_t i = 0; i < COUNT_OF(slow); i++) {
+        knurl_grating_state s = {0};
+        const knurl_grating_output out = step(&grating, &s, slow[i][0], slow[i][1]);
+        CHECK_SAME(out.height, 0.0);
+        assert_true(out.event == KNURL_NO_EVENT);
+        assert_true(s.event_count == 0);
+    }
+    for (size_t i = 0; i < COUNT_OF(moving); i++) {
+        knurl_grating_state s = {0};
+        const knurl_grating_output out = step(&grating, &s, moving[i][0], moving[i][1]);
+        assert_true(out.height > 0.0);
+        assert_true(out.event == 0);
+    }
+}
+
+TEST(s2_plays_a_started_event_to_its_end_after_the_stop) {
+    const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    for (uint64_t k = 0; k < 12; k++) {
+        const knurl_grating_output out = step(&grating, &s, k == 0 ? 1.0 / 7.0 : 0.0, 0.0);
+        CHECK_CLOSE(out.height, k < 7 ? paper_t3(k, 7000, 1.0L) : 0.0L, k < 7 ? 1e-15L : 0.0L);
+        assert_true(out.event == (k < 7 ? 0 : KNURL_NO_EVENT));
+    }
+    assert_true(step(&grating, &s, 0.25, 0.0).event == 1);
+}
+
+TEST(s2_along_the_ridges_of_bars_stays_idle) {
+    const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    for (int k = 0; k < 100; k++) {
+        const knurl_grating_output out = step(&grating, &s, 0.0, 0.25);
+        CHECK_SAME(out.height, 0.0);
+        assert_true(out.event == KNURL_NO_EVENT);
+        CHECK_SAME(out.temporal_frequency, 0.0);
+    }
+    assert_int_equal(s.playing, 0);
+}
+
+/* Cycles played over cycles crossed, in a whole number of both: 84 x 3499 ticks. */
+static long double played_per_crossed(int64_t milliticks, double rate) {
+    const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, rate);
+    const int64_t ticks = INT64_C(84) * 3499;
+    knurl_grating_state s = {0};
+    for (int64_t k = 0; k < ticks; k++) {
+        (void)step(&grating, &s, speed_for(&grating, milliticks), 0.0);
+    }
+    return (long double)s.event_count * (long double)milliticks / (1000.0L * (long double)ticks);
+}
+
+TEST(s2_drifts_by_16_7_percent_below_3_5_ticks_and_12_5_at_it) {
+    CHECK_CLOSE(played_per_crossed(3499, 1000.0), 1.0L + 1.0L / 6.0L, 5e-4L);
+    CHECK_CLOSE(played_per_crossed(3500, 1000.0), 1.0L - 1.0L / 8.0L, 1e-5L);
+    CHECK_CLOSE(played_per_crossed(3500, 3500.0), 1.0L - 1.0L / 8.0L, 1e-5L);
+}
+
+TEST(above_half_the_update_rate_is_flagged_and_played_at_two_ticks) {
+    const knurl_grating s1 = make_grating(KNURL_S1, 4000.0, 0.0, 1.0, 1000.0);
+    const knurl_grating s2 = make_grating(KNURL_S2, 4000.0, 0.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    for (uint64_t k = 0; k < 10; k++) {
+        const knurl_grating_output out = step(&s2, &s, 0.25, 0.0);
+        CHECK_SAME(out.height, paper_square(k, 2, 1));
+        CHECK_SAME(out.temporal_frequency, 1000.0); /* unclamped */
+        assert_int_equal(out.saturated, 1);
+    }
+    assert_int_equal(step(&s1, &s, 0.25, 0.0).saturated, 1);
+    assert_int_equal(step(&s1, &s, 0.125, 0.0).saturated, 0); /* exactly half */
+    assert_int_equal(step(&s2, &s, 0.125, 0.0).saturated, 0);
+}
+
+TEST(every_complete_event_has_no_impulse_and_rms_of_its_amplitude) {
+    knurl_grating grating = make_grating(KNURL_S2, 1000.0, 400.0, 1.0, 1000.0);
+    knurl_grating_state s = {0};
+    long double sum = 0.0L;
+    long double squares = 0.0L;
+    long double amplitude = 0.0L;
+    int64_t ticks = 0;
+    int64_t last = 0;
+    uint64_t seed = 5;
+    while (last < 20000) {
+        const double v[2] = {random_between(&seed, -0.5, 0.5), random_between(&seed, -0.5, 0.5)};
+        const knurl_grating_output out = step(&grating, &s, v[0], v[1]);
+        if (out.event != last) {
+            CHECK_CLOSE(sum, 0.0L, 1e-12L * (long double)ticks);
+            CHECK_CLOSE(sqrtl(squares / (long double)ticks), amplitude, 1e-12L);
+            assert_true(out.event == last + 1);
+            sum = squares = 0.0L;
+            ticks = 0;
+            last = out.event;
+        }
+        amplitude = ticks == 0 ? grating.amplitude : amplitude;
+        sum += out.height;
+        squares += (long double)out.height * out.height;
+        ticks++;
+        grating.amplitude = random_between(&seed, 0.1, 2.0);
+    }
+}
+
+TEST(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event) {
+    static const double coarse[] = {1e-3, 1e-9, 1e-300};
+    for (size_t i = 0; i < COUNT_OF(coarse); i++) {
+        const knurl_grating grating = make_grating(KNURL_S2, coarse[i], 0.0, 1.0, 100000.0);
+        knurl_grating_state s = {0};
+        for (int k = 0; k < 100; k++) {
+            CHECK_CLOSE(step(&grating, &s, 0.001, 0.0).height, 0.5L, 0.5L); /* 0 or A: never NaN */
+        }
+    }
+}
+
+TEST(default_method_is_resolved_to_s2) {
+    assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_S2);
+    assert_int_equal(make_grating(KNURL_S1, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_S1);
+    assert_int_equal(make_grating(KNURL_S2, 0.0, 0.0, 0.0, 1.0).method, KNURL_S2);
+    assert_int_equal(make_grating(KNURL_S2, 1.0, 0.0, 0.0, 100000.0).method, KNURL_S2);
+}
+
+TEST(locked_and_unknown_methods_are_refused_with_a_sentence) {
+    static const int32_t unknown[] = {-1, 4, 1000};
+    knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
+    grating.method = KNURL_LOCKED;
+    CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_UNSUPPORTED, grating);
+    assert_non_null(strchr(knurl_error_message(), ' '));
+    for (size_t i = 0; i < COUNT_OF(unknown); i++) {
+        grating.method = unknown[i];
+        CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_UNKNOWN, grating);
+    }
+}
+
+TEST(bad_gratings_are_refused_and_left_as_they_were) {
+    static const double bad[][4] = {/* fsx, fsy, amplitude, rate */
+                                    {-1.0, 0.0, 1.0, 1000.0},
+                                    {0.0, -1.0, 1.0, 1000.0},
+                                    {(double)NAN, 0.0, 1.0, 1000.0},
+                                    {0.0, (double)INFINITY, 1.0, 1000.0},
+                                    {1.0, 1.0, -1.0, 1000.0},
+                                    {1.0, 1.0, (double)NAN, 1000.0},
+                                    {1.0, 1.0, (double)INFINITY, 1000.0},
+                                    {1.0, 1.0, 1.0, 0.0},
+                                    {1.0, 1.0, 1.0, 1e9},
+                                    {1.0, 1.0, 1.0, (double)NAN}};
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        knurl_grating grating = {{bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], KNURL_METHOD_DEFAULT, 0};
+        CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_ARGUMENT, grating);
+    }
+}
+
+TEST(names_of_methods_go_both_ways) {
+    static const char *const names[] = {"S1", "S2", "locked"};
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+    int32_t method = 77;
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        assert_string_equal(knurl_method_name(methods[i]), names[i]);
+        assert_int_equal(knurl_method_from_name(names[i], &method), KNURL_OK);
+        assert_int_equal(method, methods[i]);
+    }
+    assert_null(knurl_method_name(KNURL_METHOD_DEFAULT));
+    assert_null(knurl_method_name(-1));
+    assert_null(knurl_method_name(4));
+}
+
+TEST(unknown_names_are_refused_with_the_known_ones) {
+    static const char *const names[] = {"", "s2", "S3", "S22", "S", "lock", "Locked"};
+    int32_t method = 77;
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        CHECK_REFUSED(knurl_method_from_name(names[i], &method), KNURL_ERROR_UNKNOWN, method);
+        assert_non_null(strstr(knurl_error_message(), "S1"));
+        assert_non_null(strstr(knurl_error_message(), "S2"));
+        assert_non_null(strstr(knurl_error_message(), "locked"));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(s1_line_is_high_while_the_fractional_phase_is_below_half),
+        cmocka_unit_test(s1_line_alternates_at_half_a_period_a_tick),
+        cmocka_unit_test(s1_line_follows_the_sign_of_the_sine),
+        cmocka_unit_test(s1_follows_the_product_of_cosines),
+        cmocka_unit_test(s1_on_an_axis_is_the_line_a_quarter_period_on),
+        cmocka_unit_test(s1_step_looks_the_height_up_and_plays_no_event),
+        cmocka_unit_test(frequency_is_eqs_12_and_13_without_trigonometry),
+        cmocka_unit_test(frequency_along_the_ridges_is_exactly_zero),
+        cmocka_unit_test(output_reports_frequencies_in_the_direction_of_motion),
+        cmocka_unit_test(s2_at_constant_speed_is_t3_events_end_to_end),
+        cmocka_unit_test(s2_thresholds_are_decided_on_ticks_at_every_rate),
+        cmocka_unit_test(s2_at_400_hz_plays_the_six_tick_mix_to_its_end),
+        cmocka_unit_test(s2_holds_amplitude_and_period_until_the_event_ends),
+        cmocka_unit_test(s2_starts_no_event_below_one_millimetre_a_second),
+        cmocka_unit_test(s2_plays_a_started_event_to_its_end_after_the_stop),
+        cmocka_unit_test(s2_along_the_ridges_of_bars_stays_idle),
+        cmocka_unit_test(s2_drifts_by_16_7_percent_below_3_5_ticks_and_12_5_at_it),
+        cmocka_unit_test(above_half_the_update_rate_is_flagged_and_played_at_two_ticks),
+        cmocka_unit_test(every_complete_event_has_no_impulse_and_rms_of_its_amplitude),
+        cmocka_unit_test(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event),
+        cmocka_unit_test(default_method_is_resolved_to_s2),
+        cmocka_unit_test(locked_and_unknown_methods_are_refused_with_a_sentence),
+        cmocka_unit_test(bad_gratings_are_refused_and_left_as_they_were),
+        cmocka_unit_test(names_of_methods_go_both_ways),
+        cmocka_unit_test(unknown_names_are_refused_with_the_known_ones),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
