@@ -99,11 +99,11 @@ static void shake(knurl_hand *hand, double dt, double target[3]) {
 }
 
 /* Where a point that goes back and forth over +-reach is after a path from the middle: a triangle wave whose turns are
- * rounded, as a hand's are. Nowhere faster than the path; at its full speed in the middle, at half of it 5 % before an
+ * rounded, as a hand's are. Nowhere faster than the path; at its full speed in the middle, at half of it 2 % before an
  * end. */
 static double back_and_forth(double path, double reach) {
-    const double roundness =
-        0.9; /* 0: a sine, 1: sharp turns, at which the hand's spring throws the mass past 300 mm/s */
+    /* 0 is a sine, 1 turns so sharply that the hand's spring throws the mass past 300 mm/s */
+    const double roundness = 0.98;
     const double quarter = asin(roundness);
     return reach / quarter * asin(roundness * sin(path * quarter / (roundness * reach)));
 }
