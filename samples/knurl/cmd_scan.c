@@ -36,11 +36,11 @@ static void print_scan(const knurl_grating *grating, const tool_table *table, in
         next_motion(&table->cells[2 * tick], is_position, tick, grating->update_rate_hz, &m);
         knurl_grating_step(grating, &state, m.position, m.velocity, &output);
         printf("%llu,", (unsigned long long)tick);
-        tool_print_number(stdout, output.height);
+        out_number(stdout, output.height);
         putchar(',');
-        tool_print_number(stdout, output.spatial_frequency);
+        out_number(stdout, output.spatial_frequency);
         putchar(',');
-        tool_print_number(stdout, output.temporal_frequency);
+        out_number(stdout, output.temporal_frequency);
         if (output.event == KNURL_NO_EVENT) {
             fputs(",none\n", stdout);
         } else {

@@ -6,49 +6,58 @@
 #include <math.h>
 #include <string.h>
 
-static int32_t method_of(const char *name) {
+int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *out) {
     static const char *const names[] = {"T1", "T2", "T3"};
     static const int32_t methods[] = {KNURL_T1, KNURL_T2, KNURL_T3};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(names[i], name) == 0) {
-            return methods[i];
-        }
+    const char *method = NULL;
+    double period_ms = NAN;
+    int32_t id = 0;
+    out->amplitude = 1.0;
+    out->rate = 1000.0;
+    const tool_option options[] = {{"--method", TOOL_TEXT, &method, 0, 0, ""},
+                                   {"--period-ms", TOOL_NUMBER, &period_ms, 1e-6, 10000.0, "ms"},
+                                   {"--amplitude", TOOL_NUMBER, &out->amplitude, 0.0, 1e6, ""},
+                                   {"--rate", TOOL_NUMBER, &out->rate, 1.0, 100000.0, "Hz"},
+                                   *more};
+    if (tool_parse(argc, argv, options, sizeof options / sizeof *options, NULL) != TOOL_OK) {
+        return TOOL_USAGE;
     }
-    return 0;
+    if (!method || isnan(period_ms)) {
+        return tool_error(TOOL_USAGE, "%s: expected --method and --period-ms, found %s", argv[0],
+                          method ? "no --period-ms" : "no --method");
+    }
+    for (int i = 0; i < 3; i++) {
+        id = strcmp(names[i], method) == 0 ? methods[i] : id;
+    }
+    if (!id) {
+        return tool_error(TOOL_USAGE, "%s: --method: expected T1, T2 or T3, found '%s'", argv[0], method);
+    }
+    out->period_s = period_ms / 1000.0;
+    if (knurl_wave_init(id, out->period_s, out->amplitude, out->rate, &out->wave)) {
+        return tool_library_error(TOOL_USAGE, argv[0]);
+    }
+    if (out->wave.saturated) {
+        fprintf(stderr, "knurl: note: %g ms is below two updates at %g Hz; two updates are played\n", period_ms,
+                out->rate);
+    }
+    return TOOL_OK;
 }
 
 int cmd_signal(int argc, char **argv) {
-    const char *method = NULL;
-    double period_ms = NAN;
-    double amplitude = 1.0;
-    double rate = 1000.0;
+    tool_wave signal;
     double ticks = NAN;
-    const tool_option options[] = {{"--method", TOOL_TEXT, &method, 0, 0, ""},
-                                   {"--period-ms", TOOL_NUMBER, &period_ms, 1e-6, 10000.0, "ms"},
-                                   {"--amplitude", TOOL_NUMBER, &amplitude, 0.0, 1e6, ""},
-                                   {"--rate", TOOL_NUMBER, &rate, 1.0, 100000.0, "Hz"},
-                                   {"--ticks", TOOL_NUMBER, &ticks, 1.0, 1e9, ""}};
-    if (tool_parse(argc, argv, options, 5, NULL) != TOOL_OK) {
-        return TOOL_USAGE;
+    const tool_option option = {"--ticks", TOOL_NUMBER, &ticks, 1.0, 1e9, ""};
+    const int code = tool_read_wave(argc, argv, &option, &signal);
+    if (code != TOOL_OK) {
+        return code;
     }
-    if (!method || isnan(period_ms) || isnan(ticks)) {
-        return tool_error(TOOL_USAGE, "signal: expected --method, --period-ms and --ticks, found %s",
-                          method ? "one of the numbers missing" : "no --method");
-    }
-    if (!method_of(method)) {
-        return tool_error(TOOL_USAGE, "signal: --method: expected T1, T2 or T3, found '%s'", method);
-    }
-    knurl_wave wave;
-    if (knurl_wave_init(method_of(method), period_ms / 1000.0, amplitude, rate, &wave)) {
-        return tool_library_error(TOOL_USAGE, "signal");
-    }
-    if (wave.saturated) {
-        fprintf(stderr, "knurl: note: %g ms is below two updates at %g Hz; two updates are played\n", period_ms, rate);
+    if (isnan(ticks)) {
+        return tool_error(TOOL_USAGE, "signal: expected --ticks, found none");
     }
     fputs("tick,value\n", stdout);
     for (uint64_t tick = 0; tick < (uint64_t)ticks; tick++) {
         printf("%llu,", (unsigned long long)tick);
-        tool_print_number(stdout, knurl_wave_value(&wave, tick));
+        out_number(stdout, knurl_wave_value(&signal.wave, tick));
         putchar('\n');
     }
     return TOOL_OK;

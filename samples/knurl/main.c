@@ -22,8 +22,11 @@ static const char help[] =
     "      --pretty                        JSON over several lines\n"
     "  knurl signal --method T1|T2|T3 --period-ms P --amplitude A --rate HZ --ticks N\n"
     "                                      a temporal vibration (CSV: tick,value)\n"
+    "  knurl metrics --method T1|T2|T3 --period-ms P --amplitude A --rate HZ\n"
+    "                                      what such a vibration is worth, over whole actual periods (JSON)\n"
     "  knurl scan --method S1|S2 --fs FSX,FSY --amplitude A --rate HZ --in CSV\n"
     "                                      a grating under given positions x,y or velocities vx,vy, a row a tick (CSV)\n"
+    "  knurl study NAME --out DIR          a figure or chart as CSV and JSON; plot.py draws it\n"
     "  knurl devices [--json]              the kinds of device, and the fake one's settings\n"
     "  knurl --version\n"
     "\n"
@@ -63,8 +66,8 @@ static int cmd_devices(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {
-    {"inspect", cmd_inspect}, {"run", cmd_run}, {"signal", cmd_signal}, {"scan", cmd_scan}, {"devices", cmd_devices}};
+} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal},  {"metrics", cmd_metrics},
+                {"scan", cmd_scan},       {"study", cmd_study}, {"devices", cmd_devices}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -86,9 +89,10 @@ static int run_command(int argc, char **argv) {
             return commands[i].run(argc - 1, argv + 1);
         }
     }
-    return tool_error(TOOL_USAGE,
-                      "expected a command (inspect, run, signal, scan, devices), found '%s'; see 'knurl --help'",
-                      argv[1]);
+    return tool_error(
+        TOOL_USAGE,
+        "expected a command (inspect, run, signal, metrics, scan, study, devices), found '%s'; see 'knurl --help'",
+        argv[1]);
 }
 
 int main(int argc, char **argv) {

@@ -13,7 +13,7 @@ int recorder_open(recorder *r, const char *path, const knurl_scene *scene, doubl
         return tool_error(TOOL_FAILURE, "run: no memory to record with");
     }
     memset(r->rows, 0, RECORDER_ROWS * sizeof *r->rows);
-    const int code = tool_file_open(&r->file, path);
+    const int code = out_open(&r->file, path);
     if (code == TOOL_OK) {
         fputs("t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n", r->file.stream);
     } else {
@@ -41,7 +41,7 @@ static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
                             o->force[1], o->force[2]};
     const char *name = "none";
     for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
-        tool_print_number(f, before[i]);
+        out_number(f, before[i]);
         fputc(',', f);
     }
     if (o->surface) {
@@ -50,7 +50,7 @@ static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
     tool_print_cell(f, name);
     for (size_t i = 0; i < sizeof after / sizeof *after; i++) {
         fputc(',', f);
-        tool_print_number(f, after[i]);
+        out_number(f, after[i]);
     }
     fputc('\n', f);
 }
@@ -70,13 +70,13 @@ int recorder_close(recorder *r, int keep) {
     }
     recorder_drain(r);
     if (keep) {
-        code = tool_file_keep(&r->file);
+        code = out_keep(&r->file);
         if (r->lost > 0) {
             fprintf(stderr, "knurl: note: %llu rows could not be written in time and are missing from the CSV\n",
                     (unsigned long long)r->lost);
         }
     } else {
-        tool_file_discard(&r->file);
+        out_discard(&r->file);
     }
     free(r->rows);
     r->rows = NULL;

@@ -15,7 +15,7 @@ typedef struct recorder {
     uint64_t read;    /* by the other */
     uint64_t lost;    /* rows for which there was no room */
     const knurl_scene *scene;
-    tool_file file;
+    out_file file;
     double rate;
 } recorder;
 

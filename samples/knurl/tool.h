@@ -2,6 +2,10 @@
 #ifndef KNURL_TOOL_H
 #define KNURL_TOOL_H
 
+#include "out.h"
+
+#include <knurl/vibration.h>
+
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -33,22 +37,16 @@ int tool_parse(int argc, char **argv, const tool_option *options, size_t count, 
 /* One or two numbers with a comma between; 0 unless the whole text is that. */
 int tool_parse_pair(const char *text, double out[2]);
 
+/* A temporal signal as the options of `signal` and `metrics` name it (cmd_signal.c). */
+typedef struct tool_wave {
+    knurl_wave wave;
+    double period_s, amplitude, rate;
+} tool_wave;
+
+/* Reads --method, --period-ms, --amplitude, --rate and one option more. TOOL_OK or TOOL_USAGE. */
+int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *out);
+
 /* --- output (output.c) --- */
-
-/* A file that is there whole or not at all: it is written beside and renamed at the end. A device or pipe is written
- * straight to. */
-typedef struct tool_file {
-    FILE *stream;
-    char *path;
-    char *partial; /* null: written straight to */
-} tool_file;
-
-int tool_file_open(tool_file *file, const char *path); /* TOOL_OK or TOOL_FAILURE */
-int tool_file_keep(tool_file *file);                   /* closes and renames; TOOL_OK or TOOL_FAILURE */
-void tool_file_discard(tool_file *file);               /* closes and removes; does nothing after keep */
-
-/* The shortest decimal that reads back as the same double (15 or 17 digits); -0 is 0. */
-void tool_print_number(FILE *stream, double value);
 
 /* A CSV cell, quoted where it must be (RFC 4180). */
 void tool_print_cell(FILE *stream, const char *text);
@@ -86,6 +84,8 @@ int tool_csv_has(const char *path, const char *name);
 int cmd_inspect(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_signal(int argc, char **argv);
+int cmd_metrics(int argc, char **argv);
 int cmd_scan(int argc, char **argv);
+int cmd_study(int argc, char **argv);
 
 #endif

@@ -1,0 +1,58 @@
+/* knurl metrics: what a temporal vibration is worth. SPDX-License-Identifier: MIT */
+#include "metrics.h"
+#include "tool.h"
+
+#include <knurl/knurl.h>
+
+#include <math.h>
+
+/* This signal beside the other methods' at the same period. */
+static void print_correlations(tool_json *json, const tool_wave *asked, const study_signal *signal) {
+    static const char *const names[] = {"T1", "T2", "T3"};
+    static const int32_t methods[] = {KNURL_T1, KNURL_T2, KNURL_T3};
+    json_open(json, "pcc", '{');
+    for (int i = 0; i < 3; i++) {
+        knurl_wave wave;
+        study_signal other;
+        if (knurl_wave_init(methods[i], asked->period_s, asked->amplitude, asked->rate, &wave) ||
+            !study_signal_of_wave(&wave, asked->rate, &other)) {
+            json_number(json, names[i], NAN); /* null: no whole period within reach */
+            continue;
+        }
+        json_number(json, names[i], study_pcc(signal, &other));
+        study_signal_free(&other);
+    }
+    json_close(json, '}');
+}
+
+int cmd_metrics(int argc, char **argv) {
+    tool_wave asked;
+    study_signal signal;
+    study_line dominant;
+    int pretty = 0;
+    const tool_option option = {"--pretty", TOOL_FLAG, &pretty, 0, 0, ""};
+    const int code = tool_read_wave(argc, argv, &option, &asked);
+    if (code != TOOL_OK) {
+        return code;
+    }
+    if (!study_signal_of_wave(&asked.wave, asked.rate, &signal)) {
+        return tool_error(TOOL_FAILURE, "metrics: no whole number of periods of %g ms within %d ticks",
+                          1e3 * asked.period_s, STUDY_MAX_PERIOD);
+    }
+    if (!study_dominant(&signal, &dominant)) {
+        study_signal_free(&signal);
+        return tool_error(TOOL_FAILURE, "metrics: no memory");
+    }
+    tool_json json = {pretty, 0, 1};
+    json_open(&json, NULL, '{');
+    json_number(&json, "actual_period_ms", 1e3 * (double)signal.length / asked.rate);
+    json_number(&json, "dominant_hz", dominant.frequency);
+    json_number(&json, "dominant_amplitude", dominant.amplitude);
+    json_number(&json, "net", study_net(&signal));
+    json_number(&json, "rms", study_rms(&signal));
+    print_correlations(&json, &asked, &signal);
+    json_close(&json, '}');
+    json_end(&json);
+    study_signal_free(&signal);
+    return TOOL_OK;
+}

@@ -1,0 +1,38 @@
+/* The studies: each draws one of the paper's figures, or one of this project's charts, as numbers. A study writes
+ * DIR/NAME.csv (a header, then rows) and DIR/NAME.json (what the figure says, in numbers); plot.py draws the two.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_H
+#define KNURL_STUDY_H
+
+#include "metrics.h"
+#include "out.h"
+
+/** One study. Progress goes to stderr where that is a terminal. */
+typedef struct study {
+    const char *name;
+    const char *about;              /**< one line, for the help */
+    int (*run)(const char *folder); /**< 0 done, 1 failed having said why in one line on stderr */
+} study;
+
+/** All of them, in the paper's order, ended by a null name (studies.c). */
+extern const study studies[];
+
+int study_signals(const char *folder);     /* figure 2 */
+int study_coverage(const char *folder);    /* figure 3 */
+int study_temporal(const char *folder);    /* figure 4 */
+int study_device(const char *folder);      /* figure 11 */
+int study_gratings(const char *folder);    /* figure 6 and section III */
+int study_preferences(const char *folder); /* figure 8 and Experiment 3 */
+int study_tradeoff(const char *folder);    /* cost against accuracy */
+
+/** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
+ * why. */
+int study_open(out_file *file, const char *folder, const char *name);
+
+/** A number into JSON (out_number(), with null for what is not finite). */
+void study_json_number(FILE *stream, double value);
+
+/** "  name: 40 %" on a terminal; nothing in a pipe. share: 0..1; 1 ends the line. */
+void study_progress(const char *name, double share);
+
+#endif
