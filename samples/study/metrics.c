@@ -1,7 +1,7 @@
 /* Metrics of held periodic signals. SPDX-License-Identifier: MIT */
 #include "metrics.h"
 
-#include <kiss_fftr.h>
+#include <kiss_fft.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,9 +18,7 @@ static size_t gcd(size_t a, size_t b) {
     return a;
 }
 
-/* The least whole number of ticks that is a whole number of periods (to 1e-9 of it, as T1 decides its edges); 0: none.
- */
-static size_t whole_periods(double period_ticks) {
+size_t study_whole_ticks(double period_ticks) {
     for (size_t cycles = 1; (double)cycles * period_ticks <= STUDY_MAX_PERIOD; cycles++) {
         const double ticks = (double)cycles * period_ticks;
         const double whole = floor(ticks + 0.5);
@@ -33,7 +31,7 @@ static size_t whole_periods(double period_ticks) {
 
 static size_t actual_period(const knurl_wave *wave) {
     if (wave->method == KNURL_T1) {
-        return whole_periods(wave->period_ticks);
+        return study_whole_ticks(wave->period_ticks);
     }
     size_t period = 1;
     for (int32_t i = 0; i < wave->part_count; i++) {
@@ -103,34 +101,48 @@ double study_line_amplitude(const study_signal *signal, size_t line) {
     return 2.0 * hypot(re, im) / (double)n * fabs(sinc((double)line / (double)n));
 }
 
-int study_dominant(const study_signal *signal, study_line *line) {
-    /* kiss_fftr wants an even length: two periods are as good as one, with every other line empty */
-    const size_t n = 2 * signal->length;
-    kiss_fftr_cfg plan = kiss_fftr_alloc((int)n, 0, NULL, NULL);
-    kiss_fft_scalar *in = malloc(n * sizeof *in);
-    kiss_fft_cpx *out = malloc((n / 2 + 1) * sizeof *out);
-    const int ready = plan && in && out;
-    if (ready) {
+/* |DFT| / length for lines 0 to length - 1, in single precision; free it. Null where memory is not to be had. */
+static double *magnitudes(const study_signal *signal) {
+    const size_t n = signal->length;
+    kiss_fft_cfg plan = kiss_fft_alloc((int)n, 0, NULL, NULL);
+    kiss_fft_cpx *in = malloc(n * sizeof *in);
+    kiss_fft_cpx *out = malloc(n * sizeof *out);
+    double *bins = malloc(n * sizeof *bins);
+    if (plan && in && out && bins) {
         for (size_t i = 0; i < n; i++) {
-            in[i] = (kiss_fft_scalar)signal->values[i % signal->length];
+            in[i].r = (kiss_fft_scalar)signal->values[i];
+            in[i].i = 0;
         }
-        kiss_fftr(plan, in, out);
-        size_t best_line = 1;
-        double best = 0.0;
-        for (size_t k = 2; k <= n / 2; k += 2) {
-            const double held = hypot((double)out[k].r, (double)out[k].i) * sinc((double)k / (double)n);
-            if (held > best * (1.0 + 1e-5)) {
-                best = held;
-                best_line = k / 2;
-            }
+        kiss_fft(plan, in, out);
+        for (size_t k = 0; k < n; k++) {
+            bins[k] = hypot((double)out[k].r, (double)out[k].i) / (double)n;
         }
-        line->amplitude = study_line_amplitude(signal, best_line);
-        line->frequency = (double)best_line * signal->update_rate_hz / (double)signal->length;
+    } else {
+        free(bins);
+        bins = NULL;
     }
     free(out);
     free(in);
-    kiss_fftr_free(plan);
-    return ready;
+    kiss_fft_free(plan);
+    return bins;
+}
+
+int study_dominant(const study_signal *signal, study_line *line) {
+    double *bins = magnitudes(signal);
+    size_t best_line = 1;
+    double best = 0.0;
+    for (size_t k = 1; bins && k <= signal->length / 2; k++) {
+        const double held = bins[k] * sinc((double)k / (double)signal->length);
+        if (held > best * (1.0 + 1e-5)) {
+            best = held;
+            best_line = k;
+        }
+    }
+    line->amplitude = study_line_amplitude(signal, best_line);
+    line->frequency = (double)best_line * signal->update_rate_hz / (double)signal->length;
+    const int done = bins != NULL;
+    free(bins);
+    return done;
 }
 
 double study_pcc(const study_signal *a, const study_signal *b) {
@@ -165,21 +177,15 @@ double study_spurious(const study_signal *signal, double frequency) {
     if (fundamental < 1.0 || fabs(cycles - fundamental) > 1e-6 * cycles) {
         return 1.0; /* the period holds no whole number of true cycles: no line of it is the true one */
     }
-    double *bins = malloc(signal->length * sizeof *bins); /* each line's amplitude before the hold, once */
+    double *bins = magnitudes(signal);
     double true_power = 0.0;
-    for (size_t k = 0; bins && k < signal->length; k++) {
-        bins[k] = -1.0;
-    }
-    for (size_t q = 1; bins && q <= 20001; q += 2) {
+    for (size_t q = 1; bins && q <= 20001;
+         q += 2) { /* beyond f_h/2 the hold's images, where a square wave has harmonics */
         const size_t line = q * (size_t)fundamental;
-        const size_t bin = line % signal->length;
-        const double held = fabs(sinc((double)line / (double)signal->length));
-        if (bins[bin] < 0.0) {
-            const double base = fabs(sinc((double)bin / (double)signal->length)); /* 0 < bin/length < 1: not 0 */
-            bins[bin] = bin > 0 ? study_line_amplitude(signal, bin) / base : 0.0;
-        }
-        true_power += 0.5 * bins[bin] * bins[bin] * held * held;
+        const double held = 2.0 * bins[line % signal->length] * sinc((double)line / (double)signal->length);
+        true_power += 0.5 * held * held;
     }
+    const double spurious = bins ? fmax(0.0, 1.0 - true_power / power) : NAN;
     free(bins);
-    return fmax(0.0, 1.0 - true_power / power);
+    return spurious;
 }

@@ -24,6 +24,10 @@ typedef struct study_line {
     double amplitude; /**< peak, in the signal's unit */
 } study_line;
 
+/** The least whole number of ticks that is a whole number of periods, to 1e-9 of it (as T1 decides its edges); 0: none
+ * within STUDY_MAX_PERIOD. */
+size_t study_whole_ticks(double period_ticks);
+
 /** Plays one actual period of a wave. Returns 0 where memory or a period within STUDY_MAX_PERIOD is not to be had. */
 int study_signal_of_wave(const knurl_wave *wave, double update_rate_hz, study_signal *signal);
 
@@ -47,7 +51,7 @@ double study_line_amplitude(const study_signal *signal, size_t line);
 int study_dominant(const study_signal *signal, study_line *line);
 
 /** Pearson's correlation over the least common multiple of both periods: blind to scale and offset. NaN where either
- * does not vary, or that multiple is beyond STUDY_MAX_PERIOD^2. */
+ * does not vary, or that multiple is beyond 100 STUDY_MAX_PERIOD. */
 double study_pcc(const study_signal *a, const study_signal *b);
 
 /** The share (0..1) of the held signal's varying power outside the line at `frequency` and its odd harmonics, where a

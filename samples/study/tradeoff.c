@@ -1,7 +1,186 @@
+/* Cost against accuracy, the chart that this project is asked for: each method at each rate, with each velocity.
+ * x: ns a tick (measured in this run, the empty tick's taken off) times ticks a second; y: accuracy over steady speeds.
+ * SPDX-License-Identifier: MIT */
+#include "contender.h"
+#include "cost.h"
 #include "study.h"
 
-int study_tradeoff(const char *folder) {
-    (void)folder;
-    fputs("knurl: study: tradeoff is not built yet\n", stderr);
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Temporal frequencies: whole ones from 20 to 480 Hz, below f_h/2 at 1 kHz, and those of the paper's experiments: odd
+ * periods from 3 to 23 ms, and 2.5 ms, where the methods differ most. */
+#define WHOLE       28
+#define EXPERIMENT  12
+#define FREQUENCIES (WHOLE + EXPERIMENT)
+
+/* Means over the frequencies. */
+typedef struct accuracy {
+    double net;             /* |mean height| / A */
+    double net_worst;       /* the largest of them */
+    double frequency_error; /* |dominant - asked| / asked */
+    double beyond_jnd;      /* share of frequencies whose error is above the haptic Weber fraction, 0.38 */
+    double spurious;        /* share of power outside the dominant line and its odd harmonics */
+    double drift;           /* |played / crossed cycles - 1|; NaN for temporal methods */
+    double dropout;         /* share of crossed cycles never played; NaN for temporal methods */
+} accuracy;
+
+static double frequency_at(size_t i) {
+    if (i < WHOLE) {
+        return floor(20.0 * pow(24.0, (double)i / (WHOLE - 1)) + 0.5);
+    }
+    return i == WHOLE ? 400.0 : 1000.0 / (2.0 * (double)(i - WHOLE) + 1.0);
+}
+
+/* Ticks of a scan of about a second that holds a whole number of cycles. */
+static size_t scan_length(const study_contender *c, double frequency) {
+    const size_t whole = study_whole_ticks(c->update_rate_hz / frequency);
+    return (size_t)c->update_rate_hz / whole * whole;
+}
+
+/* The part of a rendering that is a whole number of events: what a partial event would add to the mean is not the
+ * method's. S1 and the temporal methods: whole cycles or actual periods. */
+static int render(const study_contender *c, double frequency, study_signal *signal, double *played) {
+    study_rendering r;
+    const size_t length = scan_length(c, frequency);
+    const size_t lead = 64; /* ticks: the estimators' windows fill */
+    if (study_rendering_start(&r, c, frequency)) {
+        return 0;
+    }
+    if (!c->method->spatial) {
+        return study_signal_of_wave(&r.wave, c->update_rate_hz, signal);
+    }
+    double *heights = malloc(length * sizeof *heights);
+    size_t end = length;
+    for (size_t i = 0; i < lead || (r.state.playing && i < lead + length); i++) {
+        (void)study_rendering_tick(&r);
+    }
+    r.cycles_played = 0.0;
+    for (size_t i = 0; heights && i < length; i++) {
+        heights[i] = study_rendering_tick(&r);
+        if (c->method->id != KNURL_S1 && !r.state.playing) {
+            end = i + 1;
+        }
+    }
+    *played = r.cycles_played;
+    const int made = heights && study_signal_of_values(heights, end, c->update_rate_hz, signal);
+    free(heights);
+    return made;
+}
+
+static int measure_one(const study_contender *c, double frequency, accuracy *sum) {
+    study_signal signal;
+    study_line line;
+    double played = 0.0;
+    if (!render(c, frequency, &signal, &played)) {
+        return 0;
+    }
+    const int found = study_dominant(&signal, &line);
+    if (found) {
+        const double error = fabs(line.frequency - frequency) / frequency;
+        const double crossed = frequency * (double)scan_length(c, frequency) / c->update_rate_hz;
+        const double ratio = c->method->spatial ? played / crossed : NAN;
+        const double spurious = study_spurious(&signal, line.frequency);
+        sum->net += fabs(study_net(&signal));
+        sum->net_worst = fmax(sum->net_worst, fabs(study_net(&signal)));
+        sum->frequency_error += error;
+        sum->beyond_jnd += error > 0.38;
+        sum->spurious += isnan(spurious) ? 1.0 : spurious; /* what does not vary is no vibration at all */
+        sum->drift += fabs(ratio - 1.0);
+        sum->dropout += c->method->spatial ? fmax(0.0, 1.0 - ratio) : NAN;
+    }
+    study_signal_free(&signal);
+    return found;
+}
+
+static int measure(const study_contender *c, accuracy *mean) {
+    double *const parts[] = {&mean->net,      &mean->frequency_error, &mean->beyond_jnd,
+                             &mean->spurious, &mean->drift,           &mean->dropout};
+    memset(mean, 0, sizeof *mean);
+    for (size_t i = 0; i < FREQUENCIES; i++) {
+        if (!measure_one(c, frequency_at(i), mean)) {
+            return 0;
+        }
+    }
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        *parts[i] /= FREQUENCIES;
+    }
     return 1;
+}
+
+static void print_text(FILE *f, const study_contender *c) {
+    static const char *const velocities[] = {"ideal", "difference", "foaw"};
+    fprintf(f, "%s,%g,%s,%s", c->method->name, c->update_rate_hz,
+            c->method->uses_velocity ? velocities[c->velocity] : "none",
+            !c->method->spatial   ? "none"
+            : c->resolution > 0.0 ? "0.055mm"
+                                  : "ideal");
+}
+
+static void print_row(FILE *f, const study_contender *c, const study_cost *cost, double instructions,
+                      const accuracy *a) {
+    const double cells[] = {cost->ns_median,    cost->ns_p99,  cost->ns_median * c->update_rate_hz,
+                            instructions,       a->net,        a->net_worst,
+                            a->frequency_error, a->beyond_jnd, a->spurious,
+                            a->drift,           a->dropout};
+    print_text(f, c);
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
+        fputc(',', f);
+        out_number(f, cells[i]);
+    }
+    fputc('\n', f);
+}
+
+static int print_rows(FILE *f) {
+    study_contender c;
+    size_t count = 0;
+    while (study_contender_at(count, &c)) {
+        count++;
+    }
+    fputs(
+        "method,rate_hz,velocity,positions,ns_tick,ns_tick_p99,ns_second,instructions_tick,net,net_worst,frequency_error,beyond_jnd,"
+        "spurious,drift,dropout\n",
+        f);
+    for (size_t i = 0; study_contender_at(i, &c); i++) {
+        accuracy mean;
+        study_cost cost;
+        char name[96];
+        study_contender_name(&c, name, sizeof name);
+        if (!measure(&c, &mean) || !study_measure_cost(&c, &cost)) {
+            fprintf(stderr, "knurl: study tradeoff: %s could not be measured\n", name);
+            return 1;
+        }
+        print_row(f, &c, &cost, study_count_instructions(i), &mean);
+        study_progress("tradeoff", (double)(i + 1) / (double)count);
+    }
+    return 0;
+}
+
+static int print_about(const char *folder) {
+    out_file file;
+    char machine[128];
+    if (study_open(&file, folder, "tradeoff.json")) {
+        return 1;
+    }
+    study_machine(machine, sizeof machine);
+    fprintf(file.stream, "{\"study\": \"tradeoff\", \"machine\": \"%s\", \"empty_tick_ns\": ", machine);
+    study_json_number(file.stream, study_empty_tick_ns());
+    fprintf(
+        file.stream,
+        ", \"frequencies\": %d, \"from_hz\": %g, \"to_hz\": %g, \"period_m\": 0.001, \"table\": \"tradeoff.csv\"}\n",
+        FREQUENCIES, frequency_at(0), frequency_at(WHOLE - 1));
+    return out_keep(&file);
+}
+
+int study_tradeoff(const char *folder) {
+    out_file file;
+    if (study_open(&file, folder, "tradeoff.csv")) {
+        return 1;
+    }
+    if (print_rows(file.stream)) {
+        out_discard(&file);
+        return 1;
+    }
+    return out_keep(&file) || print_about(folder);
 }

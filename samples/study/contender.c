@@ -1,0 +1,87 @@
+/* The contenders of the tradeoff. SPDX-License-Identifier: MIT */
+#include "contender.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define PERIOD_M   0.001
+#define RESOLUTION 0.055e-3 /* the Touch's */
+
+const study_method study_methods[] = {{"T1", KNURL_T1, 0, 0}, {"T2", KNURL_T2, 0, 0}, {"T3", KNURL_T3, 0, 0},
+                                      {"S1", KNURL_S1, 1, 0}, {"S2", KNURL_S2, 1, 1}, {NULL, 0, 0, 0}};
+
+static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
+
+int study_contender_at(size_t index, study_contender *contender) {
+    for (const study_method *m = study_methods; m->name; m++) {
+        const size_t positions = m->spatial ? 2 : 1;
+        const size_t velocities = m->uses_velocity ? 3 : 1;
+        const size_t variants = positions * velocities;
+        const size_t count = variants * sizeof rates / sizeof *rates;
+        if (index < count) {
+            contender->method = m;
+            contender->update_rate_hz = rates[index / variants];
+            contender->velocity = (int)(index % variants / positions);
+            contender->resolution = index % positions == 1 ? RESOLUTION : 0.0;
+            return 1;
+        }
+        index -= count;
+    }
+    return 0;
+}
+
+void study_contender_name(const study_contender *c, char *name, size_t size) {
+    static const char *const velocities[] = {"ideal velocity", "first difference", "FOAW"};
+    const char *velocity = c->method->uses_velocity ? velocities[c->velocity] : "position";
+    const char *positions = c->resolution > 0.0 ? "0.055 mm" : "ideal positions";
+    (void)snprintf(name, size, "%s %g Hz", c->method->name, c->update_rate_hz);
+    if (c->method->spatial) {
+        const size_t used = strlen(name);
+        (void)snprintf(name + used, size - used, ", %s from %s", velocity, positions);
+    }
+}
+
+int study_rendering_start(study_rendering *r, const study_contender *contender, double frequency) {
+    memset(r, 0, sizeof *r);
+    r->contender = *contender;
+    if (!contender->method->spatial) {
+        return knurl_wave_init(contender->method->id, 1.0 / frequency, 1.0, contender->update_rate_hz, &r->wave) != 0;
+    }
+    r->speed = frequency * PERIOD_M;
+    r->grating.spatial_frequency[0] = 1.0 / PERIOD_M;
+    r->grating.amplitude = 1.0;
+    r->grating.update_rate_hz = contender->update_rate_hz;
+    r->grating.method = contender->method->id;
+    const int32_t estimator = contender->velocity == STUDY_FOAW ? KNURL_VELOCITY_FOAW : KNURL_VELOCITY_DIFFERENCE;
+    return knurl_grating_check(&r->grating) ||
+           knurl_velocity_init(estimator, RESOLUTION, contender->update_rate_hz, &r->estimator);
+}
+
+/* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
+static double cycles_of(study_rendering *r, const knurl_grating_output *output) {
+    if (output->event != KNURL_NO_EVENT) {
+        const double cycles = r->state.event.kind == KNURL_EVENT_MIXED ? 2.4 : 1.0;
+        return cycles / r->state.event.length;
+    }
+    return r->grating.method == KNURL_S1 && output->height * r->last < 0.0 ? 0.5 : 0.0;
+}
+
+double study_rendering_tick(study_rendering *r) {
+    const uint64_t tick = r->tick++;
+    if (!r->contender.method->spatial) {
+        return knurl_wave_value(&r->wave, tick);
+    }
+    const double x = r->speed * (double)tick / r->contender.update_rate_hz;
+    const double quantum = r->contender.resolution;
+    const double position[3] = {quantum > 0.0 ? floor(x / quantum + 0.5) * quantum : x, 0.0, 0.0};
+    double velocity[3] = {r->speed, 0.0, 0.0};
+    knurl_grating_output output;
+    if (r->contender.method->uses_velocity && r->contender.velocity != STUDY_IDEAL) {
+        knurl_velocity_update(&r->estimator, position, velocity);
+    }
+    knurl_grating_step(&r->grating, &r->state, position, velocity, &output);
+    r->cycles_played += cycles_of(r, &output);
+    r->last = output.height;
+    return output.height;
+}

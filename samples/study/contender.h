@@ -1,0 +1,56 @@
+/* The contenders of the tradeoff: a method at an update rate, with what it knows of the motion. To add a method, add a
+ * row to the table in contender.c. SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_CONTENDER_H
+#define KNURL_STUDY_CONTENDER_H
+
+#include <knurl/knurl.h>
+
+#include <stddef.h>
+
+/** How a spatial method gets its velocity. */
+enum { STUDY_IDEAL = 0, STUDY_DIFFERENCE = 1, STUDY_FOAW = 2 };
+
+typedef struct study_method {
+    const char *name;
+    int32_t id;        /**< KNURL_T1 ... or KNURL_S1 ... */
+    int spatial;       /**< 1: scans a grating; 0: a temporal signal */
+    int uses_velocity; /**< 1: there is one contender for each velocity estimate */
+} study_method;
+
+/** All methods, ended by a null name. */
+extern const study_method study_methods[];
+
+/** One point of the chart. */
+typedef struct study_contender {
+    const study_method *method;
+    double update_rate_hz;
+    int velocity;      /**< STUDY_IDEAL, _DIFFERENCE or _FOAW */
+    double resolution; /**< of the positions, m; 0: ideal */
+} study_contender;
+
+/** Fills in contender `index` (0, 1, ...); 0 when there are no more. */
+int study_contender_at(size_t index, study_contender *contender);
+
+/** "S2 1000 Hz, FOAW from 0.055 mm" */
+void study_contender_name(const study_contender *contender, char *name, size_t size);
+
+/** A contender at work on one frequency: a grating of 1 mm period scanned at a steady speed, or a temporal signal. */
+typedef struct study_rendering {
+    study_contender contender;
+    double speed; /**< m/s */
+    uint64_t tick;
+    knurl_wave wave;
+    knurl_grating grating;
+    knurl_grating_state state;
+    knurl_velocity estimator;
+    double cycles_played; /**< events (the 400 Hz mix: 2.4 cycles), or sign changes / 2 */
+    double last;
+} study_rendering;
+
+/** Starts at `frequency` Hz, amplitude 1. 0, or 1 where the library refuses. */
+int study_rendering_start(study_rendering *r, const study_contender *contender, double frequency);
+
+/** The height of the next tick. This is what is timed. */
+double study_rendering_tick(study_rendering *r);
+
+#endif

@@ -1,0 +1,124 @@
+/* Timing and counting. SPDX-License-Identifier: MIT */
+#include "cost.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define BATCH   1000 /* ticks: a hundred times the clock's own cost */
+#define BATCHES 301
+
+static double now_ns(void) {
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
+}
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* What is left of a tick when nothing is rendered. Called through a pointer, as the real one is. */
+static double empty_tick(study_rendering *r) {
+    const uint64_t tick = r->tick++;
+    return r->speed * (double)tick;
+}
+
+/* Medians over batches of what one tick takes. */
+static void time_ticks(double (*tick)(study_rendering *), study_rendering *r, study_cost *cost) {
+    static double samples[BATCHES];
+    double (*volatile call)(study_rendering *) = tick; /* neither is inlined */
+    volatile double sink = 0.0;
+    for (int batch = 0; batch < BATCHES; batch++) {
+        const double before = now_ns();
+        for (int i = 0; i < BATCH; i++) {
+            sink = call(r);
+        }
+        samples[batch] = (now_ns() - before) / BATCH;
+    }
+    (void)sink;
+    qsort(samples, BATCHES, sizeof *samples, by_value);
+    cost->ns_median = samples[BATCHES / 2];
+    cost->ns_p99 = samples[BATCHES * 99 / 100];
+}
+
+double study_empty_tick_ns(void) {
+    study_rendering r;
+    study_cost cost;
+    memset(&r, 0, sizeof r);
+    time_ticks(empty_tick, &r, &cost);
+    return cost.ns_median;
+}
+
+int study_measure_cost(const study_contender *contender, study_cost *cost) {
+    study_rendering r;
+    const double empty = study_empty_tick_ns(); /* again each time: the machine's speed drifts */
+    if (study_rendering_start(&r, contender, 137.0)) {
+        return 0;
+    }
+    time_ticks(study_rendering_tick, &r, cost);
+    cost->ns_median = fmax(0.0, cost->ns_median - empty);
+    cost->ns_p99 = fmax(0.0, cost->ns_p99 - empty);
+    return 1;
+}
+
+/* Instructions of a whole run of knurl_tick_row; negative where they cannot be counted. */
+static double count_run(const char *program, size_t index, unsigned long ticks) {
+    char command[1400];
+    char line[512];
+    double counted = -1.0;
+    (void)snprintf(command, sizeof command,
+                   "valgrind --tool=callgrind --callgrind-out-file=/dev/null '%s' %lu %lu 2>&1 </dev/null", program,
+                   (unsigned long)index, ticks);
+    FILE *stream = popen(command, "r");
+    while (stream && fgets(line, sizeof line, stream)) {
+        const char *found = strstr(line, "Collected : ");
+        counted = found ? strtod(found + strlen("Collected : "), NULL) : counted;
+    }
+    return stream && pclose(stream) == 0 ? counted : -1.0;
+}
+
+double study_count_instructions(size_t contender_index) {
+    char program[1024];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 32);
+    char *slash = NULL;
+    if (length > 0) {
+        program[length] = 0;
+        slash = strrchr(program, '/');
+    }
+    if (!slash || strchr(program, '\'')) {
+        return NAN;
+    }
+    memcpy(slash + 1, "knurl_tick_row", sizeof "knurl_tick_row");
+    if (access(program, X_OK) != 0) {
+        return NAN;
+    }
+    const double once = count_run(program, contender_index, 10000);
+    const double twice = once > 0.0 ? count_run(program, contender_index, 20000) : -1.0;
+    return twice > 0.0 ? (twice - once) / 10000.0 : NAN;
+}
+
+void study_machine(char *name, size_t size) {
+    char line[256];
+    FILE *stream = fopen("/proc/cpuinfo", "r");
+    (void)snprintf(name, size, "unknown");
+    while (stream && fgets(line, sizeof line, stream)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon) {
+            line[strcspn(line, "\n")] = 0;
+            (void)snprintf(name, size, "%s, %ld cores", colon + 2, sysconf(_SC_NPROCESSORS_ONLN));
+            break;
+        }
+    }
+    if (stream) {
+        (void)fclose(stream);
+    }
+    for (char *c = name; *c; c++) {
+        *c = *c == '"' || *c == '\\' || (unsigned char)*c < 0x20 ? ' ' : *c;
+    }
+}

@@ -1,0 +1,112 @@
+"""The chart of cost against accuracy: study `tradeoff`. Drawn by figures.py.
+
+SPDX-License-Identifier: MIT
+"""
+import csv
+import os
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+COLOURS = {"T1": "#b9a14c", "T2": "#8a7fb5", "T3": "#5b8c5a", "S1": "#d9662b", "S2": "#0f6e84"}
+OTHERS = ["#a03c78", "#3a3a3a"]  # methods that are added later
+MARKERS = {"none": "o", "ideal": "D", "difference": "v", "foaw": "s"}
+SIZES = {1000.0: 26, 2000.0: 48, 5000.0: 80, 10000.0: 125}
+FLOOR = 1e-4  # what is smaller, and 0, is drawn here
+PANELS = [("net_worst", "net force, worst (A)", "pushes where it should only vibrate"),
+          ("frequency_error", "frequency error, mean", "dominant line against what the motion asks for"),
+          ("spurious", "spurious energy, mean", "outside the dominant line and its odd harmonics"),
+          ("drift", "drift, mean", "cycles played against ridges crossed (spatial methods)")]
+INK, GREY, RULE = "#1c2b33", "#77858c", "#c3ccd0"
+
+
+def read(folder, table):
+    with open(os.path.join(folder, table), newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    text = {"method", "velocity", "positions"}
+    return [{key: value if key in text else float(value) for key, value in row.items()} for row in rows]
+
+
+def pareto(points):
+    """Those that nothing beats in both cost and error, by cost."""
+    front, best = [], float("inf")
+    for x, y in sorted(points):
+        if y < best:
+            front.append((x, y))
+            best = y
+    return front
+
+
+def draw_front(axes, rows, key, colour, style):
+    points = [(row["ns_second"] / 1e3, max(row[key], FLOOR)) for row in rows if row[key] == row[key]]
+    front = pareto(points)
+    if front:
+        xs, ys = zip(*front)
+        right = max(row["ns_second"] for row in rows) / 1e3
+        axes.step(list(xs) + [right], list(ys) + [ys[-1]], where="post", color=colour, lw=1.1, ls=style, zorder=1)
+
+
+def draw_panel(axes, rows, colours, key, title, about):
+    for row in rows:
+        if row[key] != row[key]:
+            continue
+        colour = colours[row["method"]]
+        real = row["positions"] != "ideal"
+        axes.scatter(row["ns_second"] / 1e3, max(row[key], FLOOR), marker=MARKERS[row["velocity"]],
+                     s=SIZES.get(row["rate_hz"], 60), facecolor=colour if real else "white", edgecolor=colour,
+                     linewidth=1.1, alpha=0.9, zorder=3, clip_on=False)
+    draw_front(axes, [row for row in rows if row["positions"] == "none"], key, GREY, ":")
+    real = [row for row in rows if row["positions"] == "0.055mm" and row["velocity"] != "ideal"]
+    draw_front(axes, real, key, INK, "-")
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_yscale("log")
+    axes.set_ylim(FLOOR * 0.8, 10)
+    axes.set_yticks([FLOOR, 1e-3, 1e-2, 1e-1, 1, 10], ["≤ 0.0001", "0.001", "0.01", "0.1", "1", "10"])
+    axes.set_title(f"{title}\n", color=INK, fontsize=10.5)
+    axes.text(0, 1.02, about, transform=axes.transAxes, color=GREY, fontsize=8.5)
+    axes.grid(True, which="major", color="#eef1f2", lw=0.8, zorder=0)
+
+
+def legend(figure, rows, colours):
+    methods = [Line2D([], [], marker="o", ls="", color=colours[m], label=m) for m in colours
+               if any(row["method"] == m for row in rows)]
+    shapes = [Line2D([], [], marker=MARKERS[v], ls="", color=GREY, label=label) for v, label in
+              (("ideal", "velocity given"), ("difference", "first difference"), ("foaw", "FOAW"),
+               ("none", "needs no velocity"))]
+    fills = [Line2D([], [], marker="o", ls="", color=GREY, markerfacecolor="white", label="ideal positions"),
+             Line2D([], [], marker="o", ls="", color=GREY, label="from 0.055 mm, or no positions")]
+    rates = [Line2D([], [], marker="o", ls="", color=GREY, markersize=SIZES[r] ** 0.5 * 0.8, label=f"{r / 1000:g} kHz")
+             for r in SIZES]
+    fronts = [Line2D([], [], color=INK, lw=1.1, label="Pareto front, from 0.055 mm"),
+              Line2D([], [], color=GREY, lw=1.1, ls=":", label="Pareto front, temporal")]
+    blank = Line2D([], [], ls="", label=" ")
+    columns = [methods, rates, shapes, fills + fronts]
+    height = max(len(column) for column in columns)
+    handles = [handle for column in columns for handle in column + [blank] * (height - len(column))]
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.065, 0.005), ncol=len(columns), frameon=False,
+                  fontsize=8.5, labelcolor=INK, handletextpad=0.4, columnspacing=3)
+
+
+def draw_tradeoff(data, folder):
+    rows = read(folder, data["table"])
+    later = [m for m in dict.fromkeys(row["method"] for row in rows) if m not in COLOURS]
+    colours = {**COLOURS, **dict(zip(later, OTHERS))}
+    figure, grid = plt.subplots(2, 2, figsize=(10, 8.6), sharex=True)
+    for axes, (key, title, about) in zip(grid.flat, PANELS):
+        draw_panel(axes, rows, colours, key, title, about)
+    for axes in grid[1]:
+        axes.set_xlabel("µs of one core for a second of rendering", color=INK)
+    figure.suptitle("What each method costs, and what it buys", x=0.075, ha="left", fontsize=15, weight="bold",
+                    color=INK)
+    figure.text(0.075, 0.925, f"steady scans of a 1 mm grating, {data['from_hz']:g} to {data['to_hz']:g} Hz · "
+                f"{data['machine']} · empty tick {data['empty_tick_ns']:.1f} ns taken off", color=GREY, fontsize=9)
+    legend(figure, rows, colours)
+    figure.subplots_adjust(left=0.075, right=0.98, top=0.845, bottom=0.185, hspace=0.3, wspace=0.2)
+    return figure
+
+
+FIGURES = {"tradeoff": draw_tradeoff}
