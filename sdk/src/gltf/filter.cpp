@@ -146,8 +146,8 @@ class Filter {
     Json keep_sparse(const Fields &sparse) {
         Json kept;
         copy_required(kept, sparse, "count", 1, "how many elements are replaced");
-        for (const char *part : {"indices", "values"}) {
-            const auto from = sparse.object(part);
+        for (const std::string part : {"indices", "values"}) {
+            const auto from = sparse.object(part.c_str());
             if (!from)
                 sparse.refuse_key(part, "missing: expected an object");
             Json &to = kept[part];
@@ -155,8 +155,9 @@ class Filter {
             if (!to.contains("bufferView"))
                 from->refuse_key("bufferView", "missing: expected an index");
             copy_whole(to, *from, "byteOffset");
+            if (part == "indices")
+                copy_component_type(to, *from);
         }
-        copy_component_type(kept["indices"], *sparse.object("indices"));
         return kept;
     }
 

@@ -14,7 +14,7 @@ namespace knurl::gltf {
 constexpr size_t json_depth_max = 32;
 
 /** Values in a file: a tree takes some 100 bytes for each, however short its text. */
-constexpr size_t json_values_max = size_t{1} << 24U;
+constexpr size_t json_values_max = size_t{1} << 23U;
 
 /** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that stands twice in one
  * object (of which readers would keep different ones). */

@@ -51,9 +51,11 @@ knurl_material_desc material_of(const Tag &tag) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.method = tag.method.value_or(KNURL_METHOD_DEFAULT);
-    std::copy(tag.spatial_frequency->begin(), tag.spatial_frequency->end(), material.spatial_frequency);
-    material.amplitude = *tag.amplitude;
-    material.stiffness = *tag.stiffness;
+    // The outline saw to it that the first three are there.
+    const auto frequency = tag.spatial_frequency.value_or(std::array<double, 2>{});
+    std::copy(frequency.begin(), frequency.end(), material.spatial_frequency);
+    material.amplitude = tag.amplitude.value_or(0.0);
+    material.stiffness = tag.stiffness.value_or(0.0);
     material.damping = tag.damping.value_or(0.0);
     material.friction = tag.friction.value_or(0.0);
     material.orientation = tag.orientation.value_or(0.0);

@@ -1,0 +1,124 @@
+// Memory that cannot be had: an error, no exception, and a scene as it was.
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <new>
+
+#include "gltf/builder.hpp"
+
+using namespace builder;
+
+namespace {
+
+/// Counts down at each large request; the one at 0 fails. Small ones pass: nlohmann's destructors ask for some, and
+/// have no way to say that they did not get them.
+long large_requests_left = -1;
+constexpr size_t large = 1024;
+
+bool fails_now(size_t size) {
+    if (size < large || large_requests_left < 0)
+        return false;
+    --large_requests_left;
+    return large_requests_left < 0;
+}
+
+} // namespace
+
+// Not inlined: seeing free() in one place and not malloc() in the other, GCC would take them for a mismatch.
+__attribute__((noinline)) void *operator new(size_t size) {
+    void *memory = fails_now(size) ? nullptr : std::malloc(size);
+    if (memory == nullptr)
+        throw std::bad_alloc();
+    return memory;
+}
+__attribute__((noinline)) void operator delete(void *memory) noexcept {
+    std::free(memory);
+}
+__attribute__((noinline)) void operator delete(void *memory, size_t /*size*/) noexcept {
+    std::free(memory);
+}
+
+namespace {
+
+/// Two surfaces of 400 triangles, so that each of their arrays is large.
+std::string two_surfaces() {
+    std::vector<float> positions;
+    std::vector<float> uvs;
+    for (unsigned i = 0; i < 400; ++i) {
+        const auto x = static_cast<float>(i);
+        positions.insert(positions.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0});
+        uvs.insert(uvs.end(), {x, 0, x + 1, 0, x, 1});
+    }
+    File file;
+    file.vec3(positions);
+    file.vec2(uvs);
+    file.meshes = R"({"primitives":[{"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}}]})";
+    file.nodes = R"({"mesh":0},{"mesh":0})";
+    return file.gltf();
+}
+
+void the_loader_without_memory(void **) {
+    const std::string bytes = two_surfaces();
+    Loaded loaded(quad().glb());
+    knurl_result result = KNURL_ERROR_MEMORY;
+    long failures = 0;
+    for (; result != KNURL_OK; ++failures) {
+        large_requests_left = failures;
+        result = knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr);
+        large_requests_left = -1;
+        if (result == KNURL_OK)
+            break;
+        assert_int_equal(result, KNURL_ERROR_MEMORY);
+        assert_message("test.glb", {"memory"});
+        assert_int_equal(knurl_scene_surface_count(loaded.scene), 1);
+    }
+    assert_true(failures > 10);
+    assert_int_equal(knurl_scene_surface_count(loaded.scene), 3);
+}
+
+struct Pool {
+    long requests_left = 1L << 30;
+};
+
+void *pool_allocate(size_t size, size_t /*alignment*/, void *user) {
+    return static_cast<Pool *>(user)->requests_left-- > 0 ? std::malloc(size) : nullptr;
+}
+
+void pool_release(void *memory, size_t /*size*/, void * /*user*/) {
+    std::free(memory);
+}
+
+void the_scene_without_memory(void **) {
+    Pool pool;
+    const knurl_allocator allocator = {pool_allocate, pool_release, &pool};
+    const std::string bytes = two_surfaces();
+    knurl_scene_desc desc;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.max_surfaces = 16;
+    desc.allocator = &allocator;
+    knurl_scene *scene = nullptr;
+    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    knurl_result result = KNURL_ERROR_MEMORY;
+    long failures = 0;
+    for (; result != KNURL_OK; ++failures) {
+        pool.requests_left = failures;
+        result = knurl_gltf_load_memory(scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr);
+        if (result == KNURL_OK)
+            break;
+        assert_int_equal(result, KNURL_ERROR_MEMORY);
+        assert_message("test.glb", {"node "});
+        assert_int_equal(knurl_scene_surface_count(scene), 0);
+    }
+    assert_true(failures > 4);
+    assert_int_equal(knurl_scene_surface_count(scene), 2);
+    knurl_scene_destroy(scene);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(the_loader_without_memory),
+        cmocka_unit_test(the_scene_without_memory),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
