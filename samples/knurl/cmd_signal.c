@@ -54,6 +54,9 @@ int cmd_signal(int argc, char **argv) {
     if (isnan(ticks)) {
         return tool_error(TOOL_USAGE, "signal: expected --ticks, found none");
     }
+    if (ticks != floor(ticks)) {
+        return tool_error(TOOL_USAGE, "--ticks: expected a whole number, found %g", ticks);
+    }
     fputs("tick,value\n", stdout);
     for (uint64_t tick = 0; tick < (uint64_t)ticks; tick++) {
         printf("%llu,", (unsigned long long)tick);

@@ -9,12 +9,15 @@
 #include <string.h>
 
 int tool_error(int code, const char *format, ...) {
+    char text[2048];
     va_list arguments;
-    fputs("knurl: ", stderr);
     va_start(arguments, format);
-    (void)vfprintf(stderr, format, arguments);
+    (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
+    for (char *c = text; *c; c++) { /* one line, whatever a name holds */
+        *c = (unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c;
+    }
+    fprintf(stderr, "knurl: %s\n", text);
     return code;
 }
 

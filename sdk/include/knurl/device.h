@@ -40,7 +40,7 @@ typedef struct knurl_device_listing {
 
 /** The fake device's strokes: how its hand's target moves over the stroke frame. */
 enum {
-    KNURL_STROKE_LINE = 1,   /**< back and forth along x at a steady speed */
+    KNURL_STROKE_LINE = 1,   /**< back and forth along x at a steady speed, slower at the turns */
     KNURL_STROKE_SWEEP = 2,  /**< back and forth along x, speed 0 to `speed` and back to 0 within `period` */
     KNURL_STROKE_CIRCLE = 3, /**< round and round at a steady speed: every direction of the grating */
     KNURL_STROKE_PRESS = 4,  /**< down to three times the depth and up again, on the spot */

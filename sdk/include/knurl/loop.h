@@ -72,7 +72,8 @@ typedef struct knurl_loop_stats {
 KNURL_API void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size);
 KNURL_API void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size);
 
-/** Makes a loop; it does not run yet. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY. [game thread] */
+/** Makes a loop; it does not run yet.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the scene is not committed), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop);
 
 /** Stops and gives everything back; null is allowed. [game thread, not from a callback] */

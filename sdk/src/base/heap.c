@@ -82,6 +82,9 @@ void knurl_heap_free(knurl_heap *heap, void *memory) {
         block->next->previous = block->previous;
     }
     heap->bytes -= block->size;
+    if (heap->locked) { /* whole pages: a neighbour that lives on in one of them is unlocked with it */
+        knurl_system_unlock_memory(block, block->size);
+    }
     heap->allocator.release(block, block->size, heap->allocator.user);
 }
 
@@ -90,6 +93,7 @@ uint64_t knurl_heap_size(const void *memory) {
 }
 
 knurl_result knurl_heap_lock(knurl_heap *heap) {
+    heap->locked = 1;
     for (knurl_block *block = heap->first; block; block = block->next) {
         if (!knurl_system_lock_memory(block, block->size)) {
             return knurl_fail(KNURL_ERROR_SYSTEM,

@@ -10,7 +10,8 @@ typedef struct knurl_block knurl_block;
 typedef struct knurl_heap {
     knurl_allocator allocator;
     knurl_block *first;
-    uint64_t bytes; /* held now, headers included */
+    uint64_t bytes;  /* held now, headers included */
+    uint64_t locked; /* 1: locked into RAM, so unlocked when given back */
 } knurl_heap;
 
 /* allocator: null for malloc and free. */

@@ -29,7 +29,12 @@ int knurl_system_make_realtime(void);
 /* Keeps pages in RAM; 0 where that is not permitted. */
 int knurl_system_lock_memory(void *memory, size_t size);
 
-/* Touches and locks the next 64 KiB of the calling thread's stack; 0 where that is not permitted. */
-int knurl_system_lock_stack(void);
+/* Lets pages go that were locked. */
+void knurl_system_unlock_memory(void *memory, size_t size);
+
+/* Touches and locks the next 64 KiB of the calling thread's stack; 0 where that is not permitted. *start: where they
+ * begin, for knurl_system_unlock_stack() before the thread ends (its stack may live on as another thread's). */
+int knurl_system_lock_stack(uintptr_t *start);
+void knurl_system_unlock_stack(uintptr_t start);
 
 #endif

@@ -14,6 +14,8 @@
 /* Above the kernel's threaded interrupt handlers (50), where audio servers stand too; well below the watchdogs (99). */
 #define REALTIME_PRIORITY 70
 
+#define LOCKED_STACK ((size_t)64 * 1024)
+
 struct knurl_thread {
     pthread_t handle;
     void (*entry)(void *argument);
@@ -79,11 +81,21 @@ int knurl_system_lock_memory(void *memory, size_t size) {
     return mlock(memory, size) == 0;
 }
 
-int knurl_system_lock_stack(void) {
-    char pages[65536];
+void knurl_system_unlock_memory(void *memory, size_t size) {
+    (void)munlock(memory, size);
+}
+
+void knurl_system_unlock_stack(uintptr_t start) {
+    (void)munlock((void *)start,
+                  LOCKED_STACK); /* NOLINT(performance-no-int-to-ptr): the frame is gone, its pages stay */
+}
+
+int knurl_system_lock_stack(uintptr_t *start) {
+    char pages[LOCKED_STACK];
     volatile char *touched = pages;
     for (size_t i = 0; i < sizeof pages; i += 4096) {
         touched[i] = 0;
     }
+    *start = (uintptr_t)pages;
     return mlock(pages, sizeof pages) == 0;
 }

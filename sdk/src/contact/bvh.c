@@ -101,7 +101,7 @@ static split choose_split(const item *items, const range *r) {
     double best = 1e300;
     for (int axis = 0; axis < 3; axis++) {
         const float extent = centres.max[axis] - centres.min[axis];
-        if (extent > 0.0f) {
+        if (extent > 1e-30f) { /* below, a bin's inverse is no float */
             const split candidate = {axis, centres.min[axis], (float)BINS * 0.999f / extent, 0};
             best = try_axis(items, r, candidate, best, &chosen);
         }

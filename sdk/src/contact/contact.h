@@ -12,9 +12,13 @@
 /* Closer to the proxy than this (m), the direction to it is noise: the triangle's normal is used. */
 #define KNURL_NORMAL_DISTANCE 1e-6
 
+/* So near (m), a HIP is on the surface, and contact keeps the side that it came from: positions that are multiples of
+ * an encoder's count stop on surfaces exactly, give or take what rounding adds. */
+#define KNURL_ON_SURFACE 1e-9
+
 /* What contact remembers from tick to tick. Zero: not in contact. */
 typedef struct knurl_contact_state {
-    int32_t inside;    /* 1: the HIP has come through the surface */
+    int32_t inside;    /* 1: the HIP has come through the surface, or stands on it */
     int32_t side;      /* +1: from the front; -1: from behind (double-sided); 0: not in contact */
     uint32_t triangle; /* where the proxy was */
 } knurl_contact_state;
@@ -36,7 +40,8 @@ typedef struct knurl_contact {
     uint32_t triangle; /* mesh: which; plane: 0 */
 } knurl_contact;
 
-/* 1 and a contact while the HIP is inside or within reach, else 0 and a zeroed state. */
+/* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
+ * state. */
 int knurl_plane_contact(const double half_extents[2], const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact);
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,

@@ -14,7 +14,8 @@
 /* Further than this (m) off the rim of an open mesh a HIP has slipped off it: far below any device's resolution. */
 #define RIM 1e-9
 
-/* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part. */
+/* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part; a walk that came by
+ * one asks the hierarchy whether it missed anything nearer. */
 #define MAX_FAN 256
 
 static uint32_t weld_of(const knurl_mesh *mesh, uint32_t triangle, uint32_t corner) {
@@ -45,6 +46,7 @@ static double nearest_on(const knurl_mesh *mesh, uint32_t triangle, const double
  * (walking edges alone goes wrong in concave corners). */
 static double walk(const knurl_mesh *mesh, uint32_t start, const double hip[3], knurl_contact *c) {
     double best2 = nearest_on(mesh, start, hip, c);
+    int capped = 0;
     for (int step = 0; step < MAX_STEPS; step++) {
         const uint32_t here = c->triangle;
         const double before2 = best2;
@@ -55,6 +57,7 @@ static double walk(const knurl_mesh *mesh, uint32_t start, const double hip[3], 
                 continue; /* only round the corners that the point rests on; none round an inner point */
             }
             const uint32_t count = fan_of(mesh, weld_of(mesh, here, corner), &fan);
+            capped |= count == MAX_FAN;
             for (uint32_t i = 0; i < count; i++) {
                 knurl_contact other;
                 const double distance2 = nearest_on(mesh, fan[i], hip, &other);
@@ -67,6 +70,10 @@ static double walk(const knurl_mesh *mesh, uint32_t start, const double hip[3], 
         if (!(best2 < before2)) {
             break;
         }
+    }
+    knurl_contact other;
+    if (capped && knurl_mesh_closest(mesh, hip, sqrt(best2) * (1.0 - 1e-9), &other)) {
+        best2 = nearest_on(mesh, other.triangle, hip, c);
     }
     return best2;
 }
@@ -184,20 +191,42 @@ static void face_normal(const knurl_mesh *mesh, knurl_contact *c) {
     vec3_copy(t.normal, c->normal);
 }
 
+/* The HIP is in front of its proxy: is another part of the mesh between the two? Then that part holds it: within one
+ * tick it has left a ridge for the next one, or the ridge that held it has let go of it inside the next. */
+static int held_by_another(const knurl_mesh *mesh, const double hip[3], int32_t side, knurl_contact *c) {
+    knurl_contact other;
+    uint32_t triangle;
+    double offset[3];
+    vec3_sub(hip, c->proxy, offset);
+    if (knurl_mesh_cross(mesh, c->proxy, hip, side < 0, &triangle) != side ||
+        !knurl_mesh_closest(mesh, hip, vec3_length(offset), &other)) {
+        return 0;
+    }
+    face_normal(mesh, &other);
+    if (!finish(mesh, hip, side, &other) || other.z >= 0.0) {
+        return 0;
+    }
+    *c = other;
+    return 1;
+}
+
 /* A HIP outside: has it come through, is it in reach, or (first tick) was it pressed in from the start? */
-static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
+static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, knurl_contact_state *state,
                  knurl_contact *c) {
     const double *hip = query->hip;
     if (query->has_previous) {
         state->side = knurl_mesh_cross(mesh, query->previous, hip, query->double_sided, &state->triangle);
         if (state->side != 0) {
             (void)walk(mesh, state->triangle, hip, c);
-            if (finish(mesh, hip, state->side, c) && c->z <= query->reach) {
+            if (finish(mesh, hip, state->side, c) &&
+                ((c->z > 0.0 && held_by_another(mesh, hip, state->side, c)) || c->z <= reach)) {
                 return 1;
             }
         }
     }
-    const double radius = query->has_previous ? query->reach : fmax(query->reach, KNURL_CAPTURE_DEPTH);
+    /* which side a HIP on the surface came from matters only where both can be touched */
+    const double in_reach = query->double_sided ? reach : query->reach;
+    const double radius = query->has_previous ? in_reach : fmax(in_reach, KNURL_CAPTURE_DEPTH);
     if (!(radius > 0.0) || !knurl_mesh_closest(mesh, hip, radius, c)) {
         return 0;
     }
@@ -211,17 +240,17 @@ static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, knurl
         face_normal(mesh, c);
         return finish(mesh, hip, -1, c);
     }
-    return c->z >= 0.0 ? c->z <= query->reach : !query->has_previous;
+    return c->z >= 0.0 ? c->z <= reach : !query->has_previous;
 }
 
 /* A HIP inside: the proxy walks after it. Over the rim it may still be held by another part (meshes with T-junctions
  * have rims in their middle). */
-static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, const knurl_contact_state *state,
-                  knurl_contact *c) {
+static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
+                  const knurl_contact_state *state, knurl_contact *c) {
     const double *hip = query->hip;
     const double distance2 = walk(mesh, state->triangle, hip, c);
     if (finish(mesh, hip, state->side, c)) {
-        return 1;
+        return c->z <= 0.0 || held_by_another(mesh, hip, state->side, c) || c->z <= reach;
     }
     if (knurl_mesh_closest(mesh, hip, sqrt(distance2), c)) {
         face_normal(mesh, c);
@@ -232,12 +261,14 @@ static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, cons
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                        knurl_contact *contact) {
-    const int held = state->inside ? follow(mesh, query, state, contact) : watch(mesh, query, state, contact);
-    if (!held || contact->z > query->reach) {
+    const double reach = fmax(query->reach, KNURL_ON_SURFACE);
+    const int held =
+        state->inside ? follow(mesh, query, reach, state, contact) : watch(mesh, query, reach, state, contact);
+    if (!held || contact->z > reach) {
         memset(state, 0, sizeof *state);
         return 0;
     }
-    state->inside = contact->z < 0.0;
+    state->inside = contact->z <= KNURL_ON_SURFACE;
     state->triangle = contact->triangle;
     return 1;
 }

@@ -10,7 +10,7 @@ static int above_rectangle(const double half_extents[2], const double p[3]) {
 }
 
 /* The side that the HIP touches from, or 0: through the plane between two ticks, or within reach of it. */
-static int enter(const double half_extents[2], const knurl_contact_query *query, int32_t *inside) {
+static int enter(const double half_extents[2], const knurl_contact_query *query, double reach, int32_t *inside) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
     if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
@@ -25,10 +25,10 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
         }
     }
     *inside = 0;
-    if (z >= 0.0 && z <= query->reach) {
+    if (z >= 0.0 && z <= reach) {
         return 1;
     }
-    if (z < 0.0 && -z <= query->reach && behind_allowed) {
+    if (z < 0.0 && -z <= reach && behind_allowed) {
         return -1;
     }
     if (!query->has_previous && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
@@ -41,12 +41,13 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
 int knurl_plane_contact(const double half_extents[2], const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) {
     const double *hip = query->hip;
+    const double reach = fmax(query->reach, KNURL_ON_SURFACE);
     if (!state->inside) { /* a HIP in front may go through at any tick */
-        state->side = enter(half_extents, query, &state->inside);
+        state->side = enter(half_extents, query, reach, &state->inside);
     }
     const double z = hip[2] * state->side;
-    state->inside = z < 0.0;
-    if (state->side == 0 || z > query->reach || !above_rectangle(half_extents, hip)) {
+    state->inside = z <= KNURL_ON_SURFACE;
+    if (state->side == 0 || z > reach || !above_rectangle(half_extents, hip)) {
         memset(state, 0, sizeof *state);
         return 0;
     }

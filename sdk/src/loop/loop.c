@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/vec3.h"
 #include "scene/scene_internal.h"
 
 #include <math.h>
@@ -39,6 +40,15 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
         memset(loop->force, 0, sizeof loop->force);
         loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
     }
+    const double length = vec3_length(loop->force); /* ramps go from and to what the motors can play */
+    if (!(length <= loop->max_force)) {
+        const double share = isfinite(length) ? loop->max_force / length : 0.0;
+        for (int axis = 0; axis < 3; axis++) {
+            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
+            output->device_force[axis] *= share;
+            output->force[axis] *= share;
+        }
+    }
 }
 
 /* After the watchdog let go of the motors, the force climbs back over the ramp. */
@@ -71,6 +81,7 @@ static int run_tick(knurl_loop *loop) {
         loop->desc.tick_callback(&output, loop->desc.user);
     }
     knurl_count_up(&loop->ticks);
+    knurl_count_up(&loop->beats);
     return knurl_device_write(loop->desc.device, loop->force) == KNURL_OK;
 }
 
@@ -93,6 +104,7 @@ static void ramp_down(knurl_loop *loop, int paced) {
         if (knurl_device_read(loop->desc.device, &sample) || knurl_device_write(loop->desc.device, force)) {
             break;
         }
+        knurl_count_up(&loop->beats);
     }
     knurl_device_halt(loop->desc.device);
 }
@@ -109,9 +121,10 @@ static void end(knurl_loop *loop, int32_t state, int paced) {
 static void haptic_thread(void *argument) {
     knurl_loop *loop = argument;
     int32_t state = KNURL_LOOP_DONE;
+    uintptr_t stack = 0;
     knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
-    knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack());
+    knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
     knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
     while (!at_end(loop)) {
         int overrun;
@@ -125,20 +138,24 @@ static void haptic_thread(void *argument) {
         }
     }
     end(loop, state, 1);
+    knurl_system_unlock_stack(stack);
 }
 
 /* Lets go of the motors when no tick has been done for too long: a device holds its last force for ever. */
 static void watchdog_thread(void *argument) {
     knurl_loop *loop = argument;
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
+    const int64_t nap = limit > 80000000 ? 20000000
+                        : limit < 400000 ? 100000
+                                         : limit / 4; /* nobody waits long for it */
     int64_t seen_at = knurl_system_now_ns();
     uint64_t seen = 0;
     while (is_running(loop)) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + limit / 4);
-        const uint64_t ticks = knurl_load_relaxed(&loop->ticks);
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
+        const uint64_t beats = knurl_load_relaxed(&loop->beats);
         const int64_t now = knurl_system_now_ns();
-        if (ticks != seen) {
-            seen = ticks;
+        if (beats != seen) {
+            seen = beats;
             seen_at = now;
         } else if (now - seen_at > limit && is_running(loop) && !knurl_device_is_halted(loop->desc.device)) {
             knurl_device_halt(loop->desc.device);
@@ -185,10 +202,11 @@ void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, stats, size);
 }
 
-static knurl_result adopt(const knurl_loop_desc *d) {
+static knurl_result adopt(const knurl_loop_desc *d, double *max_force) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     const knurl_result result = knurl_device_get_info(d->device, &info);
+    *max_force = info.max_force;
     return result || !d->scene
                ? result
                : knurl_scene_adopt_device(d->scene, d->hip, d->update_rate_hz, info.resolution, info.max_force);
@@ -200,7 +218,8 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     knurl_loop_desc_init(&d, sizeof d);
     knurl_result result = knurl_desc_read("knurl_loop_desc", desc, &d, sizeof d);
     result = result ? result : check(&d);
-    result = result ? result : adopt(&d);
+    double max_force = 0.0;
+    result = result ? result : adopt(&d, &max_force);
     result = result ? result : knurl_device_start(d.device, d.update_rate_hz);
     if (result) {
         return result;
@@ -212,6 +231,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
+    made->max_force = max_force;
     knurl_device_release_halt(d.device);
     *loop = made;
     return KNURL_OK;
@@ -223,6 +243,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     }
     const int scene_locked = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
     loop->scene_locked = (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked);
+    knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
     loop->thread = knurl_system_start_thread(haptic_thread, loop, STACK_BYTES);
     if (!loop->thread) {
@@ -267,7 +288,7 @@ void knurl_loop_stop(knurl_loop *loop) {
     if (knurl_load_acquire(&loop->haptic_thread) == knurl_system_thread_id()) {
         return; /* from a callback: the loop ends when this returns */
     }
-    while (loop->thread && is_running(loop)) { /* one that is stepped ends in its next step */
+    while (knurl_load_acquire(&loop->threaded) && is_running(loop)) { /* one that is stepped ends in its next step */
         (void)knurl_loop_wait(loop, 1.0);
     }
 }
@@ -293,13 +314,14 @@ void knurl_loop_destroy(knurl_loop *loop) {
     if (loop->watchdog) {
         knurl_system_join_thread(loop->watchdog);
     }
+    knurl_system_unlock_memory(loop, sizeof *loop);
     free(loop);
 }
 
 static knurl_percentiles percentiles_of(const knurl_histogram *histogram) {
-    const knurl_percentiles made = {knurl_histogram_percentile(histogram, 0.5),
-                                    knurl_histogram_percentile(histogram, 0.99),
-                                    (double)knurl_load_relaxed(&histogram->max)};
+    const double max = (double)knurl_load_relaxed(&histogram->max); /* a bucket's middle may lie above it */
+    const knurl_percentiles made = {fmin(max, knurl_histogram_percentile(histogram, 0.5)),
+                                    fmin(max, knurl_histogram_percentile(histogram, 0.99)), max};
     return made;
 }
 

@@ -27,13 +27,16 @@ struct knurl_loop {
     knurl_thread *thread;
     knurl_thread *watchdog;
     knurl_pace pace;
-    double force[3]; /* the latest, device axes, N */
-    double gain;     /* 0..1 on the force: climbs back after the watchdog let go */
+    double force[3];  /* the latest, device axes, N */
+    double gain;      /* 0..1 on the force: climbs back after the watchdog let go */
+    double max_force; /* N: the device's */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
     uint32_t stop_requested; /* by anyone */
+    uint32_t threaded;       /* 1: started, not stepped */
     uint64_t ticks;
+    uint64_t beats; /* ticks and steps of the ramp: what the watchdog looks at */
     uint64_t overruns;
     uint64_t watchdogs;
     uint32_t realtime;

@@ -127,6 +127,13 @@ static int is_held(const knurl_hip *hip, uint32_t surface) {
     return 0;
 }
 
+static int is_among(uint32_t place, const uint32_t *places, uint32_t count) {
+    while (count > 0 && places[count - 1] != place) {
+        count--;
+    }
+    return count > 0;
+}
+
 static knurl_slot *free_slot(knurl_hip *hip) {
     for (int i = 0; i < KNURL_MAX_CONTACTS; i++) {
         if (!hip->slots[i].used) {
@@ -138,22 +145,29 @@ static knurl_slot *free_slot(knurl_hip *hip) {
 
 /* What is touched stays touched until its contact ends; then whatever else is near may begin. */
 static void touch_all(const knurl_scene *scene, knurl_hip *hip, knurl_tick_output *out) {
-    uint32_t ended = UINT32_MAX;
+    uint32_t ended[KNURL_MAX_CONTACTS]; /* they were asked already in this tick */
+    uint32_t ended_count = 0;
     for (int i = 0; i < KNURL_MAX_CONTACTS; i++) {
         const uint32_t surface = hip->slots[i].surface;
         if (hip->slots[i].used && !touch_surface(scene, hip, &hip->slots[i], out)) {
-            ended = surface; /* it was asked already in this tick */
+            ended[ended_count++] = surface;
         }
     }
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         const uint32_t place = scene->order[i];
-        if (place == ended || is_held(hip, place) || !near(&scene->surfaces[place], hip, out->hip)) {
+        if (is_among(place, ended, ended_count) || is_held(hip, place) ||
+            !near(&scene->surfaces[place], hip, out->hip)) {
             continue;
         }
         knurl_slot *slot = free_slot(hip);
         if (!slot) {
-            out->flags |= KNURL_TICK_CONTACTS_FULL;
-            return;
+            knurl_contact_state none = {0, 0, 0};
+            knurl_contact contact;
+            if (find_contact(&scene->surfaces[place], hip, out->hip, &none, &contact)) {
+                out->flags |= KNURL_TICK_CONTACTS_FULL;
+                return;
+            }
+            continue;
         }
         slot->surface = place;
         (void)touch_surface(scene, hip, slot, out);

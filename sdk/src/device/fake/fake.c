@@ -1,6 +1,7 @@
 /* The fake device's driver. SPDX-License-Identifier: MIT */
 #include "device/fake/fake.h"
 
+#include "base/atomic.h"
 #include "base/base.h"
 #include "base/vec3.h"
 
@@ -103,6 +104,9 @@ static void play_trace(fake *f, double t, double position[3]) {
 static void move_hand(fake *f, double t, double position[3]) {
     double before[3];
     double velocity[3];
+    if (knurl_load_acquire(&f->base.halted)) {
+        knurl_plant_let_go(&f->plant);
+    }
     if (f->ticks > 0) {
         vec3_copy(f->target, before);
         knurl_hand_target(&f->hand, t, f->dt, f->target);

@@ -43,7 +43,7 @@ knurl_result knurl_stroke_from_name(const char *name, int32_t *stroke) {
 
 knurl_result knurl_stroke_check(knurl_stroke_desc *s) {
     if (s->stroke < KNURL_STROKE_LINE || s->stroke > KNURL_STROKE_REST) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected one of KNURL_STROKE_, found %d", (int)s->stroke);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected one of KNURL_STROKE_, found %d", (int)s->stroke);
     }
     if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) ||
         !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) || !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {

@@ -16,9 +16,12 @@ void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, cons
 
 void knurl_plant_write(knurl_plant *plant, const double force[3]) {
     const double length = vec3_length(force);
-    plant->newest = (plant->newest + 1) % (KNURL_PLANT_MAX_DELAY + 1);
-    vec3_scale(length > plant->config.max_force ? plant->config.max_force / length : 1.0, force,
-               plant->forces[plant->newest]);
+    vec3_scale(length > plant->config.max_force ? plant->config.max_force / length : 1.0, force, plant->told);
+}
+
+void knurl_plant_let_go(knurl_plant *plant) {
+    memset(plant->told, 0, sizeof plant->told);
+    memset(plant->forces, 0, sizeof plant->forces);
 }
 
 /* Dry friction stops what it can within the step and slows what it cannot. */
@@ -31,6 +34,8 @@ static void apply_coulomb(knurl_plant *plant, double dt) {
 void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]) {
     const knurl_plant_config *c = &plant->config;
     const uint32_t ring = KNURL_PLANT_MAX_DELAY + 1;
+    plant->newest = (plant->newest + 1) % ring;
+    vec3_copy(plant->told, plant->forces[plant->newest]); /* under way from this tick on */
     const double *motor = plant->forces[(plant->newest + ring - (uint32_t)c->delay) % ring];
     const double h = dt / SUBSTEPS;
     for (int step = 0; step < SUBSTEPS; step++) {

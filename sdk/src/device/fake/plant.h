@@ -24,7 +24,8 @@ typedef struct knurl_plant {
     knurl_plant_config config;
     double position[3];
     double velocity[3];
-    double forces[KNURL_PLANT_MAX_DELAY + 1][3]; /* a ring: the newest, and those still under way */
+    double told[3];                              /* what the motors are told: holds until they are told again */
+    double forces[KNURL_PLANT_MAX_DELAY + 1][3]; /* a ring, one a tick: the newest, and those still under way */
     uint32_t newest;
 } knurl_plant;
 
@@ -33,6 +34,9 @@ void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, cons
 
 /* What the motors are told from now on. */
 void knurl_plant_write(knurl_plant *plant, const double force[3]);
+
+/* Cuts the motors off: no force, and none under way. */
+void knurl_plant_let_go(knurl_plant *plant);
 
 /* Moves on by dt (s), the hand pulling towards a target (m) that moves at target_velocity (m/s). */
 void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]);
