@@ -1,0 +1,211 @@
+/* A trial of the paper's experiments as it is played: timing tick by tick, what the device is told, who answers.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/paper.h"
+
+#include "device/driver.h"
+#include "experiment.h"
+
+#include <unistd.h>
+
+/* --- a trial, tick by tick --- */
+
+static long double paper_value(int32_t method, uint64_t tick, int64_t milliticks, long double amplitude) {
+    if (method == KNURL_T1) {
+        return amplitude * (long double)paper_square(tick, (uint64_t)milliticks, 1000);
+    }
+    return method == KNURL_T2 ? paper_t2(tick, milliticks, amplitude) : paper_t3(tick, milliticks, amplitude);
+}
+
+/* Section IV-A4, as a list of when each vibration begins and ends, in ms. */
+static long double scheduled(const exp_trial *trial, uint64_t ms) {
+    static const uint64_t starts[6] = {0, 1500, 3000, 5000, 6500, 8000};
+    double periods[3];
+    exp_neighbours(trial->period, periods);
+    for (int i = 0; i < 6; i++) {
+        if (ms >= starts[i] && ms < starts[i] + 1000) {
+            return paper_value(trial->methods[i / 3], ms - starts[i], (int64_t)(1000.0 * periods[i % 3]),
+                               (long double)trial->amplitude);
+        }
+    }
+    return 0.0L;
+}
+
+TEST(every_trial_s_force_is_the_paper_s_schedule) {
+    for (int32_t e = 1; e <= 2; e++) {
+        exp_trial trials[EXP_MAX_TRIALS];
+        (void)exp_plan(exp_design_of(e), 3, 0, trials);
+        for (uint32_t i = 0; i < 24; i++) { /* one block: every cell */
+            exp_stimulus stimulus;
+            assert_int_equal(exp_stimulus_init(&trials[i], &stimulus), EXP_OK);
+            for (uint64_t t = 0; t < 9100; t++) {
+                CHECK_CLOSE(exp_stimulus_force(&stimulus, t), scheduled(&trials[i], t), 1e-12L);
+            }
+        }
+    }
+}
+
+/* --- a device that writes down what it is told and whose buttons go as the test says --- */
+
+typedef struct bench {
+    knurl_device device; /* first: the driver's functions get it */
+    double written[12000][3];
+    uint64_t reads, writes;
+    uint64_t press_at, move_at; /* reads; UINT64_MAX: never */
+    uint32_t held, pressed;     /* buttons before and from press_at on */
+} bench;
+
+static bench *of(knurl_device *base) {
+    return (bench *)(void *)base; /* its first member */
+}
+
+static void close_it(knurl_device *device) {
+    (void)device;
+}
+
+static void get_info(const knurl_device *device, knurl_device_info *info) {
+    info->max_force = device->max_force;
+}
+
+static knurl_result start(knurl_device *device, double rate) {
+    (void)device;
+    CHECK_SAME(rate, 1000.0);
+    return KNURL_OK;
+}
+
+static knurl_result read_it(knurl_device *device, knurl_device_sample *sample) {
+    bench *b = of(device);
+    memset(sample, 0, sizeof *sample);
+    sample->buttons = b->reads >= b->press_at ? b->pressed : b->held;
+    sample->position[0] = b->reads == b->move_at ? 0.021 : 0.0; /* out of the sphere, once */
+    b->reads++;
+    return KNURL_OK;
+}
+
+static knurl_result write_it(knurl_device *device, const double force[3]) {
+    bench *b = of(device);
+    memcpy(b->written[b->writes++ % COUNT_OF(b->written)], force, sizeof b->written[0]);
+    return KNURL_OK;
+}
+
+static const knurl_driver bench_driver = {"bench",  "a test bench", "",      NULL,    close_it,
+                                          get_info, start,          read_it, write_it};
+static bench device;
+
+static exp_session begin(int32_t experiment, int32_t answers) {
+    exp_session s;
+    memset(&device, 0, sizeof device);
+    memset(&s, 0, sizeof s);
+    device.device.driver = &bench_driver;
+    device.device.max_force = 3.3;
+    device.press_at = device.move_at = UINT64_MAX;
+    s.design = exp_design_of(experiment);
+    s.uri = "bench";
+    s.device = &device.device;
+    s.info.max_force = 3.3;
+    s.answers = answers;
+    s.fast = answers == EXP_SIMULATED;
+    return s;
+}
+
+TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
+    const exp_trial trial = {1, 2.5, 2.10, {KNURL_T3, KNURL_T1}};
+    const exp_session s = begin(1, EXP_SIMULATED);
+    exp_outcome o;
+    uint64_t beyond = 0;
+    assert_int_equal(exp_play_temporal(&s, &trial, &o), EXP_OK);
+    for (uint64_t t = 0; t < device.writes; t++) {
+        const long double wanted = t < 1000 ? 0.0L : scheduled(&trial, t - 1000); /* a second to get hold of it */
+        beyond += fabsl(wanted) > 3.3L;
+        CHECK_SAME(device.written[t][0], 0.0L);
+        CHECK_CLOSE(device.written[t][1], fmaxl(-3.3L, fminl(3.3L, wanted)), 1e-12L);
+        CHECK_SAME(device.written[t][2], 0.0L);
+    }
+    assert_in_range(device.writes, 10001, 10100); /* the loop's ramp goes from nothing to nothing */
+    assert_int_equal(o.ticks, 10001);
+    assert_int_equal(beyond, 166); /* -1.731 x 2.10 N once in 6 ticks of the second that T3 has at 400 Hz */
+    assert_int_equal(o.saturations, beyond);
+}
+
+TEST(leaving_the_sphere_lets_go_and_begins_the_trial_anew) {
+    const exp_trial trial = {1, 5, 1.05, {KNURL_T1, KNURL_T3}};
+    const exp_session s = begin(1, EXP_SIMULATED);
+    exp_outcome o;
+    device.move_at = 1500;
+    assert_int_equal(exp_play_temporal(&s, &trial, &o), EXP_OK);
+    assert_int_equal(o.restarts, 1);
+    assert_int_equal(o.ticks, 10001); /* of the one that counts */
+    assert_true(device.written[1499][1] != 0.0);
+    CHECK_SAME(device.written[1500][1], 0.0L);
+    CHECK_SAME(device.written[1501][1], 0.0L);
+}
+
+/* --- answers --- */
+
+static void no_force(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
+    (void)run;
+    (void)tick;
+    (void)sample;
+    (void)force;
+}
+
+static const char *no_cue(uint64_t tick) {
+    (void)tick;
+    return "";
+}
+
+static exp_run short_run(void) {
+    exp_run run;
+    memset(&run, 0, sizeof run);
+    run.force = no_force;
+    run.cue = no_cue;
+    run.question = "(a test's question) ";
+    run.ready = 1;
+    run.question_tick = 50;
+    return run;
+}
+
+TEST(a_button_answers_when_it_goes_down_after_the_question) {
+    const exp_session s = begin(1, EXP_BUTTONS);
+    exp_run run = short_run();
+    exp_outcome o;
+    memset(&o, 0, sizeof o);
+    device.held = 1; /* the first is held down all the time: no answer */
+    device.pressed = 3;
+    device.press_at = 120;
+    assert_int_equal(exp_drive(&s, &run, &o), EXP_OK);
+    assert_int_equal(o.chosen, 1);
+    assert_true(o.rt_s >= 0.070 && o.rt_s < 2.0);
+}
+
+TEST(keys_answer_and_the_input_s_end_is_an_error) {
+    int ends[2];
+    const int kept = dup(STDIN_FILENO);
+    const exp_session s = begin(1, EXP_KEYBOARD);
+    exp_run run = short_run();
+    exp_outcome o;
+    memset(&o, 0, sizeof o);
+    if (kept < 0 || pipe(ends) != 0) {
+        fail_msg("no pipe");
+        return;
+    }
+    assert_int_equal(write(ends[1], "x\n2\n", 4), 4);
+    assert_int_equal(close(ends[1]), 0);
+    assert_int_equal(dup2(ends[0], STDIN_FILENO), STDIN_FILENO);
+    assert_int_equal(exp_drive(&s, &run, &o), EXP_OK);
+    assert_int_equal(o.chosen, 1);
+    run = short_run();
+    assert_int_equal(exp_drive(&s, &run, &o), EXP_FAILURE);
+    assert_int_equal(dup2(kept, STDIN_FILENO), STDIN_FILENO);
+    (void)close(kept);
+    (void)close(ends[0]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_trial_s_force_is_the_paper_s_schedule),
+                                       cmocka_unit_test(the_device_is_told_the_schedule_shortened_to_what_it_can_do),
+                                       cmocka_unit_test(leaving_the_sphere_lets_go_and_begins_the_trial_anew),
+                                       cmocka_unit_test(a_button_answers_when_it_goes_down_after_the_question),
+                                       cmocka_unit_test(keys_answer_and_the_input_s_end_is_an_error)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,89 @@
+/* A HIP over one shape, moved by hand: what a scene asks of contact/, without the scene.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_PROBE_H
+#define KNURL_TEST_PROBE_H
+
+#include "support/geometry.h"
+
+#include "contact/contact.h"
+
+/** Exactly one of mesh and half_extents is in use. */
+typedef struct probe {
+    knurl_heap heap;
+    knurl_mesh *mesh;
+    double half_extents[2];
+    knurl_contact_query query;
+    knurl_contact_state state;
+    knurl_contact contact;
+} probe;
+
+static inline probe probe_plane(double half_x, double half_y) {
+    probe p;
+    memset(&p, 0, sizeof p);
+    p.half_extents[0] = half_x;
+    p.half_extents[1] = half_y;
+    return p;
+}
+
+/** Takes the shape over: it is freed. */
+static inline probe probe_shape(shape *s) {
+    probe p;
+    memset(&p, 0, sizeof p);
+    knurl_heap_init(&p.heap, NULL);
+    const knurl_mesh_desc desc = shape_desc(s);
+    assert_int_equal(knurl_mesh_create(&p.heap, &desc, &p.mesh), KNURL_OK);
+    shape_free(s);
+    return p;
+}
+
+static inline void probe_free(probe *p) {
+    knurl_mesh_destroy(&p->heap, p->mesh);
+    assert_int_equal(p->heap.bytes, 0);
+}
+
+/** The next position asked about is a first one. */
+static inline void probe_forget(probe *p) {
+    p->query.has_previous = 0;
+    memset(&p->state, 0, sizeof p->state);
+}
+
+/** One tick: 1 where there is contact. */
+static inline int probe_at(probe *p, const double hip[3]) {
+    memcpy(p->query.hip, hip, sizeof p->query.hip);
+    const int held = p->mesh ? knurl_mesh_contact(p->mesh, &p->query, &p->state, &p->contact)
+                             : knurl_plane_contact(p->half_extents, &p->query, &p->state, &p->contact);
+    memcpy(p->query.previous, hip, sizeof p->query.previous);
+    p->query.has_previous = 1;
+    if (!held) {
+        const knurl_contact_state none = {0, 0, 0};
+        assert_memory_equal(&p->state, &none, sizeof none);
+        return 0;
+    }
+    assert_true(p->contact.z <= fmax(p->query.reach, 1e-9));
+    CHECK_CLOSE(length3(p->contact.normal), 1.0, 1e-9);
+    return 1;
+}
+
+static inline int probe_to(probe *p, double x, double y, double z) {
+    const double hip[3] = {x, y, z};
+    return probe_at(p, hip);
+}
+
+/** 1 where the HIP is held inside (not merely in reach). */
+static inline int probe_inside(probe *p, const double hip[3]) {
+    return probe_at(p, hip) && p->contact.z < 0.0;
+}
+
+/** The contact holds the HIP at `depth` below a proxy, along a normal. */
+#define CHECK_HELD(p, px, py, pz, nx, ny, nz, depth)                                                                   \
+    do {                                                                                                               \
+        CHECK_CLOSE((p)->contact.proxy[0], px, 1e-9);                                                                  \
+        CHECK_CLOSE((p)->contact.proxy[1], py, 1e-9);                                                                  \
+        CHECK_CLOSE((p)->contact.proxy[2], pz, 1e-9);                                                                  \
+        CHECK_CLOSE((p)->contact.normal[0], nx, 1e-9);                                                                 \
+        CHECK_CLOSE((p)->contact.normal[1], ny, 1e-9);                                                                 \
+        CHECK_CLOSE((p)->contact.normal[2], nz, 1e-9);                                                                 \
+        CHECK_CLOSE(-(p)->contact.z, depth, 1e-9);                                                                     \
+    } while (0)
+
+#endif

@@ -1,0 +1,333 @@
+/* The fake device as a device: its URI, information and errors, what it does with forces, halts and lost cables.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/fake.h"
+
+#include <stdio.h>
+
+/* Nothing but a mass in free space: a force shows as F t^2/2m, from the next tick on. */
+#define FREE "fake:?coulomb=0&viscous=0&hand_stiffness=0&hand_damping=0&tremor=0&resolution=0&mass=0.05"
+
+static void write_x(knurl_device *device, double force) {
+    const double forces[3] = {force, 0.0, 0.0};
+    assert_int_equal(knurl_device_write(device, forces), KNURL_OK);
+}
+
+/* --- opening --- */
+
+/* What an open that fails must leave alone. */
+typedef struct opened {
+    knurl_device *device;
+} opened;
+
+TEST(uris_that_name_the_fake_device_open_it) {
+    static const char *const uris[] = {"fake",
+                                       "fake:",
+                                       "fake:?",
+                                       "fake:?mass=0.1",
+                                       "fake:?mass=0.1&",
+                                       "fake:?mass=1e-1&viscous=0&coulomb=0&hand_stiffness=0&hand_damping=0",
+                                       "fake:?max_force=1&delay=16&width=1&height=1&depth=1&tremor=0&resolution=0",
+                                       "fake:?seed=4294967295&lose_at=1&seed=0"};
+    for (size_t i = 0; i < COUNT_OF(uris); i++) {
+        knurl_device_close(open_device(uris[i]));
+    }
+    knurl_device_close(NULL);
+}
+
+TEST(a_bad_key_or_value_is_refused_in_a_sentence_that_names_it) {
+    static const struct {
+        const char *uri, *named;
+    } bad[] = {{"fake:mass=1", "mass=1"},
+               {"fake:?mas=1", "mas=1"},
+               {"fake:?masss=1", "masss=1"},
+               {"fake:?Mass=1", "Mass=1"},
+               {"fake:?mass", "mass"},
+               {"fake:?=1", "=1"},
+               {"fake:?&mass=1", "key=value"},
+               {"fake:?mass=1&&delay=1", "key=value"},
+               {"fake:?mass=", "mass"},
+               {"fake:?mass=heavy", "heavy"},
+               {"fake:?mass=1kg", "1kg"},
+               {"fake:?mass=1=2", "1=2"},
+               {"fake:?mass=0", "mass"},
+               {"fake:?mass=-1", "-1"},
+               {"fake:?mass=nan", "nan"},
+               {"fake:?mass=inf", "inf"},
+               {"fake:?mass=1e300", "1e300"},
+               {"fake:?resolution=-1e-9", "resolution"},
+               {"fake:?max_force=0", "max_force"},
+               {"fake:?delay=1.5", "1.5"},
+               {"fake:?delay=17", "17"},
+               {"fake:?delay=-1", "-1"},
+               {"fake:?seed=0.5", "0.5"},
+               {"fake:?seed=4294967296", "4294967296"},
+               {"fake:?width=0", "width"},
+               {"fake:?tremor=-1", "tremor"},
+               {"fake:?lose_at=-1", "lose_at"},
+               {"fake:?mass=0.1&delay=two", "delay"},
+               {"fake:?mass=0.00000000000000000000000000000000000000000000000000000000000000001", "mass"}};
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        opened out = {NULL};
+        CHECK_REFUSED(knurl_device_open(bad[i].uri, &out.device), KNURL_ERROR_ARGUMENT, out);
+        if (!strstr(knurl_error_message(), bad[i].named)) {
+            fail_msg("%s: '%s' does not name '%s'", bad[i].uri, knurl_error_message(), bad[i].named);
+        }
+    }
+}
+
+/* Every key that knurl_fake_keys() lists, with the default that it lists, is taken. */
+TEST(every_key_that_is_listed_is_taken_with_its_default) {
+    char uri[1024] = "fake:?";
+    size_t keys = 0;
+    for (const char *line = knurl_fake_keys(); *line; line = strchr(line, '\n') + 1) {
+        const size_t length = strcspn(line, " \t\n");
+        assert_true(length > 3 && memchr(line, '=', length) && strlen(uri) + length + 2 < sizeof uri);
+        (void)strncat(uri, line, length);
+        (void)strncat(uri, "&", 2);
+        keys++;
+        assert_non_null(strchr(line, '\n')); /* each on a line of its own */
+    }
+    assert_true(keys >= 10);
+    knurl_device *device = open_device(uri);
+    knurl_device *standard = open_device("fake");
+    for (int tick = 0; tick < 500; tick++) {
+        const knurl_device_sample one = read_one(device);
+        const knurl_device_sample other = read_one(standard);
+        assert_memory_equal(&one, &other, sizeof one);
+    }
+    knurl_device_close(device);
+    knurl_device_close(standard);
+}
+
+TEST(devices_whose_drivers_are_not_there_are_unsupported_and_others_unknown) {
+    static const char *const absent[] = {"touch", "touch:Default Device", "falcon", "falcon:0", "rawhid", "rawhid:1:2"};
+    static const char *const strange[] = {"", ":", "fak", "fakes", "Fake", "touc", "touches", "omega", "?", "mass=1"};
+    opened out = {NULL};
+    for (size_t i = 0; i < COUNT_OF(absent); i++) {
+        CHECK_REFUSED(knurl_device_open(absent[i], &out.device), KNURL_ERROR_UNSUPPORTED, out);
+        assert_non_null(strstr(knurl_error_message(), absent[i]));
+    }
+    for (size_t i = 0; i < COUNT_OF(strange); i++) {
+        CHECK_REFUSED(knurl_device_open(strange[i], &out.device), KNURL_ERROR_UNKNOWN, out);
+        assert_non_null(strstr(knurl_error_message(), strange[i]));
+    }
+    CHECK_REFUSED(knurl_device_open(NULL, &out.device), KNURL_ERROR_UNKNOWN, out);
+}
+
+TEST(a_listing_names_every_device_and_why_it_cannot_be_had) {
+    knurl_device_listing listings[8];
+    memset(listings, 0, sizeof listings);
+    assert_int_equal(knurl_device_list(NULL, 0), 4);
+    assert_int_equal(knurl_device_list(listings, 1), 4);
+    assert_null(listings[1].uri); /* no more than there is room for */
+    assert_int_equal(knurl_device_list(listings, 8), 4);
+    assert_null(listings[4].uri);
+    for (size_t i = 0; i < 4; i++) {
+        knurl_device *device = NULL;
+        assert_true(listings[i].name[0] != '\0');
+        const knurl_result result = knurl_device_open(listings[i].uri, &device);
+        assert_int_equal(result, listings[i].reason[0] ? KNURL_ERROR_UNSUPPORTED : KNURL_OK);
+        assert_int_equal(result == KNURL_OK, strcmp(listings[i].uri, "fake") == 0);
+        knurl_device_close(device);
+    }
+}
+
+TEST(the_fake_device_is_a_touch) {
+    knurl_device_info info;
+    knurl_device *device = open_device("fake");
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    CHECK_SAME(info.workspace_min[0], -0.08);
+    CHECK_SAME(info.workspace_max[0], 0.08);
+    CHECK_SAME(info.workspace_min[1], -0.06);
+    CHECK_SAME(info.workspace_max[1], 0.06);
+    CHECK_CLOSE(info.workspace_min[2], -0.035, 1e-15);
+    CHECK_CLOSE(info.workspace_max[2], 0.035, 1e-15);
+    CHECK_SAME(info.resolution, 0.055e-3);
+    CHECK_SAME(info.max_force, 3.3);
+    CHECK_SAME(info.delay, 1.0);
+    assert_int_equal(info.reserved, 0);
+    assert_true(info.name[0] != '\0');
+    knurl_device_info untouched;
+    memset(&untouched, 0, sizeof untouched);
+    CHECK_REFUSED(knurl_device_get_info(device, &untouched), KNURL_ERROR_ARGUMENT, untouched);
+    knurl_device_close(device);
+}
+
+TEST(an_update_rate_that_is_none_is_refused) {
+    static const double rates[] = {0.0, -1.0, 1e9, 0.5, NAN, HUGE_VAL};
+    knurl_device *device = open_device("fake");
+    for (size_t i = 0; i < COUNT_OF(rates); i++) {
+        char nothing = 0;
+        CHECK_REFUSED(knurl_device_start(device, rates[i]), KNURL_ERROR_ARGUMENT, nothing);
+    }
+    knurl_device_close(device);
+}
+
+/* --- forces --- */
+
+TEST(a_force_shows_after_the_tick_and_its_delay) {
+    for (int delay = 0; delay <= 16; delay++) {
+        char uri[200];
+        (void)snprintf(uri, sizeof uri, FREE "&delay=%d", delay);
+        knurl_device *device = open_device(uri);
+        stand(device);
+        for (int tick = 0; tick < 40; tick++) {
+            const double x = read_one(device).position[0];
+            assert_int_equal(x > 0.0, tick > 10 + delay);
+            write_x(device, tick == 10 ? 1.0 : 0.0);
+        }
+        knurl_device_close(device);
+    }
+}
+
+TEST(a_force_is_shortened_to_the_limit_and_keeps_its_direction) {
+    static const double far_too_much[3] = {30.0, 0.0, -40.0};
+    knurl_device *device = open_device(FREE "&max_force=2&delay=0&width=1&depth=1");
+    stand(device);
+    for (int tick = 0; tick < 100; tick++) {
+        (void)read_one(device);
+        assert_int_equal(knurl_device_write(device, far_too_much), KNURL_OK);
+    }
+    const knurl_device_sample sample = read_one(device);
+    CHECK_CLOSE(sample.position[0], 0.5 * 1.2 / 0.05 * 0.01, 24.0 * 0.1 / RATE);
+    CHECK_CLOSE(sample.position[2] / sample.position[0], -1.6 / 1.2, 1e-12);
+    knurl_device_close(device);
+}
+
+TEST(a_force_that_is_not_finite_is_written_as_none) {
+    static const double bad[][3] = {{NAN, 0, 0}, {1, NAN, 1}, {HUGE_VAL, 0, 0}, {0, -HUGE_VAL, 0}, {1, 1, HUGE_VAL}};
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        knurl_device *device = open_device(FREE "&delay=0");
+        stand(device);
+        const knurl_device_sample before = read_one(device);
+        for (int tick = 0; tick < 10; tick++) {
+            assert_int_equal(knurl_device_write(device, bad[i]), KNURL_OK);
+            assert_memory_equal(read_one(device).position, before.position, sizeof before.position);
+        }
+        knurl_device_close(device);
+    }
+}
+
+TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
+    knurl_device *device = open_device(FREE "&delay=0");
+    stand(device);
+    assert_int_equal(knurl_device_is_halted(device), 0);
+    knurl_device_halt(device);
+    knurl_device_halt(device);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    for (int tick = 0; tick < 50; tick++) {
+        CHECK_SAME(read_one(device).position[0], 0.0L);
+        write_x(device, 1.0);
+    }
+    knurl_device_release_halt(device);
+    assert_int_equal(knurl_device_is_halted(device), 0);
+    CHECK_SAME(read_one(device).position[0], 0.0L); /* what was written during the halt is not caught up with */
+    write_x(device, 1.0);
+    assert_true(read_one(device).position[0] > 0.0);
+    knurl_device_close(device);
+}
+
+/* At once, whatever the haptic thread does: also what is played, and what is still under way, when nobody writes. */
+TEST(a_halt_lets_go_of_the_motors_at_once) {
+    for (int delay = 0; delay <= 3; delay++) {
+        char uri[200];
+        (void)snprintf(uri, sizeof uri, FREE "&delay=%d", delay);
+        knurl_device *device = open_device(uri);
+        stand(device);
+        for (int tick = 0; tick < 20; tick++) {
+            (void)read_one(device);
+            write_x(device, 1.0);
+        }
+        const double before = read_one(device).position[0];
+        knurl_device_halt(device);
+        const double step = read_one(device).position[0] - before;
+        double last = before + step;
+        for (int tick = 0; tick < 50; tick++) { /* no force: it drifts on at the speed it has */
+            const double now = read_one(device).position[0];
+            CHECK_CLOSE(now - last, step, 1e-12);
+            last = now;
+        }
+        knurl_device_close(device);
+    }
+}
+
+TEST(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again) {
+    static const double force[3] = {1.0, 0.0, 0.0};
+    knurl_device *device = open_device("fake:?lose_at=0.1");
+    for (int turn = 0; turn < 2; turn++) {
+        assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
+        for (int tick = 0; tick < 100; tick++) { /* 0 to 0.099 s */
+            (void)read_one(device);
+            assert_true(tick == 99 || knurl_device_write(device, force) == KNURL_OK);
+        }
+        for (int tick = 0; tick < 10; tick++) {
+            knurl_device_sample sample;
+            memset(&sample, 0x11, sizeof sample);
+            const knurl_device_sample before = sample;
+            assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+            assert_memory_equal(&sample, &before, sizeof sample);
+            assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
+        }
+    }
+    knurl_device_close(device);
+}
+
+/* --- the plant behind the device --- */
+
+TEST(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness) {
+    static const double force[3] = {0.7, 1.4, -0.35};
+    knurl_device *device = open_device("fake:?coulomb=0&tremor=0&resolution=0&hand_stiffness=700");
+    stand(device);
+    knurl_device_sample sample = read_one(device);
+    for (int tick = 0; tick < 3000; tick++) {
+        assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+        sample = read_one(device);
+    }
+    CHECK_CLOSE(sample.position[0], 0.001, 1e-12);
+    CHECK_CLOSE(sample.position[1], -0.001 + 0.002, 1e-12); /* the target is 1 mm below */
+    CHECK_CLOSE(sample.position[2], -0.0005, 1e-12);
+    assert_int_equal(sample.buttons, 0);
+    assert_int_equal(sample.reserved, 0);
+    knurl_device_close(device);
+}
+
+TEST(positions_are_multiples_of_the_resolution) {
+    static const struct {
+        const char *uri;
+        double resolution;
+    } devices[] = {{"fake", 0.055e-3}, {"fake:?resolution=0.001", 0.001}, {"fake:?resolution=1e-6", 1e-6}};
+    for (size_t i = 0; i < COUNT_OF(devices); i++) {
+        knurl_device *device = open_device(devices[i].uri);
+        for (int tick = 0; tick < 2000; tick++) {
+            const knurl_device_sample sample = read_one(device);
+            for (int axis = 0; axis < 3; axis++) {
+                const double counts = sample.position[axis] / devices[i].resolution;
+                CHECK_CLOSE(counts, round(counts), 1e-7);
+            }
+        }
+        knurl_device_close(device);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(uris_that_name_the_fake_device_open_it),
+        cmocka_unit_test(a_bad_key_or_value_is_refused_in_a_sentence_that_names_it),
+        cmocka_unit_test(every_key_that_is_listed_is_taken_with_its_default),
+        cmocka_unit_test(devices_whose_drivers_are_not_there_are_unsupported_and_others_unknown),
+        cmocka_unit_test(a_listing_names_every_device_and_why_it_cannot_be_had),
+        cmocka_unit_test(the_fake_device_is_a_touch),
+        cmocka_unit_test(an_update_rate_that_is_none_is_refused),
+        cmocka_unit_test(a_force_shows_after_the_tick_and_its_delay),
+        cmocka_unit_test(a_force_is_shortened_to_the_limit_and_keeps_its_direction),
+        cmocka_unit_test(a_force_that_is_not_finite_is_written_as_none),
+        cmocka_unit_test(while_halted_a_force_counts_nothing_until_it_is_released),
+        cmocka_unit_test(a_halt_lets_go_of_the_motors_at_once),
+        cmocka_unit_test(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again),
+        cmocka_unit_test(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness),
+        cmocka_unit_test(positions_are_multiples_of_the_resolution),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

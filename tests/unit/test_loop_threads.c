@@ -1,0 +1,361 @@
+/* The loop in real time and among threads: stops from anywhere, the watchdog, statistics while it runs, memory. Nothing
+ * here depends on how promptly the machine runs a thread, only on what must never happen and what must come in the end.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/rig.h"
+
+#include "base/atomic.h"
+#include "base/system.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static rig r; /* set up anew by each test */
+
+/* After a test that failed too: no thread goes on with the rig that the next test sets up. */
+static int end_rig(void **state) {
+    (void)state;
+    rig_destroy(&r);
+    return 0;
+}
+
+static double seconds_now(void) {
+    return 1e-9 * (double)knurl_system_now_ns();
+}
+
+static void sleep_s(double seconds) {
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(seconds * 1e9));
+}
+
+/* A rig in real time, without a watchdog, which a machine under load might set off. */
+static void init_real(void) {
+    rig_init(&r);
+    r.desc.clock = NULL;
+    r.desc.watchdog_s = 0.0;
+}
+
+static void wait_for_ticks(uint64_t ticks) {
+    const double give_up = seconds_now() + 10.0;
+    while (rig_stats(&r).ticks < ticks && seconds_now() < give_up) {
+        sleep_s(0.001);
+    }
+    assert_true(rig_stats(&r).ticks >= ticks);
+}
+
+static void *stop_from_thread(void *loop) {
+    knurl_loop_stop(loop);
+    return NULL;
+}
+
+/* --- memory --- */
+
+/* kB of this process that are locked into RAM, or -1 where the system does not tell. */
+static long locked_kb(void) {
+    char line[256];
+    long kb = -1;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status && fgets(line, sizeof line, status)) {
+        if (strncmp(line, "VmLck:", 6) == 0) {
+            kb = strtol(line + 6, NULL, 10);
+        }
+    }
+    if (status) {
+        (void)fclose(status);
+    }
+    return kb;
+}
+
+/* First of all tests: what an earlier one left locked would hide it. */
+TEST(what_was_locked_is_unlocked_when_it_is_given_back) {
+    const long before = locked_kb();
+    for (int turn = 0; turn < 5; turn++) {
+        init_real();
+        r.desc.tick_limit = 5;
+        rig_create(&r);
+        rig_run(&r);
+        rig_destroy(&r);
+        assert_true(locked_kb() <= before); /* the pages are the host's again */
+    }
+}
+
+TEST(only_the_loops_own_memory_and_stack_are_locked) {
+    static unsigned char hosts[8 * 1024 * 1024];
+    memset(hosts, 1, sizeof hosts);
+    init_real();
+    const long before = locked_kb();
+    if (before < 0) {
+        skip(); /* no /proc here */
+    }
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    wait_for_ticks(10);
+    assert_true(locked_kb() - before < 1024);
+    rig_destroy(&r);
+    assert_int_equal(hosts[sizeof hosts - 1], 1);
+}
+
+/* --- real time --- */
+
+TEST(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over) {
+    init_real();
+    r.desc.watchdog_s = 1.0;
+    r.desc.tick_limit = 500;
+    rig_create(&r);
+    const double start = seconds_now();
+    rig_run(&r);
+    const double took = seconds_now() - start;
+    const knurl_loop_stats stats = rig_stats(&r);
+    assert_int_equal(stats.state, KNURL_LOOP_DONE);
+    assert_int_equal(stats.ticks, 500);
+    assert_int_equal(r.calls, 500);
+    assert_int_equal(r.out_of_order, 0);
+    assert_in_range(r.writes, 519, 521); /* and the ramp */
+    assert_true(took >= 0.5 && took < 8.0);
+    assert_true(stats.overruns <= 500);
+    assert_true(stats.tick_ns.p50 >= 0.0 && stats.tick_ns.p50 < 1e9);
+    assert_true(stats.jitter_ns.p50 >= 0.0 && stats.jitter_ns.max < 8e9);
+    assert_true(stats.jitter_ns.p50 <= stats.jitter_ns.p99);
+    assert_true(stats.jitter_ns.p99 <= 1.03 * stats.jitter_ns.max + 1.0);
+    assert_true(stats.tick_ns.p50 <= stats.tick_ns.p99);
+    assert_true(stats.tick_ns.p99 <= 1.03 * stats.tick_ns.max + 1.0);
+    assert_true(stats.realtime <= 1 && stats.memory_locked <= 1);
+    rig_destroy(&r);
+}
+
+TEST(waiting_gives_up_after_its_time) {
+    init_real();
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    const double start = seconds_now();
+    assert_int_equal(knurl_loop_wait(r.loop, 0.05), 0);
+    assert_true(seconds_now() - start >= 0.05);
+    assert_int_equal(knurl_loop_wait(r.loop, 0.0), 0);
+    assert_int_equal(knurl_loop_wait(r.loop, -1.0), 0);
+    assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
+    rig_destroy(&r);
+}
+
+TEST(statistics_and_snapshots_can_be_read_while_it_runs) {
+    init_real();
+    r.desc.update_rate_hz = 10000.0;
+    r.desc.tick_limit = 3000;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    uint64_t last = 0;
+    knurl_loop_stats stats;
+    const double give_up = seconds_now() + 10.0;
+    do {
+        stats = rig_stats(&r);
+        assert_true(stats.ticks >= last);
+        assert_true(stats.overruns <= stats.ticks + 1);
+        assert_true(stats.state == KNURL_LOOP_RUNNING || stats.state == KNURL_LOOP_DONE);
+        assert_true(stats.jitter_ns.p50 >= 0.0 && stats.tick_ns.max >= 0.0);
+        last = stats.ticks;
+    } while (stats.state == KNURL_LOOP_RUNNING && seconds_now() < give_up);
+    assert_int_equal(stats.state, KNURL_LOOP_DONE);
+    assert_int_equal(rig_stats(&r).ticks, 3000);
+    rig_destroy(&r);
+}
+
+/* --- stops --- */
+
+TEST(a_stop_from_another_thread_waits_for_the_end) {
+    pthread_t thread;
+    init_real();
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    wait_for_ticks(20);
+    assert_int_equal(pthread_create(&thread, NULL, stop_from_thread, r.loop), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
+    const uint64_t calls = r.calls;
+    assert_int_equal(rig_stats(&r).ticks, calls);
+    CHECK_SAME(r.written[(r.writes - 1) % RIG_ROOM][1], 0.0L);
+    rig_check_let_go(&r);
+    knurl_loop_stop(r.loop); /* twice is fine */
+    sleep_s(0.01);
+    assert_int_equal(r.calls, calls);
+    rig_destroy(&r);
+}
+
+TEST(stops_from_several_threads_at_once_all_return) {
+    for (int turn = 0; turn < 20; turn++) {
+        pthread_t threads[4];
+        init_real();
+        r.desc.ramp_s = 0.002;
+        rig_create(&r);
+        assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+        for (size_t i = 0; i < COUNT_OF(threads); i++) {
+            assert_int_equal(pthread_create(&threads[i], NULL, stop_from_thread, r.loop), 0);
+        }
+        knurl_loop_request_stop(r.loop);
+        for (size_t i = 0; i < COUNT_OF(threads); i++) {
+            assert_int_equal(pthread_join(threads[i], NULL), 0);
+        }
+        assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
+        rig_destroy(&r);
+    }
+}
+
+/* Whichever comes first, the loop ends. */
+TEST(a_stop_that_races_with_the_start_ends_it) {
+    for (int turn = 0; turn < 50; turn++) {
+        pthread_t thread;
+        init_real();
+        r.desc.ramp_s = 0.001;
+        rig_create(&r);
+        assert_int_equal(pthread_create(&thread, NULL, stop_from_thread, r.loop), 0);
+        assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+        assert_int_equal(pthread_join(thread, NULL), 0);
+        assert_int_equal(knurl_loop_wait(r.loop, 10.0), 1);
+        assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
+        rig_destroy(&r);
+    }
+}
+
+static void stop_here(rig *self) {
+    knurl_loop_stop(self->loop);
+    knurl_loop_stop(self->loop);
+}
+
+TEST(a_stop_from_the_callback_ends_a_real_run) {
+    init_real();
+    r.special_call = 30;
+    r.special = stop_here;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(r.calls, 31);
+    assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
+    CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
+    rig_destroy(&r);
+}
+
+TEST(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards) {
+    for (int turn = 0; turn < 10; turn++) {
+        init_real();
+        r.desc.watchdog_s = turn % 2 ? 0.05 : 0.0;
+        r.desc.ramp_s = 0.005;
+        rig_create(&r);
+        assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+        if (turn > 0) {
+            wait_for_ticks((uint64_t)turn);
+        }
+        rig_destroy(&r);
+        const uint64_t calls = r.calls;
+        const uint64_t writes = r.writes;
+        assert_true(writes == 0 || r.written[writes - 1][1] == 0.0);
+        rig_check_let_go(&r);
+        sleep_s(0.003);
+        assert_true(r.calls == calls && r.writes == writes);
+    }
+}
+
+TEST(a_device_that_is_lost_ends_a_real_run) {
+    knurl_device *device = NULL;
+    assert_int_equal(knurl_device_open("fake:?lose_at=0.1", &device), KNURL_OK);
+    init_real();
+    r.desc.device = device;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
+    assert_int_equal(rig_stats(&r).ticks, 100);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    knurl_loop_stop(r.loop);
+    rig_destroy(&r);
+    knurl_device_close(device);
+}
+
+/* --- the watchdog --- */
+
+static void stall(rig *self) {
+    sleep_s(0.2);
+    self->seen = knurl_device_is_halted(self->desc.device);
+}
+
+TEST(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp) {
+    init_real();
+    r.desc.watchdog_s = 0.05;
+    r.special_call = 100;
+    r.special = stall;
+    r.desc.tick_limit = 600;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(r.seen, 1); /* let go while the callback stood */
+    assert_true(rig_stats(&r).watchdogs >= 1);
+    assert_int_equal(rig_stats(&r).ticks, 600);
+    CHECK_SAME(r.written[100][1], 0.0L); /* what was computed in the stall is not played */
+    double best = 0.0;
+    for (int tick = 101; tick < 600; tick++) { /* a machine under load may set it off again */
+        assert_true(r.written[tick][1] - r.written[tick - 1][1] <= 1.0 / 20.0 + 1e-12);
+        best = fmax(best, r.written[tick][1]);
+    }
+    CHECK_SAME(best, 1.0L);
+    rig_destroy(&r);
+}
+
+TEST(without_a_watchdog_nobody_lets_go) {
+    init_real();
+    r.special_call = 50;
+    r.special = stall;
+    r.desc.tick_limit = 60;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(r.seen, 0);
+    assert_int_equal(rig_stats(&r).watchdogs, 0);
+    for (int tick = 0; tick < 60; tick++) {
+        CHECK_SAME(r.written[tick][1], 1.0L);
+    }
+    rig_destroy(&r);
+}
+
+/* A ramp may take a second, and no tick is counted in it: the watchdog must not cut it off. */
+TEST(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end) {
+    init_real();
+    r.desc.ramp_s = 0.8;
+    r.desc.watchdog_s = 0.25;
+    r.desc.tick_limit = 50;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(rig_stats(&r).watchdogs, 0);
+    assert_in_range(r.writes, 849, 851);
+    for (uint64_t k = 51; k < r.writes; k++) {
+        CHECK_CLOSE(r.written[k - 1][1] - r.written[k][1], 1.0 / 800.0, 1e-5);
+    }
+    CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
+    rig_destroy(&r);
+}
+
+TEST(a_patient_watchdog_does_not_hold_up_the_destruction) {
+    init_real();
+    r.desc.watchdog_s = 10.0;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    wait_for_ticks(5);
+    knurl_loop_stop(r.loop);
+    const double start = seconds_now();
+    rig_destroy(&r);
+    assert_true(seconds_now() - start < 1.5); /* a quarter of its patience would be 2.5 s */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(what_was_locked_is_unlocked_when_it_is_given_back, end_rig),
+        cmocka_unit_test_teardown(only_the_loops_own_memory_and_stack_are_locked, end_rig),
+        cmocka_unit_test_teardown(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over, end_rig),
+        cmocka_unit_test_teardown(waiting_gives_up_after_its_time, end_rig),
+        cmocka_unit_test_teardown(statistics_and_snapshots_can_be_read_while_it_runs, end_rig),
+        cmocka_unit_test_teardown(a_stop_from_another_thread_waits_for_the_end, end_rig),
+        cmocka_unit_test_teardown(stops_from_several_threads_at_once_all_return, end_rig),
+        cmocka_unit_test_teardown(a_stop_that_races_with_the_start_ends_it, end_rig),
+        cmocka_unit_test_teardown(a_stop_from_the_callback_ends_a_real_run, end_rig),
+        cmocka_unit_test_teardown(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards, end_rig),
+        cmocka_unit_test_teardown(a_device_that_is_lost_ends_a_real_run, end_rig),
+        cmocka_unit_test_teardown(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp,
+                                  end_rig),
+        cmocka_unit_test_teardown(without_a_watchdog_nobody_lets_go, end_rig),
+        cmocka_unit_test_teardown(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, end_rig),
+        cmocka_unit_test_teardown(a_patient_watchdog_does_not_hold_up_the_destruction, end_rig),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

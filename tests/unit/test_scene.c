@@ -1,0 +1,376 @@
+/* A scene's life on the game thread: every documented error, ids, names, memory. SPDX-License-Identifier: MIT */
+#include "support/scenes.h"
+
+static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
+
+static void check_message(const char *word) {
+    if (!strstr(knurl_error_message(), word)) {
+        print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);
+        fail();
+    }
+}
+
+#define CHECK_ADD_REFUSED(scene, parts, code, word)                                                                    \
+    do {                                                                                                               \
+        knurl_surface id_ = 77;                                                                                        \
+        const uint32_t count_ = knurl_scene_surface_count(scene);                                                      \
+        CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(parts), &id_), code, id_);                          \
+        check_message(word);                                                                                           \
+        assert_int_equal(knurl_scene_surface_count(scene), count_);                                                    \
+    } while (0)
+
+TEST(life_goes_from_create_to_tick) {
+    knurl_scene *scene = NULL;
+    assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
+    assert_int_equal(knurl_scene_surface_count(scene), 0);
+    assert_true(knurl_scene_surface_at(scene, 0) == 0);
+    surface_parts parts = surface_plane();
+    parts.desc.name = "first";
+    const knurl_surface first = add_surface(scene, &parts);
+    parts.desc.name = NULL;
+    const knurl_surface second = add_surface(scene, &parts);
+    assert_true(first != second);
+    assert_int_equal(knurl_scene_surface_count(scene), 2);
+    assert_true(knurl_scene_surface_at(scene, 0) == first);
+    assert_true(knurl_scene_surface_at(scene, 1) == second);
+    assert_true(knurl_scene_surface_at(scene, 2) == 0);
+    const char *name = NULL;
+    assert_int_equal(knurl_scene_surface_name(scene, first, &name), KNURL_OK);
+    assert_string_equal(name, "first");
+    assert_int_equal(knurl_scene_surface_name(scene, second, &name), KNURL_OK);
+    assert_string_equal(name, "");
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    assert_true((tick_at(scene, 0.0, 0.0, -0.001).flags & KNURL_TICK_CONTACT) != 0);
+    knurl_scene_destroy(scene);
+    knurl_scene_destroy(NULL);
+}
+
+TEST(scene_descriptions_out_of_range_are_refused) {
+    knurl_scene *scene = NULL;
+    knurl_scene_desc good;
+    knurl_scene_desc_init(&good, sizeof good);
+    knurl_scene_desc bad = good;
+    bad.max_surfaces = 0;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    check_message("max_surfaces");
+    bad.max_surfaces = (1u << 20) + 1;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    bad = good;
+    bad.hip_count = 0;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    check_message("hip_count");
+    bad.hip_count = 9;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    bad = good;
+    const knurl_allocator half = {NULL, NULL, NULL};
+    bad.allocator = &half;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    check_message("allocator");
+    bad = good;
+    bad.struct_size = 0;
+    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    check_message("struct_size");
+}
+
+TEST(committed_scene_refuses_edits) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    CHECK_REFUSED(knurl_scene_commit(scene), KNURL_ERROR_STATE, id);
+    CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_ERROR_STATE, id);
+    CHECK_REFUSED(knurl_scene_remove_surface(scene, id), KNURL_ERROR_STATE, id);
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_STATE, id);
+    assert_int_equal(knurl_scene_surface_count(scene), 1);
+    knurl_scene_destroy(scene);
+}
+
+TEST(ids_of_removed_surfaces_stay_stale) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    const char *name = "untouched";
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    const knurl_surface kept = add_surface(scene, &parts);
+    const knurl_surface removed = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_remove_surface(scene, removed), KNURL_OK);
+    const knurl_surface next = add_surface(scene, &parts); /* takes the place, not the id */
+    assert_true(next != removed);
+    const knurl_surface stale[] = {removed, 0, UINT64_MAX, next + 1, kept + ((uint64_t)1 << 32)};
+    for (size_t i = 0; i < COUNT_OF(stale); i++) {
+        CHECK_REFUSED(knurl_scene_remove_surface(scene, stale[i]), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_set_material(scene, stale[i], &parts.material), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_surface_name(scene, stale[i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_surface_info(scene, stale[i], &info), KNURL_ERROR_STALE_ID, info);
+    }
+    assert_int_equal(knurl_scene_surface_name(scene, kept, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_surface_name(scene, next, &name), KNURL_OK);
+    knurl_scene_destroy(scene);
+}
+
+TEST(order_of_adding_survives_removal) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface ids[9];
+    for (int i = 0; i < 9; i++) {
+        ids[i] = add_surface(scene, &parts);
+    }
+    assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
+    assert_int_equal(knurl_scene_remove_surface(scene, ids[4]), KNURL_OK);
+    const knurl_surface last = add_surface(scene, &parts);
+    const knurl_surface expected[8] = {ids[1], ids[2], ids[3], ids[5], ids[6], ids[7], ids[8], last};
+    assert_int_equal(knurl_scene_surface_count(scene), 8);
+    for (uint32_t i = 0; i < 8; i++) {
+        assert_true(knurl_scene_surface_at(scene, i) == expected[i]);
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(full_scene_has_room_after_a_removal) {
+    surface_parts parts = surface_plane();
+    knurl_scene_desc desc;
+    knurl_scene *scene = NULL;
+    knurl_surface id = 0;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.max_surfaces = 6;
+    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    for (int i = 0; i < 6; i++) {
+        id = add_surface(scene, &parts);
+    }
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_FULL, "max_surfaces");
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    (void)add_surface(scene, &parts);
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_FULL, "6");
+    knurl_scene_destroy(scene);
+}
+
+TEST(what_is_not_built_is_refused_with_a_sentence) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    const knurl_surface id = add_surface(scene, &parts);
+    parts.material.method = KNURL_LOCKED;
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNSUPPORTED, "locked");
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_UNSUPPORTED, id);
+    parts = surface_plane();
+    parts.material.friction = 0.3;
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNSUPPORTED, "friction");
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_UNSUPPORTED, id);
+    parts = surface_plane();
+    parts.material.method = 99;
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNKNOWN, "99");
+    knurl_scene_destroy(scene);
+}
+
+TEST(materials_out_of_range_are_refused_by_name) {
+    surface_parts good = surface_plane();
+    surface_parts bad;
+    set_grating(&good, KNURL_S2, 500.0, 300.0, 0.0005);
+    struct {
+        double *value;
+        const char *name;
+        double wrong;
+    } fields[] = {
+        {&bad.material.spatial_frequency[0], "spatial_frequency", -1.0},
+        {&bad.material.spatial_frequency[1], "spatial_frequency", -1e-300},
+        {&bad.material.amplitude, "amplitude", -1e-9},
+        {&bad.material.stiffness, "stiffness", 0.0},
+        {&bad.material.stiffness, "stiffness", -400.0},
+        {&bad.material.damping, "damping", -0.1},
+        {&bad.material.friction, "friction", -0.1},
+        {&bad.material.orientation, "orientation", (double)NAN},
+    };
+    knurl_scene *scene = empty_scene(1);
+    const knurl_surface id = add_surface(scene, &good);
+    for (size_t i = 0; i < COUNT_OF(fields); i++) {
+        for (size_t k = 0; k <= COUNT_OF(NO_NUMBERS); k++) {
+            bad = good;
+            *fields[i].value = k < COUNT_OF(NO_NUMBERS) ? NO_NUMBERS[k] : fields[i].wrong;
+            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, fields[i].name);
+            CHECK_REFUSED(knurl_scene_set_material(scene, id, &bad.material), KNURL_ERROR_ARGUMENT, bad);
+        }
+    }
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK); /* what was set first still holds */
+    assert_memory_equal(&info.material, &good.material, sizeof info.material);
+    knurl_scene_destroy(scene);
+}
+
+TEST(places_out_of_range_are_refused_by_name) {
+    surface_parts good = surface_plane();
+    surface_parts bad;
+    knurl_scene *scene = empty_scene(1);
+    for (size_t k = 0; k < COUNT_OF(NO_NUMBERS); k++) {
+        for (int axis = 0; axis < 3; axis++) {
+            bad = good;
+            bad.desc.position[axis] = NO_NUMBERS[k];
+            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "position");
+            bad = good;
+            bad.desc.rotation[axis] = NO_NUMBERS[k];
+            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "rotation");
+            bad = good;
+            bad.desc.axis[axis] = NO_NUMBERS[k];
+            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "axis");
+            bad = good;
+            bad.plane.half_extents[axis % 2] = NO_NUMBERS[k];
+            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "half_extents");
+        }
+    }
+    bad = good;
+    bad.desc.rotation[3] = 0.0;
+    CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "unit quaternion");
+    bad.desc.rotation[3] = 2.0;
+    CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "unit quaternion");
+    bad = good;
+    bad.plane.half_extents[1] = 0.0;
+    CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "half_extents[1]");
+    knurl_scene_destroy(scene);
+}
+
+TEST(surface_is_exactly_one_shape_with_a_material) {
+    shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
+    surface_parts parts = surface_mesh(&sheet);
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface id = 77;
+    knurl_surface_desc desc = *surface_ready(&parts);
+    desc.plane = &parts.plane;
+    CHECK_REFUSED(knurl_scene_add_surface(scene, &desc, &id), KNURL_ERROR_ARGUMENT, id);
+    check_message("both");
+    desc.plane = NULL;
+    desc.mesh = NULL;
+    CHECK_REFUSED(knurl_scene_add_surface(scene, &desc, &id), KNURL_ERROR_ARGUMENT, id);
+    check_message("none");
+    desc = *surface_ready(&parts);
+    desc.material = NULL;
+    CHECK_REFUSED(knurl_scene_add_surface(scene, &desc, &id), KNURL_ERROR_ARGUMENT, id);
+    check_message("material");
+    CHECK_REFUSED(knurl_scene_add_surface(scene, NULL, &id), KNURL_ERROR_ARGUMENT, id);
+    parts.mesh.index_count = 4;
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "multiple of 3");
+    assert_int_equal(knurl_scene_surface_count(scene), 0);
+    knurl_scene_destroy(scene);
+    shape_free(&sheet);
+}
+
+TEST(mesh_needs_a_direction_and_s1_coordinates) {
+    float tangents[9 * 4] = {0};
+    shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
+    surface_parts parts = surface_mesh(&sheet);
+    knurl_scene *scene = empty_scene(1);
+    parts.mesh.uvs = NULL;
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "axis");
+    parts.mesh.tangents = tangents;
+    set_grating(&parts, KNURL_S2, 500.0, 0.0, 0.0005);
+    const knurl_surface id = add_surface(scene, &parts); /* S2 needs a direction only */
+    set_grating(&parts, KNURL_S1, 500.0, 0.0, 0.0005);
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "S1");
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_ARGUMENT, id);
+    check_message("uvs or an axis");
+    parts.desc.axis[0] = 3.0;
+    (void)add_surface(scene, &parts);
+    parts.desc.axis[0] = 0.0;
+    parts.mesh.uvs = sheet.uvs;
+    (void)add_surface(scene, &parts);
+    knurl_scene_destroy(scene);
+    shape_free(&sheet);
+}
+
+TEST(unknown_names_are_answered_with_the_known) {
+    static const char *const names[] = {"bark", "silk", "bark"};
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface ids[3];
+    knurl_surface found = 77;
+    CHECK_REFUSED(knurl_scene_find_surface(scene, "bark", &found), KNURL_ERROR_UNKNOWN, found);
+    for (int i = 0; i < 3; i++) {
+        parts.desc.name = names[i];
+        ids[i] = add_surface(scene, &parts);
+    }
+    CHECK_REFUSED(knurl_scene_find_surface(scene, "velvet", &found), KNURL_ERROR_UNKNOWN, found);
+    check_message("'bark', 'silk', 'bark'");
+    check_message("found 'velvet'");
+    assert_int_equal(knurl_scene_find_surface(scene, "silk", &found), KNURL_OK);
+    assert_true(found == ids[1]);
+    assert_int_equal(knurl_scene_find_surface(scene, "bark", &found), KNURL_OK);
+    assert_true(found == ids[0]); /* the first of that name */
+    assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
+    assert_int_equal(knurl_scene_find_surface(scene, "bark", &found), KNURL_OK);
+    assert_true(found == ids[2]);
+    knurl_scene_destroy(scene);
+}
+
+TEST(hips_are_configured_within_their_ranges) {
+    knurl_scene *scene = empty_scene(2);
+    knurl_hip_desc good;
+    knurl_workspace workspace;
+    knurl_hip_desc_init(&good, sizeof good);
+    CHECK_REFUSED(knurl_scene_configure_hip(scene, 2, &good), KNURL_ERROR_ARGUMENT, good);
+    CHECK_REFUSED(knurl_scene_get_workspace(scene, 0, &workspace), KNURL_ERROR_STATE, workspace);
+    static const double rates[] = {99.9, 10000.1, -1.0, (double)NAN, (double)INFINITY};
+    for (size_t i = 0; i < COUNT_OF(rates); i++) {
+        knurl_hip_desc bad = good;
+        bad.update_rate_hz = rates[i];
+        CHECK_REFUSED(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT, bad);
+    }
+    static const double forces[] = {-1.0, (double)NAN, (double)INFINITY};
+    for (size_t i = 0; i < COUNT_OF(forces); i++) {
+        knurl_hip_desc bad = good;
+        bad.max_force = forces[i];
+        CHECK_REFUSED(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT, bad);
+    }
+    knurl_hip_desc bad = good;
+    knurl_workspace_init(&workspace);
+    workspace.scale = 0.0;
+    bad.workspace = &workspace;
+    CHECK_REFUSED(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT, bad);
+    bad = good;
+    bad.resolution = (double)NAN;
+    CHECK_REFUSED(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT, bad);
+    bad = good;
+    bad.velocity_method = 9;
+    assert_int_not_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_OK);
+    assert_int_equal(knurl_scene_configure_hip(scene, 1, NULL), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    CHECK_REFUSED(knurl_scene_get_workspace(scene, 2, &workspace), KNURL_ERROR_ARGUMENT, workspace);
+    assert_int_equal(knurl_scene_get_workspace(scene, 1, &workspace), KNURL_OK);
+    knurl_scene_destroy(scene);
+}
+
+TEST(workspace_left_open_is_centred_on_all_bounds) {
+    surface_parts parts = surface_plane();
+    knurl_workspace workspace;
+    knurl_scene *scene = empty_scene(1);
+    parts.desc.position[0] = 1.0;
+    (void)add_surface(scene, &parts);
+    parts.desc.position[0] = 3.0;
+    parts.desc.position[1] = -0.5;
+    parts.desc.position[2] = 0.25;
+    parts.desc.rotation[1] = parts.desc.rotation[3] = sqrt(0.5); /* a quarter about y: stands upright in yz */
+    (void)add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    assert_int_equal(knurl_scene_get_workspace(scene, 0, &workspace), KNURL_OK);
+    /* bounds: x 0.95 to 3, y -0.55 to 0.05, z 0 to 0.3 */
+    CHECK_VECTOR(workspace.origin, 0.5 * (0.95 + 3.0), 0.5 * (-0.55 + 0.05), 0.5 * (0.0 + 0.3), 1e-12);
+    CHECK_SAME(workspace.scale, 1.0);
+    knurl_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(life_goes_from_create_to_tick),
+        cmocka_unit_test(scene_descriptions_out_of_range_are_refused),
+        cmocka_unit_test(committed_scene_refuses_edits),
+        cmocka_unit_test(ids_of_removed_surfaces_stay_stale),
+        cmocka_unit_test(order_of_adding_survives_removal),
+        cmocka_unit_test(full_scene_has_room_after_a_removal),
+        cmocka_unit_test(what_is_not_built_is_refused_with_a_sentence),
+        cmocka_unit_test(materials_out_of_range_are_refused_by_name),
+        cmocka_unit_test(places_out_of_range_are_refused_by_name),
+        cmocka_unit_test(surface_is_exactly_one_shape_with_a_material),
+        cmocka_unit_test(mesh_needs_a_direction_and_s1_coordinates),
+        cmocka_unit_test(unknown_names_are_answered_with_the_known),
+        cmocka_unit_test(hips_are_configured_within_their_ranges),
+        cmocka_unit_test(workspace_left_open_is_centred_on_all_bounds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

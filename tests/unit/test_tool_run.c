@@ -1,0 +1,303 @@
+/* `knurl run`, the main job: its CSV and summary, fast and in real time, stopped by a signal, and what it leaves
+ * behind. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/tool.h"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
+
+/* The CSV's columns. */
+enum { T, X, Y, Z, VX, VY, SURFACE, DEPTH, FS, FT, HEIGHT, FX, FY, FZ, COLUMNS };
+
+/* The written plate: 1 mm period along x, 0.2 mm, 400 N/m, round (0.25, 0.5, -0.125) m, facing up. */
+#define TAG                                                                                                            \
+    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+
+/* Reads a run's CSV and checks that it is whole: header, so many rows, 14 cells each, a line's end behind the last. */
+static char *read_run(const char *path, size_t rows) {
+    char *csv = read_file(path);
+    assert_true(strncmp(csv, HEADER, strlen(HEADER)) == 0);
+    assert_int_equal(lines_in(csv), rows + 1);
+    assert_int_equal(csv[strlen(csv) - 1], '\n');
+    const char *line = csv;
+    for (size_t row = 0; row <= rows; row++) {
+        size_t commas = 0;
+        for (; *line != '\n'; line++) {
+            commas += *line == ',';
+        }
+        assert_int_equal(commas, COLUMNS - 1);
+        line++;
+    }
+    return csv;
+}
+
+static void check_no_leftovers(void) {
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+/* Down on the spot from 1 mm above to 1 mm below in 10 ticks, a rest, then 0.25 m/s along x: 250 Hz, 4 ticks a cycle.
+ * F = K (H - z) along y: while it stands H = 0, and then +A, +A, -A, -A from the tick that is the first to see motion.
+ */
+TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
+    write_text(
+        tool_path("trace.csv"),
+        "t,x,y,z\n0,0.25,0.501,-0.125\n0.01,0.25,0.499,-0.125\n0.02,0.25,0.499,-0.125\n0.06,0.26,0.499,-0.125\n");
+    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--trace", tool_path("trace.csv"), "--fast", "--out",
+                         tool_path("out.csv"));
+    check_done(&p);
+    char *csv = read_run(tool_path("out.csv"), 61); /* the last row too */
+    uint64_t touching = 0;
+    for (int tick = 0; tick < 61; tick++) {
+        double cells[COLUMNS] = {0.0};
+        assert_int_equal(csv_row(csv, (size_t)tick, cells, COLUMNS), COLUMNS);
+        const double y = tick < 10 ? 0.001 - 0.0002 * tick : -0.001;
+        const double x = tick > 20 ? 0.00025 * (tick - 20) : 0.0;
+        const double height = tick <= 20 ? 0.0 : (tick - 21) % 4 < 2 ? 0.0002 : -0.0002;
+        CHECK_CLOSE(cells[T], tick * 0.001, 1e-15);
+        CHECK_CLOSE(cells[X], 0.25 + x, 1e-15);
+        CHECK_CLOSE(cells[Y], 0.5 + y, 1e-15);
+        CHECK_CLOSE(cells[Z], -0.125, 1e-15);
+        if (fabs(y) > 0.0005) { /* well out of reach, or well inside */
+            const int in = y < 0.0;
+            CHECK_CLOSE(cells[HEIGHT], in ? height : 0.0, 1e-15);
+            CHECK_CLOSE(cells[FY], in ? 400.0 * (height - y) : 0.0, 1e-9);
+            CHECK_CLOSE(cells[DEPTH], in ? -y : 0.0, 1e-12);
+            CHECK_CLOSE(cells[VX], tick > 20 ? 0.25 : 0.0, 1e-9);
+            CHECK_CLOSE(cells[VY], 0.0, 1e-12);
+            CHECK_CLOSE(cells[FS], tick > 20 ? 1000.0 : 0.0, 1e-6);
+            CHECK_CLOSE(cells[FT], tick > 20 ? 250.0 : 0.0, 1e-6);
+        }
+        CHECK_CLOSE(cells[FX], 0.0, 1e-12);
+        CHECK_CLOSE(cells[FZ], 0.0, 1e-12);
+        touching += cells[FY] > 0.0;
+    }
+    assert_non_null(strstr(csv, "\n0,0.25,0.501,-0.125,0,0,none,0,0,0,0,0,0,0\n"));
+    assert_non_null(strstr(csv, ",plate,"));
+    CHECK_SAME(json_number_of(p.out, "ticks"), 61.0L);
+    CHECK_SAME(json_number_of(p.out, "events"), 10.0L); /* 40 ticks of motion, 4 each */
+    CHECK_CLOSE(json_number_of(p.out, "force_max_n"), 0.48, 1e-9);
+    CHECK_CLOSE(json_number_of(p.out, "contact_s"), 0.001 * (double)touching, 0.0021); /* from the crests' height on */
+    check_no_leftovers();
+    free(csv);
+    process_free(&p);
+}
+
+TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
+    static const char *const keys[] = {"ticks",   "contact_s", "events", "overruns", "saturations", "force_max_n",
+                                       "tick_ns", "jitter_us", "p50",    "p99",      "max"};
+    process p = RUN_TOOL("run", plate, "--fast");
+    check_done(&p);
+    assert_int_equal(lines_in(p.out), 1);
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        char quoted[64];
+        (void)snprintf(quoted, sizeof quoted, "\"%s\":", keys[i]);
+        assert_non_null(strstr(p.out, quoted));
+    }
+    CHECK_SAME(json_number_of(p.out, "ticks"), 5000.0L); /* 5 s at 1 kHz, unless said otherwise */
+    assert_true(json_number_of(p.out, "contact_s") > 4.0);
+    assert_true(json_number_of(p.out, "events") > 100.0);
+    CHECK_SAME(json_number_of(p.out, "overruns"), 0.0L);
+    CHECK_SAME(json_number_of(p.out, "saturations"), 0.0L);
+    assert_true(json_number_of(p.out, "force_max_n") > 0.2 && json_number_of(p.out, "force_max_n") < 3.3);
+    process_free(&p);
+    p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.1", "--pretty");
+    check_done(&p);
+    assert_true(lines_in(p.out) > 10);
+    process_free(&p);
+}
+
+TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
+    static const char *const strokes[] = {"line", "sweep", "circle", "press", "rest"};
+    for (size_t i = 0; i < COUNT_OF(strokes); i++) {
+        process one =
+            RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("one.csv"));
+        process two =
+            RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("two.csv"));
+        process other = RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out",
+                                 tool_path("other.csv"), "--device", "fake:?seed=2");
+        check_done(&one);
+        check_done(&two);
+        check_done(&other);
+        char *first = read_run(tool_path("one.csv"), 1500);
+        char *second = read_run(tool_path("two.csv"), 1500);
+        char *third = read_run(tool_path("other.csv"), 1500);
+        assert_string_equal(first, second);
+        assert_string_not_equal(first, third);
+        free(first);
+        free(second);
+        free(third);
+        process_free(&one);
+        process_free(&two);
+        process_free(&other);
+    }
+    check_no_leftovers();
+}
+
+TEST(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe) {
+    process slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));
+    process fast =
+        RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("fast.csv"), "--fast");
+    check_done(&slow); /* no carriage return, no escape, nothing but notes */
+    check_done(&fast);
+    char *first = read_run(tool_path("slow.csv"), 600);
+    char *second = read_run(tool_path("fast.csv"), 600);
+    assert_string_equal(first, second);
+    CHECK_SAME(json_number_of(slow.out, "ticks"), 600.0L);
+    CHECK_SAME(json_number_of(slow.out, "events"), json_number_of(fast.out, "events"));
+    CHECK_SAME(json_number_of(slow.out, "force_max_n"), json_number_of(fast.out, "force_max_n"));
+    check_no_leftovers();
+    free(first);
+    free(second);
+    process_free(&slow);
+    process_free(&fast);
+}
+
+TEST(rate_seconds_surface_and_method_are_obeyed) {
+    process p = RUN_TOOL("run", plate, "--fast", "--rate", "3000", "--seconds", "1", "--surface", "bar 2 mm",
+                         "--method", "S1", "--out", tool_path("out.csv"));
+    check_done(&p);
+    CHECK_SAME(json_number_of(p.out, "ticks"), 3000.0L);
+    CHECK_SAME(json_number_of(p.out, "events"), 0.0L); /* S1 has none */
+    char *csv = read_run(tool_path("out.csv"), 3000);
+    double last[COLUMNS] = {0.0};
+    (void)csv_row(csv, 2999, last, COLUMNS);
+    CHECK_CLOSE(last[T], 2999.0 / 3000.0, 1e-12);
+    assert_non_null(strstr(csv, ",bar 2 mm,"));
+    assert_null(strstr(csv, ",bar 1 mm,"));
+    for (size_t row = 1500; row < 2200; row += 100) { /* 25 to 48 of 54 mm at 0.1 m/s over 500 cycles/m */
+        double cells[COLUMNS] = {0.0};
+        (void)csv_row(csv, row, cells, COLUMNS);
+        CHECK_CLOSE(fabs(cells[HEIGHT]), 0.0002, 1e-15);
+        CHECK_CLOSE(cells[FS], 500.0, 25.0); /* the hand's tremor turns it a little */
+        CHECK_CLOSE(cells[FT], 50.0, 15.0);
+    }
+    free(csv);
+    process_free(&p);
+}
+
+TEST(a_stroke_lies_1_mm_below_the_surface_along_its_x) {
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--device",
+                         "fake:?tremor=0&coulomb=0&resolution=0&hand_stiffness=10000", "--out", tool_path("out.csv"));
+    check_done(&p);
+    char *csv = read_run(tool_path("out.csv"), 1000);
+    for (size_t row = 0; row <= 600; row += 50) { /* to 35 of 54 mm */
+        double cells[COLUMNS] = {0.0};
+        (void)csv_row(csv, row, cells, COLUMNS);
+        if (row == 0) {
+            CHECK_CLOSE(cells[Y], 0.005, 1e-9); /* 5 mm above */
+        } else if (row >= 300) {                /* the plate pushes the hand's spring up by K/k of the depth, 4 % */
+            CHECK_CLOSE(cells[DEPTH], 0.001, 0.00006);
+            CHECK_CLOSE(cells[VX], 0.1, 0.02);
+        }
+        CHECK_CLOSE(cells[Z], 0.0, 1e-4);
+    }
+    free(csv);
+    process_free(&p);
+}
+
+TEST(an_output_is_replaced_only_by_a_whole_one) {
+    write_text(tool_path("out.csv"), "mine\n");
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--device", "fake:?lose=1", "--out",
+                         tool_path("out.csv"));
+    assert_int_equal(p.exit_code, 2);
+    process_free(&p);
+    char *text = read_file(tool_path("out.csv"));
+    assert_string_equal(text, "mine\n");
+    free(text);
+    p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
+    check_done(&p);
+    free(read_run(tool_path("out.csv"), 10));
+    process_free(&p);
+    check_no_leftovers();
+}
+
+TEST(an_output_may_be_a_device) {
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.1", "--out", "/dev/null");
+    check_done(&p);
+    assert_false(file_exists("/dev/null.part"));
+    process_free(&p);
+    static const char *const seconds[] = {"0.001", "1"}; /* noticed at the end, and on the way */
+    for (size_t i = 0; i < COUNT_OF(seconds) && file_exists("/dev/full"); i++) {
+        p = RUN_TOOL("run", plate, "--fast", "--seconds", seconds[i], "--out", "/dev/full");
+        assert_int_equal(p.exit_code, 1);
+        assert_int_equal(lines_in(p.err), 1);
+        assert_non_null(strstr(p.err, "/dev/full"));
+        process_free(&p);
+    }
+}
+
+TEST(a_lost_device_is_a_failure_whose_csv_is_whole) {
+    process p = RUN_TOOL("run", plate, "--fast", "--device", "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
+    assert_int_equal(p.signal, 0);
+    assert_int_equal(p.exit_code, 1);
+    assert_int_equal(lines_in(p.err), 1);
+    assert_non_null(strstr(p.err, "lost"));
+    free(read_run(tool_path("out.csv"), 100));
+    check_no_leftovers();
+    process_free(&p);
+}
+
+static void pause_ms(long ms) {
+    const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
+    (void)nanosleep(&time, NULL);
+}
+
+/* A real-time run of a minute, as soon as it records. */
+static process start_long_run(void) {
+    const char *const arguments[] = {KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out",
+                                     tool_path("out.csv"), NULL};
+    (void)remove(tool_path("out.csv"));
+    const process p = process_start(arguments, NULL);
+    for (int tries = 0; tries < 1000 && files_that_end(".part") == 0; tries++) {
+        pause_ms(10);
+    }
+    assert_int_equal(files_that_end(".part"), 1);
+    assert_false(file_exists(tool_path("out.csv"))); /* half a file is not there under its name */
+    pause_ms(300);
+    return p;
+}
+
+TEST(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv) {
+    static const int signals[] = {SIGINT, SIGTERM};
+    for (size_t i = 0; i < COUNT_OF(signals); i++) {
+        process p = start_long_run();
+        assert_int_equal(kill(p.pid, signals[i]), 0);
+        process_finish(&p);
+        check_done(&p);
+        const double ticks = json_number_of(p.out, "ticks");
+        assert_true(ticks > 0.0 && ticks < 30000.0);
+        free(read_run(tool_path("out.csv"), (size_t)ticks));
+        check_no_leftovers();
+        process_free(&p);
+    }
+}
+
+TEST(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing) {
+    process p = start_long_run();
+    assert_int_equal(mkdir(tool_path("out.csv"), 0777), 0);
+    assert_int_equal(kill(p.pid, SIGINT), 0);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "out.csv"));
+    check_no_leftovers();
+    assert_int_equal(rmdir(tool_path("out.csv")), 0);
+    process_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_trace_on_a_plate_gives_the_forces_of_the_equations),
+        cmocka_unit_test(the_summary_is_one_line_of_json_with_every_key_of_the_contract),
+        cmocka_unit_test(fast_twice_gives_the_same_bytes_and_another_seed_others),
+        cmocka_unit_test(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe),
+        cmocka_unit_test(rate_seconds_surface_and_method_are_obeyed),
+        cmocka_unit_test(a_stroke_lies_1_mm_below_the_surface_along_its_x),
+        cmocka_unit_test(an_output_is_replaced_only_by_a_whole_one),
+        cmocka_unit_test(an_output_may_be_a_device),
+        cmocka_unit_test(a_lost_device_is_a_failure_whose_csv_is_whole),
+        cmocka_unit_test(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv),
+        cmocka_unit_test(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
