@@ -1,7 +1,203 @@
+/* Figure 3: the frequencies that can be reached with even periods, with odd ones, and with the mixed case, and the
+ * steps between them that a hand feels. SPDX-License-Identifier: MIT */
+#include "coverage.h"
+
 #include "study.h"
 
+#include <math.h>
+
+#define LOWEST_HZ     20.0
+#define SPEED_MM_S    250.0 /* the fastest common scanning speed (section IV-B6) */
+#define PAPERS_WEBER  0.38  /* haptic, "approximately" */
+#define PRINTED_WEBER 0.383 /* what the printed 461 Hz needs: 333.3 Hz x 1.383 */
+
+static const char *const set_names[STUDY_SETS] = {"even", "odd", "mixed"};
+static const char *const set_words[STUDY_SETS] = {"even periods only", "with odd periods", "with the mixed case"};
+static const char *const kind_names[3] = {"even", "odd", "mixed"};
+static const double rates[] = {1000.0, 2000.0};
+static const double webers[] = {PAPERS_WEBER, 0.20};
+
+size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_reach *reach) {
+    size_t count = 0;
+    knurl_event event;
+    int32_t last = 0;
+    /* Algorithm 6 decides on quarters of a tick: asking for each of them meets every event there is */
+    for (int32_t quarters = 8; quarters <= 4.0 * update_rate_hz / lowest_hz * (1.0 + 1e-9); quarters++) {
+        if (knurl_event_init(0.25 * quarters, 1.0, &event) || event.length * 4 + event.kind == last) {
+            continue;
+        }
+        last = event.length * 4 + event.kind;
+        const double ticks = event.kind == KNURL_EVENT_MIXED ? 2.5 : event.length;
+        if (event.kind <= set && ticks * lowest_hz <= update_rate_hz * (1.0 + 1e-9) && count < STUDY_MAX_REACH) {
+            const study_reach one = {update_rate_hz / ticks, ticks, event.kind};
+            reach[count++] = one;
+        }
+    }
+    for (size_t i = 0; i < count / 2; i++) { /* ascending in frequency */
+        const study_reach swap = reach[i];
+        reach[i] = reach[count - 1 - i];
+        reach[count - 1 - i] = swap;
+    }
+    return count;
+}
+
+size_t study_gaps(const study_reach *reach, size_t count, double weber, int rule, study_gap *gaps) {
+    size_t found = 0;
+    for (size_t i = 0; i + 1 < count; i++) {
+        const double above = reach[i + 1].frequency;
+        const study_gap gap = {reach[i].frequency * (1.0 + weber),
+                               rule == STUDY_GAP_NEIGHBOUR ? above : above / (1.0 + weber)};
+        if (gap.high > gap.low * (1.0 + 1e-9)) {
+            gaps[found++] = gap;
+        }
+    }
+    return found;
+}
+
+double study_no_gap_up_to(const study_reach *reach, size_t count, double weber) {
+    study_gap gaps[STUDY_MAX_REACH];
+    return study_gaps(reach, count, weber, STUDY_GAP_NEIGHBOUR, gaps) ? gaps[0].low : reach[count - 1].frequency;
+}
+
+static void write_rows(FILE *csv, double rate, int set, double weber) {
+    study_reach reach[STUDY_MAX_REACH];
+    const size_t count = study_reachable(rate, LOWEST_HZ, set, reach);
+    for (size_t i = 0; i < count; i++) {
+        const double f = reach[i].frequency;
+        const double above = i + 1 < count ? reach[i + 1].frequency : NAN;
+        const double cells[] = {reach[i].ticks, f, f / (1.0 + weber), f * (1.0 + weber), above};
+        fprintf(csv, "%g,%s,%g,%s", rate, set_names[set], weber, kind_names[reach[i].kind]);
+        for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
+            fprintf(csv, ",%.12g", cells[c]);
+        }
+        fprintf(csv, ",%d\n", above > f * (1.0 + weber) * (1.0 + 1e-9));
+    }
+}
+
+static void write_gaps(FILE *json, const char *key, const study_reach *reach, size_t count, double weber, int rule) {
+    study_gap gaps[STUDY_MAX_REACH];
+    const size_t found = study_gaps(reach, count, weber, rule, gaps);
+    fprintf(json, ", \"%s\": [", key);
+    for (size_t i = 0; i < found; i++) {
+        fprintf(json, "%s[%.12g, %.12g]", i ? ", " : "", gaps[i].low, gaps[i].high);
+    }
+    fputc(']', json);
+}
+
+/* One set at one Weber fraction: how far it goes, and its gaps by both rules. */
+static void write_weber(FILE *json, const study_reach *reach, size_t count, double weber) {
+    fprintf(json, "{\"weber\": %g, \"no_gap_up_to_hz\": %.12g", weber, study_no_gap_up_to(reach, count, weber));
+    write_gaps(json, "gaps_hz", reach, count, weber, STUDY_GAP_NEIGHBOUR);
+    write_gaps(json, "unreached_hz", reach, count, weber, STUDY_GAP_UNREACHED);
+    fputc('}', json);
+}
+
+static void write_rate(FILE *json, double rate) {
+    const double top = 0.5 * rate;
+    fprintf(json, "    {\"update_rate_hz\": %g, \"lowest_hz\": %g, \"highest_hz\": %g, \"mixed_hz\": %g,\n", rate,
+            LOWEST_HZ, top, rate / 2.5);
+    fprintf(json,
+            "     \"reach_with_jnd_hz\": %.12g, \"smallest_period_mm\": %.12g, "
+            "\"smallest_period_without_jnd_mm\": %.12g,\n     \"sets\": [\n",
+            top * (1.0 + PAPERS_WEBER), SPEED_MM_S / (top * (1.0 + PAPERS_WEBER)), SPEED_MM_S / top);
+    for (int set = 0; set < STUDY_SETS; set++) {
+        study_reach reach[STUDY_MAX_REACH];
+        const size_t count = study_reachable(rate, LOWEST_HZ, set, reach);
+        fprintf(json, "      {\"set\": \"%s\", \"frequencies\": %zu, \"haptic\": [\n        ", set_names[set], count);
+        for (size_t w = 0; w < sizeof webers / sizeof *webers; w++) {
+            fputs(w ? ",\n        " : "", json);
+            write_weber(json, reach, count, webers[w]);
+        }
+        fprintf(json, "]}%s\n", set + 1 < STUDY_SETS ? "," : "");
+    }
+    fputs("     ]}", json);
+}
+
+/* The paper prints where steps begin to be heard, but no audible Weber fraction. Around its limit: the neighbours that
+ * can be reached; the fractions (from, below) for which this step is the first to be heard; and the fraction if the
+ * limit is f(1 + WF), as 230 and 461 Hz are: with that one, steps far lower would be heard, so that is not its rule. */
+static void write_audible(FILE *json, int set, double printed) {
+    study_reach reach[STUDY_MAX_REACH];
+    const size_t count = study_reachable(1000.0, LOWEST_HZ, set, reach);
+    size_t i = 1;
+    while (i + 2 < count && reach[i + 1].frequency <= printed) {
+        i++;
+    }
+    const double below = reach[i].frequency;
+    const double above = reach[i + 1].frequency;
+    fprintf(json,
+            "    {\"set\": \"%s\", \"printed_hz\": %g, \"below_hz\": %.12g, \"above_hz\": %.12g,\n"
+            "     \"weber_from\": %.12g, \"weber_below\": %.12g, \"weber_if_limit_is_f_1_plus_wf\": %.12g}",
+            set_names[set], printed, below, above, below / reach[i - 1].frequency - 1.0, above / below - 1.0,
+            printed / below - 1.0);
+}
+
+static void write_json(FILE *json) {
+    static const double checks[] = {0.18, 0.20, 0.225, PRINTED_WEBER};
+    study_reach reach[STUDY_MAX_REACH];
+    const size_t count = study_reachable(1000.0, LOWEST_HZ, STUDY_SET_ODD, reach);
+    fputs("{\"study\": \"coverage\", \"figure\": 3,\n  \"rule\": \"a gap is a neighbour above f(1 + WF)\",\n"
+          "  \"unreached_rule\": \"further than WF from every frequency played, above or below\",\n",
+          json);
+    fprintf(json, "  \"speed_mm_s\": %g,\n  \"rates\": [\n", SPEED_MM_S);
+    for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
+        write_rate(json, rates[r]);
+        fputs(r + 1 < sizeof rates / sizeof *rates ? ",\n" : "],\n", json);
+    }
+    fputs("  \"audible\": [\n", json);
+    write_audible(json, STUDY_SET_EVEN, 28.8);
+    fputs(",\n", json);
+    write_audible(json, STUDY_SET_ODD, 43.1);
+    fputs("],\n  \"whole_periods_at_1_khz\": [\n", json);
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++) {
+        fputs("    ", json);
+        write_weber(json, reach, count, checks[i]);
+        fputs(i + 1 < sizeof checks / sizeof *checks ? ",\n" : "]}\n", json);
+    }
+}
+
+static void print_summary(double rate) {
+    const double reach_hz = 0.5 * rate * (1.0 + PAPERS_WEBER);
+    printf("%g kHz, haptic Weber fraction %g (a gap is a neighbour above f(1 + WF))\n", 1e-3 * rate, PAPERS_WEBER);
+    for (int set = 0; set < STUDY_SETS; set++) {
+        study_reach reach[STUDY_MAX_REACH];
+        const size_t count = study_reachable(rate, LOWEST_HZ, set, reach);
+        const double limit = study_no_gap_up_to(reach, count, PAPERS_WEBER);
+        printf("  %-20s %3zu frequencies, no haptic gap up to %.0f Hz", set_words[set], count, limit);
+        if (set == STUDY_SET_ODD) {
+            printf(" (%.0f with %g)", study_no_gap_up_to(reach, count, PRINTED_WEBER), PRINTED_WEBER);
+        }
+        fputc('\n', stdout);
+    }
+    printf("  smallest period at %g mm/s: %.2f mm (%.0f Hz, within the JND of %g), %.2f mm without the JND\n",
+           SPEED_MM_S, SPEED_MM_S / reach_hz, reach_hz, 0.5 * rate, SPEED_MM_S / (0.5 * rate));
+}
+
 int study_coverage(const char *folder) {
-    (void)folder;
-    fputs("knurl: study: coverage is not built yet\n", stderr);
-    return 1;
+    out_file csv;
+    out_file json;
+    if (study_open(&csv, folder, "coverage.csv")) {
+        return 1;
+    }
+    if (study_open(&json, folder, "coverage.json")) {
+        out_discard(&csv);
+        return 1;
+    }
+    fputs("update_rate_hz,set,weber,kind,period_ticks,frequency_hz,band_low_hz,band_high_hz,neighbour_hz,gap\n",
+          csv.stream);
+    for (size_t i = 0; i < 2 * (size_t)STUDY_SETS * 2; i++) {
+        write_rows(csv.stream, rates[i / 6], (int)(i / 2 % 3), webers[i % 2]);
+    }
+    write_json(json.stream);
+    if (out_keep(&csv)) {
+        out_discard(&json);
+        return 1;
+    }
+    if (out_keep(&json)) {
+        return 1;
+    }
+    for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
+        print_summary(rates[r]);
+    }
+    return 0;
 }

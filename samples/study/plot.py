@@ -20,42 +20,33 @@ try:
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
+
+    from style import ACCENT, ASKED, GREY, INK, PALE, RULE, SHADES, SOFT, STYLE, BadInput, save, say
 except ImportError as missing:
     sys.exit(f"plot.py: {missing} for {sys.executable}; apt-get install python3-matplotlib, then use /usr/bin/python3")
 
 COLUMNS = "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz".split(",")
 HAPTIC_RANGE = (20.0, 500.0)  # Hz
 TOUCH_MAX_FORCE = 3.3         # N
-INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
-SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
 SPEEDS = LinearSegmentedColormap.from_list("speeds", SHADES([0.25, 0.5, 0.75, 1.0]))
 STRIPES = LinearSegmentedColormap.from_list("stripes", ["#e3e9eb", "#ffffff"])
-STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
-         "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
-         "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
-         "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.formatter.useoffset": False, "figure.dpi": 160,
-         "path.simplify": False}
-
-
-class BadRun(Exception):
-    """One line for the user: which file, what was expected, what was found."""
 
 
 def parse(path, reader):
     """Numbers (rows x 13) and surface names (rows) of a run's CSV."""
     header = next(reader, [])
     if header != COLUMNS:
-        raise BadRun(f"{path}: expected the header {','.join(COLUMNS)}, "
-                     f"found {repr(','.join(header)[:100]) if header else 'an empty file'}")
+        raise BadInput(f"{path}: expected the header {','.join(COLUMNS)}, "
+                       f"found {repr(','.join(header)[:100]) if header else 'an empty file'}")
     rows, names, surface = [], [], COLUMNS.index("surface")
     for cells in reader:
         if len(cells) != len(COLUMNS):
-            raise BadRun(f"{path}: line {reader.line_num}: expected {len(COLUMNS)} cells, found {len(cells)}")
+            raise BadInput(f"{path}: line {reader.line_num}: expected {len(COLUMNS)} cells, found {len(cells)}")
         names.append(cells.pop(surface))
         try:
             rows.append([float(cell or "nan") for cell in cells])
         except ValueError as error:
-            raise BadRun(f"{path}: line {reader.line_num}: expected numbers, found: {error}") from None
+            raise BadInput(f"{path}: line {reader.line_num}: expected numbers, found: {error}") from None
     return np.array(rows, float).reshape(-1, len(COLUMNS) - 1), np.array(names, object)
 
 
@@ -65,14 +56,15 @@ def read_run(path):
         with open(path, newline="", encoding="utf-8") as file:
             data, names = parse(path, csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise BadRun(f"{path}: expected a CSV file, found: {getattr(error, 'strerror', None) or error}") from None
+        raise BadInput(f"{path}: expected a CSV file, found: {getattr(error, 'strerror', None) or error}") from None
     data[~np.isfinite(data)] = np.nan
     data, names = data[np.isfinite(data[:, 0])], names[np.isfinite(data[:, 0])]
     if not len(data):
-        raise BadRun(f"{path}: expected at least one row with a time, found none")
+        raise BadInput(f"{path}: expected at least one row with a time, found none")
     steps = np.diff(data[:, 0])
     if np.any(steps <= 0):
-        raise BadRun(f"{path}: expected t to ascend, found another step after t = {data[np.argmax(steps <= 0), 0]:g} s")
+        raise BadInput(f"{path}: expected t to ascend, "
+                       f"found another step after t = {data[np.argmax(steps <= 0), 0]:g} s")
     run = SimpleNamespace(**dict(zip([c for c in COLUMNS if c != "surface"], data.T)))
     run.name, run.touching = names, names != "none"
     run.position, run.force = data[:, 1:4], np.linalg.norm(data[:, -3:], axis=1)
@@ -186,11 +178,6 @@ def colour_bar(drawn, ax, label):
     ax.figure.colorbar(drawn, cax=ax).outline.set_visible(False)
     ax.tick_params(length=2, labelsize=8)
     ax.set_title(label, fontsize=8.5, color=GREY, pad=5)
-
-
-def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, dx=0, dy=0, within="axes fraction"):
-    ax.annotate(text, (x, y), xycoords=within, xytext=(dx, dy), textcoords="offset points", ha=ha, va=va, fontsize=size,
-                color=color)
 
 
 def choose_moment(run):
@@ -323,19 +310,6 @@ def draw(run, path, title):
     return figure
 
 
-def save(figure, out):
-    """Writes beside `out` and renames, so that half a picture never stands there."""
-    part = f"{out}.{os.getpid()}.part"
-    try:
-        figure.savefig(part, format="png", metadata={"Software": None})
-        os.replace(part, out)
-    except OSError as error:
-        raise BadRun(f"{out}: expected a place to write a PNG to, found: {error.strerror or error}") from None
-    finally:
-        if os.path.exists(part):
-            os.remove(part)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0], epilog=__doc__.split("\n\n")[1])
     parser.add_argument("run", metavar="RUN.csv", help=f"a run, a row a tick, SI units: {','.join(COLUMNS)}")
@@ -345,7 +319,7 @@ def main():
     matplotlib.rcParams.update({**matplotlib.rcParamsDefault, **STYLE, "backend": "Agg"})
     try:
         save(draw(read_run(arguments.run), arguments.run, arguments.title), arguments.out)
-    except BadRun as error:
+    except BadInput as error:
         sys.exit(f"plot.py: {error}")
 
 

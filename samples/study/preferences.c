@@ -1,7 +1,186 @@
+/* knurl study preferences: figure 8 and Experiment 3 beside this code's metrics. SPDX-License-Identifier: MIT */
+#include "preferences.h"
+
+#include "json_out.h"
+#include "rank.h"
 #include "study.h"
 
-int study_preferences(const char *folder) {
-    (void)folder;
-    fputs("knurl: study: preferences is not built yet\n", stderr);
+#include <math.h>
+#include <string.h>
+
+/* A part of an experiment's cells: all of them, or those with or without sound. */
+static const struct {
+    const char *name;
+    int first, step; /* cells alternate: without, with sound */
+} parts[] = {{"all", 0, 1}, {"without_sound", 0, 2}, {"with_sound", 1, 2}};
+
+static void write_csv(FILE *csv, int experiment, const preference_cell *cells) {
+    for (int i = 0; i < PREFERENCE_CELLS; i++) {
+        const preference_cell *c = &cells[i];
+        const double row[] = {c->period_ticks, 1000.0 / c->period_ticks, c->amplitude, c->sound, c->preferred};
+        fprintf(csv, "%d", experiment);
+        for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+            fputc(',', csv);
+            out_number(csv, row[k]);
+        }
+        for (int k = 0; k < PREFERENCE_METRICS; k++) {
+            fputc(',', csv);
+            out_number(csv, c->metric[k]);
+        }
+        fputc('\n', csv);
+    }
+}
+
+typedef struct ranks {
+    double spearman, kendall, separation;
+} ranks;
+
+static ranks correlate(const preference_cell *cells, int metric, int first, int step) {
+    double x[PREFERENCE_CELLS];
+    double y[PREFERENCE_CELLS];
+    size_t count = 0;
+    for (int i = first; i < PREFERENCE_CELLS; i += step) {
+        x[count] = cells[i].metric[metric];
+        y[count++] = cells[i].preferred;
+    }
+    const ranks r = {rank_spearman(x, y, count), rank_kendall(x, y, count), rank_separation(x, y, count)};
+    return r;
+}
+
+/* The correlations of one part. */
+static void write_part(FILE *json, const preference_cell *cells, int part) {
+    fprintf(json, "\"%s\": {\n", parts[part].name);
+    printf("    %-14s", parts[part].name);
+    for (int k = 0; k < PREFERENCE_METRICS; k++) {
+        const ranks r = correlate(cells, k, parts[part].first, parts[part].step);
+        fprintf(json, "\"%s\": {\n", preference_metric_names[k]);
+        study_json_member(json, "spearman", r.spearman, ",");
+        study_json_member(json, "kendall_tau_b", r.kendall, ",");
+        study_json_member(json, "separation", r.separation, "");
+        fputs(k + 1 < PREFERENCE_METRICS ? "},\n" : "}\n", json);
+        if (isfinite(r.spearman)) {
+            printf("  %+6.3f (%.3f)", r.spearman, r.separation);
+        } else {
+            printf("  %-15s", "      none");
+        }
+    }
+    putchar('\n');
+    fputs("}", json);
+}
+
+static void write_experiment(FILE *json, int experiment, const preference_cell *cells) {
+    const size_t stride = sizeof *cells / sizeof(double);
+    int preferred = 0;
+    for (int i = 0; i < PREFERENCE_CELLS; i++) {
+        preferred += cells[i].preferred > 0.5;
+    }
+    printf("  Experiment %d, T%d against T3: T3 preferred in %d of %d cells\n", experiment, experiment, preferred,
+           PREFERENCE_CELLS);
+    fprintf(json, "{\n\"experiment\": %d,\n\"other\": \"T%d\",\n\"preferred_cells\": %d,\n\"cells\": {\n", experiment,
+            experiment, preferred);
+    study_json_array(json, "period_ticks", &cells[0].period_ticks, PREFERENCE_CELLS, stride, ",");
+    study_json_array(json, "amplitude", &cells[0].amplitude, PREFERENCE_CELLS, stride, ",");
+    study_json_array(json, "sound", &cells[0].sound, PREFERENCE_CELLS, stride, ",");
+    study_json_array(json, "preferred", &cells[0].preferred, PREFERENCE_CELLS, stride, ",");
+    for (int k = 0; k < PREFERENCE_METRICS; k++) {
+        study_json_array(json, preference_metric_names[k], &cells[0].metric[k], PREFERENCE_CELLS, stride,
+                         k + 1 < PREFERENCE_METRICS ? "," : "");
+    }
+    fputs("},\n\"correlation_with_preferred\": {\n", json);
+    for (int part = 0; part < 3; part++) {
+        write_part(json, cells, part);
+        fputs(part < 2 ? ",\n" : "\n", json);
+    }
+    fputs("}\n}", json);
+}
+
+static void write_gratings(FILE *json, const preference_grating *g) {
+    const size_t stride = sizeof *g / sizeof(double);
+    double advantage[3];
+    double counts[3];
+    fputs("\"experiment_3\": {\n", json);
+    study_json_text(
+        json, "scans",
+        "steady speeds of 5 to 250 mm/s, equally often (an assumption: subjects scanned freely), ideal positions", ",");
+    study_json_array(json, "period_mm", &g->period_mm, 3, stride, ",");
+    study_json_array(json, "preferred_s2_of_12", &g->preferred_s2, 3, stride, ",");
+    for (int m = 0; m < 2; m++) {
+        fprintf(json, "\"S%d\": {\n", m + 1);
+        study_json_array(json, "push", &g->push[m], 3, stride, ",");
+        study_json_array(json, "spurious_share", &g->spurious[m], 3, stride, ",");
+        study_json_array(json, "dropout_share", &g->dropout[m], 3, stride, ",");
+        study_json_array(json, "drift", &g->drift[m], 3, stride, "");
+        fputs("},\n", json);
+    }
+    printf("  Experiment 3, S1 against S2 (preferred by 12, 11, 7 of 12 at 0.5, 1, 2 mm), S1 - S2:\n");
+    fputs("\"spearman_with_preferred\": {\n", json);
+    for (int k = 0; k < 3; k++) {
+        static const char *const names[] = {"push", "spurious_share", "dropout_share"};
+        for (int i = 0; i < 3; i++) {
+            const double *pair = k == 0 ? g[i].push : k == 1 ? g[i].spurious : g[i].dropout;
+            advantage[i] = pair[0] - pair[1];
+            counts[i] = g[i].preferred_s2;
+        }
+        const double rho = rank_spearman(advantage, counts, 3);
+        study_json_member(json, names[k], rho, k < 2 ? "," : "");
+        printf("    %-14s  %+.4f %+.4f %+.4f, Spearman %+.1f (of three cells)\n", names[k], advantage[0], advantage[1],
+               advantage[2], rho);
+    }
+    fputs("}\n}\n", json);
+}
+
+static int write_all(FILE *csv, FILE *json) {
+    preference_cell cells[PREFERENCE_CELLS];
+    preference_grating gratings[3];
+    fputs("experiment,period_ticks,frequency,amplitude,sound,preferred", csv);
+    printf("preferences: how much worse the other method's metric is, against whether T3 was preferred\n"
+           "  Spearman's rho (chance that a preferred cell is the worse one for the other method)\n    %-14s",
+           "");
+    for (int k = 0; k < PREFERENCE_METRICS; k++) {
+        fprintf(csv, ",%s", preference_metric_names[k]);
+        printf("  %-15s", preference_metric_names[k]);
+    }
+    fputc('\n', csv);
+    putchar('\n');
+    fputs("{\n\"study\": \"preferences\",\n", json);
+    study_json_text(
+        json, "unknown",
+        "The paper prints verdicts (28 of 36 or more), not counts: preferred is 1 or 0. The metrics do not know of"
+        " sound, so cells with and without it have the same values. Metrics are of the medium vibration alone.",
+        ",");
+    fputs("\"experiments\": [\n", json);
+    for (int experiment = 1; experiment <= 2; experiment++) {
+        if (!preference_cells(experiment, cells)) {
+            return 0;
+        }
+        write_csv(csv, experiment, cells);
+        write_experiment(json, experiment, cells);
+        fputs(experiment == 1 ? ",\n" : "\n],\n", json);
+    }
+    if (!preference_gratings(gratings)) {
+        return 0;
+    }
+    write_gratings(json, gratings);
+    fputs("}\n", json);
     return 1;
+}
+
+int study_preferences(const char *folder) {
+    out_file csv;
+    out_file json;
+    if (study_open(&csv, folder, "preferences.csv")) {
+        return 1;
+    }
+    if (study_open(&json, folder, "preferences.json")) {
+        out_discard(&csv);
+        return 1;
+    }
+    int failed = !write_all(csv.stream, json.stream);
+    if (failed) {
+        fputs("knurl: study: preferences: no memory\n", stderr);
+    }
+    failed = failed || out_keep(&csv) || out_keep(&json);
+    out_discard(&csv);
+    out_discard(&json);
+    return failed;
 }

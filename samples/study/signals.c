@@ -1,7 +1,144 @@
+/* Figure 2: what T1, T2 and T3 play at even, odd, 400 Hz and other periods, and the two parts of a mix.
+ * SPDX-License-Identifier: MIT */
 #include "study.h"
 
+#include <math.h>
+
+#define RATE_HZ   1000.0
+#define AMPLITUDE 1.0
+#define TICKS     60
+
+static const double periods_ms[] = {4.0, 3.0, 5.0, 2.5, 3.3};
+static const char *const period_kinds[] = {"even", "odd", "odd", "mixed", "other"};
+#define PERIODS (sizeof periods_ms / sizeof *periods_ms)
+
+/* The one or two square waves that a signal is the sum of: T2's are in the wave; the mixed case is Eq. 8's. 0 for T1,
+ * and for a T3 event that is no mix. */
+static int parts_of(const knurl_wave *wave, knurl_event parts[2]) {
+    if (wave->method == KNURL_T2) {
+        parts[0] = wave->parts[0];
+        parts[1] = wave->parts[1];
+        return wave->part_count;
+    }
+    if (wave->method == KNURL_T3 && wave->parts[0].kind == KNURL_EVENT_MIXED) {
+        const double root = sqrt(13.0);
+        return knurl_event_init(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
+                       knurl_event_init(3.0, 3.0 * AMPLITUDE / root, &parts[1])
+                   ? 0
+                   : 2;
+    }
+    return 0;
+}
+
+static double part_value(const knurl_event *part, uint64_t tick) {
+    return knurl_event_height(part, (int32_t)(tick % (uint64_t)part->length));
+}
+
+/* tick, value, and the parts where the signal is a sum of two. */
+static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
+    knurl_event parts[2];
+    const int count = parts_of(wave, parts);
+    for (uint64_t tick = 0; tick < TICKS; tick++) {
+        fprintf(csv, "T%d,%g,%d,", (int)wave->method, period_ms, (int)tick);
+        out_number(csv, knurl_wave_value(wave, tick));
+        for (int i = 0; i < 2; i++) {
+            fputc(',', csv);
+            if (count == 2) {
+                out_number(csv, part_value(&parts[i], tick));
+            }
+        }
+        fputc('\n', csv);
+    }
+}
+
+static void write_parts(FILE *json, const knurl_wave *wave) {
+    knurl_event parts[2];
+    const int count = parts_of(wave, parts);
+    fputs("[", json);
+    for (int i = 0; i < count && count == 2; i++) {
+        const double ap = parts[i].positive;
+        const double an = parts[i].negative;
+        const double rms = sqrt((ap * ap * parts[i].positive_ticks + /* half peak to peak asked for: Eq. 6 backwards */
+                                 an * an * (parts[i].length - parts[i].positive_ticks)) /
+                                parts[i].length);
+        fprintf(json, "%s{\"period_ms\": %g, \"amplitude\": ", i ? ", " : "", 1e3 * parts[i].length / RATE_HZ);
+        study_json_number(json, rms);
+        fputc('}', json);
+    }
+    fputs("]", json);
+}
+
+/* 0, or 1 where memory is not to be had. */
+static int write_cell(FILE *json, const knurl_wave *wave, size_t index) {
+    static const char *const keys[] = {"net", "rms", "dominant_amplitude", "dominant_hz", "actual_period_ms", "peak"};
+    study_signal signal;
+    study_line line;
+    double peak = 0.0;
+    if (!study_signal_of_wave(wave, RATE_HZ, &signal) || !study_dominant(&signal, &line)) {
+        study_signal_free(&signal);
+        return 1;
+    }
+    for (size_t i = 0; i < signal.length; i++) {
+        peak = fmax(peak, fabs(signal.values[i]));
+    }
+    const double cells[] = {study_net(&signal),
+                            study_rms(&signal),
+                            line.amplitude,
+                            line.frequency,
+                            1e3 * (double)signal.length / RATE_HZ,
+                            peak};
+    fprintf(json, "    {\"method\": \"T%d\", \"period_ms\": %g, \"kind\": \"%s\"", (int)wave->method, periods_ms[index],
+            period_kinds[index]);
+    for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
+        fprintf(json, ", \"%s\": ", keys[c]);
+        study_json_number(json, cells[c]);
+    }
+    fputs(", \"parts\": ", json);
+    write_parts(json, wave);
+    fputc('}', json);
+    if (wave->method != KNURL_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
+        printf("T%d at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
+               (int)wave->method, periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak, line.amplitude,
+               line.frequency, signal.length);
+    }
+    study_signal_free(&signal);
+    return 0;
+}
+
+static int write_all(FILE *csv, FILE *json) {
+    fputs("method,period_ms,tick,value,part1,part2\n", csv);
+    fprintf(json,
+            "{\"study\": \"signals\", \"figure\": 2, \"update_rate_hz\": %g, \"amplitude\": %g,\n  \"cells\": [\n",
+            RATE_HZ, AMPLITUDE);
+    for (size_t p = 0; p < PERIODS; p++) {
+        for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+            knurl_wave wave;
+            if (knurl_wave_init(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
+                write_cell(json, &wave, p)) {
+                fprintf(stderr, "knurl: study: signals: T%d at %g ms cannot be measured\n", (int)method, periods_ms[p]);
+                return 1;
+            }
+            write_rows(csv, &wave, periods_ms[p]);
+            fputs(p + 1 == PERIODS && method == KNURL_T3 ? "]}\n" : ",\n", json);
+        }
+    }
+    return 0;
+}
+
 int study_signals(const char *folder) {
-    (void)folder;
-    fputs("knurl: study: signals is not built yet\n", stderr);
-    return 1;
+    out_file csv;
+    out_file json;
+    if (study_open(&csv, folder, "signals.csv")) {
+        return 1;
+    }
+    if (study_open(&json, folder, "signals.json") || write_all(csv.stream, json.stream)) {
+        out_discard(&json);
+        out_discard(&csv);
+        return 1;
+    }
+    if (out_keep(&csv)) {
+        out_discard(&json);
+        return 1;
+    }
+    return out_keep(&json);
 }

@@ -1,0 +1,150 @@
+/* Runs one loop and waits for what ends it. SPDX-License-Identifier: MIT */
+#include "experiment.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+volatile sig_atomic_t exp_interrupted;
+
+/* Every tick: the force, then whether the question stands, then the buttons. [haptic thread] */
+static void on_tick(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    exp_run *run = user;
+    run->force(run, tick, sample, force);
+    const uint32_t fresh = sample->buttons & ~run->buttons; /* held down before does not count */
+    run->buttons = sample->buttons;
+    if (tick < run->question_tick || !__atomic_load_n(&run->ready, __ATOMIC_ACQUIRE)) {
+        return;
+    }
+    if (run->asking && !run->pressed && (fresh & 3u) != 0) {
+        __atomic_store_n(&run->pressed, fresh & 1u ? 1u : 2u, __ATOMIC_RELEASE);
+    }
+    __atomic_store_n(&run->asking, 1u, __ATOMIC_RELEASE);
+}
+
+/* Waits up to 5 ms for a key: '1', '2', 0 for none of these, -1 at the end of the input. */
+static int key(void) {
+    struct pollfd in = {STDIN_FILENO, POLLIN, 0};
+    unsigned char byte = 0;
+    const int ready = poll(&in, 1, 5);
+    if (ready <= 0) {
+        return ready < 0 && errno != EINTR ? -1 : 0;
+    }
+    const ssize_t got = read(STDIN_FILENO, &byte, 1);
+    if (got < 0) {
+        return errno == EINTR ? 0 : -1;
+    }
+    if (got == 0) {
+        return -1;
+    }
+    return byte == '1' || byte == '2' ? byte : 0;
+}
+
+static uint64_t ticks_of(const knurl_loop *loop) {
+    knurl_loop_stats stats;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    (void)knurl_loop_get_stats(loop, &stats);
+    return stats.ticks;
+}
+
+static void show_cue(const exp_session *session, const exp_run *run, uint64_t ticks, const char **shown) {
+    const char *now = run->cue(ticks);
+    if (now != *shown && session->answers != EXP_SIMULATED && isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r\033[K%s ", now);
+    }
+    *shown = now;
+}
+
+/* The question stands: puts it once, then looks for the answer. Returns 1 or 2, 0 for not yet, -1 without hope. */
+static int ask(const exp_session *session, exp_run *run, int *asked) {
+    if (!*asked) {
+        if (isatty(STDIN_FILENO)) {
+            (void)tcflush(STDIN_FILENO, TCIFLUSH); /* typed before the question: no answer to it */
+        }
+        fprintf(stderr, "%s%s", isatty(STDERR_FILENO) ? "\r\033[K" : "", run->question);
+        *asked = 1;
+    }
+    if (session->answers == EXP_KEYBOARD) {
+        const int typed = key();
+        return typed > 0 ? typed - '0' : typed;
+    }
+    return (int)__atomic_load_n(&run->pressed, __ATOMIC_ACQUIRE);
+}
+
+/* In real time, until an answer or anything else that ends it. */
+static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *loop, exp_outcome *outcome) {
+    const char *shown = NULL;
+    int asked = 0;
+    int answer = 0;
+    while (!knurl_loop_wait(loop, asked ? 0.0 : 0.005) && !exp_interrupted && answer == 0 &&
+           !__atomic_load_n(&run->left, __ATOMIC_ACQUIRE)) {
+        if (session->answers != EXP_SIMULATED && __atomic_load_n(&run->asking, __ATOMIC_ACQUIRE)) {
+            answer = ask(session, run, &asked);
+            if (asked && session->answers == EXP_BUTTONS) {
+                (void)knurl_loop_wait(loop, 0.005);
+            }
+        } else {
+            show_cue(session, run, ticks_of(loop), &shown);
+        }
+    }
+    if (answer > 0) {
+        outcome->chosen = answer - 1;
+        outcome->rt_s = ((double)ticks_of(loop) - (double)run->question_tick) / EXP_RATE;
+    }
+    knurl_loop_stop(loop);
+    if (asked) {
+        fputc('\n', stderr);
+    }
+    return answer < 0 ? exp_error(EXP_FAILURE, "standard input ended before an answer") : EXP_OK;
+}
+
+static void step_to_end(const exp_run *run, knurl_loop *loop) {
+    while (ticks_of(loop) < run->end_tick && !exp_interrupted && !run->left) {
+        const uint64_t before = ticks_of(loop);
+        (void)knurl_loop_step(loop, 1000);
+        if (ticks_of(loop) == before) {
+            break; /* lost */
+        }
+    }
+    knurl_loop_request_stop(loop);
+    (void)knurl_loop_step(loop, 1);
+}
+
+static knurl_result make_loop(const exp_session *session, exp_run *run, knurl_loop **loop) {
+    knurl_loop_desc desc;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = session->device;
+    desc.force_callback = on_tick;
+    desc.user = run;
+    desc.update_rate_hz = EXP_RATE;
+    desc.tick_limit = session->answers == EXP_SIMULATED ? run->end_tick : 0;
+    const knurl_result result = knurl_loop_create(&desc, loop);
+    return result || session->fast ? result : knurl_loop_start(*loop);
+}
+
+int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome) {
+    knurl_loop *loop = NULL;
+    knurl_loop_stats stats;
+    int code = EXP_OK;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    if (make_loop(session, run, &loop)) {
+        code = exp_error(EXP_FAILURE, "%s", knurl_error_message());
+    } else if (session->fast) {
+        step_to_end(run, loop);
+    } else {
+        code = wait_for_end(session, run, loop, outcome);
+    }
+    if (loop) {
+        (void)knurl_loop_get_stats(loop, &stats);
+    }
+    knurl_loop_destroy(loop);
+    outcome->ticks = stats.ticks;
+    outcome->overruns = stats.overruns;
+    if (code == EXP_OK && stats.state == KNURL_LOOP_LOST) {
+        code =
+            exp_error(EXP_FAILURE, "the device was lost after %llu ticks of a trial", (unsigned long long)stats.ticks);
+    }
+    return code == EXP_OK && exp_interrupted ? exp_error(EXP_FAILURE, "interrupted") : code;
+}

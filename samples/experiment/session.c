@@ -1,0 +1,123 @@
+/* A session: all trials of one experiment with one subject, and its CSV. SPDX-License-Identifier: MIT */
+#include "experiment.h"
+
+#include "out.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* What a session adds up to, for its last lines. */
+typedef struct totals {
+    uint64_t ticks, saturations, frequency_saturations, overruns;
+    uint32_t trials, saturated_trials, restarts;
+} totals;
+
+static void add(totals *t, const exp_outcome *o) {
+    t->trials++;
+    t->ticks += o->ticks;
+    t->saturations += o->saturations;
+    t->saturated_trials += o->saturations > 0;
+    t->frequency_saturations += o->frequency_saturations;
+    t->overruns += o->overruns;
+    t->restarts += o->restarts;
+}
+
+static void show_trial(uint32_t number, uint32_t count, const exp_session *session) {
+    if (session->answers != EXP_SIMULATED) {
+        fprintf(stderr, "Trial %u of %u\n", (unsigned)number, (unsigned)count);
+    } else if (isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\rtrial %u of %u%s", (unsigned)number, (unsigned)count, number == count ? "\n" : "");
+    }
+}
+
+static int play(const exp_session *session, const exp_trial *trials, uint32_t count, FILE *stream, totals *sum) {
+    uint64_t noise = ~session->seed; /* not the row of numbers that the order came from */
+    int code = EXP_OK;
+    for (uint32_t i = 0; i < count && code == EXP_OK; i++) {
+        exp_outcome outcome;
+        show_trial(i + 1, count, session);
+        code = session->design->experiment == 3 ? exp_play_gratings(session, &trials[i], &outcome)
+                                                : exp_play_temporal(session, &trials[i], &outcome);
+        if (code == EXP_OK) {
+            if (session->answers == EXP_SIMULATED) {
+                outcome.chosen = exp_simulated_answer(session->design, &trials[i], &noise);
+                outcome.rt_s = 0.0;
+            }
+            exp_write_record(stream, session, i + 1, &trials[i], &outcome);
+            (void)fflush(stream); /* what a person has answered outlives a power cut, in the .part */
+            add(sum, &outcome);
+        }
+    }
+    return code;
+}
+
+static void report(const exp_session *session, const totals *t) {
+    const exp_design *d = session->design;
+    if (session->answers == EXP_SIMULATED) {
+        puts(EXP_SIMULATION);
+    }
+    printf("experiment %d (%s against %s), subject %s, sound %s, seed %llu: %u trials, %.0f s played on %s\n",
+           (int)d->experiment, d->names[0], d->names[1], session->subject, session->sound ? "yes" : "no",
+           (unsigned long long)session->seed, (unsigned)t->trials, (double)t->ticks / EXP_RATE, session->info.name);
+    printf("force above the device's %.3g N: %llu ticks in %u trials, shortened to it\n", session->info.max_force,
+           (unsigned long long)t->saturations, (unsigned)t->saturated_trials);
+    if (d->experiment == 3) {
+        printf("temporal frequency above half the update rate: %llu ticks\n",
+               (unsigned long long)t->frequency_saturations);
+    }
+    printf("overruns: %llu; trials begun anew: %u\n", (unsigned long long)t->overruns, (unsigned)t->restarts);
+    printf("written: %s\n", session->out);
+}
+
+/* The file is not kept; what people answered stays beside it, as .part. */
+static void abandon(const exp_session *session, out_file *file, const totals *t) {
+    if (session->answers != EXP_SIMULATED && t->trials > 0 && file->partial) {
+        fprintf(stderr, "knurl_experiment: note: what was answered (trials: %u) is in %s\n", (unsigned)t->trials,
+                file->partial);
+        free(file->partial);
+        file->partial = NULL; /* out_discard() removes nothing then */
+    }
+    out_discard(file);
+}
+
+/* Neither the file nor an earlier .part may hold what people answered. */
+static int check_out(const char *path) {
+    char part[1200];
+    const int length = snprintf(part, sizeof part, "%s.part", path);
+    const char *names[2] = {path, part};
+    if (length < 0 || (size_t)length >= sizeof part) {
+        return exp_error(EXP_FAILURE, "%s: the path is too long", path);
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!exp_may_replace(names[i])) {
+            return exp_error(EXP_FAILURE,
+                             "%s: is there already and not a file of simulated answers; choose another "
+                             "--out or --subject",
+                             names[i]);
+        }
+    }
+    return EXP_OK;
+}
+
+int exp_run_session(exp_session *session) {
+    exp_trial trials[EXP_MAX_TRIALS];
+    totals sum;
+    out_file file;
+    const uint32_t count = exp_plan(session->design, session->seed, session->reduced, trials);
+    memset(&sum, 0, sizeof sum);
+    if (check_out(session->out) || out_open(&file, session->out)) {
+        return EXP_FAILURE;
+    }
+    fprintf(file.stream, "%s\n", exp_csv_header);
+    int code = play(session, trials, count, file.stream, &sum);
+    if (code == EXP_OK) {
+        code = out_keep(&file) ? EXP_FAILURE : EXP_OK;
+    } else {
+        abandon(session, &file, &sum);
+    }
+    if (code == EXP_OK) {
+        report(session, &sum);
+    }
+    return code;
+}

@@ -1,0 +1,94 @@
+/* A trial of experiment 1 or 2 on a device: a lead, the two progressions, then silence until an answer comes.
+ * SPDX-License-Identifier: MIT */
+#include "experiment.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAD_TICKS     1000  /* 1 s to get hold of the stylus; the paper's subjects move into a sphere at leisure */
+#define SPHERE         0.020 /* m: leaving it stops the trial, as in the paper, which gives no radius */
+#define FORGIVEN       10    /* restarts after which a simulated hand is taken for one that cannot hold still */
+#define QUESTION_TICKS (LEAD_TICKS + EXP_TRIAL_TICKS)
+
+typedef struct player {
+    exp_stimulus stimulus;
+    double max_force;
+    double centre[3]; /* of the sphere: where the hand is when the first vibration begins */
+    uint64_t saturations;
+} player;
+
+/* Forces go up and down (IV-A2). They are passed on as the paper has them: the device's layer shortens what is too
+ * much. */
+static void play(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
+    player *p = run->user;
+    if (tick <= LEAD_TICKS) {
+        memcpy(p->centre, sample->position, sizeof p->centre);
+    }
+    if (tick < LEAD_TICKS || tick >= QUESTION_TICKS) {
+        return;
+    }
+    const double d[3] = {sample->position[0] - p->centre[0], sample->position[1] - p->centre[1],
+                         sample->position[2] - p->centre[2]};
+    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > SPHERE * SPHERE) {
+        __atomic_store_n(&run->left, 1u, __ATOMIC_RELEASE);
+    }
+    if (!__atomic_load_n(&run->left, __ATOMIC_RELAXED)) {
+        force[1] = exp_stimulus_force(&p->stimulus, tick - LEAD_TICKS);
+        p->saturations += fabs(force[1]) > p->max_force;
+    }
+}
+
+static const char *cue(uint64_t tick) {
+    const uint64_t t = tick - LEAD_TICKS;
+    if (tick < LEAD_TICKS) {
+        return "hold still";
+    }
+    if (t < EXP_PROGRESSION) {
+        return "first (blue)";
+    }
+    return t < EXP_PROGRESSION + EXP_BETWEEN_TICKS ? "..." : t < EXP_TRIAL_TICKS ? "second (green)" : "";
+}
+
+/* On the fake device a hand that stands still. */
+static int hold(const exp_session *session) {
+    knurl_stroke_desc stroke;
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    stroke.stroke = KNURL_STROKE_REST;
+    if (strncmp(session->uri, "fake", 4) == 0 && knurl_fake_set_stroke(session->device, &stroke)) {
+        return exp_error(EXP_FAILURE, "%s", knurl_error_message());
+    }
+    return EXP_OK;
+}
+
+int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_outcome *outcome) {
+    player p;
+    exp_run run;
+    uint32_t restarts = 0;
+    int code = hold(session);
+    do {
+        memset(&p, 0, sizeof p);
+        memset(&run, 0, sizeof run);
+        memset(outcome, 0, sizeof *outcome);
+        p.max_force = session->info.max_force;
+        run.force = play;
+        run.cue = cue;
+        run.question = "Which was the better progression from low to high frequency? 1 the first, 2 the second: ";
+        run.user = &p;
+        run.ready = 1;
+        run.question_tick = QUESTION_TICKS;
+        run.end_tick = QUESTION_TICKS + 1; /* the loop's ramp at the end begins from no force */
+        code = code ? code : exp_stimulus_init(trial, &p.stimulus);
+        code = code ? code : exp_drive(session, &run, outcome);
+        outcome->saturations = p.saturations;
+        outcome->restarts = restarts;
+        if (code == EXP_OK && run.left && session->answers != EXP_SIMULATED) {
+            fputs("The hand left the sphere: the trial begins anew.\n", stderr);
+        }
+        restarts += code == EXP_OK && run.left;
+        if (session->answers == EXP_SIMULATED && restarts > FORGIVEN) {
+            return exp_error(EXP_FAILURE, "the simulated hand left the sphere %u times; it is too soft to hold still",
+                             (unsigned)restarts);
+        }
+    } while (code == EXP_OK && run.left);
+    return code;
+}

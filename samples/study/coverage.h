@@ -1,0 +1,42 @@
+/* Which frequencies a method can play, and where a hand would feel steps between them (figure 3).
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_COVERAGE_H
+#define KNURL_STUDY_COVERAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/** What is allowed to be played: even periods; and odd ones; and the mixed case, 2.5 ticks. */
+enum { STUDY_SET_EVEN = 0, STUDY_SET_ODD = 1, STUDY_SET_MIXED = 2, STUDY_SETS = 3 };
+
+/** STUDY_GAP_NEIGHBOUR is the paper's rule: a gap is a neighbour above f(1 + WF); it reaches from f(1 + WF) to that
+ * neighbour. STUDY_GAP_UNREACHED asks less, that every frequency be within WF of one that is played, on either side:
+ * such a gap reaches from f(1 + WF) to the neighbour / (1 + WF). */
+enum { STUDY_GAP_NEIGHBOUR = 0, STUDY_GAP_UNREACHED = 1 };
+
+/** Enough for 20 Hz at 10 kHz. */
+#define STUDY_MAX_REACH 600
+
+typedef struct study_reach {
+    double frequency; /**< Hz: update rate / ticks */
+    double ticks;     /**< a cycle's length; 2.5 for the mixed case */
+    int32_t kind;     /**< KNURL_EVENT_EVEN, _ODD or _MIXED */
+} study_reach;
+
+typedef struct study_gap {
+    double low; /**< Hz */
+    double high;
+} study_gap;
+
+/** The frequencies that T3 (knurl_event_init()) plays from `lowest_hz` to half the update rate, ascending; those of
+ * `set` only. reach: STUDY_MAX_REACH. Returns their number. */
+size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_reach *reach);
+
+/** The gaps between them by `rule`, ascending; a neighbour at f(1 + WF) but for rounding (1e-9) leaves none.
+ * gaps: as many as `count`. Returns their number. */
+size_t study_gaps(const study_reach *reach, size_t count, double weber, int rule, study_gap *gaps);
+
+/** The highest frequency up to which there is no gap by the paper's rule. count: at least 1. */
+double study_no_gap_up_to(const study_reach *reach, size_t count, double weber);
+
+#endif

@@ -1,0 +1,77 @@
+/* What a grating is worth under a given motion: played against crossed cycles, phase error, dropout, net force,
+ * spurious energy. For studies. SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_GRATING_METRICS_H
+#define KNURL_STUDY_GRATING_METRICS_H
+
+#include <knurl/knurl.h>
+
+#include <stddef.h>
+
+/** How crossed cycles are counted. MAP: Eq. 11's sign changes, fsx |dx| + fsy |dy|. PATH: Eq. 12, the integral of
+ * max(fsx |vx|, fsy |vy|). On an axis the two are the same. */
+enum { STUDY_CROSSED_MAP = 0, STUDY_CROSSED_PATH = 1 };
+
+/** Cycles that an event of T3 counts as: 1, the six-tick mix 6/2.5 = 2.4. */
+double study_event_cycles(const knurl_event *event);
+
+/** Where the HIP is at one tick. */
+typedef struct study_motion {
+    double position[2]; /**< m along the surface's x and y */
+    double velocity[2]; /**< m/s, held until the next tick */
+} study_motion;
+
+/** A grating's ticks under a motion. Free with study_scan_free(). */
+typedef struct study_scan {
+    double *height;  /**< m, `ticks` of them */
+    double *crossed; /**< cycles crossed since the start, before each tick and after the last: ticks + 1 */
+    double *played;  /**< cycles played since the start, likewise. A tick of an event plays study_event_cycles() over
+                          its length; without an event every change of the height's sign is half a cycle */
+    size_t ticks;
+    size_t whole; /**< the last tick boundary with no event under way (S1: `ticks`) */
+    double update_rate_hz;
+    int64_t events;
+} study_scan;
+
+/** A straight line at a steady speed: `ticks` motions from `start` (m) at `velocity` (m/s). */
+void study_motion_line(const double start[2], const double velocity[2], double update_rate_hz, study_motion *motion,
+                       size_t ticks);
+
+/** Plays a checked grating from a fresh state. crossed: STUDY_CROSSED_. Returns 0 where memory is not to be had. */
+int study_scan_run(const knurl_grating *grating, const study_motion *motion, size_t ticks, int crossed,
+                   study_scan *scan);
+
+void study_scan_free(study_scan *scan);
+
+/** The played cycles of values a tick without events (a half cycle a change of sign; 0 has the sign before it), against
+ * the cycles of a wave of `period_ticks`. A scan of its own: `values` are copied. */
+int study_scan_of_values(const double *values, size_t ticks, double period_ticks, double update_rate_hz,
+                         study_scan *scan);
+
+/** Drift: played over crossed cycles, less 1, up to the last boundary between events; NaN where none was crossed. */
+double study_scan_drift(const study_scan *scan);
+
+/** Phase error: the greatest |played - crossed| at a tick, in cycles. S1 without aliasing stays within half a cycle. */
+double study_scan_phase_error(const study_scan *scan);
+
+/** Dropout: of the half cycles crossed, the share never played. Half cycle j lies where 2 crossed is in [j, j + 1). It
+ * is played when 2 played passes a whole number while 2 crossed is in [j - 1, j + 2), that is, at most a half cycle
+ * early or late; each passing serves one half cycle, the earliest that is still open. Half cycles still open at the end
+ * do not count. NaN where none was decided. */
+double study_scan_dropout(const study_scan *scan);
+
+/** Net force of one-sided contact (Eq. 9) at a steady depth (m below the smooth surface, which is pressed with K
+ * depth): the mean over the ticks to `whole` of K max(0, H + depth), less K max(0, depth). N; stiffness in N/m. */
+double study_scan_net(const study_scan *scan, double stiffness, double depth);
+
+/** Mean over blocks of |mean height|: what pushes for as long as a block, which is as many whole cycles of `frequency`
+ * as come nearest to `seconds` (at least one; a block's ends are rounded to ticks). m. NaN where the scan is shorter
+ * than a block. */
+double study_scan_push(const study_scan *scan, double frequency, double seconds);
+
+/** Spurious energy at a steady speed: the share (0..1) of the held height's varying power that is further than
+ * `tolerance` x frequency from every odd multiple of `frequency`. Hann window over all ticks, lines to 10 f_h. The
+ * tolerance is to be above 2 f_h / (ticks x frequency), the window's own width. NaN where the height does not vary or
+ * memory is not to be had. */
+double study_scan_spurious(const study_scan *scan, double frequency, double tolerance);
+
+#endif

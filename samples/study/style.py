@@ -1,0 +1,68 @@
+"""What the pictures share: one palette, one type, one way to save.
+
+SPDX-License-Identifier: MIT
+"""
+import csv
+import os
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+
+INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
+# Each method its colour, in every figure; S1 and S2 are kin of T1 and T3.
+METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "locked": "#a03c78"}
+SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
+STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
+         "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
+         "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
+         "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.formatter.useoffset": False, "figure.dpi": 160,
+         "path.simplify": False}
+
+
+class BadInput(Exception):
+    """One line for the user: which file, what was expected, what was found."""
+
+
+def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, dx=0, dy=0, within="axes fraction"):
+    ax.annotate(text, (x, y), xycoords=within, xytext=(dx, dy), textcoords="offset points", ha=ha, va=va, fontsize=size,
+                color=color)
+
+
+def read_table(folder, name):
+    """FOLDER/NAME as {column: array}: of floats where every cell is one (an empty cell is NaN), else of text."""
+    path = os.path.join(folder, name)
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+    except (OSError, UnicodeDecodeError, csv.Error, ValueError) as error:
+        raise BadInput(f"{path}: expected a CSV file, found: {getattr(error, 'strerror', None) or error}") from None
+    if any(len(row) != len(header) for row in rows):
+        raise BadInput(f"{path}: expected {len(header)} cells in every row")
+    return {column: numbers(cells) for column, cells in zip(header, zip(*rows))}
+
+
+def numbers(cells):
+    try:
+        return np.array([float(cell or "nan") for cell in cells])
+    except ValueError:
+        return np.array(cells, object)
+
+
+def heading(figure, title, words, left=0.065):
+    """The title above, what is shown below it in grey."""
+    height = figure.get_figheight()
+    figure.text(left, 1 - 0.30 / height, title, fontsize=16, fontweight="bold", va="center")
+    figure.text(left, 1 - 0.57 / height, words, color=GREY, va="center")
+
+
+def save(figure, out):
+    """Writes beside `out` and renames, so that half a picture never stands there."""
+    part = f"{out}.{os.getpid()}.part"
+    try:
+        figure.savefig(part, format="png", metadata={"Software": None})
+        os.replace(part, out)
+    except OSError as error:
+        raise BadInput(f"{out}: expected a place to write a PNG to, found: {error.strerror or error}") from None
+    finally:
+        if os.path.exists(part):
+            os.remove(part)
