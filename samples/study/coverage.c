@@ -173,27 +173,18 @@ static void print_summary(double rate) {
            SPEED_MM_S, SPEED_MM_S / reach_hz, reach_hz, 0.5 * rate, SPEED_MM_S / (0.5 * rate));
 }
 
-int study_coverage(const char *folder) {
-    out_file csv;
-    out_file json;
-    if (study_open(&csv, folder, "coverage.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "coverage.json")) {
-        out_discard(&csv);
-        return 1;
-    }
-    fputs("update_rate_hz,set,weber,kind,period_ticks,frequency_hz,band_low_hz,band_high_hz,neighbour_hz,gap\n",
-          csv.stream);
+static int write_all(FILE *csv, FILE *json, void *user) {
+    (void)user;
+    fputs("update_rate_hz,set,weber,kind,period_ticks,frequency_hz,band_low_hz,band_high_hz,neighbour_hz,gap\n", csv);
     for (size_t i = 0; i < 2 * (size_t)STUDY_SETS * 2; i++) {
-        write_rows(csv.stream, rates[i / 6], (int)(i / 2 % 3), webers[i % 2]);
+        write_rows(csv, rates[i / 6], (int)(i / 2 % 3), webers[i % 2]);
     }
-    write_json(json.stream);
-    if (out_keep(&csv)) {
-        out_discard(&json);
-        return 1;
-    }
-    if (out_keep(&json)) {
+    write_json(json);
+    return 0;
+}
+
+int study_coverage(const char *folder) {
+    if (study_write(folder, "coverage", write_all, NULL)) {
         return 1;
     }
     for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {

@@ -197,7 +197,8 @@ static void write_settings(FILE *json) {
 }
 
 /* 0: no memory, or the simulated device refused */
-static int write_all(FILE *csv, FILE *json) {
+static int write_all(FILE *csv, FILE *json, void *user) {
+    (void)user;
     fputs("stiffness,viscous,period_ticks,method,commanded,dominant,dominant_hz,net_commanded,net,net_raw\n", csv);
     write_settings(json);
     for (int f = 0; f < FIXTURES; f++) {
@@ -207,7 +208,7 @@ static int write_all(FILE *csv, FILE *json) {
         for (int i = 0; i < PERIODS; i++) {
             rows[i].period = period_at(i);
             if (!measure_row(&fixture, &rows[i])) {
-                return 0;
+                return 1;
             }
             write_csv(csv, &fixture, &rows[i]);
             study_progress("device", (f + (i + 1.0) / PERIODS) / FIXTURES);
@@ -216,27 +217,11 @@ static int write_all(FILE *csv, FILE *json) {
         fputs(f + 1 < FIXTURES ? ",\n" : "\n", json);
     }
     fputs("]\n}\n", json);
-    return 1;
+    return 0;
 }
 
 int study_device(const char *folder) {
-    out_file csv;
-    out_file json;
-    if (study_open(&csv, folder, "device.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "device.json")) {
-        out_discard(&csv);
-        return 1;
-    }
     printf("device: 1 N through a simulated Touch (%g kg, %g N dry friction), fixed to a force sensor\n", BENCH_MASS,
            BENCH_COULOMB);
-    int failed = !write_all(csv.stream, json.stream);
-    if (failed) {
-        fputs("knurl: study: device: no memory\n", stderr);
-    }
-    failed = failed || out_keep(&csv) || out_keep(&json);
-    out_discard(&csv);
-    out_discard(&json);
-    return failed;
+    return study_write(folder, "device", write_all, NULL);
 }

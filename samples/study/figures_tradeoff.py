@@ -9,8 +9,9 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-COLOURS = {"T1": "#b9a14c", "T2": "#8a7fb5", "T3": "#5b8c5a", "S1": "#d9662b", "S2": "#0f6e84"}
-OTHERS = ["#a03c78", "#3a3a3a"]  # methods that are added later
+from style import GREY, INK, METHODS
+
+OTHERS = ["#3a3a3a"]  # methods that style.py has no colour for yet
 MARKERS = {"none": "o", "ideal": "D", "difference": "v", "foaw": "s"}
 SIZES = {1000.0: 26, 2000.0: 48, 5000.0: 80, 10000.0: 125}
 FLOOR = 1e-4  # what is smaller, and 0, is drawn here
@@ -18,7 +19,6 @@ PANELS = [("net_worst", "net force, worst (A)", "pushes where it should only vib
           ("frequency_error", "frequency error, mean", "dominant line against what the motion asks for"),
           ("spurious", "spurious energy, mean", "outside the dominant line and its odd harmonics"),
           ("drift", "drift, mean", "cycles played against ridges crossed (spatial methods)")]
-INK, GREY, RULE = "#1c2b33", "#77858c", "#c3ccd0"
 
 
 def read(folder, table):
@@ -93,8 +93,8 @@ def legend(figure, rows, colours):
 
 def draw_tradeoff(data, folder):
     rows = read(folder, data["table"])
-    later = [m for m in dict.fromkeys(row["method"] for row in rows) if m not in COLOURS]
-    colours = {**COLOURS, **dict(zip(later, OTHERS))}
+    later = [m for m in dict.fromkeys(row["method"] for row in rows) if m not in METHODS]
+    colours = {**METHODS, **dict(zip(later, OTHERS))}
     figure, grid = plt.subplots(2, 2, figsize=(10, 8.6), sharex=True)
     for axes, (key, title, about) in zip(grid.flat, PANELS):
         draw_panel(axes, rows, colours, key, title, about)

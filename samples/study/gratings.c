@@ -52,7 +52,8 @@ static void print_summary(const gratings_summary *s) {
 }
 
 /* All parts into two open files. */
-static int write_all(FILE *csv, FILE *json, gratings_summary *summary) {
+static int write_all(FILE *csv, FILE *json, void *user) {
+    gratings_summary *summary = user;
     fputs("{\n\"study\": \"gratings\",\n", json);
     study_json_member(json, "update_rate_hz", GRATINGS_RATE, ",");
     int done = gratings_directions(json, summary);
@@ -65,28 +66,13 @@ static int write_all(FILE *csv, FILE *json, gratings_summary *summary) {
     fputs(",\n", json);
     done = done && gratings_depths(json, summary);
     fputs("}\n", json);
-    return done;
+    return !done;
 }
 
 int study_gratings(const char *folder) {
     gratings_summary summary;
-    out_file csv;
-    out_file json;
     memset(&summary, 0, sizeof summary);
-    if (study_open(&csv, folder, "gratings.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "gratings.json")) {
-        out_discard(&csv);
-        return 1;
-    }
-    int failed = !write_all(csv.stream, json.stream, &summary);
-    if (failed) {
-        fputs("knurl: study: gratings: no memory\n", stderr);
-    }
-    failed = failed || out_keep(&csv) || out_keep(&json);
-    out_discard(&csv);
-    out_discard(&json);
+    const int failed = study_write(folder, "gratings", write_all, &summary);
     if (!failed) {
         print_summary(&summary);
     }

@@ -129,7 +129,8 @@ static void write_gratings(FILE *json, const preference_grating *g) {
     fputs("}\n}\n", json);
 }
 
-static int write_all(FILE *csv, FILE *json) {
+static int write_all(FILE *csv, FILE *json, void *user) {
+    (void)user;
     preference_cell cells[PREFERENCE_CELLS];
     preference_grating gratings[3];
     fputs("experiment,period_ticks,frequency,amplitude,sound,preferred", csv);
@@ -151,36 +152,20 @@ static int write_all(FILE *csv, FILE *json) {
     fputs("\"experiments\": [\n", json);
     for (int experiment = 1; experiment <= 2; experiment++) {
         if (!preference_cells(experiment, cells)) {
-            return 0;
+            return 1;
         }
         write_csv(csv, experiment, cells);
         write_experiment(json, experiment, cells);
         fputs(experiment == 1 ? ",\n" : "\n],\n", json);
     }
     if (!preference_gratings(gratings)) {
-        return 0;
+        return 1;
     }
     write_gratings(json, gratings);
     fputs("}\n", json);
-    return 1;
+    return 0;
 }
 
 int study_preferences(const char *folder) {
-    out_file csv;
-    out_file json;
-    if (study_open(&csv, folder, "preferences.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "preferences.json")) {
-        out_discard(&csv);
-        return 1;
-    }
-    int failed = !write_all(csv.stream, json.stream);
-    if (failed) {
-        fputs("knurl: study: preferences: no memory\n", stderr);
-    }
-    failed = failed || out_keep(&csv) || out_keep(&json);
-    out_discard(&csv);
-    out_discard(&json);
-    return failed;
+    return study_write(folder, "preferences", write_all, NULL);
 }

@@ -105,7 +105,8 @@ static int write_cell(FILE *json, const knurl_wave *wave, size_t index) {
     return 0;
 }
 
-static int write_all(FILE *csv, FILE *json) {
+static int write_all(FILE *csv, FILE *json, void *user) {
+    (void)user;
     fputs("method,period_ms,tick,value,part1,part2\n", csv);
     fprintf(json,
             "{\"study\": \"signals\", \"figure\": 2, \"update_rate_hz\": %g, \"amplitude\": %g,\n  \"cells\": [\n",
@@ -126,19 +127,5 @@ static int write_all(FILE *csv, FILE *json) {
 }
 
 int study_signals(const char *folder) {
-    out_file csv;
-    out_file json;
-    if (study_open(&csv, folder, "signals.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "signals.json") || write_all(csv.stream, json.stream)) {
-        out_discard(&json);
-        out_discard(&csv);
-        return 1;
-    }
-    if (out_keep(&csv)) {
-        out_discard(&json);
-        return 1;
-    }
-    return out_keep(&json);
+    return study_write(folder, "signals", write_all, NULL);
 }

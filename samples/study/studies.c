@@ -32,6 +32,27 @@ int study_open(out_file *file, const char *folder, const char *name) {
     return out_open(file, path);
 }
 
+int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user) {
+    char csv_name[64];
+    char json_name[64];
+    out_file csv;
+    out_file json;
+    (void)snprintf(csv_name, sizeof csv_name, "%s.csv", name);
+    (void)snprintf(json_name, sizeof json_name, "%s.json", name);
+    if (study_open(&csv, folder, csv_name)) {
+        return 1;
+    }
+    int failed = study_open(&json, folder, json_name);
+    if (!failed && write(csv.stream, json.stream, user)) {
+        fprintf(stderr, "knurl: study: %s: no memory\n", name);
+        failed = 1;
+    }
+    failed = failed || out_keep(&csv) || out_keep(&json);
+    out_discard(&csv);
+    out_discard(&json);
+    return failed;
+}
+
 void study_json_number(FILE *stream, double value) {
     if (isfinite(value)) {
         out_number(stream, value);

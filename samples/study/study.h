@@ -29,6 +29,10 @@ int study_tradeoff(const char *folder);    /* cost against accuracy */
  * why. */
 int study_open(out_file *file, const char *folder, const char *name);
 
+/** Writes FOLDER/NAME.csv and FOLDER/NAME.json by one function, which returns 0, or 1 where memory is not to be had
+ * (that is then said). Both files are there whole, or neither. 0, or 1 having said why. */
+int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user);
+
 /** A number into JSON (out_number(), with null for what is not finite). */
 void study_json_number(FILE *stream, double value);
 

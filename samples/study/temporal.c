@@ -167,10 +167,12 @@ static void write_findings(FILE *json, const findings *f) {
         fprintf(json, "    \"T%d\": {", i + 1);
         write_numbers(json, keys, values, 6);
         fputs("},\n", json);
-        printf(
-            "T%d: largest net %.4f N (%g ms), least dominant %.4f N (%g ms); the paper's window adds up to %.4f N of "
-            "net\n",
-            i + 1, f->worst_net[i], f->worst_net_at[i], f->least_dominant[i], f->least_dominant_at[i], f->false_net[i]);
+        printf("T%d: largest net %.4f N", i + 1, f->worst_net[i]);
+        if (f->worst_net[i] > 1e-9) {
+            printf(" (%g ms)", f->worst_net_at[i]);
+        }
+        printf(", least dominant %.4f N (%g ms); the paper's window adds up to %.4f N of net\n", f->least_dominant[i],
+               f->least_dominant_at[i], f->false_net[i]);
     }
     fputs("    \"largest_rms_error\": ", json);
     study_json_number(json, f->rms_error);
@@ -180,7 +182,8 @@ static void write_findings(FILE *json, const findings *f) {
     printf("correlation of T1 and T3 at whole periods: at least %.4f\n", f->least_pcc_t1_t3);
 }
 
-static int write_all(FILE *csv, FILE *json) {
+static int write_all(FILE *csv, FILE *json, void *user) {
+    (void)user;
     findings f = {{0}, {0}, {0}, {0}, 0.0, 1.0, {INFINITY, INFINITY, INFINITY}, {0}};
     fputs("method,period_ms,papers_grid,actual_period_ms,dominant_amplitude,dominant_period_ms,net,rms,pcc_T1,pcc_T2,"
           "pcc_T3,spurious,spurious_asked,window_dominant_amplitude,window_dominant_period_ms,window_net\n",
@@ -210,7 +213,6 @@ static int write_all(FILE *csv, FILE *json) {
             study_signal_free(&m[i].signal);
         }
         if (!done) {
-            fprintf(stderr, "knurl: study: temporal: %g ms cannot be measured: no memory\n", tenths / 10.0);
             return 1;
         }
         study_progress("temporal", (double)(tenths - FIRST) / (LAST - FIRST));
@@ -220,19 +222,5 @@ static int write_all(FILE *csv, FILE *json) {
 }
 
 int study_temporal(const char *folder) {
-    out_file csv;
-    out_file json;
-    if (study_open(&csv, folder, "temporal.csv")) {
-        return 1;
-    }
-    if (study_open(&json, folder, "temporal.json") || write_all(csv.stream, json.stream)) {
-        out_discard(&json);
-        out_discard(&csv);
-        return 1;
-    }
-    if (out_keep(&csv)) {
-        out_discard(&json);
-        return 1;
-    }
-    return out_keep(&json);
+    return study_write(folder, "temporal", write_all, NULL);
 }

@@ -77,7 +77,7 @@ TEST(experiment_3_counts_what_the_device_cannot_give) {
         process_free(&p);
         char *csv = read_file(path);
         for (size_t row = 0; row < 3; row++) {
-            double cells[21];
+            double cells[21] = {0.0};
             assert_int_equal(csv_row(csv, row, cells, COUNT_OF(cells)), 21);
             assert_int_equal(cells[14], 60000);
             assert_true(reduced ? cells[15] == 0.0 : cells[15] > 0.0);

@@ -86,8 +86,8 @@ void knurl_system_unlock_memory(void *memory, size_t size) {
 }
 
 void knurl_system_unlock_stack(uintptr_t start) {
-    (void)munlock((void *)start,
-                  LOCKED_STACK); /* NOLINT(performance-no-int-to-ptr): the frame is gone, its pages stay */
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the frame is gone, its pages stay */
+    (void)munlock((void *)start, LOCKED_STACK);
 }
 
 int knurl_system_lock_stack(uintptr_t *start) {
