@@ -1,0 +1,90 @@
+// The figures' numbers as golden JSON. The values themselves are proven by the other fidelity tests, from closed forms;
+// these files pin that a change of the code does not move a figure unseen. Made by `knurl study NAME --out DIR`; a
+// change that is meant replaces the file, and its commit says why. SPDX-License-Identifier: MIT
+// cmocka's macros (fail) break the standard headers: those come first
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+extern "C" {
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+// after the headers that it needs
+#include <cmocka.h>
+
+#include "study.h"
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Sums of sines and square roots differ by some ulp between C libraries and compilers, and single-precision FFTs
+/// (spurious shares) by 1e-6; a figure shows three digits.
+constexpr double relative = 1e-5;
+constexpr double absolute = 1e-7;
+
+Json load(const std::string &path) {
+    std::ifstream file(path);
+    if (!file)
+        fail_msg("%s: cannot be read", path.c_str());
+    return Json::parse(file);
+}
+
+void compare(const Json &golden, const Json &found, const std::string &where) {
+    if (golden.is_number() && found.is_number()) {
+        const double a = golden.get<double>();
+        const double b = found.get<double>();
+        if (!(std::fabs(a - b) <= absolute + relative * std::fabs(a)))
+            fail_msg("%s: expected %.9g, found %.9g", where.c_str(), a, b);
+        return;
+    }
+    if (golden.type() != found.type() || golden.size() != found.size())
+        fail_msg("%s: expected the shape of the golden file", where.c_str());
+    if (!golden.is_structured()) {
+        if (golden != found)
+            fail_msg("%s: expected %s, found %s", where.c_str(), golden.dump().c_str(), found.dump().c_str());
+        return;
+    }
+    for (const auto &[key, value] : golden.items()) {
+        std::string inner = where;
+        inner.append("/").append(key);
+        if (golden.is_object() && !found.contains(key))
+            fail_msg("%s: missing", inner.c_str());
+        compare(value, golden.is_object() ? found.at(key) : found.at(std::stoul(key)), inner);
+    }
+}
+
+void check(const char *name, int (*run)(const char *folder)) {
+    const std::string folder = std::string(KNURL_TEST_TMP) + "/figures";
+    assert_int_equal(run(folder.c_str()), 0);
+    compare(load(std::string(KNURL_TEST_GOLDEN) + "/" + name + ".json"), load(folder + "/" + name + ".json"), name);
+}
+
+void figure_2_signals(void ** /*state*/) {
+    check("signals", study_signals);
+}
+
+void figure_3_coverage(void ** /*state*/) {
+    check("coverage", study_coverage);
+}
+
+void figure_4_temporal(void ** /*state*/) {
+    check("temporal", study_temporal);
+}
+
+void figure_8_preferences(void ** /*state*/) {
+    check("preferences", study_preferences);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {cmocka_unit_test(figure_2_signals), cmocka_unit_test(figure_3_coverage),
+                                cmocka_unit_test(figure_4_temporal), cmocka_unit_test(figure_8_preferences)};
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
