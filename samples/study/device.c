@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PERIODS  24 /* 2, 2.5, 3, 4 ... 24 ticks: 42 to 500 Hz */
+#define PERIODS  35 /* 2, 2.5, 3, 4 ... 35 ticks: 29 to 500 Hz */
+#define ODD      17 /* of them: 3, 5 ... 35 */
 #define FIXTURES 4
 
 /* How stiffly fixture and drive hold the moving mass (N/m), and what the drive loses (N s/m): neither is published. The
@@ -114,7 +115,7 @@ static device_claims judge(const device_row *rows) {
         if (r->period != 2.5) {
             c.t1_t3 = fmin(c.t1_t3, fmin(ratio, 1.0 / ratio));
         }
-        c.t2_gain += odd ? r->dominant[1] / r->commanded[1] / (r->dominant[2] / r->commanded[2]) / 11.0 : 0.0;
+        c.t2_gain += odd ? r->dominant[1] / r->commanded[1] / (r->dominant[2] / r->commanded[2]) / ODD : 0.0;
         c.net_t1_3 = r->period == 3.0 ? r->net_raw[0] : c.net_t1_3;
         c.net_others = fmax(c.net_others, fmax(fabs(r->net_raw[1]), fabs(r->net_raw[2])));
         c.net_corrected = fmax(c.net_corrected, fmax(fabs(r->net[1]), fabs(r->net[2])));

@@ -68,8 +68,8 @@ def draw_bench(ax, fixture, data):
 
 
 def periods(ax, last=True):
-    ax.set_xlim(1.5, 24.5)
-    ax.set_xticks(range(2, 25, 2))
+    ax.set_xlim(1, 36)
+    ax.set_xticks([2, 5, 10, 15, 20, 25, 30, 35])
     if last:
         ax.set_xlabel("temporal period T (ms)")
 
@@ -116,7 +116,7 @@ def draw_device(data, _folder):
     by_method(ax, fixture, "net_without_bias_correction", period)
     for name in ("T1", "T2", "T3"):
         ax.plot(period, values(fixture[name]["net"]), color=METHODS[name], lw=0.8, ls=":")
-    n = np.linspace(3, 24, 200)
+    n = np.linspace(3, 35, 200)
     ax.plot(n, 1 / n, color=ASKED, lw=0.9, ls=(0, (4, 3)), zorder=1)
     say(ax, "A/N, what T1 commands at odd N", 7.0, 0.165, "left", color=ASKED, within="data")
     say(ax, "dotted: less the mean at rest before and after,\nas the paper does (dry friction holds some)", 0.99, 0.97, "right",

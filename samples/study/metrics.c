@@ -152,7 +152,7 @@ double study_pcc(const study_signal *a, const study_signal *b) {
     double ab = 0.0;
     double aa = 0.0;
     double bb = 0.0;
-    if (a->length / common > STUDY_MAX_PERIOD * (size_t)100 / b->length) {
+    if (a->length / common > STUDY_MAX_PERIOD * (size_t)1000 / b->length) {
         return NAN;
     }
     for (size_t i = 0; i < a->length / common * b->length; i++) {

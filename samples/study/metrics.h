@@ -51,7 +51,7 @@ double study_line_amplitude(const study_signal *signal, size_t line);
 int study_dominant(const study_signal *signal, study_line *line);
 
 /** Pearson's correlation over the least common multiple of both periods: blind to scale and offset. NaN where either
- * does not vary, or that multiple is beyond 100 STUDY_MAX_PERIOD. */
+ * does not vary, or that multiple is beyond 1000 STUDY_MAX_PERIOD. */
 double study_pcc(const study_signal *a, const study_signal *b);
 
 /** The share (0..1) of the held signal's varying power outside the line at `frequency` and its odd harmonics, where a
