@@ -256,6 +256,7 @@ TEST(a_full_disk_does_not_look_like_success) {
     static const char *const many[] = {KNURL_TEST_TOOL, "signal", "--method", "T1", "--period-ms", "3",
                                        "--ticks",       "100000", NULL};
     if (!file_exists("/dev/full")) {
+        print_message("skipped: no /dev/full here\n");
         skip();
     }
     process p = process_start(few, "/dev/full");
