@@ -5,13 +5,13 @@
 
 #include "support/geometry.h"
 
-#include "contact/contact.h"
+#include "contact/plane.h"
 
-/** Exactly one of mesh and half_extents is in use. */
+/** Where there is no mesh, the plane is in use. */
 typedef struct probe {
     knurl_heap heap;
     knurl_mesh *mesh;
-    double half_extents[2];
+    knurl_plane plane;
     knurl_contact_query query;
     knurl_contact_state state;
     knurl_contact contact;
@@ -20,8 +20,7 @@ typedef struct probe {
 static inline probe probe_plane(double half_x, double half_y) {
     probe p;
     memset(&p, 0, sizeof p);
-    p.half_extents[0] = half_x;
-    p.half_extents[1] = half_y;
+    knurl_plane_from_rectangle((const double[2]){half_x, half_y}, &p.plane);
     return p;
 }
 
@@ -51,7 +50,7 @@ static inline void probe_forget(probe *p) {
 static inline int probe_at(probe *p, const double hip[3]) {
     memcpy(p->query.hip, hip, sizeof p->query.hip);
     const int held = p->mesh ? knurl_mesh_contact(p->mesh, &p->query, &p->state, &p->contact)
-                             : knurl_plane_contact(p->half_extents, &p->query, &p->state, &p->contact);
+                             : knurl_plane_contact(&p->plane, &p->query, &p->state, &p->contact);
     memcpy(p->query.previous, hip, sizeof p->query.previous);
     p->query.has_previous = 1;
     if (!held) {

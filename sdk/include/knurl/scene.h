@@ -1,5 +1,7 @@
 /* Knurl: surfaces with gratings, and the tick that renders them.
- * Life of a scene: create, add surfaces, commit [game thread]; then tick [haptic thread], one thread per HIP.
+ * Life of a scene: create, add surfaces, commit [game thread]; then tick [haptic thread], one thread per HIP, while any
+ * thread edits: adds and removes surfaces, moves them, changes how they feel. Editing threads wait for one another;
+ * ticks wait for nobody. A tick sees each edit whole or not at all, and of several the newest.
  * Frames are right-handed (glTF's), units SI. `in` and `out` below are from the library's point of view.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SCENE_H
@@ -33,7 +35,8 @@ typedef struct knurl_material_desc {
     double amplitude;            /**< A: m, half peak to peak of the square wave, >= 0 */
     double stiffness;            /**< K: N/m, > 0 */
     double damping;              /**< B: N s/m along the normal, >= 0 */
-    double friction;             /**< Coulomb coefficient; above 0 is refused until it is built */
+    double friction;             /**< Coulomb coefficient, >= 0: sticks until K times the way dragged exceeds friction
+                                      times K max(0, -z), then slips; the height does not load it */
     double orientation;          /**< turns x and y counter-clockwise about the normal, rad */
 } knurl_material_desc;
 
@@ -65,11 +68,19 @@ typedef struct knurl_hip_desc {
                                            the centre of all surfaces' bounds */
 } knurl_hip_desc;
 
+/** The reductions a scene makes, so that it models no more than it needs; a bit turns one off, to compare. */
+enum {
+    KNURL_FULL_MESHES = 1,  /**< flat meshes stay meshes, instead of planes with an outline */
+    KNURL_FULL_SEARCH = 2,  /**< every tick looks at every surface, instead of at those near the HIP */
+    KNURL_FULL_GRATING = 4, /**< smooth surfaces run the grating stage too */
+    KNURL_FULL_ALL = 7
+};
+
 typedef struct knurl_scene_desc {
     uint32_t struct_size;             /**< set by knurl_scene_desc_init() */
     uint32_t max_surfaces;            /**< capacity, 1 to 2^20; default 4096 */
     uint32_t hip_count;               /**< HIPs, 1 to 8; default 1 */
-    uint32_t reserved;                /**< 0 */
+    uint32_t full_model;              /**< KNURL_FULL_ bits: reductions that are not to be made; default 0 */
     const knurl_allocator *allocator; /**< copied; null: malloc and free */
 } knurl_scene_desc;
 
@@ -77,11 +88,11 @@ typedef struct knurl_scene_desc {
 typedef struct knurl_surface_info {
     uint32_t struct_size;
     uint32_t triangle_count;      /**< 0 for a plane */
-    uint32_t dropped_triangles;   /**< left out for want of area */
-    uint32_t double_sided;        /**< as it was given */
+    uint32_t dropped_triangles;   /**< left out for want of area, or as duplicates */
+    uint32_t double_sided;        /**< 1: as it was given, or because triangles came in reversed pairs */
     const char *name;             /**< the scene's, valid while the surface is */
     const char *shape;            /**< "plane" or "mesh": what was given; static */
-    const char *model;            /**< what a tick works on: "plane" or "mesh+bvh"; static */
+    const char *model;            /**< what a tick works on: "plane", "plane+outline" or "mesh+bvh"; static */
     uint64_t bytes;               /**< memory this surface holds in the scene */
     double bounds_min[3];         /**< scene axes, m */
     double bounds_max[3];         /**< scene axes, m */
@@ -91,6 +102,10 @@ typedef struct knurl_surface_info {
     double anchor_reach[4];       /**< m from the anchor to the bounds' edge along +x, -x, +y, -y */
     double stretch[3];            /**< min, mean, max of d(surface coordinate)/d(metres travelled) along x; 1: true */
     knurl_material_desc material; /**< as felt: method resolved */
+    const char *why;              /**< why this model, in a sentence; static */
+    double model_error;           /**< m: the model's surface lies within this of what was given */
+    uint32_t reversed_twins;      /**< triangles left out because another has the same corners, facing the other way */
+    uint32_t reserved;            /**< 0 */
 } knurl_surface_info;
 
 /** What a device says at one tick. */
@@ -155,23 +170,33 @@ KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_sc
 /** Gives everything back; null is allowed. No tick may run or follow. [game thread] */
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
-/** Checks, copies and adds a surface; before the commit.
- * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_UNSUPPORTED (locked, friction),
- * KNURL_ERROR_FULL, KNURL_ERROR_MEMORY, KNURL_ERROR_STATE (committed). [game thread] */
+/** Checks, copies and adds a surface; before the commit or after.
+ * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_UNSUPPORTED (locked), KNURL_ERROR_FULL,
+ * KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
                                                knurl_surface *surface);
 
-/** Takes a surface out; its id is stale from then on; before the commit.
- * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_STATE (committed). [game thread] */
+/** Takes a surface out, before the commit or after: whoever touches it lets go at its next tick. Its id is stale from
+ * then on; its memory is given back by a later edit, when no tick can see it any more.
+ * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface);
 
-/** Gives a surface another material; before the commit.
- * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_STATE (committed), and those of a material. [game thread] */
+/** Gives a surface another material, before the commit or after; an event that plays is played to its end.
+ * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY, and those of a material. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface,
                                                 const knurl_material_desc *material);
 
-/** Closes the scene to edits and opens it to ticks.
- * Errors: KNURL_ERROR_STATE (committed already). [game thread] */
+/** Moves a surface's origin to `position` (m) and turns it to `rotation` (unit quaternion x, y, z, w), both scene axes,
+ * evenly over `seconds` (0 to 10: the game's frame time) from where it is now; there it stays until moved again. What
+ * slides under a HIP is felt: velocities are taken relative to the surface. 0 seconds: it stands there at once, and
+ * what it passed on the way is not touched. Time is counted by ticks: while none runs, the way waits to be made; before
+ * the commit it is made at once. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY.
+ * [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface, const double position[3],
+                                                 const double rotation[4], double seconds);
+
+/** Opens the scene to ticks, having sorted its surfaces by where they are.
+ * Errors: KNURL_ERROR_STATE (committed already), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
 
 /** Surfaces in the scene. [any thread] */
@@ -192,8 +217,13 @@ KNURL_API knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_
 KNURL_API knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface,
                                                 knurl_surface_info *info);
 
-/** Memory that the scene holds now, in bytes, all of it. [game thread] */
+/** Memory that the scene holds now, in bytes, all of it: with what edits have replaced and ticks may still see. [any
+ * thread but the haptic] */
 KNURL_API uint64_t knurl_scene_bytes(const knurl_scene *scene);
+
+/** Memory given back early: frees what edits have replaced and no tick can see any more, which else the next edit does.
+ * [any thread but the haptic] */
+KNURL_API void knurl_scene_collect(knurl_scene *scene);
 
 /** Sets up one HIP and forgets what it did. hip: 0 to hip_count - 1. desc: null for all defaults. Until it is called a
  * HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT. [game thread, while that HIP does not tick] */

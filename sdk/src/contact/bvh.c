@@ -4,17 +4,13 @@
 #include <string.h>
 
 #define BINS      16
-#define LEAF_SIZE 4
 #define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
 
-typedef struct box {
-    float min[3];
-    float max[3];
-} box;
+typedef knurl_box box;
 
 typedef struct item {
     box bounds;
-    uint32_t corners[3];
+    uint32_t place;
 } item;
 
 typedef struct range {
@@ -123,7 +119,7 @@ static uint32_t partition(item *items, const range *r, const split *s) {
 }
 
 /* Writes the node of one range; returns where to split it, or r->end for a leaf. */
-static uint32_t make_node(item *items, const range *r, knurl_bvh_node *node) {
+static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
     box bounds = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
         box_add(&bounds, &items[i].bounds);
@@ -132,16 +128,16 @@ static uint32_t make_node(item *items, const range *r, knurl_bvh_node *node) {
     memcpy(node->max, bounds.max, sizeof node->max);
     const uint32_t count = r->end - r->begin;
     split s = {-1, 0.0f, 0.0f, 0};
-    if (count > LEAF_SIZE && r->depth < SAH_DEPTH) {
+    if (count > leaf_size && r->depth < SAH_DEPTH) {
         s = choose_split(items, r);
     }
     if (s.axis >= 0) {
         return partition(items, r, &s);
     }
-    return count > LEAF_SIZE ? r->begin + count / 2 : r->end; /* all centres alike, or very deep: halve */
+    return count > leaf_size ? r->begin + count / 2 : r->end; /* all centres alike, or very deep: halve */
 }
 
-static uint32_t build(item *items, uint32_t count, knurl_bvh_node *nodes) {
+static uint32_t build(item *items, uint32_t count, uint32_t leaf_size, knurl_bvh_node *nodes) {
     range stack[KNURL_BVH_MAX_DEPTH + 1];
     uint32_t top = 0;
     uint32_t node_count = 0;
@@ -153,7 +149,7 @@ static uint32_t build(item *items, uint32_t count, knurl_bvh_node *nodes) {
         if (r.parent != UINT32_MAX) {
             nodes[r.parent].first = index;
         }
-        const uint32_t middle = make_node(items, &r, node);
+        const uint32_t middle = make_node(items, &r, leaf_size, node);
         if (middle == r.end) {
             node->first = r.begin;
             node->count = r.end - r.begin;
@@ -166,35 +162,25 @@ static uint32_t build(item *items, uint32_t count, knurl_bvh_node *nodes) {
     return node_count;
 }
 
-static void fill_item(item *i, const float *positions, const uint32_t corners[3]) {
-    i->bounds = empty_box;
-    for (int corner = 0; corner < 3; corner++) {
-        box point;
-        memcpy(point.min, &positions[3 * (size_t)corners[corner]], sizeof point.min);
-        memcpy(point.max, point.min, sizeof point.max);
-        box_add(&i->bounds, &point);
-        i->corners[corner] = corners[corner];
-    }
-}
-
-knurl_result knurl_bvh_build(knurl_heap *heap, const float *positions, uint32_t *triangles, uint32_t triangle_count,
-                             knurl_bvh_node **nodes, uint32_t *node_count) {
-    item *items = knurl_heap_alloc(heap, triangle_count, sizeof *items);
-    knurl_bvh_node *scratch = knurl_heap_alloc(heap, 2 * (uint64_t)triangle_count, sizeof *scratch);
+knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
+                             uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count) {
+    item *items = knurl_heap_alloc(heap, count, sizeof *items);
+    knurl_bvh_node *scratch = knurl_heap_alloc(heap, 2 * (uint64_t)count, sizeof *scratch);
     knurl_bvh_node *made = NULL;
     if (items && scratch) {
-        for (uint32_t i = 0; i < triangle_count; i++) {
-            fill_item(&items[i], positions, &triangles[3 * (size_t)i]);
+        for (uint32_t i = 0; i < count; i++) {
+            items[i].bounds = boxes[i];
+            items[i].place = i;
         }
-        const uint32_t count = build(items, triangle_count, scratch);
-        made = knurl_heap_alloc(heap, count, sizeof *made); /* to size: half of the scratch is rarely needed */
+        const uint32_t used = build(items, count, leaf_size, scratch);
+        made = knurl_heap_alloc(heap, used, sizeof *made); /* to size: half of the scratch is rarely needed */
         if (made) {
-            memcpy(made, scratch, count * sizeof *made);
-            for (uint32_t i = 0; i < triangle_count; i++) {
-                memcpy(&triangles[3 * (size_t)i], items[i].corners, sizeof items[i].corners);
+            memcpy(made, scratch, used * sizeof *made);
+            for (uint32_t i = 0; i < count; i++) {
+                order[i] = items[i].place;
             }
             *nodes = made;
-            *node_count = count;
+            *node_count = used;
         }
     }
     knurl_heap_free(heap, scratch);

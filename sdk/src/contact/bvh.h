@@ -16,11 +16,16 @@ typedef struct knurl_bvh_node {
     uint32_t count; /* leaf: its triangles; inner: 0 */
 } knurl_bvh_node;
 
-/* Builds over triangles (three position indices each), which it reorders so that each leaf is a run of them.
- * Nodes come from `heap`; scratch is given back.
+typedef struct knurl_box {
+    float min[3];
+    float max[3];
+} knurl_box;
+
+/* Builds over `count` (> 0) boxes. order: `count` entries of the caller's, filled in with the places of the boxes in
+ * leaf order: each leaf is a run of them, at most `leaf_size` long. Nodes come from `heap`; scratch is given back.
  * Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_bvh_build(knurl_heap *heap, const float *positions, uint32_t *triangles, uint32_t triangle_count,
-                             knurl_bvh_node **nodes, uint32_t *node_count);
+knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
+                             uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count);
 
 /* Squared distance from a point to a node's box; 0 inside. */
 static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const double p[3]) {

@@ -5,6 +5,9 @@
 
 #include <string.h>
 
+/* Triangles in a leaf, at most. */
+#define LEAF_SIZE 4
+
 static knurl_result check_floats(const float *values, uint64_t count, const char *what, uint32_t width) {
     for (uint64_t i = 0; i < count; i++) {
         if (!isfinite(values[i])) {
@@ -15,7 +18,7 @@ static knurl_result check_floats(const float *values, uint64_t count, const char
     return KNURL_OK;
 }
 
-static knurl_result check(const knurl_mesh_desc *d) {
+knurl_result knurl_mesh_check(const knurl_mesh_desc *d) {
     if (d->vertex_count < 3 || d->vertex_count > 1u << 28) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "mesh.vertex_count: expected 3 to 2^28, found %u",
                           (unsigned)d->vertex_count);
@@ -239,20 +242,46 @@ static knurl_result copy_vertices(knurl_heap *heap, const knurl_mesh_desc *d, kn
     return weld(heap, mesh);
 }
 
-knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh) {
-    knurl_result result = check(desc);
-    if (result) {
-        return result;
+/* Builds the hierarchy and puts the triangles into its leaf order. */
+static knurl_result build_hierarchy(knurl_heap *heap, knurl_mesh *mesh) {
+    const uint32_t count = mesh->triangle_count;
+    knurl_box *boxes = knurl_heap_alloc(heap, count, sizeof *boxes);
+    uint32_t *order = knurl_heap_alloc(heap, count, sizeof *order);
+    uint32_t *sorted = knurl_heap_alloc(heap, count, 3 * sizeof *sorted);
+    knurl_result result = boxes && order && sorted ? KNURL_OK : KNURL_ERROR_MEMORY;
+    for (uint32_t i = 0; !result && i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const uint32_t *v = &mesh->triangles[3 * (size_t)i];
+            const float a = mesh->positions[3 * (size_t)v[0] + (size_t)axis];
+            const float b = mesh->positions[3 * (size_t)v[1] + (size_t)axis];
+            const float c = mesh->positions[3 * (size_t)v[2] + (size_t)axis];
+            boxes[i].min[axis] = fminf(a, fminf(b, c));
+            boxes[i].max[axis] = fmaxf(a, fmaxf(b, c));
+        }
     }
+    result = result ? result : knurl_bvh_build(heap, boxes, count, LEAF_SIZE, order, &mesh->nodes, &mesh->node_count);
+    for (uint32_t i = 0; !result && i < count; i++) {
+        memcpy(&sorted[3 * (size_t)i], &mesh->triangles[3 * (size_t)order[i]], 3 * sizeof *sorted);
+    }
+    knurl_heap_free(heap, boxes);
+    knurl_heap_free(heap, order);
+    if (!result) {
+        uint32_t *unsorted = mesh->triangles;
+        mesh->triangles = sorted;
+        sorted = unsorted;
+    }
+    knurl_heap_free(heap, sorted);
+    return result;
+}
+
+knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh) {
     knurl_mesh *made = knurl_heap_alloc(heap, 1, sizeof *made);
     if (!made) {
         return KNURL_ERROR_MEMORY;
     }
-    result = copy_vertices(heap, desc, made);
+    knurl_result result = copy_vertices(heap, desc, made);
     result = result ? result : copy_triangles(desc, made);
-    result = result ? result
-                    : knurl_bvh_build(heap, made->positions, made->triangles, made->triangle_count, &made->nodes,
-                                      &made->node_count);
+    result = result ? result : build_hierarchy(heap, made);
     result = result ? result : make_fans(heap, made);
     if (result) {
         knurl_mesh_destroy(heap, made);

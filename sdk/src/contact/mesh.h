@@ -23,9 +23,11 @@ typedef struct knurl_mesh {
     uint32_t vertex_count;
     uint32_t triangle_count;
     uint32_t node_count;
-    uint32_t dropped;    /* triangles left out for want of area */
-    double uv_scale[2];  /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
-    double stretch_u[3]; /* min, mean, max over area of su / |dP/du|; 1 without uvs */
+    uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
+    uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
+    int32_t double_sided;    /* 1: there were reversed twins */
+    double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
+    double stretch_u[3];     /* min, mean, max over area of su / |dP/du|; 1 without uvs */
 } knurl_mesh;
 
 /* What triangle-relative geometry a contact needs. */
@@ -35,8 +37,11 @@ typedef struct knurl_triangle {
     double area2;     /* twice the area */
 } knurl_triangle;
 
-/* Checks, copies, welds, and builds the hierarchy.
- * Errors: KNURL_ERROR_ARGUMENT (what, which, expected, found), KNURL_ERROR_MEMORY. */
+/* Errors: KNURL_ERROR_ARGUMENT (what, which, expected, found). */
+knurl_result knurl_mesh_check(const knurl_mesh_desc *desc);
+
+/* Copies, welds, and builds the hierarchy of what knurl_mesh_check() has let through.
+ * Errors: KNURL_ERROR_ARGUMENT (no triangle with an area), KNURL_ERROR_MEMORY. */
 knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh);
 
 /* null is allowed */

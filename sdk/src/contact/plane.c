@@ -1,9 +1,19 @@
 /* Contact with a bounded plane: z = 0, front towards +z. SPDX-License-Identifier: MIT */
-#include "contact/contact.h"
+#include "contact/plane.h"
 
 #include "base/vec3.h"
 
 #include <string.h>
+
+void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane) {
+    memset(plane, 0, sizeof *plane);
+    plane->half_extents[0] = half_extents[0];
+    plane->half_extents[1] = half_extents[1];
+    plane->x[0] = 1.0;
+    plane->map[0][0] = plane->map[1][1] = 1.0;
+    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
+    plane->has_coordinates = 1;
+}
 
 static int above_rectangle(const double half_extents[2], const double p[3]) {
     return fabs(p[0]) <= half_extents[0] && fabs(p[1]) <= half_extents[1];
@@ -38,16 +48,16 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
     return 0;
 }
 
-int knurl_plane_contact(const double half_extents[2], const knurl_contact_query *query, knurl_contact_state *state,
+int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) {
     const double *hip = query->hip;
     const double reach = fmax(query->reach, KNURL_ON_SURFACE);
     if (!state->inside) { /* a HIP in front may go through at any tick */
-        state->side = enter(half_extents, query, reach, &state->inside);
+        state->side = enter(plane->half_extents, query, reach, &state->inside);
     }
     const double z = hip[2] * state->side;
     state->inside = z <= KNURL_ON_SURFACE;
-    if (state->side == 0 || z > reach || !above_rectangle(half_extents, hip)) {
+    if (state->side == 0 || z > reach || !above_rectangle(plane->half_extents, hip)) {
         memset(state, 0, sizeof *state);
         return 0;
     }
@@ -57,4 +67,15 @@ int knurl_plane_contact(const double half_extents[2], const knurl_contact_query 
     contact->normal[2] = state->side;
     contact->z = z;
     return 1;
+}
+
+void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double coordinates[2]) {
+    const double *p = contact->proxy;
+    x[0] = plane->x[0];
+    x[1] = plane->x[1];
+    x[2] = 0.0;
+    for (int i = 0; i < 2; i++) {
+        coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
+    }
+    coordinates[1] *= contact->normal[2]; /* y = n x x: from behind it runs the other way */
 }

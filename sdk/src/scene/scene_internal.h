@@ -4,7 +4,7 @@
 
 #include "base/heap.h"
 #include "base/seqlock.h"
-#include "contact/contact.h"
+#include "contact/plane.h"
 
 #include <knurl/scene.h>
 
@@ -12,8 +12,8 @@ typedef struct knurl_surface_data {
     char *name;
     knurl_material_desc material; /* method resolved */
     knurl_mesh *mesh;             /* null: a plane */
-    double half_extents[2];       /* plane */
-    double position[3];           /* surface to scene */
+    knurl_plane plane;
+    double position[3]; /* surface to scene */
     double rotation[9];
     double axis[3];       /* unit, surface frame; used where has_axis */
     double turn[2];       /* cosine and sine of the orientation */

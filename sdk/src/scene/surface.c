@@ -94,7 +94,7 @@ static knurl_result set_axis(const knurl_surface_desc *d, knurl_surface_data *su
 
 /* The box of a box: the surface's own bounds, turned into the scene. */
 static void set_bounds(knurl_surface_data *surface) {
-    const double flat[2] = {surface->half_extents[0], surface->half_extents[1]};
+    const double flat[2] = {surface->plane.half_extents[0], surface->plane.half_extents[1]};
     double low[3] = {-flat[0], -flat[1], 0.0};
     double high[3] = {flat[0], flat[1], 0.0};
     for (int axis = 0; surface->mesh && axis < 3; axis++) {
@@ -121,7 +121,8 @@ static knurl_result set_shape(knurl_heap *heap, const knurl_surface_desc *d, knu
     if (d->mesh) {
         knurl_mesh_desc mesh;
         knurl_mesh_desc_init(&mesh, sizeof mesh);
-        const knurl_result result = knurl_desc_read("knurl_mesh_desc", d->mesh, &mesh, sizeof mesh);
+        knurl_result result = knurl_desc_read("knurl_mesh_desc", d->mesh, &mesh, sizeof mesh);
+        result = result ? result : knurl_mesh_check(&mesh);
         return result ? result : knurl_mesh_create(heap, &mesh, &surface->mesh);
     }
     knurl_plane_desc plane;
@@ -129,8 +130,7 @@ static knurl_result set_shape(knurl_heap *heap, const knurl_surface_desc *d, knu
     knurl_result result = knurl_desc_read("knurl_plane_desc", d->plane, &plane, sizeof plane);
     result = result ? result : check_positive("plane.half_extents[0]", "m", plane.half_extents[0], 0);
     result = result ? result : check_positive("plane.half_extents[1]", "m", plane.half_extents[1], 0);
-    surface->half_extents[0] = plane.half_extents[0];
-    surface->half_extents[1] = plane.half_extents[1];
+    knurl_plane_from_rectangle(plane.half_extents, &surface->plane);
     return result;
 }
 

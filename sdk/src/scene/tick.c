@@ -32,7 +32,7 @@ static int find_contact(const knurl_surface_data *surface, const knurl_hip *hip,
     query.reach = surface->reach;
     query.double_sided = surface->double_sided;
     return surface->mesh ? knurl_mesh_contact(surface->mesh, &query, state, contact)
-                         : knurl_plane_contact(surface->half_extents, &query, state, contact);
+                         : knurl_plane_contact(&surface->plane, &query, state, contact);
 }
 
 /* From a contact to a force: the grating's height at the HIP's velocity over the surface, then Eq. 9. */
