@@ -342,9 +342,8 @@ static void check_bad(const knurl_mesh_desc *desc, const char *first, const char
     knurl_heap heap;
     knurl_mesh *mesh = NULL;
     knurl_heap_init(&heap, NULL);
-    knurl_result result = knurl_mesh_check(desc);
-    result = result ? result : knurl_mesh_create(&heap, desc, &mesh);
-    CHECK_REFUSED(result, KNURL_ERROR_ARGUMENT, mesh);
+    CHECK_REFUSED(knurl_mesh_check(desc) ? KNURL_ERROR_ARGUMENT : knurl_mesh_create(&heap, desc, &mesh),
+                  KNURL_ERROR_ARGUMENT, mesh);
     if (!strstr(knurl_error_message(), first) || !strstr(knurl_error_message(), second)) {
         print_error("\"%s\" lacks \"%s\" or \"%s\"\n", knurl_error_message(), first, second);
         fail();
