@@ -77,7 +77,9 @@ typedef struct knurl_near {
     uint64_t jumps;     /* the motion's, at the last tick */
     double previous[3]; /* the HIP at the last tick, shape's frame */
     double anchor[3];   /* friction: where the HIP sticks, shape's frame */
-    float box[6];       /* scene axes; outside it there is nothing to ask */
+    double proxy[3];    /* of the latest contact, scene axes */
+    double normal[3];
+    float box[6]; /* scene axes; outside it there is nothing to ask */
     knurl_contact_state contact;
     knurl_grating_state grating;
 } knurl_near;

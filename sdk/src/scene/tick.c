@@ -9,6 +9,17 @@
 /* s that a HIP may be behind another before it takes over its time: it has not ticked for a while. */
 #define MAX_LAG 0.05
 
+/* m above a surface: where a HIP is taken to come from that slides off it and onto the next one. What lies higher than
+ * this is a step that stops nobody who is already below it. */
+#define HANDOVER_HEIGHT 1e-5
+
+/* A HIP that was pressed into a surface and is now beside it: where its proxy would be, had the surface gone on. */
+typedef struct handover {
+    double from[3]; /* scene, m */
+    double depth;   /* m from there to the HIP */
+    int given;
+} handover;
+
 /* What one tick knows of one surface. */
 typedef struct touch {
     const knurl_surface_data *surface;
@@ -162,8 +173,25 @@ static int comes_near(const knurl_hip *hip, const knurl_near *near, const double
     return 1;
 }
 
+static int find_contact(touch *t, knurl_near *near) {
+    return t->surface->mesh ? knurl_mesh_contact(t->surface->mesh, &t->query, &near->contact, &t->contact)
+                            : knurl_plane_contact(t->surface->plane, &t->query, &near->contact, &t->contact);
+}
+
+/* A contact has ended: over a rim, or in front? */
+static void hand_over(const knurl_near *near, const double position[3], handover *over) {
+    double offset[3];
+    vec3_sub(position, near->proxy, offset);
+    const double along = vec3_dot(offset, near->normal);
+    if (along < 0.0) {
+        over->depth = HANDOVER_HEIGHT - along;
+        vec3_madd(position, over->depth, near->normal, over->from);
+        over->given = 1;
+    }
+}
+
 /* One surface of the list. Where there is no contact (any more), its state is cleared. */
-static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, knurl_tick_output *out) {
+static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, handover *over, knurl_tick_output *out) {
     touch t;
     t.surface = near->place < world->capacity ? __atomic_load_n(&world->items[near->place], __ATOMIC_SEQ_CST) : NULL;
     if (!t.surface || (near->in_contact && near->generation != t.surface->generation)) {
@@ -181,8 +209,13 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, knur
     place_hip(hip, out->hip, near, &t);
     t.query.reach = t.record->reach;
     t.query.double_sided = t.surface->double_sided;
-    const int held = t.surface->mesh ? knurl_mesh_contact(t.surface->mesh, &t.query, &near->contact, &t.contact)
-                                     : knurl_plane_contact(t.surface->plane, &t.query, &near->contact, &t.contact);
+    int held = find_contact(&t, near);
+    if (!held && near->in_contact) {
+        hand_over(near, out->hip, over);
+    } else if (!held && over->given && t.query.has_previous) {
+        knurl_pose_to_own(t.pose, over->from, t.query.previous);
+        held = find_contact(&t, near);
+    }
     if (held && !near->in_contact) {
         if (out->contacts == KNURL_MAX_CONTACTS) { /* beyond what is felt at once; asked again at the next tick */
             out->flags |= KNURL_TICK_CONTACTS_FULL;
@@ -196,6 +229,8 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, knur
         render(hip, out->hip_velocity, near, &t);
         hip->counts.events += (uint64_t)(near->grating.event_count - events);
         add_touch(&t, out);
+        vec3_copy(t.proxy, near->proxy);
+        vec3_copy(t.normal, near->normal);
     }
     near->in_contact = (uint32_t)held;
 }
@@ -203,6 +238,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, knur
 /* What is touched stays touched until its contact ends; then whatever else is near may begin. */
 static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
     const int same_version = hip->version == knurl_load_acquire(&scene->version);
+    handover over = {{0.0, 0.0, 0.0}, 0.0, 0};
     double margin = 1e-9;
     int inside = 1;
     for (int i = 0; i < 3; i++) {
@@ -216,15 +252,15 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     for (uint32_t i = 0; i < hip->near_count; i++) {
         first[i] = hip->near[i].in_contact;
         if (first[i]) {
-            ask(world, hip, &hip->near[i], out);
+            ask(world, hip, &hip->near[i], &over, out);
         }
     }
     for (uint32_t i = 0; i < hip->near_count; i++) {
         if (first[i]) {
             continue;
         }
-        if (comes_near(hip, &hip->near[i], out->hip, margin)) {
-            ask(world, hip, &hip->near[i], out);
+        if (comes_near(hip, &hip->near[i], out->hip, margin + over.depth)) {
+            ask(world, hip, &hip->near[i], &over, out);
         } else {
             hip->near[i].asked = 0;
         }
