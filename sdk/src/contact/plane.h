@@ -5,13 +5,15 @@
 
 #include "contact/contact.h"
 
-/* A tick looks at every edge of an outline: more than this, and a mesh's hierarchy is quicker. */
-#define KNURL_MAX_EDGES 64
+/* Edges that an outline may have: a tick looks at each of them (about 1 ns) each time it asks what is above the plane,
+ * so that 64 cost what the rest of a plane's tick does; past that the mesh's hierarchy is no worse. */
+#define KNURL_OUTLINE_EDGES 64
 
-/* One edge of an outline, made ready for counting crossings. */
+/* One edge of an outline, made ready for counting crossings. The plane is on its left, seen from the front. */
 typedef struct knurl_edge {
     double from[2];
     double to[2];
+    double slope; /* dx/dy; any where the edge runs along x: nothing crosses it then */
 } knurl_edge;
 
 typedef struct knurl_plane {
@@ -19,8 +21,9 @@ typedef struct knurl_plane {
     double x[2];            /* the grating's x direction, unit, in the plane's axes, seen from the front */
     double map[2][3];       /* surface coordinates from the front: c_i = map[i][0] px + map[i][1] py + map[i][2], m */
     double stretch[3];      /* min, mean, max of d(surface coordinate)/d(metre along x) */
-    double flatness;        /* m: how far the vertices lie off the plane */
-    knurl_edge *outline;    /* closed loops, in any order; null: the bounding rectangle is the outline */
+    double flatness;        /* m: how far the vertices lie off the plane or, those left out of it, off the outline */
+    double inside[2]; /* a point of the plane: its origin; where a hole or an edge is there, the middle of a triangle */
+    knurl_edge *outline; /* closed loops, in any order; null: the bounding rectangle is the outline */
     uint32_t edge_count;
     int32_t has_coordinates; /* 0: the map is empty: neither uvs nor an axis */
     uint32_t triangle_count; /* of the mesh it was, without what was dropped; 0: it was given as a plane */
@@ -41,6 +44,10 @@ knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc
 
 /* null is allowed */
 void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane);
+
+/* 1 for a point (of z = 0) within the outline. On an edge: 1 on a rectangle's, either on another's. Allowed in a tick.
+ */
+int knurl_plane_covers(const knurl_plane *plane, const double p[2]);
 
 uint64_t knurl_plane_bytes(const knurl_plane *plane);
 
