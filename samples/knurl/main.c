@@ -8,7 +8,8 @@
 static const char help[] =
     "knurl: feel the gratings of a glTF scene, with or without a device\n"
     "\n"
-    "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to (JSON)\n"
+    "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to: models, bytes, why (JSON)\n"
+    "      --full-model                    without the reductions: flat meshes stay meshes\n"
     "  knurl run FILE [options]            load, stroke, tick; a summary (JSON)\n"
     "      --device URI                    fake (default), fake:?key=value&...; see 'knurl devices'\n"
     "      --surface NAME                  which surface to stroke (default: the first)\n"
@@ -19,6 +20,7 @@ static const char help[] =
     "      --method S1|S2                  for all surfaces, instead of their own\n"
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"
     "      --out CSV                       what was felt, a row a tick\n"
+    "      --full-model                    without the reductions: to compare what is felt\n"
     "      --pretty                        JSON over several lines\n"
     "  knurl signal --method T1|T2|T3 --period-ms P --amplitude A --rate HZ --ticks N\n"
     "                                      a temporal vibration (CSV: tick,value)\n"

@@ -61,6 +61,7 @@ typedef struct tool_json {
 void json_open(tool_json *json, const char *key, char bracket); /* '{' or '[' */
 void json_close(tool_json *json, char bracket);                 /* '}' or ']' */
 void json_number(tool_json *json, const char *key, double value);
+void json_flag(tool_json *json, const char *key, int value);
 void json_string(tool_json *json, const char *key, const char *value);
 void json_end(tool_json *json); /* the last newline */
 
