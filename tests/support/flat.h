@@ -59,8 +59,12 @@ static inline shape flat_fan(uint32_t count, double a, double b) {
 /** One more triangle, at the end of the list. */
 static inline void flat_add(shape *s, uint32_t a, uint32_t b, uint32_t c) {
     const uint32_t corners[3] = {a, b, c};
-    s->indices = realloc(s->indices, (s->index_count + 3) * sizeof(uint32_t));
-    assert_non_null(s->indices);
+    uint32_t *more = realloc(s->indices, (s->index_count + 3) * sizeof(uint32_t));
+    if (!more) {
+        fail_msg("no memory");
+        return;
+    }
+    s->indices = more;
     memcpy(&s->indices[s->index_count], corners, sizeof corners);
     s->index_count += 3;
 }
@@ -114,7 +118,7 @@ static inline double flat_area(const knurl_plane *plane, double *length) {
 static inline double flat_to_outline(const knurl_plane *plane, const double p[2]) {
     double nearest = fabs(fmax(fabs(p[0]) - plane->half_extents[0], fabs(p[1]) - plane->half_extents[1]));
     nearest = plane->outline ? HUGE_VAL : nearest;
-    for (uint32_t i = 0; i < plane->edge_count; i++) {
+    for (uint32_t i = 0; plane->outline && i < plane->edge_count; i++) {
         const knurl_edge *e = &plane->outline[i];
         const double along[2] = {e->to[0] - e->from[0], e->to[1] - e->from[1]};
         const double to[2] = {p[0] - e->from[0], p[1] - e->from[1]};

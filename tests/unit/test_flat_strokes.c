@@ -24,6 +24,7 @@ static pair pair_of(const knurl_mesh_desc *desc, const double *axis) {
     assert_int_equal(knurl_mesh_create(&p.mesh.heap, desc, &p.mesh.mesh), KNURL_OK);
     if (!p.made) {
         fail_msg("%s", why);
+        return p;
     }
     p.plane.plane = *p.made;
     p.tolerance = 1e-7 + p.made->flatness;
@@ -83,7 +84,7 @@ static int is_close_call(const pair *p, const double from[3], const double to[3]
 /* A walk of steps up to `step` m, four times as long sideways, that presses in, lifts off, and runs over edges, holes
  * and corners. */
 static void check_strokes(pair *p, double reach, int double_sided, double step, uint64_t seed) {
-    const double *half = p->made->half_extents;
+    const double *half = p->plane.plane.half_extents;
     const double range[3] = {1.2 * half[0], 1.2 * half[1], 0.002};
     double hip[3] = {0.0, 0.0, 0.0015};
     int held_ticks = 0;

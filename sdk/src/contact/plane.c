@@ -18,9 +18,10 @@ void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane
 /* By counting the edges that a ray along x crosses: even outside, odd inside. An edge owns its lower end but not its
  * upper, so that a corner counts once. Without branches: which edges are crossed changes from tick to tick. */
 static int within_outline(const knurl_plane *plane, const double p[2]) {
+    const int band = knurl_plane_band(plane, p[1]);
     int inside = 0;
-    for (uint32_t i = 0; i < plane->edge_count; i++) {
-        const knurl_edge *edge = &plane->outline[i];
+    for (uint32_t i = plane->bands[band]; i < plane->bands[band + 1]; i++) {
+        const knurl_edge *edge = &plane->outline[plane->members[i]];
         const int spans = (edge->from[1] <= p[1]) ^ (edge->to[1] <= p[1]);
         inside ^= spans & (p[0] < edge->from[0] + (p[1] - edge->from[1]) * edge->slope);
     }
@@ -69,7 +70,7 @@ static int enter(const knurl_plane *plane, const knurl_contact_query *query, dou
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) {
     const double *hip = query->hip;
-    const double reach = fmax(query->reach, KNURL_ON_SURFACE);
+    const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     if (!state->inside) { /* a HIP in front may go through at any tick */
         state->side = enter(plane, query, reach, &state->inside);
     }
@@ -79,11 +80,13 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
         memset(state, 0, sizeof *state);
         return 0;
     }
-    memset(contact, 0, sizeof *contact);
-    contact->proxy[0] = hip[0];
+    contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
     contact->proxy[1] = hip[1];
+    contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;
     contact->normal[2] = state->side;
     contact->z = z;
+    contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
+    contact->triangle = 0;
     return 1;
 }
 

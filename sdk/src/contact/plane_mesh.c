@@ -44,6 +44,34 @@ static int is_rectangle(const knurl_plane *plane, double limit, double *error) {
     return plane->edge_count == 4 && corners == 15 && *error <= limit;
 }
 
+/* Which edges a tick has to look at, by where the HIP is. */
+static knurl_result make_bands(knurl_heap *heap, knurl_plane *plane) {
+    plane->bands_per_metre = KNURL_OUTLINE_BANDS / (2.0 * plane->half_extents[1]);
+    for (int pass = 0; pass < 2; pass++) { /* how many there are, then which */
+        uint16_t count = 0;
+        for (int band = 0; band < KNURL_OUTLINE_BANDS; band++) {
+            plane->bands[band] = count;
+            for (uint32_t i = 0; i < plane->edge_count; i++) {
+                const knurl_edge *e = &plane->outline[i];
+                const int lowest = knurl_plane_band(plane, fmin(e->from[1], e->to[1]));
+                const int highest = knurl_plane_band(plane, fmax(e->from[1], e->to[1]));
+                if (e->from[1] != e->to[1] && lowest <= band && band <= highest) {
+                    if (pass == 1) {
+                        plane->members[count] = (uint8_t)i;
+                    }
+                    count++;
+                }
+            }
+        }
+        plane->bands[KNURL_OUTLINE_BANDS] = count;
+        plane->members = plane->members ? plane->members : knurl_heap_alloc(heap, count, 1);
+        if (!plane->members) {
+            return KNURL_ERROR_MEMORY;
+        }
+    }
+    return KNURL_OK;
+}
+
 /* 1 where the origin is on the plane and not next to an edge. */
 static int origin_is_inside(const knurl_plane *plane) {
     const double origin[2] = {0.0, 0.0};
@@ -83,8 +111,8 @@ static void find_inside(const knurl_sheet *sheet, const double middle[2], knurl_
 }
 
 /* From the sheet's frame to the plane's own, and the counts. */
-static void finish(knurl_heap *heap, const knurl_sheet *sheet, double outline_error, knurl_plane *plane,
-                   double position[3], double rotation[9]) {
+static knurl_result finish(knurl_heap *heap, const knurl_sheet *sheet, double outline_error, knurl_plane *plane,
+                           double position[3], double rotation[9]) {
     double middle[2];
     double rectangle_error = 0.0;
     centre(plane, middle);
@@ -94,6 +122,8 @@ static void finish(knurl_heap *heap, const knurl_sheet *sheet, double outline_er
         knurl_heap_free(heap, plane->outline);
         plane->outline = NULL;
         plane->edge_count = 0;
+    } else if (make_bands(heap, plane)) {
+        return KNURL_ERROR_MEMORY;
     }
     find_inside(sheet, middle, plane);
     plane->triangle_count = sheet->count;
@@ -105,6 +135,7 @@ static void finish(knurl_heap *heap, const knurl_sheet *sheet, double outline_er
     for (int i = 0; i < 9; i++) { /* columns: where the plane's axes point */
         rotation[i] = sheet->axes[i % 3][i / 3];
     }
+    return KNURL_OK;
 }
 
 knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc, const double axis[3],
@@ -125,7 +156,7 @@ knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc
         result = knurl_sheet_outline(heap, &sheet, made, &outline_error, &refused);
     }
     if (!result && !refused) {
-        finish(heap, &sheet, outline_error, made, position, rotation);
+        result = finish(heap, &sheet, outline_error, made, position, rotation);
     }
     if (result || refused) {
         knurl_plane_destroy(heap, made);
@@ -143,10 +174,11 @@ knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc
 void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane) {
     if (plane) {
         knurl_heap_free(heap, plane->outline);
+        knurl_heap_free(heap, plane->members);
         knurl_heap_free(heap, plane);
     }
 }
 
 uint64_t knurl_plane_bytes(const knurl_plane *plane) {
-    return knurl_heap_size(plane) + knurl_heap_size(plane->outline);
+    return knurl_heap_size(plane) + knurl_heap_size(plane->outline) + knurl_heap_size(plane->members);
 }
