@@ -3,36 +3,51 @@
 #ifndef KNURL_SRC_FOOT_H
 #define KNURL_SRC_FOOT_H
 
+#include "base/vec3.h"
 #include "contact/corner.h"
-#include "contact/triangle.h"
 
 /* The nearest point of one triangle. */
 typedef struct knurl_foot {
     double corners[3][3];
-    double weights[3];
+    double normal[3];  /* of the triangle, times twice its area */
+    double weights[3]; /* barycentric; 0 exactly where it does not rest */
     double point[3];
     double offset[3]; /* from the point to what it is the foot of */
     double distance2;
+    double area2; /* twice the triangle's area, squared */
     uint32_t triangle;
     unsigned held; /* a bit for each corner that it rests on: 7 on the inside */
 } knurl_foot;
 
-static inline void knurl_foot_find(const knurl_mesh *mesh, uint32_t triangle, const double p[3], knurl_foot *foot) {
-    knurl_mesh_corners(mesh, triangle, foot->corners);
-    foot->held = triangle_nearest((const double (*)[3])foot->corners, p, foot->weights);
-    triangle_point((const double (*)[3])foot->corners, foot->weights, foot->point);
-    vec3_sub(p, foot->point, foot->offset);
-    foot->distance2 = vec3_dot(foot->offset, foot->offset);
-    foot->triangle = triangle;
-}
+/* Which edge or corner is nearest to a point that is not above the inside, by Voronoi regions (Ericson 2005, section
+ * 5.1.5). inside: of b and c, signed, 0 on the edge that faces the corner. */
+void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *foot);
 
-/* The normal of the foot's triangle, times twice its area. */
-static inline void knurl_foot_normal(const knurl_foot *foot, double out[3]) {
-    double edge1[3];
-    double edge2[3];
-    vec3_sub(foot->corners[1], foot->corners[0], edge1);
-    vec3_sub(foot->corners[2], foot->corners[0], edge2);
-    vec3_cross(edge1, edge2, out);
+/* Above the inside, which is nearly always, everything comes from the normal: one division. */
+static inline void knurl_foot_find(const knurl_mesh *mesh, uint32_t triangle, const double p[3], knurl_foot *foot) {
+    double ab[3], ac[3], ap[3], turn[3];
+    knurl_mesh_corners(mesh, triangle, foot->corners);
+    foot->triangle = triangle;
+    vec3_sub(foot->corners[1], foot->corners[0], ab);
+    vec3_sub(foot->corners[2], foot->corners[0], ac);
+    vec3_sub(p, foot->corners[0], ap);
+    vec3_cross(ab, ac, foot->normal);
+    vec3_cross(foot->normal, ap, turn);
+    foot->area2 = vec3_dot(foot->normal, foot->normal);
+    const double inside[2] = {vec3_dot(turn, ac), -vec3_dot(turn, ab)};
+    const double inverse = 1.0 / foot->area2;
+    if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < foot->area2)) {
+        knurl_foot_on_edge(p, inside, foot);
+        return;
+    }
+    const double height = vec3_dot(ap, foot->normal);
+    vec3_scale(height * inverse, foot->normal, foot->offset);
+    vec3_sub(p, foot->offset, foot->point);
+    foot->distance2 = height * height * inverse;
+    foot->weights[1] = inside[0] * inverse;
+    foot->weights[2] = inside[1] * inverse;
+    foot->weights[0] = 1.0 - foot->weights[1] - foot->weights[2];
+    foot->held = 7;
 }
 
 /* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */

@@ -18,37 +18,27 @@
 
 /* How far a HIP is off the rim that its foot is on, along the surface. */
 static double off_the_rim(const knurl_foot *foot, double along[3]) {
-    double face[3];
-    knurl_foot_normal(foot, face);
-    vec3_normalise(face);
-    vec3_madd(foot->offset, -vec3_dot(foot->offset, face), face, along);
+    vec3_madd(foot->offset, -vec3_dot(foot->offset, foot->normal) / foot->area2, foot->normal, along);
     return vec3_length(along);
 }
 
 /* Turns a foot into a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped over the
  * rim of an open mesh. */
 static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, knurl_contact *c) {
-    double face[3];
-    const double distance = sqrt(foot->distance2);
     vec3_copy(foot->point, c->proxy);
     vec3_copy(foot->weights, c->weights);
     c->triangle = foot->triangle;
-    knurl_foot_normal(foot, face);
-    const double along = vec3_dot(foot->offset, face) * side;
-    if (distance < KNURL_NORMAL_DISTANCE) {
-        const double scale = side / vec3_length(face);
-        vec3_scale(scale, face, c->normal);
-        c->z = along * scale * side;
+    if (foot->held == 7 || foot->distance2 < KNURL_NORMAL_DISTANCE * KNURL_NORMAL_DISTANCE) {
+        vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
+        c->z = vec3_dot(foot->offset, c->normal);
         return 1;
     }
-    int inside = along < 0.0;
-    if (foot->held != 7) {
-        double outwards[3];
-        int rim;
-        inside = knurl_foot_side(mesh, foot, &rim) * side < 0;
-        if (rim && off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
-            return 0;
-        }
+    double outwards[3];
+    int rim;
+    const double distance = sqrt(foot->distance2);
+    const int inside = knurl_foot_side(mesh, foot, &rim) * side < 0;
+    if (rim && off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
+        return 0;
     }
     vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
     c->z = inside ? -distance : distance;
@@ -147,16 +137,13 @@ static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, doubl
 static int beyond_the_rim(const knurl_mesh *mesh, const double hip[3], int32_t side, const knurl_foot *rim,
                           knurl_contact *c) {
     double at[3];
-    double normal[3], face[3];
     knurl_contact other;
     knurl_foot foot;
     const double off = off_the_rim(rim, at);
     vec3_madd(rim->point, 1.0, at, at);
     if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), &other)) {
         knurl_foot_find(mesh, other.triangle, hip, &foot);
-        knurl_foot_normal(rim, face);
-        knurl_foot_normal(&foot, normal);
-        if (vec3_dot(normal, face) > 0.0) {
+        if (vec3_dot(foot.normal, rim->normal) > 0.0) {
             knurl_foot_walk(mesh, hip, side, &foot);
             if (finish(mesh, side, &foot, c) && c->z < 0.0) {
                 return 1;
