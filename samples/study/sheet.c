@@ -80,3 +80,77 @@ knurl_mesh_desc study_sheet_desc(const study_sheet *sheet) {
     desc.index_count = 6ULL * sheet->columns * sheet->rows;
     return desc;
 }
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void minus(const double a[3], const double b[3], double out[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        out[axis] = a[axis] - b[axis];
+    }
+}
+
+static double distance2_to_edge(const double p[3], const double a[3], const double b[3]) {
+    double along[3];
+    double offset[3];
+    minus(b, a, along);
+    minus(p, a, offset);
+    const double t = fmax(0.0, fmin(1.0, dot(offset, along) / dot(along, along)));
+    for (int axis = 0; axis < 3; axis++) {
+        offset[axis] -= t * along[axis];
+    }
+    return dot(offset, offset);
+}
+
+/* To the plane where the point's foot is inside all three edges, else to the nearest edge. */
+static double distance2_to_triangle(const double p[3], const double corners[3][3]) {
+    double sides[3][3];
+    double normal[3];
+    double nearest = INFINITY;
+    int inside = 1;
+    for (int i = 0; i < 3; i++) {
+        minus(corners[(i + 1) % 3], corners[i], sides[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        normal[k] = sides[0][(k + 1) % 3] * sides[1][(k + 2) % 3] - sides[0][(k + 2) % 3] * sides[1][(k + 1) % 3];
+    }
+    double offset[3];
+    for (int i = 0; i < 3; i++) {
+        double inwards[3];
+        for (int k = 0; k < 3; k++) {
+            inwards[k] = normal[(k + 1) % 3] * sides[i][(k + 2) % 3] - normal[(k + 2) % 3] * sides[i][(k + 1) % 3];
+        }
+        minus(p, corners[i], offset);
+        inside = inside && dot(offset, inwards) >= 0.0;
+        nearest = fmin(nearest, distance2_to_edge(p, corners[i], corners[(i + 1) % 3]));
+    }
+    const double height = dot(offset, normal);
+    return inside ? height * height / dot(normal, normal) : nearest;
+}
+
+/* The cells that [low, high] of a grid line of `count` cells over [-half, half] runs through. */
+static void cells_within(double low, double high, double half, uint32_t count, uint32_t *first, uint32_t *last) {
+    const double scale = count / (2.0 * half);
+    *first = (uint32_t)fmax(0.0, floor((low + half) * scale));
+    *last = (uint32_t)fmin(count - 1.0, fmax(0.0, floor((high + half) * scale)));
+}
+
+double study_sheet_distance(const study_sheet *sheet, const double point[3], double reach) {
+    uint32_t columns[2];
+    uint32_t rows[2];
+    double nearest2 = INFINITY;
+    cells_within(point[0] - reach, point[0] + reach, SHEET_HALF_X, sheet->columns, &columns[0], &columns[1]);
+    cells_within(point[1] - reach, point[1] + reach, SHEET_HALF_Y, sheet->rows, &rows[0], &rows[1]);
+    for (uint32_t j = rows[0]; j <= rows[1]; j++) {
+        const size_t end = 6 * ((size_t)j * sheet->columns + columns[1] + 1);
+        for (size_t first = 6 * ((size_t)j * sheet->columns + columns[0]); first < end; first += 3) {
+            double corners[3][3];
+            for (size_t i = 0; i < 9; i++) {
+                corners[i / 3][i % 3] = (double)sheet->positions[3 * (size_t)sheet->indices[first + i / 3] + i % 3];
+            }
+            nearest2 = fmin(nearest2, distance2_to_triangle(point, (const double (*)[3])corners));
+        }
+    }
+    return sqrt(nearest2);
+}
