@@ -20,7 +20,7 @@
 #define BENCH_PEAK_SPEED 0.25     /* m/s */
 #define BENCH_PERIOD     0.001    /* m: the grating's */
 #define BENCH_AMPLITUDE  0.0002   /* m */
-#define BENCH_TILE       0.004    /* m: BENCH_FIELD's tiles, 100 x 100 of them */
+#define BENCH_TILE       0.008    /* m: the side of BENCH_FIELD's tiles, of which there are 100 x 100 */
 #define BENCH_FRICTION   0.3      /* Coulomb coefficient */
 #define BENCH_RESOLUTION 0.055e-3 /* m: the Touch's, for FOAW */
 
@@ -46,6 +46,7 @@ typedef struct bench_result {
     double build_ms;                        /**< to add the surfaces and commit */
     double triangles;                       /**< in all surfaces */
     double ticks;                           /**< timed */
+    double contact;                         /**< share of them in contact */
 } bench_result;
 
 /* The scene that is up; kept while the next case can use it. */

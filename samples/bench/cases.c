@@ -205,6 +205,15 @@ void bench_end(bench *b) {
     memset(b, 0, sizeof *b);
 }
 
+/* All ticks of the first HIP since its case began are timed ones. */
+static double contact_share(const bench *b) {
+    knurl_tick_output last;
+    knurl_hip_counts counts;
+    return knurl_scene_get_tick(b->stage.scene, 0, &last, &counts) || counts.ticks == 0
+               ? 0.0
+               : (double)counts.contact_ticks / (double)counts.ticks;
+}
+
 int bench_run(bench *b, const bench_case *c, bench_result *result) {
     subject s;
     memset(result, 0, sizeof *result);
@@ -224,5 +233,6 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     }
     bench_percentiles(b->samples, count, b->timer_ns, result);
     result->ticks = (double)count;
+    result->contact = s.tick == tick_scene ? contact_share(b) : 0.0;
     return BENCH_DONE;
 }

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#pragma weak knurl_scene_set_transform /* until this library has it */
-
 #define TILES         100 /* a side */
 #define MOVING        10
 #define MOVING_SWING  0.005 /* m */
@@ -164,10 +162,7 @@ static knurl_result change(const bench_stage *stage, const bench_case *c) {
 
 knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
     if (stage->scene && stage->shape == c->shape && stage->asked_triangles == c->triangles && stage->hips == c->hips) {
-        const knurl_result result = change(stage, c);
-        if (result != KNURL_ERROR_STATE) {
-            return result;
-        }
+        return change(stage, c);
     }
     knurl_scene_destroy(stage->scene);
     memset(stage, 0, sizeof *stage);
@@ -184,10 +179,6 @@ knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
 
 knurl_result bench_stage_move(bench_stage *stage, double seconds) {
     knurl_result result = KNURL_OK;
-    if (!knurl_scene_set_transform) {
-        return knurl_fail(KNURL_ERROR_UNSUPPORTED, "surfaces that move: Knurl %s cannot move them",
-                          knurl_version_string());
-    }
     for (uint32_t i = 0; i < knurl_scene_surface_count(stage->scene) && !result; i++) {
         const double swing = sin(2.0 * acos(-1.0) * seconds + i);
         const double position[3] = {MOVING_SWING * swing, 0.0, -MOVING_HEIGHT * i};

@@ -6,17 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-#define LINE 0.0037 /* m: a y that no row of vertices lies on; a HIP more, a line further */
-
-/* BENCH_FIELD: over the seams of the tiles, which can be touched from their front only, the HIP hops: 1 mm deep at
- * their middle, 0.5 mm out at the seam, in touch for 61 % of the way. */
-static double hop(double x) {
-    return -0.25 * BENCH_DEPTH - 0.75 * BENCH_DEPTH * cos(2.0 * acos(-1.0) * x / BENCH_TILE);
-}
+#define LINE 0.0027 /* m: a y that no row of vertices or seam of tiles lies on; a HIP more, a line further */
 
 static void place(const bench_case *c, uint32_t hip, double seconds, double out[3]) {
     const double x = BENCH_REACH * sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
-    const double y = c->shape == BENCH_FIELD ? 0.0 : LINE * (1.0 + hip);
+    const double y = LINE * (1.0 + hip);
     double normal[3] = {0.0, 0.0, 1.0};
     out[0] = x;
     out[1] = y;
@@ -25,7 +19,7 @@ static void place(const bench_case *c, uint32_t hip, double seconds, double out[
         study_sheet_point(x, y, out, normal);
     }
     for (int axis = 0; axis < 3; axis++) {
-        out[axis] += (c->shape == BENCH_FIELD ? hop(x) : -BENCH_DEPTH) * normal[axis];
+        out[axis] -= BENCH_DEPTH * normal[axis];
     }
 }
 

@@ -92,6 +92,7 @@ static void print_result(tool_json *json, const row *r) {
     json_number(json, "build_ms", r->result.build_ms);
     json_number(json, "triangles", r->result.triangles);
     json_number(json, "ticks", r->result.ticks);
+    json_number(json, "contact", r->result.contact);
     json_close(json, '}');
 }
 
@@ -165,6 +166,7 @@ int cmd_bench(int argc, char **argv) {
     if (name && !only) {
         return unknown_case(name);
     }
+    obey_signals();
     bench b;
     memset(&b, 0, sizeof b);
     b.interrupted = &interrupted;
@@ -174,7 +176,6 @@ int cmd_bench(int argc, char **argv) {
         free(out);
         return tool_error(TOOL_FAILURE, "bench: no memory for the times of %g ticks", fmax(b.ticks, BENCH_TICKS));
     }
-    obey_signals();
     study_machine(out->machine, sizeof out->machine);
     out->timer_ns = b.timer_ns;
     int code = measure(&b, only, out);
