@@ -40,7 +40,8 @@ static int measure(table *t) {
             const size_t v = cell % SPEEDS;
             study_progress("half_cycles",
                            ((double)i * PERIODS * SPEEDS + (double)cell) / (double)(SURFACES * PERIODS * SPEEDS));
-            failed = half_cycles_measure(surfaces[i].surface, &sheet, periods[p], speeds[v], &t->cells[i][p][v]);
+            failed = half_cycles_measure(surfaces[i].surface, sheet.indices ? &sheet : NULL, periods[p], speeds[v],
+                                         &t->cells[i][p][v]);
         }
         study_sheet_free(&sheet);
         if (failed) {
