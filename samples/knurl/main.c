@@ -29,6 +29,8 @@ static const char help[] =
     "  knurl scan --method S1|S2 --fs FSX,FSY --amplitude A --rate HZ --in CSV\n"
     "                                      a grating under given positions x,y or velocities vx,vy, a row a tick (CSV)\n"
     "  knurl study NAME --out DIR          a figure or chart as CSV and JSON; plot.py draws it\n"
+    "  knurl bench [--json] [--case NAME] [--ticks N]\n"
+    "                                      what a tick takes on this machine, warm and paced (about half a minute)\n"
     "  knurl devices [--json]              the kinds of device, and the fake one's settings\n"
     "  knurl --version\n"
     "\n"
@@ -68,8 +70,8 @@ static int cmd_devices(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal},  {"metrics", cmd_metrics},
-                {"scan", cmd_scan},       {"study", cmd_study}, {"devices", cmd_devices}};
+} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal}, {"metrics", cmd_metrics},
+                {"scan", cmd_scan},       {"study", cmd_study}, {"bench", cmd_bench},   {"devices", cmd_devices}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -93,7 +95,7 @@ static int run_command(int argc, char **argv) {
     }
     return tool_error(
         TOOL_USAGE,
-        "expected a command (inspect, run, signal, metrics, scan, study, devices), found '%s'; see 'knurl --help'",
+        "expected a command (inspect, run, signal, metrics, scan, study, bench, devices), found '%s'; see 'knurl --help'",
         argv[1]);
 }
 

@@ -88,5 +88,6 @@ int cmd_signal(int argc, char **argv);
 int cmd_metrics(int argc, char **argv);
 int cmd_scan(int argc, char **argv);
 int cmd_study(int argc, char **argv);
+int cmd_bench(int argc, char **argv);
 
 #endif
