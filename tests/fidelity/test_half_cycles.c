@@ -1,5 +1,5 @@
-/* No half cycle is lost at any speed, whatever the tessellation: where CHAI3D 3.3 loses up to 99 %. Gratings of 1, 2
- * and 4 mm at 49, 99 and 247 mm/s, 16 start phases, through the whole tick. SPDX-License-Identifier: MIT */
+/* No half cycle is lost at any speed, whatever the tessellation: gratings of 1, 2 and 4 mm at 49, 99 and 247 mm/s, 16
+ * start phases, through the whole tick. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "half_cycles.h"
