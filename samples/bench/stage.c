@@ -61,9 +61,9 @@ static knurl_result add_field(knurl_scene *scene, const knurl_material_desc *m) 
     mesh.index_count = 6;
     knurl_result result = KNURL_OK;
     for (int i = 0; i < TILES * TILES && !result; i++) {
-        const int column = i % TILES;
-        const int row = i / TILES;
-        const double position[3] = {BENCH_TILE * (column - TILES / 2), BENCH_TILE * (row - TILES / 2), 0.0};
+        const int column = i % TILES - TILES / 2; /* one is in the middle, under the stroke */
+        const int row = i / TILES - TILES / 2;
+        const double position[3] = {BENCH_TILE * column, BENCH_TILE * row, 0.0};
         result = (column + row) % 2 ? add_mesh(scene, m, position, &mesh)
                                     : add_plane(scene, m, position, 0.5 * BENCH_TILE, 0.5 * BENCH_TILE);
     }

@@ -23,7 +23,8 @@ double bench_timer_cost(int64_t *room, size_t count) {
         room[i] = bench_now() - before;
     }
     qsort(room, count, sizeof *room, by_value);
-    return (double)room[count / 2];
+    const size_t middle = count / 2;
+    return (double)room[middle];
 }
 
 /* The smallest sample that at least this share does not exceed (nearest rank). */

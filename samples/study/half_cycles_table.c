@@ -27,6 +27,8 @@ typedef struct table {
 } table;
 
 static int measure(table *t) {
+    const size_t surface_count = SURFACES;
+    const double count = (double)surface_count;
     for (size_t i = 0; i < SURFACES; i++) {
         study_sheet sheet;
         memset(&sheet, 0, sizeof sheet);
@@ -38,8 +40,7 @@ static int measure(table *t) {
         for (size_t cell = 0; cell < PERIODS * SPEEDS && !failed; cell++) {
             const size_t p = cell / SPEEDS;
             const size_t v = cell % SPEEDS;
-            study_progress("half_cycles",
-                           ((double)i * PERIODS * SPEEDS + (double)cell) / (double)(SURFACES * PERIODS * SPEEDS));
+            study_progress("half_cycles", ((double)i + (double)cell / (PERIODS * SPEEDS)) / count);
             failed = half_cycles_measure(surfaces[i].surface, sheet.indices ? &sheet : NULL, periods[p], speeds[v],
                                          &t->cells[i][p][v]);
         }

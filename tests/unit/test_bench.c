@@ -23,7 +23,7 @@ static const char *only_case(const char *json, const char *name) {
 
 /* Every bracket closes the one that is open, outside of texts, and the object ends the line. */
 static void check_brackets(const char *json) {
-    char open[16];
+    char open[16] = "";
     size_t depth = 0;
     int in_text = 0;
     for (const char *c = json; *c; c++) {
@@ -33,7 +33,8 @@ static void check_brackets(const char *json) {
             assert_true(depth < sizeof open);
             open[depth++] = *c;
         } else if (!in_text && (*c == '}' || *c == ']')) {
-            assert_true(depth > 0 && open[--depth] == (*c == '}' ? '{' : '['));
+            assert_true(depth > 0 && open[depth - 1] == (*c == '}' ? '{' : '['));
+            depth--;
             assert_true(depth > 0 || strcmp(c + 1, "\n") == 0);
         }
     }
