@@ -173,7 +173,7 @@ static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, doub
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                        knurl_contact *contact) {
-    const double reach = fmax(query->reach, KNURL_ON_SURFACE);
+    const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* fmax() is a call */
     const int held =
         state->inside ? follow(mesh, query, reach, state, contact) : watch(mesh, query, reach, state, contact);
     if (!held || contact->z > reach) {

@@ -27,7 +27,7 @@ void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *f
     vec3_sub(p, a, ap);
     vec3_sub(foot->corners[2], foot->corners[1], bc);
     vec3_sub(p, foot->corners[1], bp);
-    const double b_a = vec3_dot(ab, ap), c_a = vec3_dot(ac, ap); /* how far p is towards b and c, from a, */
+    const double b_a = vec3_dot(ab, ap), c_a = vec3_dot(ac, ap);  /* how far p is towards b and c, from a, */
     const double a_b = -vec3_dot(ab, bp), c_b = vec3_dot(bc, bp); /* towards a and c, from b, */
     const double ab2 = vec3_dot(ab, ab), ac2 = vec3_dot(ac, ac), bc2 = vec3_dot(bc, bc);
     const double a_c = ac2 - c_a, b_c = bc2 - c_b; /* and towards a and b, from c */
@@ -47,7 +47,8 @@ void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *f
         foot->held = rest_between(1, 2, c_b / bc2, w);
     }
     for (int axis = 0; axis < 3; axis++) {
-        foot->point[axis] = w[0] * foot->corners[0][axis] + w[1] * foot->corners[1][axis] + w[2] * foot->corners[2][axis];
+        foot->point[axis] =
+            w[0] * foot->corners[0][axis] + w[1] * foot->corners[1][axis] + w[2] * foot->corners[2][axis];
     }
     vec3_sub(p, foot->point, foot->offset);
     foot->distance2 = vec3_dot(foot->offset, foot->offset);
@@ -233,8 +234,9 @@ static void look(facing *f, uint32_t corner, int weigh) {
     double next[3], last[3], normal[3];
     knurl_mesh_corners(f->mesh, corner >> 2, c);
     const uint32_t k = corner & 3;
-    vec3_sub(c[(k + 1) % 3], c[k], next);
-    vec3_sub(c[(k + 2) % 3], c[k], last);
+    const uint32_t k1 = k == 2 ? 0 : k + 1;
+    vec3_sub(c[k1], c[k], next);
+    vec3_sub(c[3 - k - k1], c[k], last);
     vec3_cross(next, last, normal);
     const double along = vec3_dot(f->foot->offset, normal);
     f->front |= along > 0.0;

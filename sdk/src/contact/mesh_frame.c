@@ -7,7 +7,8 @@
 /* A triangle's edges, and how u and v change along them. */
 typedef struct uv_edges {
     double edge1[3], edge2[3];
-    double u1, v1, u2, v2;
+    double u0, v0;         /* at the first corner */
+    double u1, v1, u2, v2; /* further at the others */
     double det;
 } uv_edges;
 
@@ -26,10 +27,12 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     knurl_mesh_corners(mesh, triangle, corners);
     vec3_sub(corners[1], corners[0], e->edge1);
     vec3_sub(corners[2], corners[0], e->edge2);
-    e->u1 = (double)uv[1][0] - (double)uv[0][0];
-    e->v1 = (double)uv[1][1] - (double)uv[0][1];
-    e->u2 = (double)uv[2][0] - (double)uv[0][0];
-    e->v2 = (double)uv[2][1] - (double)uv[0][1];
+    e->u0 = (double)uv[0][0];
+    e->v0 = (double)uv[0][1];
+    e->u1 = (double)uv[1][0] - e->u0;
+    e->v1 = (double)uv[1][1] - e->v0;
+    e->u2 = (double)uv[2][0] - e->u0;
+    e->v2 = (double)uv[2][1] - e->v0;
     e->det = e->u1 * e->v2 - e->u2 * e->v1;
     const double largest =
         fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* the uvs are floats: below that they lie on a line */
@@ -80,37 +83,30 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
-/* A vertex attribute of `width` floats at a contact. */
-static void interpolate(const knurl_mesh *mesh, const float *values, uint32_t width, const knurl_contact *contact,
-                        double *out) {
-    const uint32_t *at = attributes_of(mesh, contact->triangle);
-    for (uint32_t k = 0; k < width; k++) {
-        out[k] = contact->weights[0] * (double)values[width * (size_t)at[0] + k] +
-                 contact->weights[1] * (double)values[width * (size_t)at[1] + k] +
-                 contact->weights[2] * (double)values[width * (size_t)at[2] + k];
-    }
-}
-
 /* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. Of dP/du and
  * dP/dv only the directions are asked for, so nothing is divided. */
 void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
     uv_edges e;
     x[0] = x[1] = x[2] = coordinates[0] = coordinates[1] = 0.0;
     if (find_uv_edges(mesh, contact->triangle, &e)) {
-        double uv[2];
         double across[3];
-        interpolate(mesh, mesh->uvs, 2, contact, uv);
+        const double *w = contact->weights;
         vec3_cross(e.edge1, e.edge2, across); /* du x dv is this over det */
         /* y = n x x, whichever way v runs: glTF's v runs down the image. */
         const double facing = vec3_dot(across, contact->normal) * e.det;
-        coordinates[0] = uv[0] * mesh->uv_scale[0];
-        coordinates[1] = uv[1] * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
+        coordinates[0] = (e.u0 + w[1] * e.u1 + w[2] * e.u2) * mesh->uv_scale[0];
+        coordinates[1] = (e.v0 + w[1] * e.v1 + w[2] * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
         const double along = e.det < 0.0 ? -1.0 : 1.0;
         for (int axis = 0; axis < 3; axis++) {
             x[axis] = along * (e.v2 * e.edge1[axis] - e.v1 * e.edge2[axis]);
         }
     }
     if (mesh->tangents) {
-        interpolate(mesh, mesh->tangents, 3, contact, x);
+        const uint32_t *at = attributes_of(mesh, contact->triangle);
+        for (size_t axis = 0; axis < 3; axis++) {
+            x[axis] = contact->weights[0] * (double)mesh->tangents[3 * (size_t)at[0] + axis] +
+                      contact->weights[1] * (double)mesh->tangents[3 * (size_t)at[1] + axis] +
+                      contact->weights[2] * (double)mesh->tangents[3 * (size_t)at[2] + axis];
+        }
     }
 }
