@@ -47,6 +47,7 @@ static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     }
     surface->place = scene->vacant[scene->vacant_count - 1];
     surface->generation = scene->generations[surface->place];
+    surface->id = (uint64_t)surface->generation << 32 | (surface->place + 1);
     scene->surfaces[surface->place] = surface;
     scene->order[scene->surface_count++] = surface->place;
     result = scene->committed ? knurl_world_add(scene, surface) : KNURL_OK;
@@ -68,7 +69,7 @@ knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_des
     }
     knurl_scene_lock(scene);
     result = add(scene, made);
-    const knurl_surface id = result ? 0 : knurl_surface_id(made);
+    const knurl_surface id = result ? 0 : made->id;
     knurl_scene_unlock(scene);
     if (result) {
         made->retired.release(&scene->heap, &made->retired);

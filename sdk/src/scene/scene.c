@@ -99,14 +99,10 @@ void knurl_scene_unlock(const knurl_scene *scene) {
     knurl_system_mutex_unlock(&((knurl_scene *)(uintptr_t)scene)->lock);
 }
 
-knurl_surface knurl_surface_id(const knurl_surface_data *surface) {
-    return (uint64_t)surface->generation << 32 | (surface->place + 1);
-}
-
 knurl_surface_data *knurl_scene_get(const knurl_scene *scene, knurl_surface surface) {
     const uint32_t place = (uint32_t)(surface & UINT32_MAX) - 1; /* 0 wraps to a place that no scene has */
     knurl_surface_data *data = place < scene->capacity ? scene->surfaces[place] : NULL;
-    if (!data || knurl_surface_id(data) != surface) {
+    if (!data || data->id != surface) {
         knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which names none",
                    (unsigned long long)surface);
         return NULL;
@@ -173,7 +169,7 @@ uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
 
 knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
     knurl_scene_lock(scene);
-    const knurl_surface id = index < scene->surface_count ? knurl_surface_id(scene->surfaces[scene->order[index]]) : 0;
+    const knurl_surface id = index < scene->surface_count ? scene->surfaces[scene->order[index]]->id : 0;
     knurl_scene_unlock(scene);
     return id;
 }
@@ -197,7 +193,7 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
     char known[512] = "";
     knurl_scene_lock(scene);
     const knurl_surface_data *data = find(scene, name, known, sizeof known);
-    const knurl_surface id = data ? knurl_surface_id(data) : 0;
+    const knurl_surface id = data ? data->id : 0;
     knurl_scene_unlock(scene);
     if (!id) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "surface: expected one of %s, found '%s'",

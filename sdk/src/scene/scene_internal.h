@@ -44,6 +44,7 @@ typedef struct knurl_surface_data {
     int32_t double_sided;
     uint32_t place;
     uint32_t generation;
+    knurl_surface id;
     knurl_pose local; /* the shape's frame in the surface's */
     double low[3];    /* the shape's bounds in its own frame, m */
     double high[3];
@@ -206,8 +207,6 @@ void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
 
 /* The surface of an id, or null with an error. Under the lock. */
 knurl_surface_data *knurl_scene_get(const knurl_scene *scene, knurl_surface surface);
-
-knurl_surface knurl_surface_id(const knurl_surface_data *surface);
 
 void knurl_scene_lock(const knurl_scene *scene);
 void knurl_scene_unlock(const knurl_scene *scene);

@@ -71,7 +71,8 @@ static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near
 /* Friction: the HIP drags an anchor along the surface by a spring of the material's stiffness, and the anchor slips
  * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
 static void drag(const knurl_material_desc *m, const knurl_contact *contact, knurl_near *near, double tangential[3]) {
-    const double hold = m->friction * fmax(0.0, -contact->z); /* m: the spring's length that friction can hold */
+    const double hold =
+        contact->z < 0.0 ? -m->friction * contact->z : 0.0; /* m: the spring's length that friction can hold */
     double stretch[3] = {0.0, 0.0, 0.0};
     if (near->in_contact && hold > 0.0) {
         vec3_sub(near->anchor, contact->proxy, stretch);
@@ -120,14 +121,15 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
                                        0};
         knurl_grating_step(&grating, &near->grating, coordinates, t->velocity, &t->grating);
     } else {
-        memset(&t->grating, 0, sizeof t->grating);
-        t->grating.event = KNURL_NO_EVENT;
+        static const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+        t->grating = none;
         near->grating.playing = 0;
     }
     const double height = t->grating.height;
     double size = 0.0;
     if (contact->z < height) { /* Eq. 9, with the wall's damping; never a pull */
-        size = fmax(0.0, m->stiffness * (height - contact->z) - m->damping * vec3_dot(over, contact->normal));
+        size = m->stiffness * (height - contact->z) - m->damping * vec3_dot(over, contact->normal);
+        size = size > 0.0 ? size : 0.0;
     }
     vec3_scale(size, t->normal, t->force);
     if (m->friction > 0.0) {
@@ -157,7 +159,7 @@ static void add_touch(const touch *t, knurl_tick_output *out) {
     out->spatial_frequency = t->grating.spatial_frequency;
     out->temporal_frequency = t->grating.temporal_frequency;
     out->event = t->grating.event;
-    out->surface = knurl_surface_id(t->surface);
+    out->surface = t->surface->id;
 }
 
 /* Whether the HIP's path in this tick comes into a surface's box. */
@@ -275,6 +277,21 @@ static int is_finite(const double a[3]) {
     return (a[0] - a[0]) + (a[1] - a[1]) + (a[2] - a[2]) == 0.0;
 }
 
+/* What is told while nothing is touched, beside the HIP: all the rest of an output, field by field, because clearing it
+ * as a block takes twice as long (rep stos) as everything else that is done with it. */
+static void feel_nothing(knurl_tick_output *out) {
+    vec3_copy(out->hip, out->proxy);
+    for (int i = 0; i < 3; i++) {
+        out->force[i] = out->normal[i] = 0.0;
+    }
+    out->surface_velocity[0] = out->surface_velocity[1] = 0.0;
+    out->depth = out->height = 0.0;
+    out->spatial_frequency = out->temporal_frequency = 0.0;
+    out->event = KNURL_NO_EVENT;
+    out->surface = 0;
+    out->flags = out->contacts = 0;
+}
+
 /* Device to scene; the velocity as given, else estimated in device axes, where the quantisation is. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
@@ -294,7 +311,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         vec3_madd(w->origin, w->scale, input->position, out->hip);
         vec3_scale(w->scale, velocity, out->hip_velocity);
     }
-    vec3_copy(out->hip, out->proxy);
+    feel_nothing(out);
     return is_finite(out->hip) && is_finite(out->hip_velocity);
 }
 
@@ -359,13 +376,10 @@ static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip
 
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                               knurl_tick_output *output) {
-    memset(output, 0, sizeof *output);
-    output->event = KNURL_NO_EVENT;
-    if (hip_index >= scene->hip_count) {
-        return KNURL_ERROR_ARGUMENT; /* no message: this may be the haptic thread */
-    }
-    if (!scene->committed) {
-        return KNURL_ERROR_STATE;
+    if (hip_index >= scene->hip_count || !scene->committed) { /* no message: this may be the haptic thread */
+        memset(output, 0, sizeof *output);
+        output->event = KNURL_NO_EVENT;
+        return scene->committed ? KNURL_ERROR_ARGUMENT : KNURL_ERROR_STATE;
     }
     knurl_hip *hip = &scene->hips[hip_index];
     double force = 0.0;
