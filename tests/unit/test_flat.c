@@ -250,6 +250,31 @@ TEST(sheet_of_reversed_twins_is_double_sided) {
     shape_free(&s);
 }
 
+TEST(twins_give_the_front_its_own_uvs_whichever_comes_first) {
+    shape s = DRAWING("##", "##");
+    shape_unweld(&s);
+    const uint32_t count = s.index_count;
+    shape both = shape_new(2 * count, 2 * count, 1);
+    for (uint32_t i = 0; i < 2 * count; i++) { /* front, back, then back, front, and so on; the back is mirrored */
+        const uint32_t pair = i / 6;
+        const int is_back = (i / 3) % 2 != pair % 2;
+        const uint32_t corner = is_back ? 2 - i % 3 : i % 3;
+        const uint32_t from = 3 * pair + corner;
+        memcpy(&both.positions[(size_t)3 * i], &s.positions[(size_t)3 * from], 3 * sizeof(float));
+        both.uvs[2 * i] = is_back ? 1.0F - s.uvs[2 * from] : s.uvs[2 * from];
+        both.uvs[2 * i + 1] = s.uvs[2 * from + 1];
+        both.indices[i] = i;
+    }
+    outcome o = decide(&both);
+    assert_non_null(o.plane);
+    assert_int_equal(o.plane->reversed_twins, 8);
+    CHECK_CLOSE(o.plane->map[0][0], 1.0, 1e-9);
+    CHECK_CLOSE(o.plane->map[0][2], CELL, 1e-9);
+    forget(&o);
+    shape_free(&both);
+    shape_free(&s);
+}
+
 TEST(sheet_with_a_twin_missing_stays_a_mesh) {
     shape s = DRAWING("#...", "#...", "####");
     add_twins(&s, 11);
@@ -283,6 +308,13 @@ TEST(sheet_is_flat_to_a_micrometre_and_to_1e5th_of_its_size) {
             outcome o = decide(&s);
             assert_non_null(o.plane);
             assert_true(o.plane->flatness >= 0.25 * bump && o.plane->flatness <= 0.51 * bump);
+            const double normal[3] = {o.rotation[2], o.rotation[5], o.rotation[8]};
+            for (uint32_t v = 0; v < s.vertex_count; v++) { /* it is the bound that it is reported as */
+                double p[3];
+                shape_get(&s, v, p);
+                add3(p, -1.0, o.position, p);
+                assert_true(fabs(dot3(p, normal)) <= 1.0001 * o.plane->flatness);
+            }
             forget(&o);
             shape_free(&s);
         } else {
@@ -317,6 +349,10 @@ TEST(overlapping_triangles_stay_a_mesh) {
     flat_add(&twice, 0, 1, 11);
     CHECK_STAYS(&twice, "mesh: its triangles overlap");
 
+    shape thrice = DRAWING("###", "###"); /* the same between two others */
+    flat_add(&thrice, 0, 5, 8);
+    CHECK_STAYS(&thrice, "mesh: its triangles overlap");
+
     shape upon = DRAWING("#####.", "#####.", "#####.", "......"); /* an island within the sheet, on no edge of it */
     const uint32_t corners[3] = {4 * 7 - 1 - 7, 4 * 7 - 1, 5 * 7 - 1};
     shape_set(&upon, corners[0], 1.3 * CELL, 1.4 * CELL, 0.0);
@@ -329,8 +365,8 @@ TEST(overlapping_triangles_stay_a_mesh) {
     flat_add(&upon, corners[0], corners[1], corners[2]);
     CHECK_STAYS(&upon, "mesh: its triangles overlap");
 
-    shape across = DRAWING("#..", "#..", "#.."); /* a strip, and another laid across it */
-    const double bar[4][2] = {{-1.0, 1.25}, {2.0, 1.25}, {2.0, 1.75}, {-1.0, 1.75}};
+    shape across = DRAWING("#..", "#..", "#.."); /* a strip, and another across it, off the middles of both */
+    const double bar[4][2] = {{-1.0, 2.25}, {6.0, 2.25}, {6.0, 2.75}, {-1.0, 2.75}};
     const uint32_t free_ones[4] = {2, 3, 6, 7};
     for (uint32_t k = 0; k < 4; k++) {
         shape_set(&across, free_ones[k], bar[k][0] * CELL, bar[k][1] * CELL, 0.0);
@@ -340,6 +376,56 @@ TEST(overlapping_triangles_stay_a_mesh) {
     flat_add(&across, 2, 3, 6);
     flat_add(&across, 2, 6, 7);
     CHECK_STAYS(&across, "mesh: its triangles overlap");
+}
+
+/* A strip whose upper side is bowed by `bow` m: more corners than an outline may have, most of them next to a straight
+ * line. What is left of them is as near to all of them as is said. */
+static void check_bowed(double bow) {
+    shape s = shape_sheet(200, 1, (const double[2]){0.05, 0.01}, NULL);
+    for (uint32_t v = 201; v < 402; v++) {
+        const double x = (double)s.positions[3 * v];
+        s.positions[3 * v + 1] += (float)(bow * (1.0 - x * x / 0.0025));
+        s.uvs[2 * v + 1] = 50.0F * s.positions[3 * v + 1] + 0.5F;
+    }
+    outcome o = decide(&s);
+    assert_non_null(o.plane);
+    assert_in_range(o.plane->edge_count, 7, 20);
+    assert_true(o.plane->flatness > 1e-8 && o.plane->flatness < 1e-6);
+    for (uint32_t v = 201; v < 402; v++) {
+        double p[3];
+        shape_get(&s, v, p);
+        add3(p, -1.0, o.position, p);
+        const double turned[2] = {p[0] * o.rotation[0] + p[1] * o.rotation[3],
+                                  p[0] * o.rotation[1] + p[1] * o.rotation[4]};
+        assert_true(flat_to_outline(o.plane, turned) <= 1.0001 * o.plane->flatness);
+    }
+    forget(&o);
+    shape_free(&s);
+}
+
+TEST(corners_next_to_a_straight_line_are_left_out_and_told) {
+    check_bowed(3e-5);
+    check_bowed(-3e-5);
+}
+
+/* Two of four corners stand next to each other: what they bound is next to a triangle, and no rectangle. */
+TEST(triangle_with_a_corner_cut_off_is_no_rectangle) {
+    shape s = shape_new(4, 6, 1);
+    const double places[4][2] = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5 - 0.9e-6}, {0.5 - 0.9e-6, 0.5}};
+    for (uint32_t v = 0; v < 4; v++) {
+        shape_set(&s, v, places[v][0], places[v][1], 0.0);
+        s.uvs[2 * v] = (float)places[v][0];
+        s.uvs[2 * v + 1] = (float)places[v][1];
+    }
+    (void)shape_quad(&s, 0, 0, 1, 2, 3);
+    outcome o = decide(&s);
+    double length;
+    assert_non_null(o.plane);
+    assert_in_range(o.plane->edge_count, 3, 4);
+    CHECK_CLOSE(flat_area(o.plane, &length), 0.125, 1e-6);
+    assert_false(knurl_plane_covers(o.plane, (const double[2]){-0.2, 0.2}));
+    forget(&o);
+    shape_free(&s);
 }
 
 /* A ring cut open whose turns lie upon each other: every edge has at most one neighbour, and the area of the triangles
@@ -533,6 +619,7 @@ int main(void) {
         cmocka_unit_test(hole_beside_a_long_edge_has_an_outline_of_its_own),
         cmocka_unit_test(duplicates_slivers_and_unused_vertices_change_nothing),
         cmocka_unit_test(sheet_of_reversed_twins_is_double_sided),
+        cmocka_unit_test(twins_give_the_front_its_own_uvs_whichever_comes_first),
         cmocka_unit_test(sheet_with_a_twin_missing_stays_a_mesh),
         cmocka_unit_test(sheet_that_faces_both_ways_stays_a_mesh),
         cmocka_unit_test(sheet_is_flat_to_a_micrometre_and_to_1e5th_of_its_size),
@@ -540,6 +627,8 @@ int main(void) {
         cmocka_unit_test(solids_and_curved_sheets_stay_meshes),
         cmocka_unit_test(mesh_without_any_area_stays_one),
         cmocka_unit_test(overlapping_triangles_stay_a_mesh),
+        cmocka_unit_test(corners_next_to_a_straight_line_are_left_out_and_told),
+        cmocka_unit_test(triangle_with_a_corner_cut_off_is_no_rectangle),
         cmocka_unit_test(spiral_that_passes_over_itself_stays_a_mesh),
         cmocka_unit_test(uvs_that_are_not_affine_keep_a_mesh),
         cmocka_unit_test(uvs_without_area_or_mirrored_in_part_keep_a_mesh),

@@ -75,7 +75,7 @@ static int is_close_call(const pair *p, const double from[3], const double to[3]
     double through[3];
     const double reach = p->plane.query.reach;
     add3(to, -1.0, from, through);
-    add3(from, from[2] / (from[2] - to[2]), through, through);
+    add3(from, from[2] != to[2] ? from[2] / (from[2] - to[2]) : 0.0, through, through);
     return fabs(to[2]) < 2.0 * p->tolerance || fabs(fabs(to[2]) - reach) < 2.0 * p->tolerance ||
            flat_to_outline(&p->plane.plane, to) < 1e-6 ||
            (from[2] * to[2] < 0.0 && flat_to_outline(&p->plane.plane, through) < 1e-6);

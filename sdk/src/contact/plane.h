@@ -5,8 +5,8 @@
 
 #include "contact/contact.h"
 
-/* Edges that an outline may have. A tick looks at those in its HIP's band, and a comb has all of them in one: at 2 ns
- * each, 64 cost what two planes' ticks do. */
+/* Edges that an outline may have. A tick looks at those in its HIP's band: a few of a disc's, but all of a comb's, and
+ * at 1 ns each 64 cost as much as a plane's whole tick. */
 #define KNURL_OUTLINE_EDGES 64
 
 /* Bands that an outline is cut into, across y: few edges stand in one, unless most run along y. */

@@ -53,7 +53,6 @@ static void by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *plane
 static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     double mean[2] = {0.0, 0.0};
     for (int pass = 0; pass < 2; pass++) { /* their mean, then how far each is off it */
-        const double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
         for (uint64_t i = 0; i < 3 * (uint64_t)sheet->count; i++) {
             const uint32_t v = knurl_sheet_vertex(sheet->desc, sheet->kept[i / 3], (uint32_t)(i % 3));
             const float *t = &sheet->desc->tangents[4 * (size_t)v];
@@ -64,9 +63,9 @@ static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why
                 *why = along_normal;
                 return;
             }
-            const double sine = (mean[0] * flat[1] - mean[1] * flat[0]) / (part * length);
-            const double cosine = (mean[0] * flat[0] + mean[1] * flat[1]) / (part * length);
-            if (pass == 1 && !(fabs(sine) <= SAME_DIRECTION && cosine > 0.0)) {
+            const double across = mean[0] * flat[1] - mean[1] * flat[0];
+            const double along = mean[0] * flat[0] + mean[1] * flat[1];
+            if (pass == 1 && !(fabs(across) <= SAME_DIRECTION * along && along > 0.0)) {
                 *why = "mesh: its tangents do not all run one way";
                 return;
             }
