@@ -6,9 +6,24 @@
 
 #include <string.h>
 
-/* How far round its path a HIP looks, m: at 250 mm/s a list serves for 40 ticks. Where more surfaces are in there than
- * a list holds, it looks less far, down to what the tick itself needs. */
-static const double margins[] = {0.01, 0.001, 0.0};
+/* How far a HIP looks, m. margin: how far it may go before it looks again; at 250 mm/s the first serves for 40 ticks.
+ * capture: how deep it may find itself in a surface at a first tick, or when an edit has put one here. Where more
+ * surfaces are in there than a list holds, the next is tried, down to what the tick itself needs. */
+static const struct {
+    double margin;
+    double capture;
+} views[] = {{0.01, KNURL_CAPTURE_DEPTH},
+             {0.003, KNURL_CAPTURE_DEPTH},
+             {0.001, KNURL_CAPTURE_DEPTH},
+             {0.0, KNURL_CAPTURE_DEPTH},
+             {0.0, 0.003},
+             {0.0, 0.001}};
+#define VIEWS   (sizeof views / sizeof *views)
+#define NARROWS 3 /* the first without a margin */
+
+/* A HIP pressed deeper than at the latest look, by more than this (m), looks again: what it may slide onto is that far
+ * above it. */
+#define DEEPER 0.002
 
 /* What remains near keeps its state; what is in contact stays whether its box is near or not. */
 static uint32_t keep(knurl_near *list, uint32_t count, const uint32_t *places, uint32_t found) {
@@ -57,14 +72,20 @@ void knurl_hip_look_around(const knurl_scene *scene, const knurl_world *world, k
     const double *from = hip->has_previous ? hip->previous : position;
     uint32_t places[KNURL_MAX_NEAR];
     uint32_t found = KNURL_MAX_NEAR + 1;
-    for (size_t m = everything ? 2 : 0; m < 3 && found > KNURL_MAX_NEAR; m++) {
-        /* a surface that has just jumped here, and a first tick, may be felt this far */
-        const double margin = margins[m] + 1e-9 + (m < 2 || !hip->has_previous ? KNURL_CAPTURE_DEPTH : 0.0);
+    /* a first tick may be felt this far, and so may what an edit has put here */
+    const int fresh = !hip->has_previous || hip->version != version;
+    for (size_t v = everything ? NARROWS : 0; v < VIEWS && found > KNURL_MAX_NEAR; v++) {
+        hip->near_depth = hip->depth + (v < NARROWS ? DEEPER : 1e-4);
+        const double reach = 1e-9 + fmax(hip->near_depth, fresh ? views[v].capture : 0.0);
+        double low[3];
+        double high[3];
         for (int i = 0; i < 3; i++) {
-            hip->near_low[i] = fmin(from[i], position[i]) - margin;
-            hip->near_high[i] = fmax(from[i], position[i]) + margin;
+            hip->near_low[i] = fmin(from[i], position[i]) - views[v].margin;
+            hip->near_high[i] = fmax(from[i], position[i]) + views[v].margin;
+            low[i] = hip->near_low[i] - reach;
+            high[i] = hip->near_high[i] + reach;
         }
-        found = knurl_world_find(world, hip->near_low, hip->near_high, everything, KNURL_MAX_NEAR, places);
+        found = knurl_world_find(world, low, high, everything, KNURL_MAX_NEAR, places);
     }
     hip->version = version;
     hip->near_overflow = found > KNURL_MAX_NEAR;

@@ -103,11 +103,13 @@ typedef struct knurl_hip {
     double previous[3]; /* HIP position at the last tick, scene */
     double previous_time;
     int32_t has_previous;
-    int32_t is_turned;   /* 0: the workspace's rotation is 1, and is left out */
-    int32_t centred;     /* 1: the scene chooses the workspace at its commit */
-    double near_low[3];  /* while the HIP stays in this box, and */
-    double near_high[3]; /* while the scene's version stays, the list below is complete */
-    uint64_t version;    /* the scene's, when the list was made; 0: never */
+    int32_t is_turned;  /* 0: the workspace's rotation is 1, and is left out */
+    int32_t centred;    /* 1: the scene chooses the workspace at its commit */
+    double depth;       /* of the deepest contact at the latest tick, m; 0 without */
+    double near_low[3]; /* the list below is complete while the HIP stays in this box, */
+    double near_high[3];
+    double near_depth; /* is pressed no deeper than this, and the scene's version stays */
+    uint64_t version;  /* the scene's, when the list was made; 0: never */
     uint32_t near_count;
     uint32_t near_overflow; /* 1: there were more than fit */
     knurl_near near[KNURL_MAX_NEAR];

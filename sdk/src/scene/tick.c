@@ -246,7 +246,8 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     for (int i = 0; i < 3; i++) {
         inside &= out->hip[i] >= hip->near_low[i] && out->hip[i] <= hip->near_high[i];
     }
-    if (!same_version || !hip->has_previous || !inside || (scene->full_model & KNURL_FULL_SEARCH)) {
+    if (!same_version || !hip->has_previous || !inside || hip->depth > hip->near_depth ||
+        (scene->full_model & KNURL_FULL_SEARCH)) {
         knurl_hip_look_around(scene, world, hip, out->hip);
         margin = KNURL_CAPTURE_DEPTH; /* a first tick, or something may have jumped here */
     }
@@ -267,6 +268,7 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
             hip->near[i].asked = 0;
         }
     }
+    hip->depth = out->contacts > 0 && out->depth > 0.0 ? out->depth : 0.0;
     if (hip->near_overflow) {
         out->flags |= KNURL_TICK_CONTACTS_FULL;
     }
@@ -336,6 +338,7 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     knurl_velocity_reset(&hip->velocity);
     hip->near_count = 0;
     hip->has_previous = 0;
+    hip->depth = 0.0;
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
     out->flags = KNURL_TICK_NOT_FINITE;
@@ -379,7 +382,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
     if (hip_index >= scene->hip_count || !scene->committed) { /* no message: this may be the haptic thread */
         memset(output, 0, sizeof *output);
         output->event = KNURL_NO_EVENT;
-        return scene->committed ? KNURL_ERROR_ARGUMENT : KNURL_ERROR_STATE;
+        return hip_index >= scene->hip_count ? KNURL_ERROR_ARGUMENT : KNURL_ERROR_STATE;
     }
     knurl_hip *hip = &scene->hips[hip_index];
     double force = 0.0;
