@@ -15,24 +15,27 @@
         uint64_t words[sizeof(type) / sizeof(uint64_t)];                                                               \
     }
 
+/* Compilers leave loops of atomics as they are; there are some 40 words to a tick. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define KNURL_UNROLL _Pragma("GCC unroll 64")
 #else
 #define KNURL_UNROLL
 #endif
 
-/* Writing: begin, put what there is (sizes are multiples of 8), end. Each word is stored with release order after the
- * odd sequence, and loaded with acquire order before the sequence is looked at again: a reader that saw one new word
- * also sees that the sequence has moved. No fences, which ThreadSanitizer does not know; on x86 all of it is plain
- * moves. */
+/* Writing: begin, put what there is (sizes are multiples of 8), end.
+ * Without fences, which ThreadSanitizer does not understand; release and acquire are plain moves on x86.
+ * Why words that are stored with release and loaded with acquire are enough: a reader whose load sees a word of a write
+ * synchronises with that store, and the odd sequence was stored before it. So the reader's later load of the sequence
+ * gives the odd number or a newer one, never the even one from before: it tries again. Nor does it see a word older
+ * than the write whose even sequence it began with: that was stored with release after all its words. */
 static inline void knurl_seqlock_begin(uint64_t *sequence) {
     knurl_store_relaxed(sequence, knurl_load_relaxed(sequence) + 1);
 }
 
 static inline void knurl_seqlock_put(uint64_t *words, const void *value, size_t size) {
     const char *from = value;
-    KNURL_UNROLL /* it is done in every tick */
-        for (size_t left = size / sizeof(uint64_t); left > 0; left--) {
+    KNURL_UNROLL
+    for (size_t left = size / sizeof(uint64_t); left > 0; left--) {
         uint64_t word;
         memcpy(&word, from, sizeof word);
         knurl_store_release(words, word);
@@ -54,7 +57,7 @@ static inline void knurl_seqlock_write(uint64_t *sequence, uint64_t *words, cons
 static inline void knurl_seqlock_read(const uint64_t *sequence, const uint64_t *words, void *value, size_t size) {
     uint64_t before;
     uint64_t after;
-    do { /* the writer is inside for some tens of nanoseconds a tick */
+    do { /* the writer is inside for some ten nanoseconds a tick */
         before = knurl_load_acquire(sequence);
         for (size_t i = 0; i < size / sizeof(uint64_t); i++) {
             const uint64_t word = knurl_load_acquire(&words[i]);
