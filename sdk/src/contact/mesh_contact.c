@@ -53,10 +53,7 @@ static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *qu
         uint32_t triangle;
         knurl_foot foot;
         double from[3];
-        /* not from the proxy itself: what the HIP has left is not to be met again */
-        const double size = fabs(part.proxy[0]) + fabs(part.proxy[1]) + fabs(part.proxy[2]);
-        vec3_sub(query->hip, part.proxy, from);
-        vec3_madd(part.proxy, 1e-6 + 1e-14 * size / part.z, from, from);
+        knurl_foot_leave(part.proxy, query->hip, from);
         const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, &triangle);
         if (met == 0) {
             return 0;
