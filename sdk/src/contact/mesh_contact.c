@@ -28,7 +28,7 @@ static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, 
     vec3_copy(foot->point, c->proxy);
     vec3_copy(foot->weights, c->weights);
     c->triangle = foot->triangle;
-    if (foot->held == 7 || foot->distance2 < KNURL_NORMAL_DISTANCE * KNURL_NORMAL_DISTANCE) {
+    if (foot->held == 7) {
         vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
         c->z = vec3_dot(foot->offset, c->normal);
         return 1;
@@ -40,15 +40,31 @@ static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, 
     if (rim && off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
         return 0;
     }
-    vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
+    if (distance < KNURL_NORMAL_DISTANCE) {
+        vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
+    } else {
+        vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
+    }
     c->z = inside ? -distance : distance;
     return 1;
+}
+
+/* Whether the HIP is behind what is nearest to it of all, within `radius`. */
+static int held_by_nearest(const knurl_mesh *mesh, const double hip[3], double radius, int32_t side, knurl_contact *c) {
+    knurl_contact nearest;
+    knurl_foot foot;
+    if (!knurl_mesh_closest(mesh, hip, radius, &nearest)) {
+        return 0;
+    }
+    knurl_foot_find(mesh, nearest.triangle, hip, &foot);
+    return finish(mesh, side, &foot, c) && c->z < 0.0;
 }
 
 /* The HIP is in front of its proxy: is another part of the mesh between the two? Then that part holds it: within one
  * tick it has left a ridge for the next one, or the ridge that held it has let go of it inside the next. */
 static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *query, int32_t *side, knurl_contact *c) {
     knurl_contact part = *c;
+    int32_t last = 0;
     for (int i = 0; i < MAX_PARTS && part.z > KNURL_ON_SURFACE; i++) {
         uint32_t triangle;
         knurl_foot foot;
@@ -56,12 +72,13 @@ static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *qu
         knurl_foot_leave(part.proxy, query->hip, from);
         const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, &triangle);
         if (met == 0) {
-            return 0;
+            break;
         }
+        last = met;
         knurl_foot_find(mesh, triangle, query->hip, &foot);
         knurl_foot_walk(mesh, query->hip, met, &foot);
         if (!finish(mesh, met, &foot, &part)) {
-            return 0;
+            break;
         }
         if (part.z <= 0.0) {
             *side = met;
@@ -69,7 +86,12 @@ static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *qu
             return 1;
         }
     }
-    return 0;
+    if (last == 0 || !held_by_nearest(mesh, query->hip, c->z, last, &part)) {
+        return 0;
+    }
+    *side = last;
+    *c = part;
+    return 1;
 }
 
 /* The foot of a HIP in front: from where it was a tick ago, if there was one, and by the hierarchy, which then has
@@ -147,11 +169,7 @@ static int beyond_the_rim(const knurl_mesh *mesh, const double hip[3], int32_t s
             }
         }
     }
-    if (knurl_mesh_closest(mesh, hip, sqrt(rim->distance2), &other)) {
-        knurl_foot_find(mesh, other.triangle, hip, &foot);
-        return finish(mesh, side, &foot, c) && c->z < 0.0;
-    }
-    return 0;
+    return held_by_nearest(mesh, hip, sqrt(rim->distance2), side, c);
 }
 
 /* A HIP inside: the proxy walks after it. */
