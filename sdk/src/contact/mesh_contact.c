@@ -113,38 +113,53 @@ static int find_near(const knurl_mesh *mesh, const double hip[3], double radius,
     return found;
 }
 
+/* Has the HIP come through the surface since the last tick? */
+static int come_through(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
+                        knurl_contact_state *state, knurl_contact *c) {
+    uint32_t triangle;
+    knurl_foot foot;
+    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &triangle);
+    if (side == 0) {
+        return 0;
+    }
+    knurl_foot_find(mesh, triangle, query->hip, &foot);
+    knurl_foot_walk(mesh, query->hip, side, &foot);
+    if (!finish(mesh, side, &foot, c) || !((c->z > 0.0 && held_by_another(mesh, query, &side, c)) || c->z <= reach)) {
+        return 0;
+    }
+    state->side = side;
+    return 1;
+}
+
+/* Whether a HIP's way in this tick stayed within what is nearest to it: then it has crossed nothing. */
+static int moved_less(const knurl_contact_query *query, double distance2) {
+    double way[3];
+    vec3_sub(query->hip, query->previous, way);
+    return vec3_dot(way, way) < distance2 * (1.0 - 1e-9);
+}
+
 /* A HIP outside: has it come through, is it in reach, or (first tick) was it pressed in from the start? A double-sided
  * surface has no inside: there, a HIP behind it on a first tick is simply behind. */
 static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, knurl_contact_state *state,
                  knurl_contact *c) {
-    const double *hip = query->hip;
-    const int32_t double_sided = query->double_sided;
-    knurl_foot foot;
-    if (query->has_previous) {
-        uint32_t triangle;
-        int32_t side = knurl_mesh_cross(mesh, query->previous, hip, double_sided, &triangle);
-        if (side != 0) {
-            knurl_foot_find(mesh, triangle, hip, &foot);
-            knurl_foot_walk(mesh, hip, side, &foot);
-            if (finish(mesh, side, &foot, c) &&
-                ((c->z > 0.0 && held_by_another(mesh, query, &side, c)) || c->z <= reach)) {
-                state->side = side;
-                return 1;
-            }
-        }
-    }
     /* which side a HIP on the surface came from matters only where both can be touched */
-    const double in_reach = double_sided ? reach : query->reach;
-    const int captures = !query->has_previous && !double_sided;
+    const double in_reach = query->double_sided ? reach : query->reach;
+    const int captures = !query->has_previous && !query->double_sided;
     const double radius = captures ? fmax(in_reach, KNURL_CAPTURE_DEPTH) : in_reach;
-    if (!(radius > 0.0) || !find_near(mesh, hip, radius, state, &foot)) {
+    knurl_foot foot;
+    const int was_near = state->side != 0 && find_near(mesh, query->hip, radius, state, &foot);
+    if (query->has_previous && !(was_near && moved_less(query, foot.distance2)) &&
+        come_through(mesh, query, reach, state, c)) {
+        return 1;
+    }
+    if (!was_near && (!(radius > 0.0) || !find_near(mesh, query->hip, radius, state, &foot))) {
         return 0;
     }
     state->side = 1;
     if (!finish(mesh, 1, &foot, c)) {
         return 0;
     }
-    if (double_sided && c->z < 0.0) { /* in reach from behind */
+    if (query->double_sided && c->z < 0.0) { /* in reach from behind */
         state->side = -1;
         return finish(mesh, -1, &foot, c);
     }
