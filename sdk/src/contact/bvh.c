@@ -1,6 +1,5 @@
-/* Binned surface-area-heuristic build (Wald 2007) along the widest axis, with an explicit stack. Trying all three axes
- * takes half as long again to build, and its queries are no faster on scanned, wavy, round or random meshes.
- * SPDX-License-Identifier: MIT */
+/* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Only the axis along which the centres spread
+ * most is tried: a third of the binning. SPDX-License-Identifier: MIT */
 #include "contact/bvh.h"
 
 #include <string.h>
@@ -8,7 +7,11 @@
 #define BINS      16
 #define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
 
-typedef knurl_box box;
+/* Four floats, the last unused: loops over four become one instruction. */
+typedef struct box {
+    float min[4];
+    float max[4];
+} box;
 
 typedef struct item {
     box bounds;
@@ -33,10 +36,10 @@ typedef struct tree {
     uint32_t capacity;
 } tree;
 
-static const box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f}, {-3.4e38f, -3.4e38f, -3.4e38f}};
+static const box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f, 0.0f}, {-3.4e38f, -3.4e38f, -3.4e38f, 0.0f}};
 
 static void box_add(box *into, const box *other) {
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 4; axis++) {
         into->min[axis] = other->min[axis] < into->min[axis] ? other->min[axis] : into->min[axis];
         into->max[axis] = other->max[axis] > into->max[axis] ? other->max[axis] : into->max[axis];
     }
@@ -61,13 +64,16 @@ static uint32_t bin_of(const item *i, const split *s) {
 /* The bounds of a range, and the split across the widest spread of its centres, its bin still to be chosen. */
 static split measure(const item *items, const range *r, box *bounds) {
     box centres = empty_box;
-    *bounds = empty_box;
+    box sum = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
-        box_add(bounds, &items[i].bounds);
-        const box at = {{centre(&items[i], 0), centre(&items[i], 1), centre(&items[i], 2)},
-                        {centre(&items[i], 0), centre(&items[i], 1), centre(&items[i], 2)}};
+        box at;
+        for (int axis = 0; axis < 4; axis++) {
+            at.min[axis] = at.max[axis] = 0.5f * items[i].bounds.min[axis] + 0.5f * items[i].bounds.max[axis];
+        }
+        box_add(&sum, &items[i].bounds);
         box_add(&centres, &at);
     }
+    *bounds = sum;
     split s = {0, 0.0f, 0.0f, 0};
     float widest = -1.0f;
     for (int axis = 0; axis < 3; axis++) {
@@ -195,7 +201,8 @@ knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t 
     knurl_bvh_node *made = NULL;
     if (items && t.nodes) {
         for (uint32_t i = 0; i < count; i++) {
-            items[i].bounds = boxes[i];
+            memcpy(items[i].bounds.min, boxes[i].min, sizeof boxes[i].min);
+            memcpy(items[i].bounds.max, boxes[i].max, sizeof boxes[i].max);
             items[i].place = i;
         }
         if (build(heap, items, count, leaf_size, &t)) {

@@ -50,10 +50,18 @@ static inline void knurl_foot_find(const knurl_mesh *mesh, uint32_t triangle, co
     foot->held = 7;
 }
 
+/* A little (1e-6) of the way from a point of the mesh to p: where a way that leaves the surface does not meet it. */
+static inline void knurl_foot_leave(const double point[3], const double p[3], double out[3]) {
+    double way[3];
+    const double size = fabs(point[0]) + fabs(point[1]) + fabs(point[2]);
+    vec3_sub(p, point, way);
+    vec3_madd(point, 1e-6 + 1e-14 * size / (vec3_length(way) + 1e-300), way, out);
+}
+
 /* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */
 void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot);
 
-/* Which side of the surface a point is on whose foot is on an edge or a vertex: +1 in front, -1 behind, 0 neither.
+/* Which side of the surface a point is on whose foot this is: +1 in front, -1 behind, 0 neither.
  * *rim: whether the foot is on the rim of an open mesh. */
 int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim);
 

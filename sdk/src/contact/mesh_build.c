@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Triangles in a leaf, at most. 8 instead of 4: half the nodes (12 bytes a triangle less), a third less to build, and
- * nearest-point queries at 1M triangles take as long. */
+/* Triangles in a leaf, at most. Against 4: 7 bytes a triangle less (40 instead of 46) and a tenth less to build; what
+ * only the hierarchy answers (a HIP in front, within reach) takes a tenth longer. */
 #define LEAF_SIZE 8
 
 /* What only the build needs. Arrays of three a triangle, but for the welds. */

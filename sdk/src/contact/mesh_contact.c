@@ -28,7 +28,7 @@ static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, 
     vec3_copy(foot->point, c->proxy);
     vec3_copy(foot->weights, c->weights);
     c->triangle = foot->triangle;
-    if (foot->held == 7 || foot->distance2 < KNURL_NORMAL_DISTANCE * KNURL_NORMAL_DISTANCE) {
+    if (foot->held == 7) {
         vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
         c->z = vec3_dot(foot->offset, c->normal);
         return 1;
@@ -40,31 +40,45 @@ static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, 
     if (rim && off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
         return 0;
     }
-    vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
+    if (distance < KNURL_NORMAL_DISTANCE) {
+        vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
+    } else {
+        vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
+    }
     c->z = inside ? -distance : distance;
     return 1;
+}
+
+/* Whether the HIP is behind what is nearest to it of all, within `radius`. */
+static int held_by_nearest(const knurl_mesh *mesh, const double hip[3], double radius, int32_t side, knurl_contact *c) {
+    knurl_contact nearest;
+    knurl_foot foot;
+    if (!knurl_mesh_closest(mesh, hip, radius, &nearest)) {
+        return 0;
+    }
+    knurl_foot_find(mesh, nearest.triangle, hip, &foot);
+    return finish(mesh, side, &foot, c) && c->z < 0.0;
 }
 
 /* The HIP is in front of its proxy: is another part of the mesh between the two? Then that part holds it: within one
  * tick it has left a ridge for the next one, or the ridge that held it has let go of it inside the next. */
 static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *query, int32_t *side, knurl_contact *c) {
     knurl_contact part = *c;
+    int32_t last = 0;
     for (int i = 0; i < MAX_PARTS && part.z > KNURL_ON_SURFACE; i++) {
         uint32_t triangle;
         knurl_foot foot;
         double from[3];
-        /* not from the proxy itself: what the HIP has left is not to be met again */
-        const double size = fabs(part.proxy[0]) + fabs(part.proxy[1]) + fabs(part.proxy[2]);
-        vec3_sub(query->hip, part.proxy, from);
-        vec3_madd(part.proxy, 1e-6 + 1e-14 * size / part.z, from, from);
+        knurl_foot_leave(part.proxy, query->hip, from);
         const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, &triangle);
         if (met == 0) {
-            return 0;
+            break;
         }
+        last = met;
         knurl_foot_find(mesh, triangle, query->hip, &foot);
         knurl_foot_walk(mesh, query->hip, met, &foot);
         if (!finish(mesh, met, &foot, &part)) {
-            return 0;
+            break;
         }
         if (part.z <= 0.0) {
             *side = met;
@@ -72,7 +86,12 @@ static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *qu
             return 1;
         }
     }
-    return 0;
+    if (last == 0 || !held_by_nearest(mesh, query->hip, c->z, last, &part)) {
+        return 0;
+    }
+    *side = last;
+    *c = part;
+    return 1;
 }
 
 /* The foot of a HIP in front: from where it was a tick ago, if there was one, and by the hierarchy, which then has
@@ -94,38 +113,53 @@ static int find_near(const knurl_mesh *mesh, const double hip[3], double radius,
     return found;
 }
 
+/* Has the HIP come through the surface since the last tick? */
+static int come_through(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
+                        knurl_contact_state *state, knurl_contact *c) {
+    uint32_t triangle;
+    knurl_foot foot;
+    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &triangle);
+    if (side == 0) {
+        return 0;
+    }
+    knurl_foot_find(mesh, triangle, query->hip, &foot);
+    knurl_foot_walk(mesh, query->hip, side, &foot);
+    if (!finish(mesh, side, &foot, c) || !((c->z > 0.0 && held_by_another(mesh, query, &side, c)) || c->z <= reach)) {
+        return 0;
+    }
+    state->side = side;
+    return 1;
+}
+
+/* Whether a HIP's way in this tick stayed within what is nearest to it: then it has crossed nothing. */
+static int moved_less(const knurl_contact_query *query, double distance2) {
+    double way[3];
+    vec3_sub(query->hip, query->previous, way);
+    return vec3_dot(way, way) < distance2 * (1.0 - 1e-9);
+}
+
 /* A HIP outside: has it come through, is it in reach, or (first tick) was it pressed in from the start? A double-sided
  * surface has no inside: there, a HIP behind it on a first tick is simply behind. */
 static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, knurl_contact_state *state,
                  knurl_contact *c) {
-    const double *hip = query->hip;
-    const int32_t double_sided = query->double_sided;
-    knurl_foot foot;
-    if (query->has_previous) {
-        uint32_t triangle;
-        int32_t side = knurl_mesh_cross(mesh, query->previous, hip, double_sided, &triangle);
-        if (side != 0) {
-            knurl_foot_find(mesh, triangle, hip, &foot);
-            knurl_foot_walk(mesh, hip, side, &foot);
-            if (finish(mesh, side, &foot, c) &&
-                ((c->z > 0.0 && held_by_another(mesh, query, &side, c)) || c->z <= reach)) {
-                state->side = side;
-                return 1;
-            }
-        }
-    }
     /* which side a HIP on the surface came from matters only where both can be touched */
-    const double in_reach = double_sided ? reach : query->reach;
-    const int captures = !query->has_previous && !double_sided;
+    const double in_reach = query->double_sided ? reach : query->reach;
+    const int captures = !query->has_previous && !query->double_sided;
     const double radius = captures ? fmax(in_reach, KNURL_CAPTURE_DEPTH) : in_reach;
-    if (!(radius > 0.0) || !find_near(mesh, hip, radius, state, &foot)) {
+    knurl_foot foot;
+    const int was_near = state->side != 0 && find_near(mesh, query->hip, radius, state, &foot);
+    if (query->has_previous && !(was_near && moved_less(query, foot.distance2)) &&
+        come_through(mesh, query, reach, state, c)) {
+        return 1;
+    }
+    if (!was_near && (!(radius > 0.0) || !find_near(mesh, query->hip, radius, state, &foot))) {
         return 0;
     }
     state->side = 1;
     if (!finish(mesh, 1, &foot, c)) {
         return 0;
     }
-    if (double_sided && c->z < 0.0) { /* in reach from behind */
+    if (query->double_sided && c->z < 0.0) { /* in reach from behind */
         state->side = -1;
         return finish(mesh, -1, &foot, c);
     }
@@ -150,11 +184,7 @@ static int beyond_the_rim(const knurl_mesh *mesh, const double hip[3], int32_t s
             }
         }
     }
-    if (knurl_mesh_closest(mesh, hip, sqrt(rim->distance2), &other)) {
-        knurl_foot_find(mesh, other.triangle, hip, &foot);
-        return finish(mesh, side, &foot, c) && c->z < 0.0;
-    }
-    return 0;
+    return held_by_nearest(mesh, hip, sqrt(rim->distance2), side, c);
 }
 
 /* A HIP inside: the proxy walks after it. */

@@ -109,10 +109,14 @@ static int touches(const knurl_mesh *mesh, uint32_t corner, const knurl_foot *fo
     return 1;
 }
 
-/* How well a foot carries on the surface that another is on: p is behind it (above 1 then), and it faces alike. */
+/* How well a foot carries on the surface that another is on: with p behind it (above 1 then), facing alike; else by how
+ * near it is. An inner wall that p is just passing through is nothing to go on at: -HUGE_VAL. */
 static double continuation(const knurl_foot *from, const knurl_foot *to, int32_t side) {
-    const double facing = vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2);
-    return vec3_dot(to->normal, to->offset) * side < 0.0 ? 2.0 + facing : -to->distance2;
+    const double along = vec3_dot(to->normal, to->offset) * side;
+    if (along * along <= KNURL_ON_SURFACE * KNURL_ON_SURFACE * to->area2) {
+        return -HUGE_VAL;
+    }
+    return along < 0.0 ? 2.0 + vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2) : -to->distance2;
 }
 
 static uint32_t knot_at(const knurl_mesh *mesh, const knurl_foot *foot, const uint32_t **corners) {
@@ -127,8 +131,7 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
                         int *capped) {
     const uint32_t *corners;
     const uint32_t count = knot_at(mesh, from, &corners);
-    int found = 0;
-    double best = 0.0;
+    double best = -HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
         knurl_foot other;
         knurl_foot_find(mesh, corners[i] >> 2, p, &other);
@@ -136,14 +139,13 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
             continue;
         }
         const double score = continuation(from, &other, side);
-        if (!found || score > best) {
+        if (score > best) {
             best = score;
             *to = other;
-            found = 1;
         }
     }
     *capped |= count == MAX_FAN;
-    return found;
+    return best > -HUGE_VAL;
 }
 
 /* Swings round a vertex, both ways where the fan is open. */
@@ -192,16 +194,36 @@ static int step(const knurl_mesh *mesh, const double p[3], int32_t side, const k
     return nearer_beyond(mesh, apex, p, from, to);
 }
 
-/* A walk that was cut short may jump, by the hierarchy, to what is nearest, if that faces alike and p is behind it: the
- * far side of a thin wall never takes it. */
+/* Whether a foot behind the surface stays back in a sharp concave corner: p is well off (20 degrees) the way its face
+ * looks. In a valley of a curved surface, whose facets meet at small angles, it never is. */
+static int stays_back(const knurl_foot *foot, int32_t side) {
+    const double along = vec3_dot(foot->offset, foot->normal);
+    return foot->held != 7 && along * side <= 0.0 && along * along < 0.88 * foot->distance2 * foot->area2;
+}
+
+/* Whether the surface lies between a foot and p: then p has gone through a further wall. */
+static int is_walled_off(const knurl_mesh *mesh, const double p[3], int32_t side, const knurl_foot *foot) {
+    double from[3];
+    uint32_t triangle;
+    knurl_foot_leave(foot->point, p, from);
+    return knurl_mesh_cross(mesh, from, p, side < 0, &triangle) == side;
+}
+
+/* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
+ * stay for ever while p goes on below the ridges), goes on at what is nearest of all, if the surface holds p there from
+ * the same side: the far side of a thin wall faces the other way, and a further wall has p in front of it or shuts the
+ * foot off. */
 static void jump(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) {
     knurl_contact nearest;
     knurl_foot other;
-    if (knurl_mesh_closest(mesh, p, sqrt(foot->distance2) * (1.0 - 1e-9), &nearest)) {
-        knurl_foot_find(mesh, nearest.triangle, p, &other);
-        if (continuation(foot, &other, side) > 2.0) {
-            *foot = other;
-        }
+    int rim;
+    if (!knurl_mesh_closest(mesh, p, sqrt(foot->distance2) * (1.0 - 1e-9), &nearest)) {
+        return;
+    }
+    knurl_foot_find(mesh, nearest.triangle, p, &other);
+    if (vec3_dot(other.offset, foot->offset) > 0.0 && knurl_foot_side(mesh, &other, &rim) * side < 0 &&
+        !is_walled_off(mesh, p, side, foot)) {
+        *foot = other;
     }
 }
 
@@ -216,7 +238,7 @@ void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, kn
     if (here != foot) {
         *foot = *here;
     }
-    if (capped || steps == MAX_STEPS) {
+    if (capped || steps == MAX_STEPS || stays_back(foot, side)) {
         jump(mesh, p, side, foot);
     }
 }
@@ -291,6 +313,11 @@ static int look_round(facing *f, int weigh) {
 /* Where the triangles round the foot do not agree, the angle-weighted normal decides: its dot product with the offset
  * has the right sign wherever on the mesh the nearest point lies (Baerentzen and Aanaes 2005); one face's has not. */
 int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) {
+    if (foot->held == 7) {
+        const double along = vec3_dot(foot->offset, foot->normal);
+        *rim = 0;
+        return (along > 0.0) - (along < 0.0);
+    }
     facing f = {mesh, foot, 0, 0, 0.0};
     *rim = look_round(&f, 0);
     if (f.front && f.back) {

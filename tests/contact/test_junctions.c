@@ -1,0 +1,196 @@
+/* Meshes whose triangles do not hang together as a surface's should: contact that the geometry holds is not lost.
+ * SPDX-License-Identifier: MIT */
+#include "contact/bodies.h"
+#include "contact/oracle.h"
+#include "support/probe.h"
+
+/* Two shapes as one, each with vertices of its own; frees both. */
+static shape join(shape *a, shape *b) {
+    shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
+    memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
+    memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
+    memcpy(s.indices, a->indices, a->index_count * sizeof(uint32_t));
+    for (uint32_t i = 0; i < b->index_count; i++) {
+        s.indices[a->index_count + i] = b->indices[i] + a->vertex_count;
+    }
+    shape_free(a);
+    shape_free(b);
+    return s;
+}
+
+static void turn_over(shape *s, uint32_t triangle) {
+    const uint32_t a = s->indices[3 * (size_t)triangle];
+    s->indices[3 * (size_t)triangle] = s->indices[3 * (size_t)triangle + 1];
+    s->indices[3 * (size_t)triangle + 1] = a;
+}
+
+/* Strokes over a flat sheet at z = 0, `depth` below it, at all angles through its middle: held at that depth all along.
+ */
+static void stroke_over(probe *p, double depth) {
+    for (int turn = 0; turn < 36; turn++) {
+        const double cx = cos(PI * turn / 18.0 + 1e-3), cy = sin(PI * turn / 18.0 + 1e-3);
+        probe_forget(p);
+        (void)probe_to(p, -0.018 * cx, -0.018 * cy, 0.001);
+        for (int k = -180; k <= 180; k++) {
+            assert_true(probe_to(p, 1e-4 * k * cx, 1e-4 * k * cy, -depth));
+            CHECK_CLOSE(-p->contact.z, depth, 1e-8);
+            assert_true(p->contact.normal[2] > 0.999);
+        }
+    }
+}
+
+static const double half[2] = {0.02, 0.02};
+
+/* Below (way -1) or above the sheet a fin stands on an edge of its middle, facing one way or the other. */
+TEST(three_sheets_on_one_edge_hold_on) {
+    for (int way = -1; way <= 1; way += 2) {
+        for (int turned = 0; turned < 2; turned++) {
+            shape sheet = shape_sheet(8, 8, half, NULL);
+            shape fin = shape_sheet(2, 8, half, NULL);
+            for (uint32_t v = 0; v < fin.vertex_count; v++) {
+                const double y = (double)fin.positions[3 * (size_t)v + 1];
+                shape_set(&fin, v, 0.0, y, way * 0.002 * (v % 3));
+            }
+            for (uint32_t i = 0; turned && i < fin.index_count / 3; i++) {
+                turn_over(&fin, i);
+            }
+            shape both = join(&sheet, &fin);
+            probe p = probe_shape(&both);
+            assert_true(p.mesh->knot_count >= 9);
+            if (way < 0) {
+                stroke_over(&p, 0.001);
+            }
+            stroke_over(&p, 0.0001);
+            probe_free(&p);
+        }
+    }
+}
+
+/* The sheet in two halves that touch in one vertex only, and a cone that stands on that vertex. */
+TEST(bow_ties_hold_on) {
+    shape sheet = shape_sheet(8, 8, half, NULL);
+    shape cone = shape_new(9, 24, 0);
+    for (uint32_t i = 0; i < 8; i++) {
+        shape_set(&cone, i + 1, 0.001 * cos(PI * i / 4.0), 0.001 * sin(PI * i / 4.0), 0.005);
+        const uint32_t corners[3] = {0, i + 1, (i + 1) % 8 + 1};
+        memcpy(&cone.indices[3 * (size_t)i], corners, sizeof corners);
+    }
+    shape both = join(&sheet, &cone);
+    probe p = probe_shape(&both);
+    assert_true(p.mesh->knot_count > 0);
+    stroke_over(&p, 0.001);
+    probe_free(&p);
+}
+
+TEST(double_layers_hold_across_every_border) {
+    for (int32_t front = 1; front >= -1; front -= 2) {
+        shape top = shape_sheet(8, 8, half, NULL);
+        shape bottom = shape_sheet(8, 8, half, NULL);
+        for (uint32_t i = 0; i < bottom.index_count / 3; i++) {
+            turn_over(&bottom, i);
+        }
+        shape both = join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
+        probe p = probe_shape(&both);
+        assert_int_equal(p.mesh->reversed_twins, 128);
+        p.query.double_sided = p.mesh->double_sided;
+        stroke_over(&p, 0.001);
+        probe_free(&p);
+    }
+}
+
+/* A double-sided surface has no inside: what is first seen behind it is behind it. */
+TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
+    shape sheet = shape_sheet(8, 8, half, NULL);
+    probe p = probe_shape(&sheet);
+    p.query.double_sided = 1;
+    assert_false(probe_to(&p, 0.001, 0.002, -0.005));
+    probe_forget(&p);
+    p.query.reach = 0.001;
+    assert_true(probe_to(&p, 0.001, 0.002, -0.0007));
+    CHECK_CLOSE(p.contact.z, 0.0007, 1e-12);
+    assert_true(p.contact.normal[2] < -0.999);
+    assert_int_equal(p.state.side, -1);
+    probe_forget(&p);
+    p.query.double_sided = 0; /* single-sided: pressed in from the start */
+    assert_true(probe_to(&p, 0.001, 0.002, -0.005));
+    CHECK_CLOSE(-p.contact.z, 0.005, 1e-12);
+    probe_free(&p);
+}
+
+/* A plate of 1 mm whose top is cut in two along T-junctions: pressed 3 mm through the plate, over the cut. */
+TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
+    shape left = shape_sheet(4, 4, half, NULL);
+    shape right = shape_sheet(8, 32, half, NULL);
+    shape bottom = shape_sheet(3, 3, (const double[2]){0.04, 0.02}, NULL);
+    for (uint32_t v = 0; v < left.vertex_count; v++) {
+        left.positions[3 * (size_t)v] -= 0.02f;
+    }
+    for (uint32_t v = 0; v < right.vertex_count; v++) {
+        right.positions[3 * (size_t)v] += 0.02f;
+    }
+    for (uint32_t i = 0; i < bottom.index_count / 3; i++) {
+        turn_over(&bottom, i);
+    }
+    for (uint32_t v = 0; v < bottom.vertex_count; v++) {
+        bottom.positions[3 * (size_t)v + 2] = -0.001f;
+    }
+    shape top = join(&left, &right);
+    shape plate = join(&top, &bottom);
+    probe p = probe_shape(&plate);
+    for (int line = -15; line <= 15; line++) {
+        for (int way = -1; way <= 1; way += 2) {
+            probe_forget(&p);
+            (void)probe_to(&p, -0.015 * way, 0.001 * line, 0.001);
+            for (int k = -150; k <= 150; k++) {
+                assert_true(probe_to(&p, 0.0001 * k * way + 3e-6, 0.001 * line, -0.003));
+                CHECK_CLOSE(-p.contact.z, 0.003, 1e-8);
+            }
+        }
+    }
+    probe_free(&p);
+}
+
+/* Anything at all: a HIP that wanders through random triangles, welded in part, many on one edge, some turned over. */
+TEST(soup_of_everything_stays_finite_and_on_the_mesh) {
+    for (uint64_t i = 0; i < 6; i++) {
+        uint64_t seed = 500 + i;
+        shape s = body_soup(400 + i, 400);
+        for (uint32_t k = 0; k < s.index_count; k++) { /* few vertices, shared at random */
+            s.indices[k] = (uint32_t)random_integer(&seed, 0, i < 3 ? 30 : 300);
+        }
+        shape copy = body_copy(&s);
+        probe p = probe_shape(&s);
+        p.query.double_sided = (int32_t)(i % 2);
+        p.query.reach = i % 3 ? 0.0005 : 0.0;
+        double hip[3] = {0.0, 0.0, 0.0};
+        for (int k = 0; k < 20000; k++) {
+            double move[3];
+            random_direction(&seed, move);
+            add3(hip, k % 7 ? 0.0003 : 0.003, move, hip);
+            for (int axis = 0; axis < 3; axis++) {
+                hip[axis] = fmax(-0.06, fmin(0.06, hip[axis]));
+            }
+            if (probe_at(&p, hip)) {
+                knurl_triangle t;
+                assert_true(p.contact.triangle < p.mesh->triangle_count);
+                knurl_mesh_triangle(p.mesh, p.contact.triangle, &t);
+                CHECK_CLOSE(triangle_distance((const double (*)[3])t.corners, p.contact.proxy), 0.0, 1e-12);
+                assert_true(isfinite(p.contact.z) && fabs(p.contact.z) < 0.3);
+            }
+        }
+        shape_free(&copy);
+        probe_free(&p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(three_sheets_on_one_edge_hold_on),
+        cmocka_unit_test(bow_ties_hold_on),
+        cmocka_unit_test(double_layers_hold_across_every_border),
+        cmocka_unit_test(first_tick_behind_a_double_sided_sheet_is_behind),
+        cmocka_unit_test(t_junction_on_a_thin_plate_is_slid_over_however_deep),
+        cmocka_unit_test(soup_of_everything_stays_finite_and_on_the_mesh),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
