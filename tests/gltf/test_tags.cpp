@@ -13,11 +13,12 @@ knurl_material_desc material_of(const File &file) {
 void nested_form_is_read(void **) {
     const knurl_material_desc m = material_of(
         quad_with(R"({"knurl":{"version":1,"spatial_frequency":[1000,500],"amplitude":0.0005,"stiffness":400,
-                                  "damping":1.5,"friction":0,"orientation":0.25,"method":"S1"},"other":{"x":[1,null]}})"));
+                                  "damping":1.5,"friction":0.3,"orientation":0.25,"method":"S1"},"other":{"x":[1,null]}})"));
     assert_near(m.spatial_frequency, {1000, 500}, 1e-12);
     assert_number(m.amplitude, 0.0005);
     assert_number(m.stiffness, 400);
     assert_number(m.damping, 1.5);
+    assert_number(m.friction, 0.3);
     assert_number(m.orientation, 0.25);
     assert_int_equal(m.method, KNURL_S1);
 }
@@ -153,8 +154,6 @@ void what_is_not_built_yet_is_refused_with_file_and_object(void **) {
     file.nodes = R"({"mesh":0,"name":"plate"})";
     file.materials = "{" + tag(R"("method":"locked")") + "}";
     assert_fails(file.glb(), KNURL_ERROR_UNSUPPORTED, {"node 'plate' (0), mesh 0, primitive 0: ", "locked"});
-    file.materials = "{" + tag(R"("friction":0.5)") + "}";
-    assert_fails(file.glb(), KNURL_ERROR_UNSUPPORTED, {"node 'plate' (0), mesh 0, primitive 0: ", "friction"});
 }
 
 void a_tag_that_would_be_lost_is_refused(void **) {

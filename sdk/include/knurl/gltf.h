@@ -21,13 +21,13 @@ typedef struct knurl_gltf_report {
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
 
-/** Loads every tagged surface of a .gltf or .glb file (recognised by its content; its name must end so) into a scene
- * that is not committed yet: all of them or, on an error, none. External buffers are read from the file's own folder or
+/** Loads every tagged surface of a .gltf or .glb file (recognised by its content; its name must end so) into a
+ * scene, committed or not: all of them or, on an error, none. External buffers are read from the file's own folder or
  * below it. Files above 1 GiB, JSON nested deeper than 32 and node trees deeper than 1024 are refused,
  * as are more than 2^26 triangles in all. report: may be null.
  * Errors: KNURL_ERROR_IO, KNURL_ERROR_FORMAT (file, object and key are named), KNURL_ERROR_UNSUPPORTED (a required
  * extension, another glTF version, a skin or morph target on a tagged mesh), and those of knurl_scene_add_surface().
- * Needs under 128 KiB of stack. [game thread, or any that owns the scene] */
+ * Needs under 128 KiB of stack. [any thread but the haptic] */
 KNURL_API knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report);
 
 /** The same from memory. data: `size` bytes of a .gltf or .glb, the caller's, not needed afterwards. name: stands for

@@ -48,23 +48,47 @@ void knurl_heap_init(knurl_heap *heap, const knurl_allocator *allocator) {
     }
 }
 
-void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
-    const uint64_t limit = (SIZE_MAX - ALIGNMENT) / (size ? size : 1);
-    const size_t bytes = count > limit ? 0 : ALIGNMENT + (size_t)count * size;
-    knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
-    if (!block) {
-        knurl_fail(KNURL_ERROR_MEMORY, "memory: could not get %llu x %llu bytes", (unsigned long long)count,
-                   (unsigned long long)size);
-        return NULL;
+static void enter(const knurl_heap *heap) {
+    if (heap->lock) {
+        knurl_system_mutex_lock(heap->lock);
     }
-    memset(block, 0, bytes);
+}
+
+static void leave(const knurl_heap *heap) {
+    if (heap->lock) {
+        knurl_system_mutex_unlock(heap->lock);
+    }
+}
+
+static void link_block(knurl_heap *heap, knurl_block *block, size_t bytes) {
     block->size = bytes;
     block->next = heap->first;
+    block->previous = NULL;
     if (heap->first) {
         heap->first->previous = block;
     }
     heap->first = block;
     heap->bytes += bytes;
+    if (heap->locked) {
+        (void)knurl_system_lock_memory(block, bytes); /* where it is refused, the tick may wait for a page */
+    }
+}
+
+void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
+    const uint64_t limit = (SIZE_MAX - ALIGNMENT) / (size ? size : 1);
+    const size_t bytes = count > limit ? 0 : ALIGNMENT + (size_t)count * size;
+    enter(heap);
+    knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
+    if (block) {
+        link_block(heap, block, bytes);
+    }
+    leave(heap);
+    if (!block) {
+        knurl_fail(KNURL_ERROR_MEMORY, "memory: could not get %llu x %llu bytes", (unsigned long long)count,
+                   (unsigned long long)size);
+        return NULL;
+    }
+    memset((char *)block + ALIGNMENT, 0, bytes - ALIGNMENT);
     return (char *)block + ALIGNMENT;
 }
 
@@ -73,6 +97,7 @@ void knurl_heap_free(knurl_heap *heap, void *memory) {
         return;
     }
     knurl_block *block = (knurl_block *)(void *)((char *)memory - ALIGNMENT);
+    enter(heap);
     if (block->previous) {
         block->previous->next = block->next;
     } else {
@@ -86,6 +111,14 @@ void knurl_heap_free(knurl_heap *heap, void *memory) {
         knurl_system_unlock_memory(block, block->size);
     }
     heap->allocator.release(block, block->size, heap->allocator.user);
+    leave(heap);
+}
+
+uint64_t knurl_heap_bytes(const knurl_heap *heap) {
+    enter(heap);
+    const uint64_t bytes = heap->bytes;
+    leave(heap);
+    return bytes;
 }
 
 uint64_t knurl_heap_size(const void *memory) {
@@ -93,13 +126,17 @@ uint64_t knurl_heap_size(const void *memory) {
 }
 
 knurl_result knurl_heap_lock(knurl_heap *heap) {
+    int refused = 0;
+    enter(heap);
     heap->locked = 1;
-    for (knurl_block *block = heap->first; block; block = block->next) {
-        if (!knurl_system_lock_memory(block, block->size)) {
-            return knurl_fail(KNURL_ERROR_SYSTEM,
-                              "memory: the system refused to lock %llu bytes into RAM (see ulimit -l)",
-                              (unsigned long long)heap->bytes);
-        }
+    for (knurl_block *block = heap->first; block && !refused; block = block->next) {
+        refused = !knurl_system_lock_memory(block, block->size);
+    }
+    const uint64_t bytes = heap->bytes;
+    leave(heap);
+    if (refused) {
+        return knurl_fail(KNURL_ERROR_SYSTEM, "memory: the system refused to lock %llu bytes into RAM (see ulimit -l)",
+                          (unsigned long long)bytes);
     }
     return KNURL_OK;
 }

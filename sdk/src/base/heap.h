@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_HEAP_H
 #define KNURL_SRC_HEAP_H
 
+#include "base/system.h"
+
 #include <knurl/base.h>
 
 typedef struct knurl_block knurl_block;
@@ -10,8 +12,9 @@ typedef struct knurl_block knurl_block;
 typedef struct knurl_heap {
     knurl_allocator allocator;
     knurl_block *first;
-    uint64_t bytes;  /* held now, headers included */
-    uint64_t locked; /* 1: locked into RAM, so unlocked when given back */
+    uint64_t bytes;    /* held now, headers included */
+    uint64_t locked;   /* 1: locked into RAM, what comes later too; unlocked when given back */
+    knurl_mutex *lock; /* null: one thread at a time. The caller's functions are called under it */
 } knurl_heap;
 
 /* allocator: null for malloc and free. */
@@ -19,6 +22,9 @@ void knurl_heap_init(knurl_heap *heap, const knurl_allocator *allocator);
 
 /* count * size zeroed bytes, aligned to 64; null (with an error message) when there are none, or on overflow. */
 void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size);
+
+/* Bytes held now, headers included. */
+uint64_t knurl_heap_bytes(const knurl_heap *heap);
 
 /* Gives one allocation back; null is allowed. */
 void knurl_heap_free(knurl_heap *heap, void *memory);

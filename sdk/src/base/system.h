@@ -23,6 +23,16 @@ void knurl_system_join_thread(knurl_thread *thread);
 /* A number that differs for each living thread; never 0. */
 uintptr_t knurl_system_thread_id(void);
 
+/* For threads that edit; never for a tick. */
+typedef struct knurl_mutex {
+    uint64_t storage[8];
+} knurl_mutex;
+
+void knurl_system_mutex_init(knurl_mutex *mutex);
+void knurl_system_mutex_destroy(knurl_mutex *mutex);
+void knurl_system_mutex_lock(knurl_mutex *mutex);
+void knurl_system_mutex_unlock(knurl_mutex *mutex);
+
 /* Moves the calling thread to the real-time scheduler; 0 where that is not permitted. */
 int knurl_system_make_realtime(void);
 

@@ -35,6 +35,29 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
 }
 
+/* Its storage is a caller's, so that a scene's memory is all its allocator's. */
+typedef char mutex_fits[sizeof(pthread_mutex_t) <= sizeof(knurl_mutex) ? 1 : -1];
+
+static pthread_mutex_t *native(knurl_mutex *mutex) {
+    return (pthread_mutex_t *)(void *)mutex->storage;
+}
+
+void knurl_system_mutex_init(knurl_mutex *mutex) {
+    (void)pthread_mutex_init(native(mutex), NULL); /* cannot fail with default attributes here */
+}
+
+void knurl_system_mutex_destroy(knurl_mutex *mutex) {
+    (void)pthread_mutex_destroy(native(mutex));
+}
+
+void knurl_system_mutex_lock(knurl_mutex *mutex) {
+    (void)pthread_mutex_lock(native(mutex));
+}
+
+void knurl_system_mutex_unlock(knurl_mutex *mutex) {
+    (void)pthread_mutex_unlock(native(mutex));
+}
+
 static void *run_thread(void *argument) {
     knurl_thread *thread = argument;
     thread->entry(thread->argument);

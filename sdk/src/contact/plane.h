@@ -5,6 +5,9 @@
 
 #include "contact/contact.h"
 
+/* A tick looks at every edge of an outline: more than this, and a mesh's hierarchy is quicker. */
+#define KNURL_MAX_EDGES 64
+
 /* One edge of an outline, made ready for counting crossings. */
 typedef struct knurl_edge {
     double from[2];

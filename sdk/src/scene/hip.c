@@ -19,7 +19,8 @@ static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     return KNURL_OK;
 }
 
-/* Sets a HIP up anew; `rate`, `resolution` and `max_force` stand for what the description leaves open. */
+/* Under the lock: editing threads look at the HIPs' times. Sets a HIP up anew; `rate`, `resolution` and `max_force`
+ * stand for what the description leaves open. */
 static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, double rate, double resolution,
                            double max_force) {
     knurl_hip made;
@@ -43,6 +44,8 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     if (result) {
         return result;
     }
+    made.period = 1.0 / made.rate;
+    made.time = knurl_scene_time(scene); /* the scene's goes on */
     made.centred = d->workspace == NULL;
     knurl_workspace_init(&made.workspace);
     if (d->workspace) {
@@ -59,12 +62,17 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     knurl_hip_desc_init(&d, sizeof d);
     knurl_result result = check_hip(scene, hip);
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
-    return result ? result : set_up(scene, &scene->hips[hip], &d, 1000.0, 0.055e-3, 3.3); /* the Touch */
+    if (!result) {
+        knurl_scene_lock(scene);
+        result = set_up(scene, &scene->hips[hip], &d, 1000.0, 0.055e-3, 3.3); /* the Touch */
+        knurl_scene_unlock(scene);
+    }
+    return result;
 }
 
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double update_rate_hz, double resolution,
                                       double max_force) {
-    const knurl_result result = check_hip(scene, hip);
+    knurl_result result = check_hip(scene, hip);
     if (result) {
         return result;
     }
@@ -77,7 +85,10 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double u
                           (unsigned)hip, d.update_rate_hz, update_rate_hz);
     }
     d.workspace = h->centred ? NULL : &workspace;
-    return set_up(scene, h, &d, update_rate_hz, resolution, max_force);
+    knurl_scene_lock(scene);
+    result = set_up(scene, h, &d, update_rate_hz, resolution, max_force);
+    knurl_scene_unlock(scene);
+    return result;
 }
 
 knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {

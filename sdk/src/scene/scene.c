@@ -2,20 +2,9 @@
 #include "scene/scene_internal.h"
 
 #include "base/base.h"
-#include "base/vec3.h"
 
 #include <stdio.h>
 #include <string.h>
-
-void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
-    const knurl_material_desc defaults = {.stiffness = 400.0};
-    knurl_desc_write(&defaults, sizeof defaults, desc, size);
-}
-
-void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size) {
-    const knurl_surface_desc defaults = {.rotation = {0.0, 0.0, 0.0, 1.0}};
-    knurl_desc_write(&defaults, sizeof defaults, desc, size);
-}
 
 void knurl_scene_desc_init(knurl_scene_desc *desc, uint32_t size) {
     const knurl_scene_desc defaults = {.max_surfaces = 4096, .hip_count = 1};
@@ -33,6 +22,10 @@ static knurl_result check_scene_desc(const knurl_scene_desc *d) {
     }
     if (d->allocator && (!d->allocator->allocate || !d->allocator->release)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_scene_desc.allocator: expected both functions, found null");
+    }
+    if (d->full_model & ~(uint32_t)KNURL_FULL_ALL) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_scene_desc.full_model: expected KNURL_FULL_ bits, found %#x",
+                          (unsigned)d->full_model);
     }
     return KNURL_OK;
 }
@@ -52,6 +45,11 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
         return KNURL_ERROR_MEMORY;
     }
     made->heap = heap;
+    knurl_system_mutex_init(&made->lock);
+    knurl_system_mutex_init(&made->heap_lock);
+    made->heap.lock = &made->heap_lock;
+    made->epoch = made->version = 1;
+    made->full_model = d.full_model;
     made->max_surfaces = d.max_surfaces;
     made->hip_count = d.hip_count;
     made->hips = knurl_heap_alloc(&made->heap, d.hip_count, sizeof *made->hips);
@@ -70,176 +68,157 @@ void knurl_scene_destroy(knurl_scene *scene) {
     if (!scene) {
         return;
     }
-    knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
     for (uint32_t i = 0; i < scene->surface_count; i++) {
-        knurl_surface_release(&heap, &scene->surfaces[scene->order[i]]);
+        knurl_surface_data *surface = scene->surfaces[scene->order[i]];
+        surface->retired.release(&scene->heap, &surface->retired);
     }
-    knurl_heap_free(&heap, scene->hips);
-    knurl_heap_free(&heap, scene->order);
-    knurl_heap_free(&heap, scene->surfaces);
+    if (scene->world) {
+        scene->world->retired.release(&scene->heap, &scene->world->retired);
+    }
+    while (scene->retired) { /* no tick runs any more */
+        knurl_retired *retired = scene->retired;
+        scene->retired = retired->next;
+        retired->release(&scene->heap, retired);
+    }
+    void *const arrays[] = {scene->hips, scene->surfaces, scene->generations, scene->order, scene->vacant};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        knurl_heap_free(&scene->heap, arrays[i]);
+    }
+    knurl_system_mutex_destroy(&scene->lock);
+    knurl_system_mutex_destroy(&scene->heap_lock);
+    knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
+    heap.lock = NULL;
     knurl_heap_free(&heap, scene);
 }
 
-static knurl_surface make_id(const knurl_scene *scene, uint32_t place) {
-    return (uint64_t)scene->surfaces[place].generation << 32 | (place + 1);
+void knurl_scene_lock(const knurl_scene *scene) {
+    knurl_system_mutex_lock(&((knurl_scene *)(uintptr_t)scene)->lock); /* reading takes it too */
+}
+
+void knurl_scene_unlock(const knurl_scene *scene) {
+    knurl_system_mutex_unlock(&((knurl_scene *)(uintptr_t)scene)->lock);
+}
+
+knurl_surface knurl_surface_id(const knurl_surface_data *surface) {
+    return (uint64_t)surface->generation << 32 | (surface->place + 1);
 }
 
 knurl_surface_data *knurl_scene_get(const knurl_scene *scene, knurl_surface surface) {
     const uint32_t place = (uint32_t)(surface & UINT32_MAX) - 1; /* 0 wraps to a place that no scene has */
-    if (place >= scene->capacity || !scene->surfaces[place].alive || make_id(scene, place) != surface) {
+    knurl_surface_data *data = place < scene->capacity ? scene->surfaces[place] : NULL;
+    if (!data || knurl_surface_id(data) != surface) {
         knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which names none",
                    (unsigned long long)surface);
         return NULL;
     }
-    return &scene->surfaces[place];
-}
-
-static knurl_result check_open(const knurl_scene *scene, const char *what) {
-    if (scene->committed) {
-        return knurl_fail(KNURL_ERROR_STATE, "scene: %s is for before the commit, and it is committed", what);
-    }
-    return KNURL_OK;
-}
-
-/* Twice the places, or as many as are allowed: a scene costs what is in it. */
-static knurl_result grow(knurl_scene *scene) {
-    uint32_t capacity = scene->capacity > 0 ? 2 * scene->capacity : 4;
-    capacity = capacity < scene->max_surfaces ? capacity : scene->max_surfaces;
-    if (scene->capacity == capacity) {
-        return knurl_fail(KNURL_ERROR_FULL, "scene: expected at most %u surfaces (max_surfaces), found one more",
-                          (unsigned)scene->max_surfaces);
-    }
-    knurl_surface_data *surfaces = knurl_heap_alloc(&scene->heap, capacity, sizeof *surfaces);
-    uint32_t *order = knurl_heap_alloc(&scene->heap, capacity, sizeof *order);
-    if (!surfaces || !order) {
-        knurl_heap_free(&scene->heap, surfaces);
-        knurl_heap_free(&scene->heap, order);
-        return KNURL_ERROR_MEMORY;
-    }
-    if (scene->capacity > 0) {
-        memcpy(surfaces, scene->surfaces, scene->capacity * sizeof *surfaces);
-        memcpy(order, scene->order, scene->capacity * sizeof *order);
-    }
-    knurl_heap_free(&scene->heap, scene->surfaces);
-    knurl_heap_free(&scene->heap, scene->order);
-    scene->surfaces = surfaces;
-    scene->order = order;
-    scene->capacity = capacity;
-    return KNURL_OK;
-}
-
-knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface *surface) {
-    knurl_result result = check_open(scene, "adding a surface");
-    if (result) {
-        return result;
-    }
-    uint32_t place = 0;
-    if (scene->surface_count == scene->capacity) {
-        place = scene->capacity;
-        result = grow(scene);
-        if (result) {
-            return result;
-        }
-    }
-    while (scene->surfaces[place].alive) {
-        place++;
-    }
-    result = knurl_surface_build(&scene->heap, desc, &scene->surfaces[place]);
-    if (!result) {
-        scene->order[scene->surface_count++] = place;
-        if (surface) {
-            *surface = make_id(scene, place);
-        }
-    }
-    return result;
-}
-
-knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface) {
-    knurl_surface_data *data = knurl_scene_get(scene, surface);
-    const knurl_result result = data ? check_open(scene, "removing a surface") : KNURL_ERROR_STALE_ID;
-    if (result) {
-        return result;
-    }
-    const uint32_t place = (uint32_t)(data - scene->surfaces);
-    knurl_surface_release(&scene->heap, data);
-    data->generation++;
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        if (scene->order[i] != place) {
-            scene->order[kept++] = scene->order[i];
-        }
-    }
-    scene->surface_count = kept;
-    return KNURL_OK;
-}
-
-knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface, const knurl_material_desc *material) {
-    knurl_surface_data *data = knurl_scene_get(scene, surface);
-    const knurl_result result = data ? check_open(scene, "setting a material") : KNURL_ERROR_STALE_ID;
-    return result ? result : knurl_surface_set_material(data, material);
+    return data;
 }
 
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]) {
-    for (int axis = 0; axis < 3; axis++) {
-        double low = HUGE_VAL;
-        double high = -HUGE_VAL;
-        for (uint32_t i = 0; i < scene->surface_count; i++) {
-            const knurl_surface_data *surface = &scene->surfaces[scene->order[i]];
-            low = fmin(low, surface->bounds_min[axis]);
-            high = fmax(high, surface->bounds_max[axis]);
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < scene->surface_count; i++) {
+        const knurl_surface_data *surface = scene->surfaces[scene->order[i]];
+        double least[3];
+        double greatest[3];
+        knurl_surface_bounds(surface, &surface->record->motion, least, greatest);
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = fmin(low[axis], least[axis]);
+            high[axis] = fmax(high[axis], greatest[axis]);
         }
-        centre[axis] = scene->surface_count > 0 ? 0.5 * (low + high) : 0.0;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        centre[axis] = scene->surface_count > 0 ? 0.5 * (low[axis] + high[axis]) : 0.0;
     }
 }
 
-knurl_result knurl_scene_commit(knurl_scene *scene) {
-    const knurl_result result = check_open(scene, "committing");
-    if (!result) {
-        for (uint32_t hip = 0; hip < scene->hip_count; hip++) {
-            if (scene->hips[hip].centred) {
-                knurl_scene_centre(scene, scene->hips[hip].workspace.origin);
-            }
-        }
-        scene->committed = 1;
+double knurl_scene_time(const knurl_scene *scene) {
+    double latest = 0.0;
+    for (uint32_t hip = 0; hip < scene->hip_count; hip++) {
+        double time;
+        __atomic_load(&scene->hips[hip].time, &time, __ATOMIC_RELAXED);
+        latest = fmax(latest, time);
     }
+    return latest;
+}
+
+static knurl_result commit(knurl_scene *scene) {
+    if (scene->committed) {
+        return knurl_fail(KNURL_ERROR_STATE, "scene: expected one that is not committed yet, found a committed one");
+    }
+    const knurl_result result =
+        knurl_world_rebuild(scene, scene->capacity > 0 ? scene->capacity : 4); /* grows with the scene */
+    for (uint32_t hip = 0; !result && hip < scene->hip_count; hip++) {
+        if (scene->hips[hip].centred) {
+            knurl_scene_centre(scene, scene->hips[hip].workspace.origin);
+        }
+    }
+    scene->committed = result == KNURL_OK;
+    return result;
+}
+
+knurl_result knurl_scene_commit(knurl_scene *scene) {
+    knurl_scene_lock(scene);
+    const knurl_result result = commit(scene);
+    knurl_scene_unlock(scene);
     return result;
 }
 
 uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
-    return scene->surface_count;
+    knurl_scene_lock(scene);
+    const uint32_t count = scene->surface_count;
+    knurl_scene_unlock(scene);
+    return count;
 }
 
 knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
-    return index < scene->surface_count ? make_id(scene, scene->order[index]) : 0;
+    knurl_scene_lock(scene);
+    const knurl_surface id = index < scene->surface_count ? knurl_surface_id(scene->surfaces[scene->order[index]]) : 0;
+    knurl_scene_unlock(scene);
+    return id;
+}
+
+/* The first of that name, or null with the names there are in `known`. */
+static const knurl_surface_data *find(const knurl_scene *scene, const char *name, char *known, size_t size) {
+    size_t used = 0;
+    for (uint32_t i = 0; i < scene->surface_count; i++) {
+        const knurl_surface_data *candidate = scene->surfaces[scene->order[i]];
+        if (name && strcmp(candidate->name, name) == 0) {
+            return candidate;
+        }
+        const int more = snprintf(known + used, size - used, "%s'%s'", i ? ", " : "", candidate->name);
+        used += more > 0 && (size_t)more < size - used ? (size_t)more : 0; /* what does not fit is left out */
+        known[used] = 0;
+    }
+    return NULL;
 }
 
 knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface) {
     char known[512] = "";
-    size_t used = 0;
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        const char *candidate = scene->surfaces[scene->order[i]].name;
-        if (name && strcmp(candidate, name) == 0) {
-            *surface = make_id(scene, scene->order[i]);
-            return KNURL_OK;
-        }
-        const int more = snprintf(known + used, sizeof known - used, "%s'%s'", i ? ", " : "", candidate);
-        used += more > 0 && (size_t)more < sizeof known - used ? (size_t)more : 0; /* what does not fit is left out */
-        known[used] = 0;
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = find(scene, name, known, sizeof known);
+    const knurl_surface id = data ? knurl_surface_id(data) : 0;
+    knurl_scene_unlock(scene);
+    if (!id) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "surface: expected one of %s, found '%s'",
+                          known[0] ? known : "(no surface)", name ? name : "(null)");
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "surface: expected one of %s, found '%s'", used ? known : "(no surface)",
-                      name ? name : "(null)");
+    *surface = id;
+    return KNURL_OK;
 }
 
 knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name) {
+    knurl_scene_lock(scene);
     const knurl_surface_data *data = knurl_scene_get(scene, surface);
     if (data) {
         *name = data->name;
     }
+    knurl_scene_unlock(scene);
     return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
 }
 
 uint64_t knurl_scene_bytes(const knurl_scene *scene) {
-    return scene->heap.bytes;
+    return knurl_heap_bytes(&scene->heap);
 }
 
 knurl_result knurl_scene_lock_memory(knurl_scene *scene) {

@@ -2,40 +2,46 @@
  */
 #include "scene/scene_internal.h"
 
-#include "base/vec3.h"
-
-void knurl_surface_frame(const knurl_surface_data *surface, const knurl_contact *contact, double x[3], double y[3],
-                         double coordinates[2]) {
-    double along[3] = {1.0, 0.0, 0.0};
-    double place[2] = {0.0, 0.0};
+/* On a mesh x is made tangent to the contact's normal, which is no face's at edges. */
+static void mesh_frame(const knurl_surface_data *surface, const knurl_contact *contact, double x[3], double place[2]) {
+    double along[3];
     if (surface->has_axis) {
         vec3_copy(surface->axis, along);
-    } else if (surface->mesh) {
-        along[0] = 0.0; /* stays 0 where the uvs have no area */
+    } else {
         knurl_mesh_frame(surface->mesh, contact, along, place);
     }
     vec3_copy(along, x);
     vec3_make_tangent(contact->normal, x);
-    if (!(vec3_length(x) >
-          1e-9 * vec3_length(along))) { /* x stands on the surface like a post: any direction is as good */
+    const double length2 = vec3_dot(x, x);
+    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* like a post on the surface: any direction is as good */
         vec3_any_tangent(contact->normal, x);
+    } else {
+        vec3_scale(1.0 / sqrt(length2), x, x);
     }
-    vec3_normalise(x);
+}
+
+void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
+                         double x[3], double y[3], double coordinates[2]) {
+    if (surface->mesh) {
+        mesh_frame(surface, contact, x, coordinates);
+    } else {
+        knurl_plane_frame(surface->plane, contact, x, coordinates);
+    }
     vec3_cross(contact->normal, x, y);
-    if (surface->has_axis) {
-        place[0] = vec3_dot(contact->proxy, surface->axis);
-        place[1] = vec3_dot(contact->proxy, y);
-    } else if (!surface->mesh) {
-        place[0] = contact->proxy[0];
-        place[1] = contact->proxy[1] * contact->normal[2];
+    if (surface->mesh && surface->has_axis) {
+        coordinates[0] = vec3_dot(contact->proxy, surface->axis);
+        coordinates[1] = vec3_dot(contact->proxy, y);
     }
-    const double c = surface->turn[0];
-    const double s = surface->turn[1];
-    for (int i = 0; i < 3 && s != 0.0; i++) { /* the orientation turns the frame, so the coordinates turn back */
-        const double unturned = x[i];
-        x[i] = c * unturned + s * y[i];
-        y[i] = c * y[i] - s * unturned;
+    const double c = record->turn[0];
+    const double s = record->turn[1];
+    if (s != 0.0 || c != 1.0) { /* the orientation turns the frame, so the coordinates turn back */
+        const double place[2] = {coordinates[0], coordinates[1]};
+        for (int i = 0; i < 3; i++) {
+            const double unturned = x[i];
+            x[i] = c * unturned + s * y[i];
+            y[i] = c * y[i] - s * unturned;
+        }
+        coordinates[0] = c * place[0] + s * place[1];
+        coordinates[1] = c * place[1] - s * place[0];
     }
-    coordinates[0] = c * place[0] + s * place[1];
-    coordinates[1] = c * place[1] - s * place[0];
 }

@@ -12,7 +12,7 @@ void knurl_surface_info_init(knurl_surface_info *info, uint32_t size) {
 }
 
 /* The first front face below (then beside, then under) the middle of the bounds: where a hand would put its finger. */
-static void anchor_on_mesh(const knurl_surface_data *surface, knurl_contact *anchor) {
+static void anchor_on_mesh(const knurl_surface_data *surface, const knurl_pose *pose, knurl_contact *anchor) {
     static const double from[6][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
     const knurl_mesh *mesh = surface->mesh;
     double centre[3];
@@ -26,7 +26,7 @@ static void anchor_on_mesh(const knurl_surface_data *surface, knurl_contact *anc
         double outside[3];
         double opposite[3];
         knurl_triangle t;
-        mat3_mul_transposed(surface->rotation, from[i], direction);
+        mat3_mul_transposed(pose->rotation, from[i], direction);
         vec3_madd(centre, size, direction, outside);
         vec3_madd(centre, -size, direction, opposite);
         if (knurl_mesh_cross(mesh, outside, opposite, 0, &anchor->triangle)) {
@@ -42,20 +42,48 @@ static void anchor_on_mesh(const knurl_surface_data *surface, knurl_contact *anc
     (void)knurl_mesh_closest(mesh, centre, 2.0 * size, anchor);
 }
 
+/* The middle, or where there is none, the middle of the widest part of the line through it along x. */
+static void anchor_on_plane(const knurl_plane *plane, double anchor[3]) {
+    double best = 0.0;
+    double crossings[KNURL_MAX_EDGES];
+    uint32_t count = 0;
+    anchor[0] = anchor[1] = anchor[2] = 0.0;
+    const double y = 1e-3 * plane->half_extents[1]; /* off the corners of what is symmetric */
+    for (uint32_t i = 0; i < plane->edge_count; i++) {
+        const knurl_edge *e = &plane->outline[i];
+        if ((e->from[1] > y) != (e->to[1] > y)) {
+            const double x = e->from[0] + (y - e->from[1]) / (e->to[1] - e->from[1]) * (e->to[0] - e->from[0]);
+            uint32_t at = count++;
+            for (; at > 0 && crossings[at - 1] > x; at--) {
+                crossings[at] = crossings[at - 1];
+            }
+            crossings[at] = x;
+        }
+    }
+    for (uint32_t i = 0; i + 1 < count; i += 2) { /* inside between the first and the second, and so on */
+        const double width = crossings[i + 1] - crossings[i];
+        const int holds_middle = crossings[i] < 0.0 && crossings[i + 1] > 0.0;
+        if (holds_middle || width > best) {
+            best = holds_middle ? HUGE_VAL : width;
+            anchor[0] = holds_middle ? 0.0 : 0.5 * (crossings[i] + crossings[i + 1]);
+            anchor[1] = y;
+        }
+    }
+}
+
 /* m from a point to where a ray leaves the bounds. */
-static double reach_along(const knurl_surface_data *surface, const double point[3], const double direction[3]) {
+static double reach_along(const knurl_surface_info *info, const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
-        const double room =
-            direction[axis] > 0.0 ? surface->bounds_max[axis] - point[axis] : surface->bounds_min[axis] - point[axis];
+        const double edge = direction[axis] > 0.0 ? info->bounds_max[axis] : info->bounds_min[axis];
         if (fabs(direction[axis]) > 1e-6) {
-            reach = fmin(reach, fmax(0.0, room / direction[axis]));
+            reach = fmin(reach, fmax(0.0, (edge - info->anchor[axis]) / direction[axis]));
         }
     }
     return reach;
 }
 
-static void describe_anchor(const knurl_surface_data *surface, knurl_surface_info *info) {
+static void describe_anchor(const knurl_surface_data *surface, const knurl_pose *pose, knurl_surface_info *info) {
     knurl_contact anchor;
     double x[3];
     double y[3];
@@ -64,69 +92,87 @@ static void describe_anchor(const knurl_surface_data *surface, knurl_surface_inf
     anchor.normal[2] = 1.0;
     if (surface->mesh) {
         knurl_triangle t;
-        anchor_on_mesh(surface, &anchor);
+        anchor_on_mesh(surface, pose, &anchor);
         /* once more as a nearest point, for its weights and its face's normal */
         (void)knurl_mesh_closest(surface->mesh, anchor.proxy, 1e-6 + 1e-5 * vec3_length(anchor.proxy), &anchor);
         knurl_mesh_triangle(surface->mesh, anchor.triangle, &t);
         vec3_copy(t.normal, anchor.normal);
+    } else {
+        anchor_on_plane(surface->plane, anchor.proxy);
     }
-    knurl_surface_frame(surface, &anchor, x, y, coordinates);
-    mat3_mul(surface->rotation, anchor.proxy, info->anchor);
-    vec3_madd(info->anchor, 1.0, surface->position, info->anchor);
-    mat3_mul(surface->rotation, x, info->anchor_x);
-    mat3_mul(surface->rotation, anchor.normal, info->anchor_normal);
-    mat3_mul(surface->rotation, y, y);
+    knurl_surface_frame(surface, surface->record, &anchor, x, y, coordinates);
+    knurl_pose_to_parent(pose, anchor.proxy, info->anchor);
+    mat3_mul(pose->rotation, x, info->anchor_x);
+    mat3_mul(pose->rotation, anchor.normal, info->anchor_normal);
+    mat3_mul(pose->rotation, y, y);
     for (int i = 0; i < 4; i++) {
         double direction[3];
         vec3_scale(i % 2 == 0 ? 1.0 : -1.0, i < 2 ? info->anchor_x : y, direction);
-        info->anchor_reach[i] = reach_along(surface, info->anchor, direction);
+        info->anchor_reach[i] = reach_along(info, direction);
     }
 }
 
 /* d(surface coordinate)/d(metre travelled along x): uvs by their own stretch; an axis by how much of it is tangent. */
 static void describe_stretch(const knurl_surface_data *surface, double stretch[3]) {
-    stretch[0] = stretch[1] = stretch[2] = 1.0;
-    if (surface->mesh && !surface->has_axis) {
-        memcpy(stretch, surface->mesh->stretch_u, sizeof surface->mesh->stretch_u);
-    } else if (surface->mesh) {
-        double area = 0.0;
-        double sum = 0.0;
-        stretch[0] = 1.0;
-        stretch[2] = 0.0;
-        for (uint32_t i = 0; i < surface->mesh->triangle_count; i++) {
-            knurl_triangle t;
-            double tangent[3];
-            knurl_mesh_triangle(surface->mesh, i, &t);
-            vec3_copy(surface->axis, tangent);
-            vec3_make_tangent(t.normal, tangent);
-            const double length = vec3_length(tangent);
-            stretch[0] = fmin(stretch[0], length);
-            stretch[2] = fmax(stretch[2], length);
-            area += t.area2;
-            sum += t.area2 * length;
-        }
-        stretch[1] = sum / area;
+    const knurl_mesh *mesh = surface->mesh;
+    if (!mesh || !surface->has_axis) {
+        memcpy(stretch, mesh ? mesh->stretch_u : surface->plane->stretch, 3 * sizeof *stretch);
+        return;
     }
+    double area = 0.0;
+    double sum = 0.0;
+    stretch[0] = 1.0;
+    stretch[2] = 0.0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        knurl_triangle t;
+        double tangent[3];
+        knurl_mesh_triangle(mesh, i, &t);
+        vec3_copy(surface->axis, tangent);
+        vec3_make_tangent(t.normal, tangent);
+        const double length = vec3_length(tangent);
+        stretch[0] = fmin(stretch[0], length);
+        stretch[2] = fmax(stretch[2], length);
+        area += t.area2;
+        sum += t.area2 * length;
+    }
+    stretch[1] = sum / area;
+}
+
+static void describe_model(const knurl_surface_data *surface, knurl_surface_info *info) {
+    const knurl_mesh *mesh = surface->mesh;
+    const knurl_plane *plane = surface->plane;
+    info->shape = surface->shape;
+    info->model = mesh ? "mesh+bvh" : plane->outline ? "plane+outline" : "plane";
+    info->why = surface->why;
+    info->triangle_count = mesh ? mesh->triangle_count : plane->triangle_count;
+    info->dropped_triangles = mesh ? mesh->dropped : plane->dropped;
+    info->reversed_twins = mesh ? mesh->reversed_twins : plane->reversed_twins;
+    info->model_error = mesh ? 0.0 : plane->flatness; /* meshes are given as floats, and kept as they are given */
+    info->double_sided = (uint32_t)surface->double_sided;
+    info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
+                  (mesh ? knurl_mesh_bytes(mesh) : knurl_plane_bytes(plane));
+}
+
+/* Where it stands now. Of what moves the bounds hold the whole way. */
+static void describe(const knurl_scene *scene, const knurl_surface_data *surface, knurl_surface_info *info) {
+    knurl_pose pose;
+    memset(info, 0, sizeof *info);
+    info->name = surface->name;
+    info->material = surface->record->material;
+    knurl_motion_at(&surface->record->motion, knurl_scene_time(scene), &pose);
+    knurl_surface_bounds(surface, &surface->record->motion, info->bounds_min, info->bounds_max);
+    describe_model(surface, info);
+    describe_anchor(surface, &pose, info);
+    describe_stretch(surface, info->stretch);
 }
 
 knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface, knurl_surface_info *info) {
-    const knurl_surface_data *data = knurl_scene_get(scene, surface);
-    if (!data) {
-        return KNURL_ERROR_STALE_ID;
-    }
     knurl_surface_info made;
-    memset(&made, 0, sizeof made);
-    made.name = data->name;
-    made.shape = data->mesh ? "mesh" : "plane";
-    made.model = data->mesh ? "mesh+bvh" : "plane";
-    made.triangle_count = data->mesh ? data->mesh->triangle_count : 0;
-    made.dropped_triangles = data->mesh ? data->mesh->dropped : 0;
-    made.double_sided = (uint32_t)data->double_sided;
-    made.bytes = sizeof *data + knurl_heap_size(data->name) + (data->mesh ? knurl_mesh_bytes(data->mesh) : 0);
-    vec3_copy(data->bounds_min, made.bounds_min);
-    vec3_copy(data->bounds_max, made.bounds_max);
-    describe_anchor(data, &made);
-    describe_stretch(data, made.stretch);
-    made.material = data->material;
-    return knurl_desc_return("knurl_surface_info", &made, sizeof made, info);
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = knurl_scene_get(scene, surface);
+    if (data) {
+        describe(scene, data, &made);
+    }
+    knurl_scene_unlock(scene);
+    return data ? knurl_desc_return("knurl_surface_info", &made, sizeof made, info) : KNURL_ERROR_STALE_ID;
 }

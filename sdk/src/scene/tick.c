@@ -2,175 +2,271 @@
  * No heap, lock, system call, clock, log or file in anything that is called from here. SPDX-License-Identifier: MIT */
 #include "scene/scene_internal.h"
 
-#include "base/vec3.h"
+#include "base/atomic.h"
 
 #include <string.h>
 
-/* One surface's share of a tick. */
+/* s that a HIP may be behind another before it takes over its time: it has not ticked for a while. */
+#define MAX_LAG 0.05
+
+/* m above a surface: where a HIP is taken to come from that slides off it and onto the next one. What lies higher than
+ * this is a step that stops nobody who is already below it. */
+#define HANDOVER_HEIGHT 1e-5
+
+/* A HIP that was pressed into a surface and is now beside it: where its proxy would be, had the surface gone on. */
+typedef struct handover {
+    double from[3]; /* scene, m */
+    double depth;   /* m from there to the HIP */
+    int given;
+} handover;
+
+/* What one tick knows of one surface. */
 typedef struct touch {
-    double force[3]; /* scene, N, along the normal */
-    double proxy[3]; /* scene, m */
-    double normal[3];
-    double z;
+    const knurl_surface_data *surface;
+    const knurl_record *record;
+    knurl_pose moved;       /* used while it moves */
+    const knurl_pose *pose; /* of the shape's frame, now */
+    knurl_contact_query query;
+    knurl_contact contact;
+    double force[3];    /* scene, N */
+    double proxy[3];    /* scene, m */
+    double normal[3];   /* scene */
     double velocity[2]; /* of the HIP over the surface, in the surface's frame */
     knurl_grating_output grating;
 } touch;
 
-static void to_surface(const knurl_surface_data *surface, const double scene_point[3], double out[3]) {
-    double offset[3];
-    vec3_sub(scene_point, surface->position, offset);
-    mat3_mul_transposed(surface->rotation, offset, out);
+/* Where the surface stands now, and the HIP before and now in the shape's frame. */
+static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near, touch *t) {
+    const knurl_motion *motion = &t->record->motion;
+    if (motion->start_time - hip->time > MAX_LAG) {
+        __atomic_store(&hip->time, &motion->start_time, __ATOMIC_RELAXED);
+        hip->previous_time = motion->start_time - hip->period;
+    }
+    t->pose = &motion->end;
+    if (!knurl_motion_is_over(motion, hip->time)) {
+        knurl_motion_at(motion, hip->time, &t->moved);
+        t->pose = &t->moved;
+    }
+    const int jumped = near->asked ? near->jumps != motion->jumps : motion->jump_time >= hip->previous_time;
+    if (jumped) {
+        near->in_contact = 0;
+        memset(&near->contact, 0, sizeof near->contact);
+    }
+    knurl_pose_to_own(t->pose, position, t->query.hip);
+    t->query.has_previous = hip->has_previous && !jumped;
+    if (near->asked) {
+        vec3_copy(near->previous, t->query.previous);
+    } else if (knurl_motion_is_over(motion, hip->previous_time)) {
+        knurl_pose_to_own(&motion->end, hip->previous, t->query.previous);
+    } else {
+        knurl_pose before;
+        knurl_motion_at(motion, hip->previous_time, &before);
+        knurl_pose_to_own(&before, hip->previous, t->query.previous);
+    }
+    near->jumps = motion->jumps;
+    near->asked = 1;
+    vec3_copy(t->query.hip, near->previous);
 }
 
-/* Contact of one HIP with one surface; everything in the surface's own frame. */
-static int find_contact(const knurl_surface_data *surface, const knurl_hip *hip, const double position[3],
-                        knurl_contact_state *state, knurl_contact *contact) {
-    knurl_contact_query query;
-    to_surface(surface, position, query.hip);
-    to_surface(surface, hip->previous, query.previous);
-    query.has_previous = hip->has_previous;
-    query.reach = surface->reach;
-    query.double_sided = surface->double_sided;
-    return surface->mesh ? knurl_mesh_contact(surface->mesh, &query, state, contact)
-                         : knurl_plane_contact(&surface->plane, &query, state, contact);
+/* Friction: the HIP drags an anchor along the surface by a spring of the material's stiffness, and the anchor slips
+ * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
+static void drag(const knurl_material_desc *m, const knurl_contact *contact, knurl_near *near, double tangential[3]) {
+    const double hold = m->friction * fmax(0.0, -contact->z); /* m: the spring's length that friction can hold */
+    double stretch[3] = {0.0, 0.0, 0.0};
+    if (near->in_contact && hold > 0.0) {
+        vec3_sub(near->anchor, contact->proxy, stretch);
+        vec3_make_tangent(contact->normal, stretch);
+        const double length = vec3_length(stretch);
+        if (length > hold) {
+            vec3_scale(hold / length, stretch, stretch);
+        }
+    }
+    vec3_madd(contact->proxy, 1.0, stretch, near->anchor);
+    vec3_scale(m->stiffness, stretch, tangential);
+}
+
+/* The velocity of the HIP over the surface, in the shape's frame. */
+static void relative_velocity(const knurl_hip *hip, const touch *t, const double velocity[3], double local[3]) {
+    if (!knurl_motion_is_over(&t->record->motion, hip->previous_time)) {
+        double surface[3];
+        double over[3];
+        knurl_motion_velocity(&t->record->motion, hip->time, hip->period, t->proxy, surface);
+        vec3_sub(velocity, surface, over);
+        mat3_mul_transposed(t->pose->rotation, over, local);
+    } else {
+        mat3_mul_transposed(t->pose->rotation, velocity, local);
+    }
 }
 
 /* From a contact to a force: the grating's height at the HIP's velocity over the surface, then Eq. 9. */
-static void render(const knurl_surface_data *surface, double rate, const double velocity[3],
-                   const knurl_contact *contact, knurl_grating_state *state, touch *out) {
-    const knurl_material_desc *m = &surface->material;
-    double local_velocity[3];
+static void render(const knurl_hip *hip, const double velocity[3], knurl_near *near, touch *t) {
+    const knurl_material_desc *m = &t->record->material;
+    const knurl_contact *contact = &t->contact;
+    double over[3];
     double x[3];
     double y[3];
     double coordinates[2];
-    mat3_mul_transposed(surface->rotation, velocity, local_velocity); /* the surface stands still */
-    knurl_surface_frame(surface, contact, x, y, coordinates);
-    out->velocity[0] = vec3_dot(local_velocity, x);
-    out->velocity[1] = vec3_dot(local_velocity, y);
-    const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
-                                   surface->reach > 0.0 ? m->amplitude : 0.0,
-                                   rate,
-                                   m->method,
-                                   0};
-    knurl_grating_step(&grating, state, coordinates, out->velocity, &out->grating);
-    const double height = out->grating.height;
-    const double approach = vec3_dot(local_velocity, contact->normal);
+    knurl_pose_to_parent(t->pose, contact->proxy, t->proxy);
+    mat3_mul(t->pose->rotation, contact->normal, t->normal);
+    relative_velocity(hip, t, velocity, over);
+    knurl_surface_frame(t->surface, t->record, contact, x, y, coordinates);
+    t->velocity[0] = vec3_dot(over, x);
+    t->velocity[1] = vec3_dot(over, y);
+    if (t->record->has_grating) {
+        const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
+                                       t->record->is_smooth ? 0.0 : m->amplitude,
+                                       hip->rate,
+                                       m->method,
+                                       0};
+        knurl_grating_step(&grating, &near->grating, coordinates, t->velocity, &t->grating);
+    } else {
+        memset(&t->grating, 0, sizeof t->grating);
+        t->grating.event = KNURL_NO_EVENT;
+        near->grating.playing = 0;
+    }
+    const double height = t->grating.height;
     double size = 0.0;
     if (contact->z < height) { /* Eq. 9, with the wall's damping; never a pull */
-        size = fmax(0.0, m->stiffness * (height - contact->z) - m->damping * approach);
+        size = fmax(0.0, m->stiffness * (height - contact->z) - m->damping * vec3_dot(over, contact->normal));
     }
-    mat3_mul(surface->rotation, contact->normal, out->normal);
-    mat3_mul(surface->rotation, contact->proxy, out->proxy);
-    vec3_madd(out->proxy, 1.0, surface->position, out->proxy);
-    vec3_scale(size, out->normal, out->force);
-    out->z = contact->z;
+    vec3_scale(size, t->normal, t->force);
+    if (m->friction > 0.0) {
+        double tangential[3];
+        double turned[3];
+        drag(m, contact, near, tangential);
+        mat3_mul(t->pose->rotation, tangential, turned);
+        vec3_madd(t->force, 1.0, turned, t->force);
+    }
 }
 
 /* Adds one surface's share; of several the deepest is told. */
-static void add_touch(const touch *t, knurl_surface id, knurl_tick_output *out) {
+static void add_touch(const touch *t, knurl_tick_output *out) {
     vec3_madd(out->force, 1.0, t->force, out->force);
     if (t->grating.saturated) {
         out->flags |= KNURL_TICK_FREQUENCY;
     }
-    if (out->contacts++ > 0 && -t->z <= out->depth) {
+    if (out->contacts++ > 0 && -t->contact.z <= out->depth) {
         return;
     }
     vec3_copy(t->proxy, out->proxy);
     vec3_copy(t->normal, out->normal);
     out->surface_velocity[0] = t->velocity[0];
     out->surface_velocity[1] = t->velocity[1];
-    out->depth = -t->z;
+    out->depth = -t->contact.z;
     out->height = t->grating.height;
     out->spatial_frequency = t->grating.spatial_frequency;
     out->temporal_frequency = t->grating.temporal_frequency;
     out->event = t->grating.event;
-    out->surface = id;
+    out->surface = knurl_surface_id(t->surface);
 }
 
-/* One surface in one slot; lets the slot go where there is no contact any more. */
-static int touch_surface(const knurl_scene *scene, knurl_hip *hip, knurl_slot *slot, knurl_tick_output *out) {
-    const knurl_surface_data *surface = &scene->surfaces[slot->surface];
-    const int64_t events = slot->grating.event_count;
-    knurl_contact contact;
-    touch t = {0};
-    if (!find_contact(surface, hip, out->hip, &slot->contact, &contact)) {
-        memset(slot, 0, sizeof *slot);
-        return 0;
-    }
-    slot->used = 1;
-    render(surface, hip->rate, out->hip_velocity, &contact, &slot->grating, &t);
-    hip->counts.events += (uint64_t)(slot->grating.event_count - events);
-    add_touch(&t, (uint64_t)surface->generation << 32 | (slot->surface + 1), out);
-    return 1;
-}
-
-/* Whether the HIP's path in this tick comes within reach of a surface's bounds. */
-static int near(const knurl_surface_data *surface, const knurl_hip *hip, const double position[3]) {
-    const double margin = surface->reach + (hip->has_previous ? 1e-9 : KNURL_CAPTURE_DEPTH);
+/* Whether the HIP's path in this tick comes into a surface's box. */
+static int comes_near(const knurl_hip *hip, const knurl_near *near, const double position[3], double margin) {
     const double *from = hip->has_previous ? hip->previous : position;
-    for (int axis = 0; axis < 3; axis++) {
-        const double low = from[axis] < position[axis] ? from[axis] : position[axis];
-        const double high = from[axis] < position[axis] ? position[axis] : from[axis];
-        if (high < surface->bounds_min[axis] - margin || low > surface->bounds_max[axis] + margin) {
+    for (int i = 0; i < 3; i++) {
+        const double low = from[i] < position[i] ? from[i] : position[i];
+        const double high = from[i] < position[i] ? position[i] : from[i];
+        if (high < (double)near->box[i] - margin || low > (double)near->box[3 + i] + margin) {
             return 0;
         }
     }
     return 1;
 }
 
-static int is_held(const knurl_hip *hip, uint32_t surface) {
-    for (int i = 0; i < KNURL_MAX_CONTACTS; i++) {
-        if (hip->slots[i].used && hip->slots[i].surface == surface) {
-            return 1;
-        }
-    }
-    return 0;
+static int find_contact(touch *t, knurl_near *near) {
+    return t->surface->mesh ? knurl_mesh_contact(t->surface->mesh, &t->query, &near->contact, &t->contact)
+                            : knurl_plane_contact(t->surface->plane, &t->query, &near->contact, &t->contact);
 }
 
-static int is_among(uint32_t place, const uint32_t *places, uint32_t count) {
-    while (count > 0 && places[count - 1] != place) {
-        count--;
+/* A contact has ended: over a rim, or in front? */
+static void hand_over(const knurl_near *near, const double position[3], handover *over) {
+    double offset[3];
+    vec3_sub(position, near->proxy, offset);
+    const double along = vec3_dot(offset, near->normal);
+    if (along < 0.0) {
+        over->depth = HANDOVER_HEIGHT - along;
+        vec3_madd(position, over->depth, near->normal, over->from);
+        over->given = 1;
     }
-    return count > 0;
 }
 
-static knurl_slot *free_slot(knurl_hip *hip) {
-    for (int i = 0; i < KNURL_MAX_CONTACTS; i++) {
-        if (!hip->slots[i].used) {
-            return &hip->slots[i];
+/* One surface of the list. Where there is no contact (any more), its state is cleared. */
+static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, handover *over, knurl_tick_output *out) {
+    touch t;
+    t.surface = near->place < world->capacity ? __atomic_load_n(&world->items[near->place], __ATOMIC_SEQ_CST) : NULL;
+    if (!t.surface || (near->in_contact && near->generation != t.surface->generation)) {
+        near->in_contact = near->asked = 0; /* it was taken out; another may be in its place */
+        memset(&near->contact, 0, sizeof near->contact);
+        if (!t.surface) {
+            return;
         }
     }
-    return NULL;
+    if (near->generation != t.surface->generation) {
+        near->generation = t.surface->generation;
+        near->asked = 0;
+    }
+    t.record = __atomic_load_n(&t.surface->record, __ATOMIC_SEQ_CST);
+    place_hip(hip, out->hip, near, &t);
+    t.query.reach = t.record->reach;
+    t.query.double_sided = t.surface->double_sided;
+    int held = find_contact(&t, near);
+    if (!held && near->in_contact) {
+        hand_over(near, out->hip, over);
+    } else if (!held && over->given && t.query.has_previous) {
+        knurl_pose_to_own(t.pose, over->from, t.query.previous);
+        held = find_contact(&t, near);
+    }
+    if (held && !near->in_contact) {
+        if (out->contacts == KNURL_MAX_CONTACTS) { /* beyond what is felt at once; asked again at the next tick */
+            out->flags |= KNURL_TICK_CONTACTS_FULL;
+            memset(&near->contact, 0, sizeof near->contact);
+            return;
+        }
+        memset(&near->grating, 0, sizeof near->grating);
+    }
+    if (held) {
+        const int64_t events = near->grating.event_count;
+        render(hip, out->hip_velocity, near, &t);
+        hip->counts.events += (uint64_t)(near->grating.event_count - events);
+        add_touch(&t, out);
+        vec3_copy(t.proxy, near->proxy);
+        vec3_copy(t.normal, near->normal);
+    }
+    near->in_contact = (uint32_t)held;
 }
 
 /* What is touched stays touched until its contact ends; then whatever else is near may begin. */
-static void touch_all(const knurl_scene *scene, knurl_hip *hip, knurl_tick_output *out) {
-    uint32_t ended[KNURL_MAX_CONTACTS]; /* they were asked already in this tick */
-    uint32_t ended_count = 0;
-    for (int i = 0; i < KNURL_MAX_CONTACTS; i++) {
-        const uint32_t surface = hip->slots[i].surface;
-        if (hip->slots[i].used && !touch_surface(scene, hip, &hip->slots[i], out)) {
-            ended[ended_count++] = surface;
+static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
+    const int same_version = hip->version == knurl_load_acquire(&scene->version);
+    handover over = {{0.0, 0.0, 0.0}, 0.0, 0};
+    double margin = 1e-9;
+    int inside = 1;
+    for (int i = 0; i < 3; i++) {
+        inside &= out->hip[i] >= hip->near_low[i] && out->hip[i] <= hip->near_high[i];
+    }
+    if (!same_version || !hip->has_previous || !inside || (scene->full_model & KNURL_FULL_SEARCH)) {
+        knurl_hip_look_around(scene, world, hip, out->hip);
+        margin = KNURL_CAPTURE_DEPTH; /* a first tick, or something may have jumped here */
+    }
+    uint32_t first[KNURL_MAX_NEAR];
+    for (uint32_t i = 0; i < hip->near_count; i++) {
+        first[i] = hip->near[i].in_contact;
+        if (first[i]) {
+            ask(world, hip, &hip->near[i], &over, out);
         }
     }
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        const uint32_t place = scene->order[i];
-        if (is_among(place, ended, ended_count) || is_held(hip, place) ||
-            !near(&scene->surfaces[place], hip, out->hip)) {
+    for (uint32_t i = 0; i < hip->near_count; i++) {
+        if (first[i]) {
             continue;
         }
-        knurl_slot *slot = free_slot(hip);
-        if (!slot) {
-            knurl_contact_state none = {0, 0, 0};
-            knurl_contact contact;
-            if (find_contact(&scene->surfaces[place], hip, out->hip, &none, &contact)) {
-                out->flags |= KNURL_TICK_CONTACTS_FULL;
-                return;
-            }
-            continue;
+        if (comes_near(hip, &hip->near[i], out->hip, margin + over.depth)) {
+            ask(world, hip, &hip->near[i], &over, out);
+        } else {
+            hip->near[i].asked = 0;
         }
-        slot->surface = place;
-        (void)touch_surface(scene, hip, slot, out);
+    }
+    if (hip->near_overflow) {
+        out->flags |= KNURL_TICK_CONTACTS_FULL;
     }
 }
 
@@ -191,40 +287,57 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     return vec3_finite(out->hip) && vec3_finite(out->hip_velocity);
 }
 
-/* Bounded and finite, whatever came before. */
-static void limit_force(const knurl_hip *hip, knurl_tick_output *out) {
-    const double length = vec3_length(out->force);
+/* Bounded and finite, whatever came before. Returns the force's length, N. */
+static double limit_force(const knurl_hip *hip, knurl_tick_output *out) {
+    double length = vec3_length(out->force);
     if (length > hip->max_force) {
         vec3_scale(hip->max_force / length, out->force, out->force);
         out->flags |= KNURL_TICK_FORCE_LIMIT;
+        length = vec3_length(out->force);
     }
     if (!isfinite(length)) {
         out->flags |= KNURL_TICK_NOT_FINITE;
     }
+    return length;
 }
 
 /* Nothing of this tick is to be trusted: no force, no contact, a first tick next. */
 static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     const uint64_t tick = out->tick;
     memset(out, 0, sizeof *out);
-    memset(hip->slots, 0, sizeof hip->slots);
     knurl_velocity_reset(&hip->velocity);
+    hip->near_count = 0;
     hip->has_previous = 0;
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
     out->flags = KNURL_TICK_NOT_FINITE;
 }
 
-static void count_and_publish(knurl_hip *hip, const knurl_tick_output *out) {
+static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_output *out) {
     knurl_hip_counts *c = &hip->counts;
     c->ticks++;
     c->contact_ticks += (out->flags & KNURL_TICK_CONTACT) != 0;
     c->force_limits += (out->flags & KNURL_TICK_FORCE_LIMIT) != 0;
     c->frequency_saturations += (out->flags & KNURL_TICK_FREQUENCY) != 0;
     c->not_finite += (out->flags & KNURL_TICK_NOT_FINITE) != 0;
-    c->force_max = fmax(c->force_max, vec3_length(out->force));
+    c->force_max = force > c->force_max ? force : c->force_max;
     const knurl_snapshot snapshot = {*out, *c};
     knurl_seqlock_write(&hip->published.sequence, hip->published.words, &snapshot, sizeof snapshot);
+}
+
+/* From a HIP that has been read to the force; returns its length, N. */
+static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
+    touch_all(scene, world, hip, out);
+    const double length = limit_force(hip, out);
+    if (out->flags & KNURL_TICK_NOT_FINITE) {
+        let_go(hip, out);
+        return 0.0;
+    }
+    out->flags |= out->contacts > 0 ? KNURL_TICK_CONTACT : 0;
+    knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
+    vec3_copy(out->hip, hip->previous);
+    hip->has_previous = 1;
+    return length;
 }
 
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
@@ -238,21 +351,19 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
         return KNURL_ERROR_STATE;
     }
     knurl_hip *hip = &scene->hips[hip_index];
+    double force = 0.0;
+    (void)__atomic_exchange_n(&hip->pinned, __atomic_load_n(&scene->epoch, __ATOMIC_SEQ_CST), __ATOMIC_SEQ_CST);
+    const knurl_world *world = __atomic_load_n(&scene->world, __ATOMIC_SEQ_CST);
     output->tick = hip->counts.ticks;
-    if (!read_hip(hip, input, output)) {
-        let_go(hip, output);
+    const double time = hip->time + hip->period;
+    hip->previous_time = hip->time;
+    __atomic_store(&hip->time, &time, __ATOMIC_RELAXED);
+    if (read_hip(hip, input, output)) {
+        force = feel(scene, world, hip, output);
     } else {
-        touch_all(scene, hip, output);
-        limit_force(hip, output);
-        if (output->flags & KNURL_TICK_NOT_FINITE) {
-            let_go(hip, output);
-        } else {
-            output->flags |= output->contacts > 0 ? KNURL_TICK_CONTACT : 0;
-            knurl_workspace_vector_to_device(&hip->workspace, output->force, output->device_force);
-            vec3_copy(output->hip, hip->previous);
-            hip->has_previous = 1;
-        }
+        let_go(hip, output);
     }
-    count_and_publish(hip, output);
+    knurl_store_release(&hip->pinned, 0);
+    count_and_publish(hip, force, output);
     return KNURL_OK;
 }

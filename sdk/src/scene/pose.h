@@ -1,0 +1,64 @@
+/* Where a frame stands, and how it gets from one place to another in a given time. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_POSE_H
+#define KNURL_SRC_POSE_H
+
+#include "base/vec3.h"
+
+#include <stdint.h>
+
+/* A frame in its parent's: parent = position + rotation * own. */
+typedef struct knurl_pose {
+    double position[3];
+    double rotation[9]; /* row-major */
+} knurl_pose;
+
+/* A way from one pose to another: its origin in a straight line, its turning at a constant rate. The frame that moves
+ * may stand off the origin that it turns about. */
+typedef struct knurl_motion {
+    knurl_pose end;     /* where it stands from end_time on, exactly */
+    knurl_pose start;   /* where it stood at start_time */
+    double arm[3];      /* at start_time, from the origin to the frame, scene axes */
+    double velocity[3]; /* m/s of the origin */
+    double axis[3];     /* unit, scene axes */
+    double rate;        /* rad/s about it */
+    double start_time;  /* s, scene time */
+    double end_time;    /* not after start_time: it stands still */
+    double jump_time;   /* s: of the latest jump */
+    uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
+} knurl_motion;
+
+static inline void knurl_pose_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
+    double offset[3];
+    vec3_sub(parent, pose->position, offset);
+    mat3_mul_transposed(pose->rotation, offset, own);
+}
+
+static inline void knurl_pose_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
+    double turned[3];
+    mat3_mul(pose->rotation, own, turned);
+    vec3_madd(pose->position, 1.0, turned, parent);
+}
+
+/* outer * inner: inner's frame in outer's parent. */
+void knurl_pose_compose(const knurl_pose *outer, const knurl_pose *inner, knurl_pose *out);
+
+static inline int knurl_motion_is_over(const knurl_motion *motion, double time) {
+    return time >= motion->end_time;
+}
+
+/* The pose at a time; before start_time as at it. Allowed in a tick. */
+void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose);
+
+/* The velocity, over the `period` that ends at `time`, of the point of the moving body that is then at `point` (scene,
+ * m); 0 where most of the period was before the way or after it. Allowed in a tick. */
+void knurl_motion_velocity(const knurl_motion *motion, double time, double period, const double point[3],
+                           double velocity[3]);
+
+/* A frame that stands still. origin: the body's frame in the scene; local: the moving frame in the body's. */
+void knurl_motion_place(const knurl_pose *origin, const knurl_pose *local, knurl_motion *motion);
+
+/* From where `motion` is at `now` to a target pose of the body's frame in `seconds` (0: a jump). */
+void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl_pose *local, double now,
+                     double seconds);
+
+#endif

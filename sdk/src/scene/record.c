@@ -1,0 +1,79 @@
+/* How a surface feels: materials, checked and made ready for ticks. SPDX-License-Identifier: MIT */
+#include "scene/scene_internal.h"
+
+#include "base/base.h"
+
+/* How far the crests of each method stand above the surface, in amplitudes: S1 never leaves A; S2's 400 Hz mix reaches
+ * (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"). */
+#define CREST_S1 1.0
+#define CREST_S2 1.1431
+
+void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
+    const knurl_material_desc defaults = {.stiffness = 400.0};
+    knurl_desc_write(&defaults, sizeof defaults, desc, size);
+}
+
+static knurl_result check_number(const char *key, const char *unit, double value, int zero_allowed) {
+    if (!(isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0)))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number %s 0 (%s), found %g", key,
+                          zero_allowed ? ">=" : ">", unit, value);
+    }
+    return KNURL_OK;
+}
+
+static knurl_result check_material(knurl_material_desc *m) {
+    knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]}, m->amplitude, 1000.0, m->method, 0};
+    knurl_result result = knurl_grating_check(&grating);
+    m->method = grating.method;
+    result = result ? result : check_number("stiffness", "N/m", m->stiffness, 0);
+    result = result ? result : check_number("damping", "N s/m", m->damping, 1);
+    result = result ? result : check_number("friction", "coefficient", m->friction, 1);
+    if (!result && !isfinite(m->orientation)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "orientation: expected a finite number (rad), found %g",
+                          m->orientation);
+    }
+    return result;
+}
+
+static int has_coordinates(const knurl_surface_data *surface) {
+    return surface->mesh ? surface->mesh->uvs || surface->has_axis : surface->plane->has_coordinates;
+}
+
+knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface_data *surface,
+                                       const knurl_material_desc *desc, uint32_t full_model) {
+    knurl_material_desc m;
+    knurl_material_desc_init(&m, sizeof m);
+    knurl_result result = knurl_desc_read("knurl_material_desc", desc, &m, sizeof m);
+    result = result ? result : check_material(&m);
+    if (result) {
+        return result;
+    }
+    const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
+    if (m.method == KNURL_S1 && !smooth && !has_coordinates(surface)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
+    }
+    record->material = m;
+    record->turn[0] = cos(m.orientation);
+    record->turn[1] = sin(m.orientation);
+    record->reach = smooth ? 0.0 : m.amplitude * (m.method == KNURL_S1 ? CREST_S1 : CREST_S2);
+    record->is_smooth = smooth;
+    record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;
+    return KNURL_OK;
+}
+
+static void release(knurl_heap *heap, knurl_retired *record) {
+    knurl_heap_free(heap, record);
+}
+
+knurl_record *knurl_record_copy(knurl_heap *heap, const knurl_record *record) {
+    knurl_record *made = knurl_heap_alloc(heap, 1, sizeof *made);
+    if (made) {
+        if (record) {
+            *made = *record;
+        }
+        made->retired.next = NULL;
+        made->retired.release = release;
+    }
+    return made;
+}
