@@ -128,9 +128,10 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     knurl_scene *scene = wall_scene(&parts, full_model);
     (void)tick_moving(scene, hip, (const double[3]){0.0, 0.0, 0.0});
     pose end = from;
-    turn_about(x, start + 0.05 * omega, end.quaternion);
-    move_to(scene, knurl_scene_surface_at(scene, 0), &end, 0.05);
-    for (int k = 1; k <= 50 && start + omega * TICK * k < 0.5; k++) {
+    const int ticks = (int)fmin(50.0, 2.0 / (omega * TICK)); /* less than half a turn: that is the way it goes */
+    turn_about(x, start + omega * TICK * ticks, end.quaternion);
+    move_to(scene, knurl_scene_surface_at(scene, 0), &end, TICK * ticks);
+    for (int k = 1; k <= ticks && start + omega * TICK * k < 0.5; k++) {
         pose now = from;
         turn_about(x, start + omega * TICK * k, now.quaternion);
         const knurl_tick_output out = tick_moving(scene, hip, (const double[3]){0.0, 0.0, 0.0});
@@ -150,11 +151,11 @@ TEST(no_paddle_that_swings_round_tunnels) {
 /* From behind nobody is held up, however fast. */
 TEST(single_sided_wall_that_comes_from_behind_passes) {
     surface_parts parts = surface_plane();
-    pose p = {{0.0, 0.0, 0.02}, {0.0, 0.0, 0.0, 1.0}};
+    pose p = {{0.0, 0.0, 0.0203}, {0.0, 0.0, 0.0, 1.0}};
     place(&parts, &p);
     knurl_scene *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
-    p.position[2] = -0.03;
+    p.position[2] = -0.0297;
     move_to(scene, knurl_scene_surface_at(scene, 0), &p, 0.05);
     for (int k = 0; k < 60; k++) {
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0).contacts, 0);
@@ -164,16 +165,16 @@ TEST(single_sided_wall_that_comes_from_behind_passes) {
 
 TEST(double_sided_wall_that_comes_from_behind_pushes) {
     surface_parts parts = surface_plane();
-    pose p = {{0.0, 0.0, 0.01}, {0.0, 0.0, 0.0, 1.0}};
+    pose p = {{0.0, 0.0, 0.0205}, {0.0, 0.0, 0.0, 1.0}}; /* farther than a first tick captures */
     parts.desc.double_sided = 1;
     place(&parts, &p);
     knurl_scene *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
-    p.position[2] = -0.01;
-    move_to(scene, knurl_scene_surface_at(scene, 0), &p, 0.02);
-    for (int k = 1; k <= 20; k++) {
+    p.position[2] = -0.0195;
+    move_to(scene, knurl_scene_surface_at(scene, 0), &p, 0.04);
+    for (int k = 1; k <= 40; k++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0);
-        CHECK_CLOSE(out.force[2], k > 10 ? -K * 0.001 * (k - 10) : 0.0, 1e-9L);
+        CHECK_CLOSE(out.force[2], k > 20 ? -K * (0.001 * k - 0.0205) : 0.0, 1e-9L);
     }
     knurl_scene_destroy(scene);
 }
@@ -201,14 +202,17 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
     parts.material.friction = friction;
     knurl_scene *moving = scene_of(&parts);
     knurl_scene *resting = scene_of(&parts);
-    const double at[3] = {0.0131, -0.0173, -0.0012 + hills(0.0131, -0.0173)};
+    const double at[3] = {0.0131, -0.0173, -0.0062};
+    const double above[3] = {0.0131, -0.0173, 0.02};
     const double none[3] = {0.0, 0.0, 0.0};
+    (void)tick_moving(moving, above, none);
+    (void)tick_moving(resting, above, none);
     (void)tick_moving(moving, at, none);
     (void)tick_moving(resting, at, none);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     add3(end.position, -0.2, velocity, end.position);
     move_to(moving, knurl_scene_surface_at(moving, 0), &end, 0.2);
-    int touched = 0;
+    uint32_t touched = 0;
     for (int k = 1; k < 200; k++) {
         double there[3];
         add3(at, TICK * k, velocity, there);
@@ -217,7 +221,7 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
         compare_told(&out, &expected, expected.force);
         touched += out.contacts;
     }
-    assert_true(touched > 50);
+    assert_true(touched > 150);
     knurl_scene_destroy(moving);
     knurl_scene_destroy(resting);
     shape_free(&sheet);
@@ -231,12 +235,12 @@ TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
     }
 }
 
-/* Hills turn about the scene's z under a HIP that rests, as the HIP circles over hills that rest. */
+/* Hills turn about the scene's z under a HIP that rests, as the HIP circles over hills that rest. Smooth ones: the
+ * velocity over the surface is taken at the proxy, that of a HIP which circles is the HIP's. */
 static void compare_turning(double omega, double friction) {
     static const double z[3] = {0.0, 0.0, 1.0};
     shape sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
     surface_parts parts = surface_mesh(&sheet);
-    set_grating(&parts, KNURL_S2, 431.0, 0.0, 0.0003);
     parts.desc.axis[0] = 1.0;
     parts.material.friction = friction;
     knurl_scene *moving = scene_of(&parts);
@@ -266,7 +270,6 @@ static void compare_turning(double omega, double friction) {
         turn(q, expected.force, force);
         assert_int_equal(out.contacts, 1);
         CHECK_VECTOR(out.force, force[0], force[1], force[2], 1e-9L * (1.0 + length3(force)));
-        assert_int_equal(out.event, expected.event);
     }
     knurl_scene_destroy(moving);
     knurl_scene_destroy(resting);
