@@ -22,14 +22,35 @@ static void print_material(tool_json *json, const knurl_material_desc *m) {
     json_close(json, '}');
 }
 
-static void print_surface(tool_json *json, const knurl_surface_info *info) {
+/* Whether a device whose workspace is set down in the scene as it is by default can touch the surface's bounds. What is
+ * out of reach costs a tick nothing. */
+static int in_reach(const knurl_scene *scene, const knurl_device_info *device, const knurl_surface_info *info) {
+    knurl_workspace workspace;
+    if (knurl_scene_get_workspace(scene, 0, &workspace)) {
+        return 0;
+    }
+    for (int axis = 0; axis < 3; axis++) { /* by default it is not turned, and its scale is 1 */
+        if (info->bounds_min[axis] > workspace.origin[axis] + device->workspace_max[axis] ||
+            info->bounds_max[axis] < workspace.origin[axis] + device->workspace_min[axis]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void print_surface(tool_json *json, const knurl_surface_info *info, int reachable) {
     json_open(json, NULL, '{');
     json_string(json, "name", info->name);
     json_string(json, "shape", info->shape);
     json_string(json, "model", info->model);
     json_number(json, "triangles", info->triangle_count);
     json_number(json, "dropped_triangles", info->dropped_triangles);
+    json_number(json, "reversed_twins", info->reversed_twins);
     json_number(json, "bytes", (double)info->bytes);
+    json_string(json, "why", info->why);
+    json_number(json, "model_error", info->model_error);
+    json_flag(json, "in_reach", reachable);
+    json_flag(json, "double_sided", info->double_sided != 0);
     print_material(json, &info->material);
     json_open(json, "stretch", '{');
     json_number(json, "min", info->stretch[0]);
@@ -39,7 +60,7 @@ static void print_surface(tool_json *json, const knurl_surface_info *info) {
     json_close(json, '}');
 }
 
-static void print_scene(tool_json *json, const knurl_scene *scene, uint32_t skipped) {
+static void print_scene(tool_json *json, const knurl_scene *scene, const knurl_device_info *device, uint32_t skipped) {
     const uint32_t count = knurl_scene_surface_count(scene);
     json_open(json, NULL, '{');
     json_open(json, "surfaces", '[');
@@ -47,7 +68,7 @@ static void print_scene(tool_json *json, const knurl_scene *scene, uint32_t skip
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
         if (knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, i), &info) == KNURL_OK) {
-            print_surface(json, &info);
+            print_surface(json, &info, in_reach(scene, device, &info));
         }
     }
     json_close(json, ']');
@@ -60,11 +81,22 @@ static void print_scene(tool_json *json, const knurl_scene *scene, uint32_t skip
     json_end(json);
 }
 
+/* The Touch, as the fake device has it. */
+static knurl_result measure_device(knurl_device_info *info) {
+    knurl_device *device = NULL;
+    knurl_result result = knurl_device_open("fake", &device);
+    result = result ? result : knurl_device_get_info(device, info);
+    knurl_device_close(device);
+    return result;
+}
+
 int cmd_inspect(int argc, char **argv) {
     const char *path = NULL;
     int pretty = 0;
-    const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""}};
-    if (tool_parse(argc, argv, options, 1, &path) != TOOL_OK) {
+    int full = 0;
+    const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
+                                   {"--full-model", TOOL_FLAG, &full, 0, 0, ""}};
+    if (tool_parse(argc, argv, options, 2, &path) != TOOL_OK) {
         return TOOL_USAGE;
     }
     if (!path) {
@@ -73,12 +105,18 @@ int cmd_inspect(int argc, char **argv) {
     knurl_scene *scene = NULL;
     knurl_gltf_report report;
     knurl_gltf_report_init(&report, sizeof report);
-    if (knurl_scene_create(NULL, &scene) || knurl_gltf_load_file(scene, path, &report)) {
+    knurl_scene_desc desc;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.full_model = full ? KNURL_FULL_ALL : 0;
+    knurl_device_info device;
+    knurl_device_info_init(&device, sizeof device);
+    if (knurl_scene_create(&desc, &scene) || knurl_gltf_load_file(scene, path, &report) || knurl_scene_commit(scene) ||
+        measure_device(&device)) {
         knurl_scene_destroy(scene);
         return tool_library_error(TOOL_FAILURE, NULL);
     }
     tool_json json = {pretty, 0, 1};
-    print_scene(&json, scene, report.skipped);
+    print_scene(&json, scene, &device, report.skipped);
     if (knurl_scene_surface_count(scene) == 0) {
         fprintf(stderr, "knurl: hint: %s: %s\n", path, hint);
     }

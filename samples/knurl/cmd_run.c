@@ -11,7 +11,7 @@
 typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out;
     double seconds, rate;
-    int fast, pretty;
+    int fast, full_model, pretty;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -43,6 +43,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+        {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
     o->seconds = NAN;
     o->rate = 1000.0;
@@ -82,7 +83,10 @@ static knurl_result set_methods(knurl_scene *scene, int32_t method) {
 
 static int load(run *r) {
     const run_options *o = &r->options;
-    if (knurl_scene_create(NULL, &r->scene) || knurl_gltf_load_file(r->scene, o->path, NULL) ||
+    knurl_scene_desc desc;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.full_model = o->full_model ? KNURL_FULL_ALL : 0;
+    if (knurl_scene_create(&desc, &r->scene) || knurl_gltf_load_file(r->scene, o->path, NULL) ||
         (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }

@@ -8,7 +8,8 @@
 static const char help[] =
     "knurl: feel the gratings of a glTF scene, with or without a device\n"
     "\n"
-    "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to (JSON)\n"
+    "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to: models, bytes, why (JSON)\n"
+    "      --full-model                    without the reductions: flat meshes stay meshes\n"
     "  knurl run FILE [options]            load, stroke, tick; a summary (JSON)\n"
     "      --device URI                    fake (default), fake:?key=value&...; see 'knurl devices'\n"
     "      --surface NAME                  which surface to stroke (default: the first)\n"
@@ -19,6 +20,7 @@ static const char help[] =
     "      --method S1|S2                  for all surfaces, instead of their own\n"
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"
     "      --out CSV                       what was felt, a row a tick\n"
+    "      --full-model                    without the reductions: to compare what is felt\n"
     "      --pretty                        JSON over several lines\n"
     "  knurl signal --method T1|T2|T3 --period-ms P --amplitude A --rate HZ --ticks N\n"
     "                                      a temporal vibration (CSV: tick,value)\n"
@@ -27,6 +29,8 @@ static const char help[] =
     "  knurl scan --method S1|S2 --fs FSX,FSY --amplitude A --rate HZ --in CSV\n"
     "                                      a grating under given positions x,y or velocities vx,vy, a row a tick (CSV)\n"
     "  knurl study NAME --out DIR          a figure or chart as CSV and JSON; plot.py draws it\n"
+    "  knurl bench [--json] [--case NAME] [--ticks N]\n"
+    "                                      what a tick takes on this machine, warm and paced (about half a minute)\n"
     "  knurl devices [--json]              the kinds of device, and the fake one's settings\n"
     "  knurl --version\n"
     "\n"
@@ -66,8 +70,8 @@ static int cmd_devices(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal},  {"metrics", cmd_metrics},
-                {"scan", cmd_scan},       {"study", cmd_study}, {"devices", cmd_devices}};
+} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal}, {"metrics", cmd_metrics},
+                {"scan", cmd_scan},       {"study", cmd_study}, {"bench", cmd_bench},   {"devices", cmd_devices}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -91,7 +95,7 @@ static int run_command(int argc, char **argv) {
     }
     return tool_error(
         TOOL_USAGE,
-        "expected a command (inspect, run, signal, metrics, scan, study, devices), found '%s'; see 'knurl --help'",
+        "expected a command (inspect, run, signal, metrics, scan, study, bench, devices), found '%s'; see 'knurl --help'",
         argv[1]);
 }
 

@@ -76,6 +76,11 @@ void json_number(tool_json *json, const char *key, double value) {
     }
 }
 
+void json_flag(tool_json *json, const char *key, int value) {
+    begin_value(json, key);
+    fputs(value ? "true" : "false", stdout);
+}
+
 void json_string(tool_json *json, const char *key, const char *value) {
     begin_value(json, key);
     print_json_text(value);

@@ -61,6 +61,7 @@ typedef struct tool_json {
 void json_open(tool_json *json, const char *key, char bracket); /* '{' or '[' */
 void json_close(tool_json *json, char bracket);                 /* '}' or ']' */
 void json_number(tool_json *json, const char *key, double value);
+void json_flag(tool_json *json, const char *key, int value);
 void json_string(tool_json *json, const char *key, const char *value);
 void json_end(tool_json *json); /* the last newline */
 
@@ -87,5 +88,6 @@ int cmd_signal(int argc, char **argv);
 int cmd_metrics(int argc, char **argv);
 int cmd_scan(int argc, char **argv);
 int cmd_study(int argc, char **argv);
+int cmd_bench(int argc, char **argv);
 
 #endif

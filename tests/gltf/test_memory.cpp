@@ -75,6 +75,45 @@ void the_loader_without_memory(void **) {
     assert_int_equal(knurl_scene_surface_count(loaded.scene), 3);
 }
 
+/// Three tagged meshes of a wavy strip, behind `untagged` others of their own geometry.
+std::string three_among(unsigned untagged) {
+    File file;
+    const unsigned columns = 100;
+    for (unsigned m = 0; m < untagged + 3; ++m) {
+        std::vector<float> positions;
+        std::vector<float> uvs;
+        for (unsigned i = 0; i < columns; ++i) {
+            const float x = 0.001F * static_cast<float>(i);
+            const float z = 0.0001F * static_cast<float>((i + m) % 7);
+            positions.insert(positions.end(), {x, 0, z, x + 0.001F, 0, z, x, 0.01F, z});
+            uvs.insert(uvs.end(), {x, 0, x + 0.001F, 0, x, 0.01F});
+        }
+        const std::string at = std::to_string(file.vec3(positions));
+        const std::string uv = std::to_string(file.vec2(uvs));
+        File::append(file.meshes, R"({"primitives":[{"material":)" + std::string(m < untagged ? "0" : "1") +
+                                      R"(,"attributes":{"POSITION":)" + at + R"(,"TEXCOORD_0":)" + uv + "}}]}");
+        if (m > 0)
+            File::append(file.nodes, R"({"mesh":)" + std::to_string(m) + "}");
+    }
+    file.materials = "{},{" + tag() + "}";
+    return file.glb();
+}
+
+void a_scene_costs_what_it_tags(void **) {
+    const Loaded alone(three_among(0));
+    const Loaded among(three_among(1000));
+    assert_int_equal(alone.report.surfaces, 3);
+    assert_int_equal(among.report.surfaces, 3);
+    assert_int_equal(among.report.skipped, 1000);
+    uint64_t bytes[2] = {0, 0};
+    for (uint32_t i = 0; i < 3; ++i) {
+        bytes[0] += alone.info(i).bytes - std::strlen(alone.info(i).name);
+        bytes[1] += among.info(i).bytes - std::strlen(among.info(i).name);
+    }
+    assert_int_equal(bytes[1], bytes[0]);
+    assert_in_range(knurl_scene_bytes(among.scene), bytes[0], knurl_scene_bytes(alone.scene) + 64);
+}
+
 struct Pool {
     long requests_left = 1L << 30;
 };
@@ -119,6 +158,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(the_loader_without_memory),
         cmocka_unit_test(the_scene_without_memory),
+        cmocka_unit_test(a_scene_costs_what_it_tags),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

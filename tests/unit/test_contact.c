@@ -132,6 +132,21 @@ TEST(first_tick_may_be_pressed_in_up_to_the_capture_depth) {
     probe_free(&probes[1]);
 }
 
+TEST(first_tick_behind_a_double_sided_plane_is_behind_it) {
+    probe p = probe_plane(HALF_X, HALF_Y);
+    p.query.double_sided = 1;
+    assert_false(probe_to(&p, 0.01, 0.005, -0.001)); /* not pressed in from the front: there is no inside */
+    assert_false(probe_to(&p, 0.01, 0.005, -0.0005));
+    assert_true(probe_to(&p, 0.01, 0.005, 0.0005)); /* pressed in from behind */
+    CHECK_HELD(&p, 0.01, 0.005, 0.0, 0.0, 0.0, -1.0, 0.0005);
+    p.query.reach = 0.001;
+    probe_forget(&p);
+    assert_true(probe_to(&p, 0.01, 0.005, -0.0009));
+    CHECK_HELD(&p, 0.01, 0.005, 0.0, 0.0, 0.0, -1.0, -0.0009);
+    probe_forget(&p);
+    assert_false(probe_to(&p, 0.01, 0.005, -0.0011));
+}
+
 /* A HIP whose positions are multiples of an encoder's count stands exactly on the surface now and then. */
 static void check_exact_touchdown(probe *p, int side) {
     p->query.double_sided = side < 0;
@@ -224,6 +239,7 @@ int main(void) {
         cmocka_unit_test(reach_begins_contact_in_front),
         cmocka_unit_test(reach_counts_behind_a_double_sided_plane),
         cmocka_unit_test(first_tick_may_be_pressed_in_up_to_the_capture_depth),
+        cmocka_unit_test(first_tick_behind_a_double_sided_plane_is_behind_it),
         cmocka_unit_test(plane_stopped_at_exactly_is_held_from_the_side_the_hip_came_from),
         cmocka_unit_test(mesh_stopped_at_exactly_is_held_from_the_side_the_hip_came_from),
         cmocka_unit_test(double_sided_front_stopped_at_exactly_lets_go),

@@ -27,7 +27,7 @@ static uint32_t check_node(const knurl_mesh *mesh, uint32_t index, uint8_t *seen
         }
         return depth + 1;
     }
-    assert_in_range(node->count, 1, 4); /* a handful: what a walk has to look at stays bounded */
+    assert_in_range(node->count, 1, 8); /* a handful: what a walk has to look at stays bounded */
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         assert_true(i < mesh->triangle_count);
         seen[i]++;
@@ -53,13 +53,17 @@ static void check_hierarchy(const knurl_mesh *mesh) {
     free(seen);
 }
 
-/* The welded corners of all triangles, so that the order of a leaf does not matter. */
-static uint64_t sum_of_corners(const uint32_t *indices, size_t count) {
+/* Where the corners of all triangles are, so that the order of a leaf, and how vertices are numbered, does not matter.
+ */
+static uint64_t sum_of_corners(const float *positions, const uint32_t *indices, size_t count) {
     uint64_t sum = 0;
     for (size_t i = 0; i < count; i += 3) {
-        uint64_t hash = indices[i] + 1;
-        hash = hash * 0x9e3779b97f4a7c15u + indices[i + 1];
-        hash = hash * 0x9e3779b97f4a7c15u + indices[i + 2];
+        uint64_t hash = 1;
+        for (size_t k = 0; k < 9; k++) {
+            uint32_t bits;
+            memcpy(&bits, &positions[3 * (size_t)indices[i + k / 3] + k % 3], sizeof bits);
+            hash = hash * 0x9e3779b97f4a7c15u + bits;
+        }
         sum += hash * hash;
     }
     return sum;
@@ -73,10 +77,10 @@ TEST(hierarchy_holds_every_triangle_once) {
     static const uint32_t counts[] = {1, 2, 3, 4, 5, 6, 17, 100, 1000};
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         shape soup = shape_soup(100 + i, counts[i], 0.2);
-        const uint64_t sum = sum_of_corners(soup.indices, soup.index_count);
+        const uint64_t sum = sum_of_corners(soup.positions, soup.indices, soup.index_count);
         probe p = probe_shape(&soup);
         assert_int_equal(p.mesh->triangle_count, counts[i]);
-        assert_true(sum_of_corners(p.mesh->triangles, 3 * (size_t)counts[i]) == sum);
+        assert_true(sum_of_corners(p.mesh->positions, p.mesh->triangles, 3 * (size_t)counts[i]) == sum);
         check_hierarchy(p.mesh);
         probe_free(&p);
     }
@@ -161,11 +165,11 @@ static void compare_closest(shape *s, uint64_t seed, int points) {
         const double expected = shape_distance(&copy, at);
         assert_true(knurl_mesh_closest(p.mesh, at, expected + 1e-9, &found));
         CHECK_CLOSE(distance3(found.proxy, at), expected, 1e-9);
-        double corners[3][3];
+        knurl_triangle triangle;
         double again[3] = {0.0, 0.0, 0.0};
+        knurl_mesh_triangle(p.mesh, found.triangle, &triangle);
         for (uint32_t i = 0; i < 3; i++) { /* weights and triangle tell the same point */
-            shape_get(&copy, p.mesh->triangles[3 * (size_t)found.triangle + i], corners[i]);
-            add3(again, found.weights[i], corners[i], again);
+            add3(again, found.weights[i], triangle.corners[i], again);
         }
         CHECK_CLOSE(distance3(again, found.proxy), 0.0, 1e-12);
         CHECK_CLOSE(found.weights[0] + found.weights[1] + found.weights[2], 1.0, 1e-12);
@@ -229,12 +233,10 @@ static void compare_cross(uint64_t seed, uint32_t triangles, double size, double
         }
         assert_int_equal(knurl_mesh_cross(p.mesh, a, b, k % 2, &found), expected.side);
         if (expected.side != 0) {
-            double corners[3][3];
+            knurl_triangle triangle;
             crossing c = {0.0, 0.0, 0};
-            for (uint32_t i = 0; i < 3; i++) {
-                shape_get(&copy, p.mesh->triangles[3 * (size_t)found + i], corners[i]);
-            }
-            assert_true(cross_triangle((const double (*)[3])corners, a, b, &c));
+            knurl_mesh_triangle(p.mesh, found, &triangle);
+            assert_true(cross_triangle((const double (*)[3])triangle.corners, a, b, &c));
             CHECK_CLOSE(c.s, expected.s, 1e-9);
             hits++;
         }
@@ -290,13 +292,42 @@ TEST(triangles_without_area_are_dropped_and_counted) {
     desc.indices = indices;
     desc.index_count = COUNT_OF(indices);
     assert_int_equal(knurl_mesh_create(&heap, &desc, &mesh), KNURL_OK);
-    assert_int_equal(mesh->triangle_count, 2); /* a corner twice, three on a line, two in one place: gone */
-    assert_int_equal(mesh->dropped, 3);
+    assert_int_equal(mesh->triangle_count,
+                     1); /* a corner twice, three on a line, two in one place, a second one: gone */
+    assert_int_equal(mesh->dropped, 4);
+    assert_int_equal(mesh->reversed_twins, 0);
     check_hierarchy(mesh);
     assert_true(knurl_mesh_closest(mesh, inside, 0.01, &found));
     CHECK_CLOSE(found.proxy[2], 0.0, 1e-12);
     knurl_mesh_destroy(&heap, mesh);
     assert_int_equal(heap.bytes, 0);
+}
+
+/* A sheet, its duplicate turned in the list by one corner, and its back, each with vertices of its own. */
+TEST(twins_are_dropped_and_reversed_ones_make_it_double_sided) {
+    const double half[2] = {0.02, 0.015};
+    shape sheet = shape_sheet(5, 4, half, NULL);
+    shape layers = shape_new(3 * sheet.vertex_count, 3 * sheet.index_count, 0);
+    for (uint32_t layer = 0; layer < 3; layer++) {
+        memcpy(&layers.positions[(size_t)layer * 3 * sheet.vertex_count], sheet.positions,
+               sheet.vertex_count * 3 * sizeof(float));
+        for (uint32_t i = 0; i < sheet.index_count; i++) {
+            const uint32_t k = layer == 1 ? (i + 1) % 3 : layer == 2 ? 2 - i % 3 : i % 3;
+            layers.indices[layer * sheet.index_count + i] = layer * sheet.vertex_count + sheet.indices[i - i % 3 + k];
+        }
+    }
+    probe two = probe_shape(&layers);
+    assert_int_equal(two.mesh->triangle_count, 40);
+    assert_int_equal(two.mesh->vertex_count, 30);
+    assert_int_equal(two.mesh->dropped, 40);
+    assert_int_equal(two.mesh->reversed_twins, 40);
+    assert_int_equal(two.mesh->double_sided, 1);
+    check_hierarchy(two.mesh);
+    probe_free(&two);
+    probe one = probe_shape(&sheet);
+    assert_int_equal(one.mesh->dropped + one.mesh->reversed_twins, 0);
+    assert_int_equal(one.mesh->double_sided, 0);
+    probe_free(&one);
 }
 
 TEST(indices_may_be_left_out) {
@@ -309,7 +340,8 @@ TEST(indices_may_be_left_out) {
     desc.index_count = 0;
     assert_int_equal(knurl_mesh_create(&heap, &desc, &mesh), KNURL_OK);
     assert_int_equal(mesh->triangle_count, 50);
-    assert_true(sum_of_corners(mesh->triangles, 150) == sum_of_corners(soup.indices, 150));
+    assert_true(sum_of_corners(mesh->positions, mesh->triangles, 150) ==
+                sum_of_corners(soup.positions, soup.indices, 150));
     knurl_mesh_destroy(&heap, mesh);
     shape_free(&soup);
 }
@@ -324,16 +356,12 @@ TEST(doubled_vertices_are_welded_by_place) {
         }
     }
     probe p = probe_shape(&sheet);
-    uint32_t kept = 0;
-    for (uint32_t v = 0; v < 24; v++) {
-        const uint32_t first = p.mesh->welds[v];
-        const float *a = &p.mesh->positions[3 * (size_t)v];
-        const float *b = &p.mesh->positions[3 * (size_t)first];
-        assert_true(first <= v && a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
-        assert_int_equal(p.mesh->welds[first], first);
-        kept += first == v;
+    uint32_t rims = 0;
+    assert_int_equal(p.mesh->vertex_count, 9); /* of 24 */
+    for (size_t i = 0; i < 24; i++) {
+        rims += p.mesh->across[i] == KNURL_RIM;
     }
-    assert_int_equal(kept, 9);
+    assert_int_equal(rims, 8); /* the outer edges only: inside, the sheet hangs together */
     probe_free(&p);
 }
 
@@ -421,6 +449,7 @@ int main(void) {
         cmocka_unit_test(first_crossing_matches_brute_force),
         cmocka_unit_test(no_stroke_slips_between_neighbours),
         cmocka_unit_test(triangles_without_area_are_dropped_and_counted),
+        cmocka_unit_test(twins_are_dropped_and_reversed_ones_make_it_double_sided),
         cmocka_unit_test(indices_may_be_left_out),
         cmocka_unit_test(doubled_vertices_are_welded_by_place),
         cmocka_unit_test(bad_counts_and_indices_are_named),

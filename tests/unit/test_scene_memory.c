@@ -2,13 +2,13 @@
  * what it tells of its surfaces. SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 
-static double slope(double x, double y) {
-    return 0.2 * x + 0.1 * y;
+static double valley(double x, double y) {
+    return 0.2 * x + 0.1 * y * y; /* flat, it would be stored as a plane */
 }
 
 TEST(removing_gives_the_bytes_back) {
     ledger books = {0, 0, 0, 0};
-    shape sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, slope);
+    shape sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, valley);
     surface_parts parts = surface_mesh(&sheet);
     parts.desc.name = "a name of some length";
     knurl_scene *scene = scene_with(&books);
@@ -31,7 +31,7 @@ TEST(removing_gives_the_bytes_back) {
 
 TEST(refused_surfaces_leave_no_bytes) {
     ledger books = {0, 0, 0, 0};
-    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, slope);
+    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
     knurl_scene *scene = scene_with(&books);
     surface_parts plane = surface_plane();
     (void)add_surface(scene, &plane);
@@ -78,7 +78,7 @@ static int add_without(int32_t refused, surface_parts *parts) {
 
 TEST(memory_that_runs_out_leaves_the_scene_as_it_was) {
     float tangents[16 * 4] = {0};
-    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, slope);
+    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
     surface_parts parts = surface_mesh(&sheet);
     parts.mesh.tangents = tangents;
     parts.desc.name = "sheet";

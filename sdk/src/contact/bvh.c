@@ -1,4 +1,6 @@
-/* Binned surface-area-heuristic build (Wald 2007), with an explicit stack. SPDX-License-Identifier: MIT */
+/* Binned surface-area-heuristic build (Wald 2007) along the widest axis, with an explicit stack. Trying all three axes
+ * takes half as long again to build, and its queries are no faster on scanned, wavy, round or random meshes.
+ * SPDX-License-Identifier: MIT */
 #include "contact/bvh.h"
 
 #include <string.h>
@@ -20,12 +22,18 @@ typedef struct range {
 } range;
 
 typedef struct split {
-    int axis; /* -1: none */
+    int axis;
     float low, scale;
-    uint32_t bin; /* items in bins below it go left */
+    uint32_t bin; /* items in bins below it go left; 0: none */
 } split;
 
-static const box empty_box = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}};
+typedef struct tree {
+    knurl_bvh_node *nodes;
+    uint32_t count;
+    uint32_t capacity;
+} tree;
+
+static const box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f}, {-3.4e38f, -3.4e38f, -3.4e38f}};
 
 static void box_add(box *into, const box *other) {
     for (int axis = 0; axis < 3; axis++) {
@@ -47,11 +55,35 @@ static float centre(const item *i, int axis) {
 
 static uint32_t bin_of(const item *i, const split *s) {
     const float bin = (centre(i, s->axis) - s->low) * s->scale;
-    return bin < 0.0f ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin;
+    return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* a NaN, of huge boxes, is 0 */
 }
 
-/* The cheapest of the 15 splits between the bins of one axis; its cost, or `best` where none is cheaper. */
-static double try_axis(const item *items, const range *r, split candidate, double best, split *chosen) {
+/* The bounds of a range, and the split across the widest spread of its centres, its bin still to be chosen. */
+static split measure(const item *items, const range *r, box *bounds) {
+    box centres = empty_box;
+    *bounds = empty_box;
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        box_add(bounds, &items[i].bounds);
+        const box at = {{centre(&items[i], 0), centre(&items[i], 1), centre(&items[i], 2)},
+                        {centre(&items[i], 0), centre(&items[i], 1), centre(&items[i], 2)}};
+        box_add(&centres, &at);
+    }
+    split s = {0, 0.0f, 0.0f, 0};
+    float widest = -1.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        const float extent = centres.max[axis] - centres.min[axis];
+        if (extent > widest) {
+            widest = extent;
+            s.axis = axis;
+        }
+    }
+    s.low = centres.min[s.axis];
+    s.scale = widest > 1e-30f ? (float)BINS * 0.999f / widest : 0.0f; /* below, a bin's inverse is no float */
+    return s;
+}
+
+/* The cheapest of the 15 splits between the bins. */
+static void choose_bin(const item *items, const range *r, split *s) {
     box bounds[BINS];
     uint32_t counts[BINS] = {0};
     double right_area[BINS];
@@ -59,7 +91,7 @@ static double try_axis(const item *items, const range *r, split candidate, doubl
         bounds[i] = empty_box;
     }
     for (uint32_t i = r->begin; i < r->end; i++) {
-        const uint32_t bin = bin_of(&items[i], &candidate);
+        const uint32_t bin = bin_of(&items[i], s);
         box_add(&bounds[bin], &items[i].bounds);
         counts[bin]++;
     }
@@ -70,6 +102,7 @@ static double try_axis(const item *items, const range *r, split candidate, doubl
     }
     sweep = empty_box;
     uint32_t left = 0;
+    double best = 1e300;
     for (uint32_t i = 1; i < BINS; i++) {
         box_add(&sweep, &bounds[i - 1]);
         left += counts[i - 1];
@@ -77,32 +110,9 @@ static double try_axis(const item *items, const range *r, split candidate, doubl
         const double cost = box_area(&sweep) * left + right_area[i] * right;
         if (left > 0 && right > 0 && cost < best) {
             best = cost;
-            *chosen = candidate;
-            chosen->bin = i;
+            s->bin = i;
         }
     }
-    return best;
-}
-
-static split choose_split(const item *items, const range *r) {
-    split chosen = {-1, 0.0f, 0.0f, 0};
-    box centres = empty_box;
-    for (uint32_t i = r->begin; i < r->end; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            const float c = centre(&items[i], axis);
-            centres.min[axis] = c < centres.min[axis] ? c : centres.min[axis];
-            centres.max[axis] = c > centres.max[axis] ? c : centres.max[axis];
-        }
-    }
-    double best = 1e300;
-    for (int axis = 0; axis < 3; axis++) {
-        const float extent = centres.max[axis] - centres.min[axis];
-        if (extent > 1e-30f) { /* below, a bin's inverse is no float */
-            const split candidate = {axis, centres.min[axis], (float)BINS * 0.999f / extent, 0};
-            best = try_axis(items, r, candidate, best, &chosen);
-        }
-    }
-    return chosen;
 }
 
 /* Moves the left side's items to the front; returns where the right side begins. */
@@ -120,34 +130,49 @@ static uint32_t partition(item *items, const range *r, const split *s) {
 
 /* Writes the node of one range; returns where to split it, or r->end for a leaf. */
 static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
-    box bounds = empty_box;
-    for (uint32_t i = r->begin; i < r->end; i++) {
-        box_add(&bounds, &items[i].bounds);
-    }
+    box bounds;
+    split s = measure(items, r, &bounds);
     memcpy(node->min, bounds.min, sizeof node->min);
     memcpy(node->max, bounds.max, sizeof node->max);
     const uint32_t count = r->end - r->begin;
-    split s = {-1, 0.0f, 0.0f, 0};
-    if (count > leaf_size && r->depth < SAH_DEPTH) {
-        s = choose_split(items, r);
+    if (count <= leaf_size) {
+        return r->end;
     }
-    if (s.axis >= 0) {
-        return partition(items, r, &s);
+    if (r->depth < SAH_DEPTH && s.scale > 0.0f) {
+        choose_bin(items, r, &s);
     }
-    return count > leaf_size ? r->begin + count / 2 : r->end; /* all centres alike, or very deep: halve */
+    return s.bin > 0 ? partition(items, r, &s) : r->begin + count / 2; /* all centres alike, or very deep: halve */
 }
 
-static uint32_t build(item *items, uint32_t count, uint32_t leaf_size, knurl_bvh_node *nodes) {
+/* Room for one more node; 0 where there is none to be had. */
+static int grow(knurl_heap *heap, tree *t) {
+    if (t->count < t->capacity) {
+        return 1;
+    }
+    const uint32_t capacity = 2 * t->capacity;
+    knurl_bvh_node *nodes = knurl_heap_alloc(heap, capacity, sizeof *nodes);
+    if (nodes) {
+        memcpy(nodes, t->nodes, t->count * sizeof *nodes);
+        knurl_heap_free(heap, t->nodes);
+        t->nodes = nodes;
+        t->capacity = capacity;
+    }
+    return nodes != NULL;
+}
+
+static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_size, tree *t) {
     range stack[KNURL_BVH_MAX_DEPTH + 1];
     uint32_t top = 0;
-    uint32_t node_count = 0;
     stack[top++] = (range){0, count, UINT32_MAX, 0};
     while (top > 0) {
         const range r = stack[--top];
-        const uint32_t index = node_count++;
-        knurl_bvh_node *node = &nodes[index];
+        if (!grow(heap, t)) {
+            return 0;
+        }
+        const uint32_t index = t->count++;
+        knurl_bvh_node *node = &t->nodes[index];
         if (r.parent != UINT32_MAX) {
-            nodes[r.parent].first = index;
+            t->nodes[r.parent].first = index;
         }
         const uint32_t middle = make_node(items, &r, leaf_size, node);
         if (middle == r.end) {
@@ -159,31 +184,33 @@ static uint32_t build(item *items, uint32_t count, uint32_t leaf_size, knurl_bvh
         stack[top++] = (range){middle, r.end, index, r.depth + 1};
         stack[top++] = (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* the left child comes right next */
     }
-    return node_count;
+    return 1;
 }
 
 knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
                              uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count) {
+    tree t = {NULL, 0, 2 * (count / leaf_size) + 16}; /* leaves are more than half full as a rule */
     item *items = knurl_heap_alloc(heap, count, sizeof *items);
-    knurl_bvh_node *scratch = knurl_heap_alloc(heap, 2 * (uint64_t)count, sizeof *scratch);
+    t.nodes = knurl_heap_alloc(heap, t.capacity, sizeof *t.nodes);
     knurl_bvh_node *made = NULL;
-    if (items && scratch) {
+    if (items && t.nodes) {
         for (uint32_t i = 0; i < count; i++) {
             items[i].bounds = boxes[i];
             items[i].place = i;
         }
-        const uint32_t used = build(items, count, leaf_size, scratch);
-        made = knurl_heap_alloc(heap, used, sizeof *made); /* to size: half of the scratch is rarely needed */
-        if (made) {
-            memcpy(made, scratch, used * sizeof *made);
-            for (uint32_t i = 0; i < count; i++) {
-                order[i] = items[i].place;
-            }
-            *nodes = made;
-            *node_count = used;
+        if (build(heap, items, count, leaf_size, &t)) {
+            made = knurl_heap_alloc(heap, t.count, sizeof *made); /* to size */
         }
     }
-    knurl_heap_free(heap, scratch);
+    if (made) {
+        memcpy(made, t.nodes, t.count * sizeof *made);
+        for (uint32_t i = 0; i < count; i++) {
+            order[i] = items[i].place;
+        }
+        *nodes = made;
+        *node_count = t.count;
+    }
+    knurl_heap_free(heap, t.nodes);
     knurl_heap_free(heap, items);
     return made ? KNURL_OK : KNURL_ERROR_MEMORY;
 }

@@ -9,20 +9,40 @@
 
 #define KNURL_NO_TRIANGLE UINT32_MAX
 
-/* Single precision for what is stored (half the bytes; 4e-9 m on a 0.1 m object), double for all that is computed. */
+/* A corner of the mesh is one number: 4 times its triangle plus 0, 1 or 2. Triangles stay below 2^26, so the high bits
+ * are free, and numbers that end in 3 are no corners. */
+#define KNURL_CORNER  0x0fffffffu
+#define KNURL_RIM     3u          /* nothing beyond this edge */
+#define KNURL_SEVERAL 7u          /* more than one triangle beyond this edge */
+#define KNURL_TURNED  0x40000000u /* the triangle beyond this edge faces the other way */
+#define KNURL_KNOT    0x80000000u /* swinging does not get round this corner's vertex: see knurl_knot */
+
+/* A vertex whose triangles do not all hang together by edges that two of them share (bow ties, more than two sheets on
+ * one edge): they are listed. */
+typedef struct knurl_knot {
+    uint32_t vertex;
+    uint32_t first; /* in knot_corners */
+    uint32_t count;
+} knurl_knot;
+
+/* Single precision for what is stored (half the bytes; 4e-9 m on a 0.1 m object), double for all that is computed.
+ * Bytes a triangle of a closed mesh or a sheet: triangles 12, across 12, positions 6, nodes 12. What stands in for
+ * stored fans (14 with their starts) and for welds is `across`: the fan round a vertex is swung through edge by edge,
+ * so vertices need not be told apart from those they are welded to. */
 typedef struct knurl_mesh {
-    float *positions;    /* x, y, z a vertex */
-    float *tangents;     /* x, y, z a vertex, or null */
-    float *uvs;          /* u, v a vertex, or null */
-    uint32_t *triangles; /* three vertices each, in the hierarchy's leaf order */
-    uint32_t *welds;     /* the first vertex that stands where this one stands: seams do not cut the surface */
-    uint32_t
-        *fan_starts; /* of each vertex: where its fan begins; vertex_count + 1 entries; empty unless a weld's first */
-    uint32_t *fans;  /* the triangles round each vertex, one run after another */
-    knurl_bvh_node *nodes; /* the hierarchy; [0] is the root */
+    float *positions;     /* x, y, z a vertex, in the order in which the triangles use them */
+    float *tangents;      /* x, y, z an attribute, or null */
+    float *uvs;           /* u, v an attribute, or null */
+    uint32_t *triangles;  /* three vertices each, in the hierarchy's leaf order */
+    uint32_t *attributes; /* three a triangle: places in uvs and tangents; null: its vertices */
+    uint32_t *across;     /* three a triangle: beyond the edge that faces a corner, the corner facing back, and flags */
+    knurl_knot *knots;    /* in order of their vertices, or null */
+    uint32_t *knot_corners; /* of the knots, one run after another, or null */
+    knurl_bvh_node *nodes;  /* the hierarchy; [0] is the root */
     uint32_t vertex_count;
     uint32_t triangle_count;
     uint32_t node_count;
+    uint32_t knot_count;
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */
@@ -49,9 +69,27 @@ void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh);
 
 uint64_t knurl_mesh_bytes(const knurl_mesh *mesh);
 
+/* Three corners, as doubles. */
+static inline void knurl_mesh_corners(const knurl_mesh *mesh, uint32_t triangle, double corners[3][3]) {
+    const uint32_t *vertices = &mesh->triangles[3 * (size_t)triangle];
+    for (int k = 0; k < 3; k++) {
+        const float *p = &mesh->positions[3 * (size_t)vertices[k]];
+        corners[k][0] = (double)p[0];
+        corners[k][1] = (double)p[1];
+        corners[k][2] = (double)p[2];
+    }
+}
+
 void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out);
 
 /* dP/du and dP/dv of one triangle; 0 where its uvs have no area (or there are none). */
 int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]);
+
+/* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
+ * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_mesh_join(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *places, uint32_t place_count);
+
+/* Part of knurl_mesh_create(): uv_scale and stretch_u. */
+void knurl_mesh_measure_uvs(knurl_mesh *mesh);
 
 #endif

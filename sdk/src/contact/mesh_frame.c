@@ -1,36 +1,112 @@
-/* Surface coordinates on a mesh: tangents and uvs at a contact. SPDX-License-Identifier: MIT */
+/* Surface coordinates on a mesh: tangents and uvs at a contact, and how far the uvs stretch.
+ * SPDX-License-Identifier: MIT */
 #include "contact/contact.h"
 
 #include "base/vec3.h"
 
-/* A vertex attribute of `width` floats at a contact. */
-static void interpolate(const knurl_mesh *mesh, const float *values, uint32_t width, const knurl_contact *contact,
-                        double *out) {
-    for (uint32_t k = 0; k < width; k++) {
-        out[k] = 0.0;
-        for (uint32_t corner = 0; corner < 3; corner++) {
-            const size_t vertex = mesh->triangles[3 * (size_t)contact->triangle + corner];
-            out[k] += contact->weights[corner] * (double)values[width * vertex + k];
+/* A triangle's edges, and how u and v change along them. */
+typedef struct uv_edges {
+    double edge1[3], edge2[3];
+    double u0, v0;         /* at the first corner */
+    double u1, v1, u2, v2; /* further at the others */
+    double det;
+} uv_edges;
+
+static const uint32_t *attributes_of(const knurl_mesh *mesh, uint32_t triangle) {
+    return &(mesh->attributes ? mesh->attributes : mesh->triangles)[3 * (size_t)triangle];
+}
+
+/* 0 where the uvs have no area, or there are none. */
+static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
+    double corners[3][3];
+    if (!mesh->uvs) {
+        return 0;
+    }
+    const uint32_t *at = attributes_of(mesh, triangle);
+    const float *uv[3] = {&mesh->uvs[2 * (size_t)at[0]], &mesh->uvs[2 * (size_t)at[1]], &mesh->uvs[2 * (size_t)at[2]]};
+    knurl_mesh_corners(mesh, triangle, corners);
+    vec3_sub(corners[1], corners[0], e->edge1);
+    vec3_sub(corners[2], corners[0], e->edge2);
+    e->u0 = (double)uv[0][0];
+    e->v0 = (double)uv[0][1];
+    e->u1 = (double)uv[1][0] - e->u0;
+    e->v1 = (double)uv[1][1] - e->v0;
+    e->u2 = (double)uv[2][0] - e->u0;
+    e->v2 = (double)uv[2][1] - e->v0;
+    e->det = e->u1 * e->v2 - e->u2 * e->v1;
+    const double largest =
+        fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* the uvs are floats: below that they lie on a line */
+    return fabs(e->det) > 1e-9 * largest * largest;
+}
+
+int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
+    uv_edges e;
+    if (!find_uv_edges(mesh, triangle, &e)) {
+        return 0;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        du[axis] = (e.v2 * e.edge1[axis] - e.v1 * e.edge2[axis]) / e.det;
+        dv[axis] = (e.u1 * e.edge2[axis] - e.u2 * e.edge1[axis]) / e.det;
+    }
+    return vec3_length(du) > 0.0 && vec3_length(dv) > 0.0;
+}
+
+/* Area-weighted means of |dP/du|, |dP/dv|, and how far the uvs stretch from them. */
+void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
+    double area = 0.0;
+    double sums[2] = {0.0, 0.0};
+    double inverse_sum = 0.0;
+    double shortest = HUGE_VAL;
+    double longest = 0.0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        double du[3];
+        double dv[3];
+        knurl_triangle t;
+        if (knurl_mesh_uv_frame(mesh, i, du, dv)) {
+            knurl_mesh_triangle(mesh, i, &t);
+            const double length = vec3_length(du);
+            area += t.area2;
+            sums[0] += t.area2 * length;
+            sums[1] += t.area2 * vec3_length(dv);
+            inverse_sum += t.area2 / length;
+            shortest = length < shortest ? length : shortest;
+            longest = length > longest ? length : longest;
         }
+    }
+    mesh->stretch_u[0] = mesh->stretch_u[1] = mesh->stretch_u[2] = 1.0;
+    if (area > 0.0) {
+        mesh->uv_scale[0] = sums[0] / area;
+        mesh->uv_scale[1] = sums[1] / area;
+        mesh->stretch_u[0] = mesh->uv_scale[0] / longest;
+        mesh->stretch_u[1] = mesh->uv_scale[0] * inverse_sum / area;
+        mesh->stretch_u[2] = mesh->uv_scale[0] / shortest;
     }
 }
 
-/* x from the tangents, else from dP/du; position on the grating from the uvs, scaled to mean metres. */
+/* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. Of dP/du and
+ * dP/dv only the directions are asked for, so nothing is divided. */
 void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
+    uv_edges e;
     x[0] = x[1] = x[2] = coordinates[0] = coordinates[1] = 0.0;
-    double du[3];
-    double dv[3];
-    if (knurl_mesh_uv_frame(mesh, contact->triangle, du, dv)) {
-        double uv[2];
+    if (find_uv_edges(mesh, contact->triangle, &e)) {
         double across[3];
-        interpolate(mesh, mesh->uvs, 2, contact, uv);
-        vec3_cross(du, dv, across);
+        const double *w = contact->weights;
+        vec3_cross(e.edge1, e.edge2, across); /* du x dv is this over det */
         /* y = n x x, whichever way v runs: glTF's v runs down the image. */
-        coordinates[0] = uv[0] * mesh->uv_scale[0];
-        coordinates[1] = uv[1] * mesh->uv_scale[1] * (vec3_dot(across, contact->normal) < 0.0 ? -1.0 : 1.0);
-        vec3_copy(du, x);
+        const double facing = vec3_dot(across, contact->normal) * e.det;
+        coordinates[0] = (e.u0 + w[1] * e.u1 + w[2] * e.u2) * mesh->uv_scale[0];
+        coordinates[1] = (e.v0 + w[1] * e.v1 + w[2] * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
+        const double along = e.det < 0.0 ? -1.0 : 1.0;
+        for (int axis = 0; axis < 3; axis++) {
+            x[axis] = along * (e.v2 * e.edge1[axis] - e.v1 * e.edge2[axis]);
+        }
     }
     if (mesh->tangents) {
-        interpolate(mesh, mesh->tangents, 3, contact, x);
+        const uint32_t *at = attributes_of(mesh, contact->triangle);
+        for (size_t axis = 0; axis < 3; axis++) {
+            x[axis] = contact->weights[0] * (double)mesh->tangents[3 * (size_t)at[0] + axis] +
+                      contact->weights[1] * (double)mesh->tangents[3 * (size_t)at[1] + axis] +
+                      contact->weights[2] * (double)mesh->tangents[3 * (size_t)at[2] + axis];
+        }
     }
 }

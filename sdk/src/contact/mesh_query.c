@@ -2,29 +2,22 @@
  * SPDX-License-Identifier: MIT */
 #include "contact/contact.h"
 
-#include "contact/triangle.h"
+#include "contact/foot.h"
 
 #include <string.h>
 
 /* Keeps a triangle's nearest point if it is nearer than `best2`; returns the smaller of the two distances, squared. */
 static double nearest_of(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
                          knurl_contact *nearest) {
-    knurl_triangle t;
-    double weights[3];
-    double point[3];
-    double offset[3];
-    knurl_mesh_triangle(mesh, triangle, &t);
-    triangle_nearest((const double (*)[3])t.corners, p, weights);
-    triangle_point((const double (*)[3])t.corners, weights, point);
-    vec3_sub(point, p, offset);
-    const double distance2 = vec3_dot(offset, offset);
-    if (distance2 >= best2) {
+    knurl_foot foot;
+    knurl_foot_find(mesh, triangle, p, &foot);
+    if (foot.distance2 >= best2) {
         return best2;
     }
-    vec3_copy(point, nearest->proxy);
-    vec3_copy(weights, nearest->weights);
+    vec3_copy(foot.point, nearest->proxy);
+    vec3_copy(foot.weights, nearest->weights);
     nearest->triangle = triangle;
-    return distance2;
+    return foot.distance2;
 }
 
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest) {
@@ -56,27 +49,27 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
 
 /* Where along a + s (b - a) a triangle is met, or a value above `best`. Edges are widened by 1e-7 of the triangle, so
  * that nothing slips between two neighbours. */
-static double meet(const knurl_triangle *t, const double a[3], const double direction[3], double best, int double_sided,
-                   int *side) {
+static double meet(const double corners[3][3], const double a[3], const double direction[3], double best,
+                   int double_sided, int *side) {
     double edge1[3], edge2[3], p[3], q[3], from[3];
     const double slack = 1e-7;
-    const double approach = vec3_dot(direction, t->normal);
-    if (approach == 0.0 || (approach > 0.0 && !double_sided)) {
+    vec3_sub(corners[1], corners[0], edge1);
+    vec3_sub(corners[2], corners[0], edge2);
+    vec3_cross(direction, edge2, p);
+    const double det = vec3_dot(edge1, p); /* above 0 where the way goes in from the front */
+    if (det == 0.0 || (det < 0.0 && !double_sided)) {
         return 2.0;
     }
-    vec3_sub(t->corners[1], t->corners[0], edge1);
-    vec3_sub(t->corners[2], t->corners[0], edge2);
-    vec3_cross(direction, edge2, p);
-    const double det = vec3_dot(edge1, p);
-    vec3_sub(a, t->corners[0], from);
+    const double inverse = 1.0 / det;
+    vec3_sub(a, corners[0], from);
     vec3_cross(from, edge1, q);
-    const double u = vec3_dot(from, p) / det;
-    const double v = vec3_dot(direction, q) / det;
-    const double s = vec3_dot(edge2, q) / det;
+    const double u = vec3_dot(from, p) * inverse;
+    const double v = vec3_dot(direction, q) * inverse;
+    const double s = vec3_dot(edge2, q) * inverse;
     if (!(u >= -slack && v >= -slack && u + v <= 1.0 + slack && s >= -slack && s <= 1.0 + slack && s < best)) {
         return 2.0;
     }
-    *side = approach < 0.0 ? 1 : -1;
+    *side = det > 0.0 ? 1 : -1;
     return s;
 }
 
@@ -97,9 +90,9 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
             continue;
         }
         for (uint32_t i = 0; i < node->count; i++) {
-            knurl_triangle t;
-            knurl_mesh_triangle(mesh, node->first + i, &t);
-            const double s = meet(&t, a, direction, best, double_sided, &side);
+            double corners[3][3];
+            knurl_mesh_corners(mesh, node->first + i, corners);
+            const double s = meet((const double (*)[3])corners, a, direction, best, double_sided, &side);
             if (s < best) {
                 best = s;
                 *triangle = node->first + i;

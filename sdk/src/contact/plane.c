@@ -15,12 +15,30 @@ void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane
     plane->has_coordinates = 1;
 }
 
-static int above_rectangle(const double half_extents[2], const double p[3]) {
-    return fabs(p[0]) <= half_extents[0] && fabs(p[1]) <= half_extents[1];
+/* By counting the edges that a ray along x crosses: even outside, odd inside. An edge owns its lower end but not its
+ * upper, so that a corner counts once. Without branches: which edges are crossed changes from tick to tick. */
+static int within_outline(const knurl_plane *plane, const double p[2]) {
+    const int band = knurl_plane_band(plane, p[1]);
+    int inside = 0;
+    for (uint32_t i = plane->bands[band]; i < plane->bands[band + 1]; i++) {
+        const knurl_edge *edge = &plane->outline[plane->members[i]];
+        const int spans = (edge->from[1] <= p[1]) ^ (edge->to[1] <= p[1]);
+        inside ^= spans & (p[0] < edge->from[0] + (p[1] - edge->from[1]) * edge->slope);
+    }
+    return inside;
+}
+
+static inline int covers(const knurl_plane *plane, const double p[2]) {
+    return fabs(p[0]) <= plane->half_extents[0] && fabs(p[1]) <= plane->half_extents[1] &&
+           (!plane->outline || within_outline(plane, p));
+}
+
+int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
+    return covers(plane, p);
 }
 
 /* The side that the HIP touches from, or 0: through the plane between two ticks, or within reach of it. */
-static int enter(const double half_extents[2], const knurl_contact_query *query, double reach, int32_t *inside) {
+static int enter(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
     if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
@@ -29,7 +47,7 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
         vec3_sub(query->hip, query->previous, crossing);
         vec3_madd(query->previous, t, crossing, crossing);
         const int side = query->previous[2] >= 0.0 ? 1 : -1;
-        if (above_rectangle(half_extents, crossing) && (side > 0 || behind_allowed)) {
+        if ((side > 0 || behind_allowed) && covers(plane, crossing)) {
             *inside = 1;
             return side;
         }
@@ -41,7 +59,8 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
     if (z < 0.0 && -z <= reach && behind_allowed) {
         return -1;
     }
-    if (!query->has_previous && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
+    /* what can be touched from both sides has no inside to be found in */
+    if (!query->has_previous && !behind_allowed && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
         *inside = 1;
         return 1;
     }
@@ -51,21 +70,23 @@ static int enter(const double half_extents[2], const knurl_contact_query *query,
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) {
     const double *hip = query->hip;
-    const double reach = fmax(query->reach, KNURL_ON_SURFACE);
+    const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     if (!state->inside) { /* a HIP in front may go through at any tick */
-        state->side = enter(plane->half_extents, query, reach, &state->inside);
+        state->side = enter(plane, query, reach, &state->inside);
     }
     const double z = hip[2] * state->side;
     state->inside = z <= KNURL_ON_SURFACE;
-    if (state->side == 0 || z > reach || !above_rectangle(plane->half_extents, hip)) {
+    if (state->side == 0 || z > reach || !covers(plane, hip)) {
         memset(state, 0, sizeof *state);
         return 0;
     }
-    memset(contact, 0, sizeof *contact);
-    contact->proxy[0] = hip[0];
+    contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
     contact->proxy[1] = hip[1];
+    contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;
     contact->normal[2] = state->side;
     contact->z = z;
+    contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
+    contact->triangle = 0;
     return 1;
 }
 

@@ -12,10 +12,19 @@ static void mat3_product(const double a[9], const double b[9], double out[9]) {
     }
 }
 
+void knurl_pose_settle(knurl_pose *pose) {
+    static const double one[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    pose->is_turned = 0;
+    for (int i = 0; i < 9; i++) {
+        pose->is_turned |= pose->rotation[i] != one[i];
+    }
+}
+
 void knurl_pose_compose(const knurl_pose *outer, const knurl_pose *inner, knurl_pose *out) {
     knurl_pose made;
     knurl_pose_to_parent(outer, inner->position, made.position);
     mat3_product(outer->rotation, inner->rotation, made.rotation);
+    knurl_pose_settle(&made);
     *out = made;
 }
 
@@ -82,6 +91,7 @@ void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) 
         axis_to_matrix(motion->axis, motion->rate * s, turn);
         mat3_mul(turn, motion->arm, arm);
         mat3_product(turn, motion->start.rotation, pose->rotation);
+        pose->is_turned = 1;
     }
     for (int i = 0; i < 3; i++) {
         pose->position[i] = motion->start.position[i] + s * motion->velocity[i] + (arm[i] - motion->arm[i]);

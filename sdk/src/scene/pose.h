@@ -10,6 +10,7 @@
 typedef struct knurl_pose {
     double position[3];
     double rotation[9]; /* row-major */
+    int64_t is_turned;  /* 0: the rotation is 1, as it is for most of what is loaded, and is left out */
 } knurl_pose;
 
 /* A way from one pose to another: its origin in a straight line, its turning at a constant rate. The frame that moves
@@ -27,17 +28,36 @@ typedef struct knurl_motion {
     uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
 } knurl_motion;
 
+static inline void knurl_pose_turn_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
+    if (pose->is_turned) {
+        mat3_mul_transposed(pose->rotation, parent, own);
+    } else {
+        vec3_copy(parent, own);
+    }
+}
+
+static inline void knurl_pose_turn_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
+    if (pose->is_turned) {
+        mat3_mul(pose->rotation, own, parent);
+    } else {
+        vec3_copy(own, parent);
+    }
+}
+
 static inline void knurl_pose_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
     double offset[3];
     vec3_sub(parent, pose->position, offset);
-    mat3_mul_transposed(pose->rotation, offset, own);
+    knurl_pose_turn_to_own(pose, offset, own);
 }
 
 static inline void knurl_pose_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
     double turned[3];
-    mat3_mul(pose->rotation, own, turned);
+    knurl_pose_turn_to_parent(pose, own, turned);
     vec3_madd(pose->position, 1.0, turned, parent);
 }
+
+/* Sets is_turned from the rotation. */
+void knurl_pose_settle(knurl_pose *pose);
 
 /* outer * inner: inner's frame in outer's parent. */
 void knurl_pose_compose(const knurl_pose *outer, const knurl_pose *inner, knurl_pose *out);

@@ -102,6 +102,7 @@ typedef struct knurl_hip {
     double previous[3]; /* HIP position at the last tick, scene */
     double previous_time;
     int32_t has_previous;
+    int32_t is_turned;   /* 0: the workspace's rotation is 1, and is left out */
     int32_t centred;     /* 1: the scene chooses the workspace at its commit */
     double near_low[3];  /* while the HIP stays in this box, and */
     double near_high[3]; /* while the scene's version stays, the list below is complete */

@@ -25,6 +25,7 @@ knurl_result knurl_surface_check_pose(const double position[3], const double rot
     const double unit[4] = {q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm};
     vec3_copy(position, pose->position);
     quat_to_matrix(unit, pose->rotation);
+    knurl_pose_settle(pose);
     return KNURL_OK;
 }
 
@@ -193,6 +194,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     knurl_result result = knurl_surface_check_pose(d->position, d->rotation, &pose);
     result = result ? result : set_axis(d, surface);
     result = result ? result : set_shape(heap, d, full_model, surface);
+    knurl_pose_settle(&surface->local);
     surface->record = result ? NULL : knurl_record_copy(heap, NULL);
     result = !result && !surface->record ? KNURL_ERROR_MEMORY : result;
     result = result ? result : knurl_record_set_material(surface->record, surface, d->material, full_model);

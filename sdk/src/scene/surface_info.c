@@ -42,35 +42,6 @@ static void anchor_on_mesh(const knurl_surface_data *surface, const knurl_pose *
     (void)knurl_mesh_closest(mesh, centre, 2.0 * size, anchor);
 }
 
-/* The middle, or where there is none, the middle of the widest part of the line through it along x. */
-static void anchor_on_plane(const knurl_plane *plane, double anchor[3]) {
-    double best = 0.0;
-    double crossings[KNURL_MAX_EDGES];
-    uint32_t count = 0;
-    anchor[0] = anchor[1] = anchor[2] = 0.0;
-    const double y = 1e-3 * plane->half_extents[1]; /* off the corners of what is symmetric */
-    for (uint32_t i = 0; i < plane->edge_count; i++) {
-        const knurl_edge *e = &plane->outline[i];
-        if ((e->from[1] > y) != (e->to[1] > y)) {
-            const double x = e->from[0] + (y - e->from[1]) / (e->to[1] - e->from[1]) * (e->to[0] - e->from[0]);
-            uint32_t at = count++;
-            for (; at > 0 && crossings[at - 1] > x; at--) {
-                crossings[at] = crossings[at - 1];
-            }
-            crossings[at] = x;
-        }
-    }
-    for (uint32_t i = 0; i + 1 < count; i += 2) { /* inside between the first and the second, and so on */
-        const double width = crossings[i + 1] - crossings[i];
-        const int holds_middle = crossings[i] < 0.0 && crossings[i + 1] > 0.0;
-        if (holds_middle || width > best) {
-            best = holds_middle ? HUGE_VAL : width;
-            anchor[0] = holds_middle ? 0.0 : 0.5 * (crossings[i] + crossings[i + 1]);
-            anchor[1] = y;
-        }
-    }
-}
-
 /* m from a point to where a ray leaves the bounds. */
 static double reach_along(const knurl_surface_info *info, const double direction[3]) {
     double reach = HUGE_VAL;
@@ -98,7 +69,8 @@ static void describe_anchor(const knurl_surface_data *surface, const knurl_pose 
         knurl_mesh_triangle(surface->mesh, anchor.triangle, &t);
         vec3_copy(t.normal, anchor.normal);
     } else {
-        anchor_on_plane(surface->plane, anchor.proxy);
+        anchor.proxy[0] = surface->plane->inside[0];
+        anchor.proxy[1] = surface->plane->inside[1];
     }
     knurl_surface_frame(surface, surface->record, &anchor, x, y, coordinates);
     knurl_pose_to_parent(pose, anchor.proxy, info->anchor);

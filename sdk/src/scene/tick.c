@@ -92,9 +92,9 @@ static void relative_velocity(const knurl_hip *hip, const touch *t, const double
         double over[3];
         knurl_motion_velocity(&t->record->motion, hip->time, hip->period, t->proxy, surface);
         vec3_sub(velocity, surface, over);
-        mat3_mul_transposed(t->pose->rotation, over, local);
+        knurl_pose_turn_to_own(t->pose, over, local);
     } else {
-        mat3_mul_transposed(t->pose->rotation, velocity, local);
+        knurl_pose_turn_to_own(t->pose, velocity, local);
     }
 }
 
@@ -107,7 +107,7 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     double y[3];
     double coordinates[2];
     knurl_pose_to_parent(t->pose, contact->proxy, t->proxy);
-    mat3_mul(t->pose->rotation, contact->normal, t->normal);
+    knurl_pose_turn_to_parent(t->pose, contact->normal, t->normal);
     relative_velocity(hip, t, velocity, over);
     knurl_surface_frame(t->surface, t->record, contact, x, y, coordinates);
     t->velocity[0] = vec3_dot(over, x);
@@ -134,7 +134,7 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
         double tangential[3];
         double turned[3];
         drag(m, contact, near, tangential);
-        mat3_mul(t->pose->rotation, tangential, turned);
+        knurl_pose_turn_to_parent(t->pose, tangential, turned);
         vec3_madd(t->force, 1.0, turned, t->force);
     }
 }
@@ -248,15 +248,15 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
         knurl_hip_look_around(scene, world, hip, out->hip);
         margin = KNURL_CAPTURE_DEPTH; /* a first tick, or something may have jumped here */
     }
-    uint32_t first[KNURL_MAX_NEAR];
+    uint64_t asked = 0;
     for (uint32_t i = 0; i < hip->near_count; i++) {
-        first[i] = hip->near[i].in_contact;
-        if (first[i]) {
+        if (hip->near[i].in_contact) {
+            asked |= (uint64_t)1 << i;
             ask(world, hip, &hip->near[i], &over, out);
         }
     }
     for (uint32_t i = 0; i < hip->near_count; i++) {
-        if (first[i]) {
+        if (asked >> i & 1) {
             continue;
         }
         if (comes_near(hip, &hip->near[i], out->hip, margin + over.depth)) {
@@ -270,10 +270,16 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     }
 }
 
+/* What is not finite stays so, or becomes NaN, when it is taken from itself. */
+static int is_finite(const double a[3]) {
+    return (a[0] - a[0]) + (a[1] - a[1]) + (a[2] - a[2]) == 0.0;
+}
+
 /* Device to scene; the velocity as given, else estimated in device axes, where the quantisation is. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
+    const knurl_workspace *w = &hip->workspace;
     double velocity[3];
-    if (!vec3_finite(input->position) || (input->has_velocity && !vec3_finite(input->velocity))) {
+    if (!is_finite(input->position)) { /* never into the estimator */
         return 0;
     }
     if (input->has_velocity) {
@@ -281,10 +287,15 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     } else {
         knurl_velocity_update(&hip->velocity, input->position, velocity);
     }
-    knurl_workspace_to_scene(&hip->workspace, input->position, out->hip);
-    knurl_workspace_velocity_to_scene(&hip->workspace, velocity, out->hip_velocity);
+    if (hip->is_turned) {
+        knurl_workspace_to_scene(w, input->position, out->hip);
+        knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
+    } else {
+        vec3_madd(w->origin, w->scale, input->position, out->hip);
+        vec3_scale(w->scale, velocity, out->hip_velocity);
+    }
     vec3_copy(out->hip, out->proxy);
-    return vec3_finite(out->hip) && vec3_finite(out->hip_velocity);
+    return is_finite(out->hip) && is_finite(out->hip_velocity);
 }
 
 /* Bounded and finite, whatever came before. Returns the force's length, N. */
@@ -321,8 +332,10 @@ static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_out
     c->frequency_saturations += (out->flags & KNURL_TICK_FREQUENCY) != 0;
     c->not_finite += (out->flags & KNURL_TICK_NOT_FINITE) != 0;
     c->force_max = force > c->force_max ? force : c->force_max;
-    const knurl_snapshot snapshot = {*out, *c};
-    knurl_seqlock_write(&hip->published.sequence, hip->published.words, &snapshot, sizeof snapshot);
+    knurl_seqlock_begin(&hip->published.sequence);
+    knurl_seqlock_put(hip->published.words, out, sizeof *out);
+    knurl_seqlock_put(hip->published.words + sizeof *out / sizeof(uint64_t), c, sizeof *c);
+    knurl_seqlock_end(&hip->published.sequence);
 }
 
 /* From a HIP that has been read to the force; returns its length, N. */
@@ -334,7 +347,11 @@ static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip
         return 0.0;
     }
     out->flags |= out->contacts > 0 ? KNURL_TICK_CONTACT : 0;
-    knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
+    if (hip->is_turned) {
+        knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
+    } else {
+        vec3_copy(out->force, out->device_force);
+    }
     vec3_copy(out->hip, hip->previous);
     hip->has_previous = 1;
     return length;

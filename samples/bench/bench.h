@@ -1,0 +1,105 @@
+/* What a tick takes, case by case: `knurl bench`. A case is a scene and a way to move through it; its ticks are timed
+ * one by one, the timer's own cost taken off each. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SAMPLES_BENCH_H
+#define KNURL_SAMPLES_BENCH_H
+
+#include <knurl/knurl.h>
+
+#include <signal.h>
+
+#define BENCH_RATE           1000.0  /* Hz */
+#define BENCH_TICKS          1000000 /* a case, unless its time is up before */
+#define BENCH_PACED_TICKS    5000
+#define BENCH_SECONDS        0.7   /* of one case at the most, so that the whole run ends within 40 s */
+#define BENCH_FRAME_RATE     120.0 /* Hz: how often a game moves what moves */
+#define BENCH_TIMER_READINGS 100000
+
+#define BENCH_STIFFNESS  800.0    /* N/m: as CHAI3D was measured */
+#define BENCH_DEPTH      0.001    /* m */
+#define BENCH_REACH      0.02     /* m either side of the origin: a stroke of 40 mm */
+#define BENCH_PEAK_SPEED 0.25     /* m/s */
+#define BENCH_PERIOD     0.001    /* m: the grating's */
+#define BENCH_AMPLITUDE  0.0002   /* m */
+#define BENCH_TILE       0.008    /* m: the side of BENCH_FIELD's tiles, of which there are 100 x 100 */
+#define BENCH_FRICTION   0.3      /* Coulomb coefficient */
+#define BENCH_RESOLUTION 0.055e-3 /* m: the Touch's, for FOAW */
+
+/* What a case ticks. */
+enum { BENCH_FOAW, BENCH_GRATING, BENCH_EMPTY, BENCH_PLANE, BENCH_MESH, BENCH_FIELD, BENCH_MOVING };
+
+/* How its surface feels. */
+enum { BENCH_TEXTURED, BENCH_SMOOTH, BENCH_FRICTIONAL };
+
+typedef struct bench_case {
+    const char *name;
+    int shape;          /**< BENCH_FOAW to _MOVING */
+    int feel;           /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
+    int32_t method;     /**< BENCH_GRATING: KNURL_S1, _S2 or _LOCKED */
+    uint32_t triangles; /**< BENCH_MESH: about as many */
+    uint32_t hips;      /**< HIPs that tick at once; the first is timed */
+    int paced;          /**< one tick a millisecond, asleep in between */
+} bench_case;
+
+typedef struct bench_result {
+    double p50_ns, p99_ns, p999_ns, max_ns; /**< a tick, less the timer */
+    double bytes;                           /**< memory of the surfaces, without one of what is ticked */
+    double build_ms;                        /**< to add the surfaces and commit */
+    double triangles;                       /**< in all surfaces */
+    double ticks;                           /**< timed */
+    double contact;                         /**< share of them in contact */
+} bench_result;
+
+/* The scene that is up; kept while the next case can use it. */
+typedef struct bench_stage {
+    knurl_scene *scene;
+    int shape;
+    uint32_t asked_triangles, hips;
+    double bytes, build_ms, triangles;
+} bench_stage;
+
+typedef struct bench {
+    const volatile sig_atomic_t *interrupted;
+    double ticks;     /**< a case; 0: the defaults, within BENCH_SECONDS */
+    double timer_ns;  /**< the timer's own cost: the median of back-to-back readings */
+    int64_t *samples; /**< room for the ticks of a case, ns */
+    bench_stage stage;
+} bench;
+
+enum { BENCH_DONE, BENCH_SKIPPED, BENCH_FAILED, BENCH_INTERRUPTED };
+
+/** All cases in the order they run (those of one scene together), ended by a null name. */
+extern const bench_case bench_cases[];
+
+/** Measures the timer and makes room, with `interrupted` and `ticks` set. 0, or 1 where memory is not to be had. */
+int bench_start(bench *b);
+void bench_end(bench *b);
+
+/** Runs one case. BENCH_SKIPPED: this library refuses what the case needs; BENCH_FAILED: so it does in earnest; both
+ * with its sentence in knurl_error_message(). */
+int bench_run(bench *b, const bench_case *c, bench_result *result);
+
+/* --- stage.c: scenes --- */
+
+/** Puts a case's scene up, or changes the one that is up. Results as the library's. */
+knurl_result bench_stage_set(bench_stage *stage, const bench_case *c);
+
+/** A frame of a game at 120 Hz: every surface of BENCH_MOVING is sent on its way. */
+knurl_result bench_stage_move(bench_stage *stage, double seconds);
+
+/* --- stroke.c: where the HIP is --- */
+
+/** HIP `hip` at a tick of the case's stroke; the velocity is the last tick's way. */
+void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_input *input);
+
+/* --- timing.c --- */
+
+/** Monotonic, ns. */
+int64_t bench_now(void);
+
+/** The median of back-to-back readings of the clock, ns. */
+double bench_timer_cost(int64_t *room, size_t count);
+
+/** Sorts the samples and takes the timer's cost off what is told of them; never below 0. */
+void bench_percentiles(int64_t *samples, size_t count, double timer_ns, bench_result *result);
+
+#endif

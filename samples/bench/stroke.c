@@ -1,0 +1,38 @@
+/* Where the HIP of a case is. SPDX-License-Identifier: MIT */
+#include "bench.h"
+
+#include "sheet.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LINE 0.0027 /* m: a y that no row of vertices or seam of tiles lies on; a HIP more, a line further */
+
+static void place(const bench_case *c, uint32_t hip, double seconds, double out[3]) {
+    const double x = BENCH_REACH * sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
+    const double y = LINE * (1.0 + hip);
+    double normal[3] = {0.0, 0.0, 1.0};
+    out[0] = x;
+    out[1] = y;
+    out[2] = 0.0;
+    if (c->shape == BENCH_MESH) {
+        study_sheet_point(x, y, out, normal);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        out[axis] -= BENCH_DEPTH * normal[axis];
+    }
+}
+
+void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_input *input) {
+    double last[3];
+    memset(input, 0, sizeof *input);
+    place(c, hip, ((double)tick - 1.0) / BENCH_RATE, last);
+    place(c, hip, (double)tick / BENCH_RATE, input->position);
+    for (int axis = 0; axis < 3; axis++) {
+        input->velocity[axis] = (input->position[axis] - last[axis]) * BENCH_RATE;
+    }
+    input->has_velocity = 1;
+    for (int axis = 0; axis < 3 && c->shape == BENCH_FOAW; axis++) { /* its work is to make sense of an encoder */
+        input->position[axis] = floor(input->position[axis] / BENCH_RESOLUTION + 0.5) * BENCH_RESOLUTION;
+    }
+}

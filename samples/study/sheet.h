@@ -1,0 +1,40 @@
+/* A wavy sheet to scan at any tessellation: what the bench and the half cycles are measured on.
+ * z = a sin(kx) cos(ky) with a = 1 mm (2 mm from trough to crest) and waves of 60 mm: slopes up to 0.105, principal
+ * curvatures up to a k^2 = 11.0 /m (a radius of 91 mm). 0.12 x 0.08 m round the origin, front towards +z, uvs that grow
+ * with x and y. SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_SHEET_H
+#define KNURL_STUDY_SHEET_H
+
+#include <knurl/contact.h>
+
+#define SHEET_HALF_X    0.06
+#define SHEET_HALF_Y    0.04
+#define SHEET_AMPLITUDE 0.001 /* m: half of trough to crest */
+#define SHEET_WAVE      0.06  /* m */
+
+typedef struct study_sheet {
+    float *positions;
+    float *uvs;
+    uint32_t *indices;
+    uint32_t columns, rows; /**< quads along x and y, two triangles each */
+} study_sheet;
+
+/** Makes a sheet of about so many triangles (8 to 2^26), on cells that are nearly square. 0, or 1 where memory is not
+ * to be had. */
+int study_sheet_make(uint32_t triangles, study_sheet *sheet);
+
+/** Gives it back; a zeroed one is allowed. */
+void study_sheet_free(study_sheet *sheet);
+
+/** What a surface is made of; the arrays stay the sheet's. */
+knurl_mesh_desc study_sheet_desc(const study_sheet *sheet);
+
+/** The smooth sheet's point at x, y and its unit normal. */
+void study_sheet_point(double x, double y, double point[3], double normal[3]);
+
+/** The distance (m) from a point to the sheet as it is tessellated, over the cells within `reach` (m) of it along x and
+ * y: by brute force, apart from the library. At most a slope of 0.11 away from above its nearest point, a quarter of
+ * the distance is reach enough. */
+double study_sheet_distance(const study_sheet *sheet, const double point[3], double reach);
+
+#endif

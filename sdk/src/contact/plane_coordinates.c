@@ -1,0 +1,202 @@
+/* Surface coordinates of a flat sheet, where they are the same everywhere: the grating's x, and coordinates that are
+ * affine. As mesh_frame.c and scene/surface_frame.c have them. SPDX-License-Identifier: MIT */
+#include "contact/plane_mesh.h"
+
+#include "base/vec3.h"
+
+#include <string.h>
+
+/* An axis or tangent nearer to the normal than this (rad) leaves a direction that turns with the last digits of the
+ * positions: 1e-6 of slope over it has to stay within what a direction may be off. */
+#define POST 1e-2
+
+/* rad: how far the tangents' directions may be off their mean. 1e-4 of a 1 m/s stroke is 0.1 mm/s. */
+#define SAME_DIRECTION 1e-4
+
+static const char *const along_normal = "mesh: its x direction stands on it like a post";
+
+/* Puts the sheet's x along a direction in its present x and y; what there is of the map turns with it. */
+static void turn(knurl_sheet *sheet, const double direction[2], knurl_plane *plane) {
+    const double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
+    const double c = direction[0] / length;
+    const double s = direction[1] / length;
+    double x[3];
+    vec3_scale(c, sheet->axes[0], x);
+    vec3_madd(x, s, sheet->axes[1], x);
+    vec3_make_tangent(sheet->axes[2], x);
+    vec3_normalise(x);
+    vec3_copy(x, sheet->axes[0]);
+    vec3_cross(sheet->axes[2], x, sheet->axes[1]);
+    for (int i = 0; i < 2; i++) {
+        const double before[2] = {plane->map[i][0], plane->map[i][1]};
+        plane->map[i][0] = c * before[0] + s * before[1];
+        plane->map[i][1] = c * before[1] - s * before[0];
+    }
+}
+
+static void by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
+    const double tangent[2] = {vec3_dot(axis, sheet->axes[0]), vec3_dot(axis, sheet->axes[1])};
+    const double length = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    if (!(length > POST)) {
+        *why = along_normal;
+        return;
+    }
+    turn(sheet, tangent, plane);
+    plane->map[0][0] = length;
+    plane->map[0][2] = vec3_dot(sheet->origin, axis);
+    plane->map[1][1] = 1.0;
+    plane->map[1][2] = vec3_dot(sheet->origin, sheet->axes[1]);
+    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = length;
+    plane->has_coordinates = 1;
+}
+
+static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
+    double mean[2] = {0.0, 0.0};
+    for (int pass = 0; pass < 2; pass++) { /* their mean, then how far each is off it */
+        const double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
+        for (uint64_t i = 0; i < 3 * (uint64_t)sheet->count; i++) {
+            const uint32_t v = knurl_sheet_vertex(sheet->desc, sheet->kept[i / 3], (uint32_t)(i % 3));
+            const float *t = &sheet->desc->tangents[4 * (size_t)v];
+            const double tangent[3] = {(double)t[0], (double)t[1], (double)t[2]};
+            double flat[2] = {vec3_dot(tangent, sheet->axes[0]), vec3_dot(tangent, sheet->axes[1])};
+            const double part = sqrt(flat[0] * flat[0] + flat[1] * flat[1]);
+            if (!(part > POST * vec3_length(tangent))) {
+                *why = along_normal;
+                return;
+            }
+            const double sine = (mean[0] * flat[1] - mean[1] * flat[0]) / (part * length);
+            const double cosine = (mean[0] * flat[0] + mean[1] * flat[1]) / (part * length);
+            if (pass == 1 && !(fabs(sine) <= SAME_DIRECTION && cosine > 0.0)) {
+                *why = "mesh: its tangents do not all run one way";
+                return;
+            }
+            mean[0] += pass == 0 ? flat[0] / part : 0.0;
+            mean[1] += pass == 0 ? flat[1] / part : 0.0;
+        }
+    }
+    turn(sheet, mean, plane);
+}
+
+/* Sums over the area that has been looked at. */
+typedef struct uv_sums {
+    double area;
+    double lengths[2];   /* of |dP/du|, |dP/dv| */
+    double inverse;      /* of 1 / |dP/du| */
+    double range[2];     /* the shortest and the longest |dP/du| */
+    double slopes[2][2]; /* of the gradients of u and v in the sheet's x and y */
+    int mirrored;        /* 1: v runs against n x x; the same for all triangles */
+} uv_sums;
+
+static void uv_of(const knurl_sheet *sheet, uint32_t vertex, double uv[2]) {
+    uv[0] = (double)sheet->desc->uvs[2 * (size_t)vertex];
+    uv[1] = (double)sheet->desc->uvs[2 * (size_t)vertex + 1];
+}
+
+/* One triangle's share; 0 where its uvs have no area or run the other way round. */
+static int add_uvs(const knurl_sheet *sheet, uint32_t triangle, uv_sums *sums) {
+    double p[3][2];
+    double uv[3][2];
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t v = knurl_sheet_vertex(sheet->desc, triangle, k);
+        knurl_sheet_place(sheet, v, p[k]);
+        uv_of(sheet, v, uv[k]);
+    }
+    const double x1 = p[1][0] - p[0][0], y1 = p[1][1] - p[0][1];
+    const double x2 = p[2][0] - p[0][0], y2 = p[2][1] - p[0][1];
+    const double u1 = uv[1][0] - uv[0][0], v1 = uv[1][1] - uv[0][1];
+    const double u2 = uv[2][0] - uv[0][0], v2 = uv[2][1] - uv[0][1];
+    const double det = u1 * v2 - u2 * v1;
+    const double largest = fmax(fmax(fabs(u1), fabs(u2)), fmax(fabs(v1), fabs(v2)));
+    const double area = x1 * y2 - x2 * y1;
+    const int mirrored = det < 0.0;
+    if (!(fabs(det) > 1e-9 * largest * largest) || (sums->area > 0.0 && mirrored != sums->mirrored)) {
+        return 0;
+    }
+    const double along = sqrt((v2 * x1 - v1 * x2) * (v2 * x1 - v1 * x2) + (v2 * y1 - v1 * y2) * (v2 * y1 - v1 * y2));
+    const double across = sqrt((u1 * x2 - u2 * x1) * (u1 * x2 - u2 * x1) + (u1 * y2 - u2 * y1) * (u1 * y2 - u2 * y1));
+    const double length = along / fabs(det);
+    sums->mirrored = mirrored;
+    sums->area += area;
+    sums->lengths[0] += area * length;
+    sums->lengths[1] += area * across / fabs(det);
+    sums->inverse += area / length;
+    sums->range[0] = fmin(sums->range[0], length);
+    sums->range[1] = fmax(sums->range[1], length);
+    sums->slopes[0][0] += u1 * y2 - u2 * y1;
+    sums->slopes[0][1] += u2 * x1 - u1 * x2;
+    sums->slopes[1][0] += v1 * y2 - v2 * y1;
+    sums->slopes[1][1] += v2 * x1 - v1 * x2;
+    return area > 0.0;
+}
+
+/* Lays the mean slopes through all corners, in the middle of what they are off it; 0 where that is too far. */
+static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane *plane) {
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (uint64_t corner = 0; corner < 3 * (uint64_t)sheet->count; corner++) {
+        const uint32_t v = knurl_sheet_vertex(sheet->desc, sheet->kept[corner / 3], (uint32_t)(corner % 3));
+        double p[2];
+        double uv[2];
+        knurl_sheet_place(sheet, v, p);
+        uv_of(sheet, v, uv);
+        for (int i = 0; i < 2; i++) {
+            const double rest = scale[i] * uv[i] - plane->map[i][0] * p[0] - plane->map[i][1] * p[1];
+            low[i] = fmin(low[i], rest);
+            high[i] = fmax(high[i], rest);
+        }
+    }
+    plane->map[0][2] = 0.5 * (low[0] + high[0]);
+    plane->map[1][2] = 0.5 * (low[1] + high[1]);
+    return 0.5 * (high[0] - low[0]) <= sheet->limit && 0.5 * (high[1] - low[1]) <= sheet->limit;
+}
+
+/* What is affine to the sheet's limit over the sheet's size runs one way as well: no triangle's own dP/du is asked for,
+ * which on a fine mesh is as rough as its floats. */
+static void by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
+    uv_sums sums = {.range = {HUGE_VAL, 0.0}};
+    for (uint32_t i = 0; i < sheet->count; i++) {
+        if (!add_uvs(sheet, sheet->kept[i], &sums)) {
+            *why = "mesh: some of its uvs have no area, or run the other way round";
+            return;
+        }
+    }
+    const double scale[2] = {sums.lengths[0] / sums.area, (sums.mirrored ? -1.0 : 1.0) * sums.lengths[1] / sums.area};
+    for (int i = 0; i < 2; i++) {
+        plane->map[i][0] = scale[i] * sums.slopes[i][0] / sums.area;
+        plane->map[i][1] = scale[i] * sums.slopes[i][1] / sums.area;
+    }
+    if (!fit_map(sheet, scale, plane)) {
+        *why = "mesh: its uvs are not affine";
+        return;
+    }
+    plane->stretch[0] = scale[0] / sums.range[1];
+    plane->stretch[1] = scale[0] * sums.inverse / sums.area;
+    plane->stretch[2] = scale[0] / sums.range[0];
+    plane->has_coordinates = 1;
+}
+
+void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
+    const knurl_mesh_desc *d = sheet->desc;
+    plane->x[0] = 1.0;
+    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
+    if (axis) {
+        by_axis(sheet, axis, plane, why);
+        return;
+    }
+    if (!d->tangents && !d->uvs) {
+        *why = "mesh: nothing says which way its x runs";
+        return;
+    }
+    if (d->uvs) {
+        by_uvs(sheet, plane, why);
+    }
+    if (*why) {
+        return;
+    }
+    if (d->tangents) {
+        by_tangents(sheet, plane, why);
+    } else { /* along dP/du: coordinate 1 does not change on the way */
+        const double along[2] = {plane->map[1][1], -plane->map[1][0]};
+        turn(sheet, along, plane);
+    }
+}

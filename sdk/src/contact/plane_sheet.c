@@ -1,0 +1,304 @@
+/* Is a mesh a flat sheet that faces one way, and which of its triangles make it? SPDX-License-Identifier: MIT */
+#include "contact/plane_mesh.h"
+
+#include "base/vec3.h"
+
+#include <string.h>
+
+/* Flat is what lies within both of these of a plane: 1 um, a fiftieth of what a good device's encoders tell apart; and
+ * 1e-5 of the sheet's size, which keeps slopes and directions within 1e-5 rad or so on a sheet of a few millimetres.
+ * The second is the stricter one below 0.1 m. Single precision needs 1e-7 of the distance from the mesh's origin. */
+#define FLAT_DISTANCE 1e-6
+#define FLAT_SHARE    1e-5
+
+/* So many triangles, evenly spread over the list, are looked at first: most meshes show here that they are not flat. */
+#define SAMPLES 64
+
+void knurl_sheet_place(const knurl_sheet *sheet, uint32_t vertex, double out[2]) {
+    double p[3];
+    knurl_sheet_position(sheet->desc, vertex, p);
+    vec3_sub(p, sheet->origin, p);
+    out[0] = vec3_dot(p, sheet->axes[0]);
+    out[1] = vec3_dot(p, sheet->axes[1]);
+}
+
+/* Twice the area times the normal; 0 for a triangle without an area (by the measure that a mesh's copy uses). */
+static int area_of(const knurl_mesh_desc *d, uint64_t triangle, double area[3]) {
+    double corners[3][3];
+    double edges[3][3];
+    double longest = 0.0;
+    for (uint32_t k = 0; k < 3; k++) {
+        knurl_sheet_position(d, knurl_sheet_vertex(d, triangle, k), corners[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        vec3_sub(corners[(k + 1) % 3], corners[k], edges[k]);
+        longest = fmax(longest, vec3_dot(edges[k], edges[k]));
+    }
+    vec3_cross(edges[0], edges[1], area);
+    return vec3_length(area) > 1e-6 * longest;
+}
+
+/* Vertices to lay a plane through: those listed, or all those marked. */
+typedef struct points {
+    const knurl_mesh_desc *desc;
+    const uint32_t *list;
+    const uint32_t *marks;
+    uint32_t count;
+} points;
+
+typedef struct fit {
+    double origin[3];
+    double normal[3];
+    double size;       /* m: from the origin to the vertex farthest from it */
+    double heights[2]; /* m: the lowest and the highest vertex over the plane through the origin */
+} fit;
+
+static int next_point(const points *p, uint32_t *i, const double from[3], double out[3]) {
+    for (; *i < p->count; ++*i) {
+        const uint32_t v = p->list ? p->list[*i] : *i;
+        if (!p->marks || p->marks[v]) {
+            knurl_sheet_position(p->desc, v, out);
+            vec3_sub(out, from, out);
+            ++*i;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Through the first vertex, the one farthest from it, and the one farthest from the line of those two: whatever plane
+ * all vertices are within d of, they are within 8 d of this one (d at each of the three tilts it by no more). */
+static void fit_plane(const points *p, fit *f) {
+    static const double zero[3] = {0.0, 0.0, 0.0};
+    double along[3] = {0.0, 0.0, 0.0};
+    double offset[3];
+    double farthest = 0.0;
+    memset(f, 0, sizeof *f);
+    uint32_t i = 0;
+    (void)next_point(p, &i, zero, f->origin);
+    for (i = 0; next_point(p, &i, f->origin, offset);) {
+        if (vec3_length(offset) > f->size) {
+            f->size = vec3_length(offset);
+            vec3_copy(offset, along);
+        }
+    }
+    for (i = 0; next_point(p, &i, f->origin, offset);) {
+        double across[3];
+        vec3_cross(along, offset, across);
+        if (vec3_length(across) > farthest) {
+            farthest = vec3_length(across);
+            vec3_scale(1.0 / farthest, across, f->normal);
+        }
+    }
+    for (i = 0; next_point(p, &i, f->origin, offset);) {
+        const double height = vec3_dot(offset, f->normal);
+        f->heights[0] = fmin(f->heights[0], height);
+        f->heights[1] = fmax(f->heights[1], height);
+    }
+}
+
+static int samples_are_curved(const knurl_mesh_desc *d) {
+    const uint64_t triangles = knurl_sheet_triangles(d);
+    const uint32_t samples = triangles < SAMPLES ? (uint32_t)triangles : SAMPLES;
+    uint32_t list[3 * SAMPLES];
+    points p = {d, list, NULL, 0};
+    for (uint32_t i = 0; i < samples; i++) {
+        const uint64_t triangle = i * triangles / samples;
+        double area[3];
+        for (uint32_t k = 0; k < 3 && area_of(d, triangle, area); k++) {
+            list[p.count++] = knurl_sheet_vertex(d, triangle, k);
+        }
+    }
+    fit f;
+    fit_plane(&p, &f);
+    return fmax(-f.heights[0], f.heights[1]) > 8.0 * FLAT_DISTANCE;
+}
+
+/* The plane of all triangles that have an area; it faces as the first of them does. */
+static void find_plane(const knurl_mesh_desc *d, knurl_sheet *sheet, const char **why) {
+    double first[3] = {0.0, 0.0, 0.0};
+    for (uint64_t i = 0; i < knurl_sheet_triangles(d); i++) {
+        double area[3];
+        if (!area_of(d, i, area)) {
+            sheet->dropped++;
+            continue;
+        }
+        if (sheet->count++ == 0) {
+            vec3_copy(area, first);
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            sheet->welds[knurl_sheet_vertex(d, i, k)] = 1; /* used */
+        }
+    }
+    if (sheet->count == 0) {
+        *why = "mesh: no triangle has an area";
+        return;
+    }
+    const points p = {d, NULL, sheet->welds, d->vertex_count};
+    fit f;
+    fit_plane(&p, &f);
+    sheet->limit = fmin(FLAT_DISTANCE, FLAT_SHARE * f.size);
+    sheet->flatness = 0.5 * (f.heights[1] - f.heights[0]);
+    if (!(sheet->flatness <= sheet->limit)) {
+        *why = "mesh: not flat";
+    }
+    vec3_madd(f.origin, 0.5 * (f.heights[0] + f.heights[1]), f.normal, sheet->origin);
+    vec3_scale(vec3_dot(first, f.normal) < 0.0 ? -1.0 : 1.0, f.normal, sheet->axes[2]);
+    vec3_any_tangent(sheet->axes[2], sheet->axes[0]);
+    vec3_cross(sheet->axes[2], sheet->axes[0], sheet->axes[1]);
+}
+
+static uint64_t mix(uint64_t hash, uint32_t value) {
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 29;
+}
+
+static uint64_t slots_for(uint64_t entries) {
+    uint64_t slots = 16;
+    while (slots < 2 * entries) {
+        slots *= 2;
+    }
+    return slots;
+}
+
+static uint64_t hash_position(const float *p) {
+    uint64_t hash = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        const float value = p[axis] + 0.0f; /* -0 and 0 are one place */
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        hash = mix(hash, bits);
+    }
+    return hash;
+}
+
+/* Vertices at exactly the same place become one (uv seams and hard edges double them). */
+static knurl_result weld(knurl_heap *heap, knurl_sheet *sheet) {
+    const knurl_mesh_desc *d = sheet->desc;
+    const uint64_t slots = slots_for(d->vertex_count);
+    uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table); /* vertex + 1, or 0 */
+    if (!table) {
+        return KNURL_ERROR_MEMORY;
+    }
+    for (uint32_t v = 0; v < d->vertex_count; v++) {
+        const float *p = &d->positions[3 * (size_t)v];
+        uint64_t slot = hash_position(p) & (slots - 1);
+        while (sheet->welds[v] && table[slot] != 0) {
+            const float *q = &d->positions[3 * (size_t)(table[slot] - 1)];
+            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
+                break;
+            }
+            slot = (slot + 1) & (slots - 1);
+        }
+        if (sheet->welds[v]) {
+            table[slot] = table[slot] ? table[slot] : v + 1;
+            sheet->welds[v] = table[slot] - 1;
+        }
+    }
+    knurl_heap_free(heap, table);
+    return KNURL_OK;
+}
+
+/* A triangle's welded corners, lowest first. */
+static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t out[3]) {
+    for (uint32_t k = 0; k < 3; k++) {
+        out[k] = sheet->welds[knurl_sheet_vertex(sheet->desc, triangle, k)];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int at = k % 2;
+        if (out[at] > out[at + 1]) {
+            const uint32_t high = out[at];
+            out[at] = out[at + 1];
+            out[at + 1] = high;
+        }
+    }
+}
+
+enum { FRONT = 1, BACK = 2 };
+
+/* Where a triangle's corners are, or would go, in the table of those kept (number + 1, or 0). */
+static uint64_t find_corners(const knurl_sheet *sheet, const uint32_t *table, uint64_t mask,
+                             const uint32_t corners[3]) {
+    uint64_t slot = mix(mix(mix(1, corners[0]), corners[1]), corners[2]) & mask;
+    while (table[slot] != 0) {
+        uint32_t there[3];
+        sorted_corners(sheet, sheet->kept[table[slot] - 1], there);
+        if (there[0] == corners[0] && there[1] == corners[1] && there[2] == corners[2]) {
+            break;
+        }
+        slot = (slot + 1) & mask;
+    }
+    return slot;
+}
+
+/* Keeps one triangle of those with the same corners: the first that faces the front. */
+static void keep_triangles(knurl_sheet *sheet, uint32_t *table, uint64_t mask, uint8_t *seen) {
+    const knurl_mesh_desc *d = sheet->desc;
+    sheet->count = 0;
+    for (uint64_t i = 0; i < knurl_sheet_triangles(d); i++) {
+        double area[3];
+        uint32_t corners[3];
+        if (!area_of(d, i, area)) {
+            continue;
+        }
+        const uint8_t facing = vec3_dot(area, sheet->axes[2]) > 0.0 ? FRONT : BACK;
+        sorted_corners(sheet, i, corners);
+        const uint64_t slot = find_corners(sheet, table, mask, corners);
+        if (table[slot] == 0) {
+            sheet->kept[sheet->count] = (uint32_t)i;
+            seen[sheet->count] = facing;
+            table[slot] = ++sheet->count;
+        } else if (seen[table[slot] - 1] & facing) {
+            sheet->dropped++;
+        } else {
+            sheet->twins++;
+            seen[table[slot] - 1] = FRONT | BACK;
+            sheet->kept[table[slot] - 1] = facing == FRONT ? (uint32_t)i : sheet->kept[table[slot] - 1];
+        }
+    }
+}
+
+static knurl_result sort_out(knurl_heap *heap, knurl_sheet *sheet, const char **why) {
+    const uint64_t slots = slots_for(sheet->count);
+    uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table);
+    uint8_t *seen = knurl_heap_alloc(heap, sheet->count, 1);
+    sheet->kept = knurl_heap_alloc(heap, sheet->count, sizeof *sheet->kept);
+    const knurl_result result = table && seen && sheet->kept ? KNURL_OK : KNURL_ERROR_MEMORY;
+    if (!result) {
+        keep_triangles(sheet, table, slots - 1, seen);
+    }
+    for (uint32_t i = 0; !result && i < sheet->count && !*why; i++) {
+        if (sheet->twins > 0 && seen[i] != (FRONT | BACK)) {
+            *why = "mesh: only some of its triangles have a reversed twin";
+        } else if (seen[i] == BACK) {
+            *why = "mesh: its triangles face both ways";
+        }
+    }
+    knurl_heap_free(heap, table);
+    knurl_heap_free(heap, seen);
+    return result;
+}
+
+knurl_result knurl_sheet_make(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_sheet *sheet, const char **why) {
+    memset(sheet, 0, sizeof *sheet);
+    sheet->desc = desc;
+    if (samples_are_curved(desc)) {
+        *why = "mesh: not flat";
+        return KNURL_OK;
+    }
+    sheet->welds = knurl_heap_alloc(heap, desc->vertex_count, sizeof *sheet->welds);
+    if (!sheet->welds) {
+        return KNURL_ERROR_MEMORY;
+    }
+    find_plane(desc, sheet, why);
+    if (*why) {
+        return KNURL_OK;
+    }
+    const knurl_result result = weld(heap, sheet);
+    return result ? result : sort_out(heap, sheet, why);
+}
+
+void knurl_sheet_release(knurl_heap *heap, knurl_sheet *sheet) {
+    knurl_heap_free(heap, sheet->welds);
+    knurl_heap_free(heap, sheet->kept);
+}

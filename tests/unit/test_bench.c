@@ -1,0 +1,168 @@
+/* knurl bench: its output is a contract. How long anything takes is not asserted: that is the machine's.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/tool.h"
+
+/* The contract's cases, in its words. */
+static const char *const contract[] = {
+    "empty",           "motion_foaw",       "grating_S1",   "grating_S2",       "grating_locked",     "plane",
+    "plane_smooth",    "plane_friction",    "mesh_1k",      "mesh_1k_smooth",   "mesh_1k_friction",   "mesh_10k",
+    "mesh_10k_smooth", "mesh_10k_friction", "mesh_100k",    "mesh_100k_smooth", "mesh_100k_friction", "mesh_1m",
+    "mesh_1m_smooth",  "mesh_1m_friction",  "surfaces_10k", "moving",           "two_hips",           "paced_plane",
+    "paced_mesh_100k"};
+
+/* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
+static const char *only_case(const char *json, const char *name) {
+    char quoted[64];
+    (void)snprintf(quoted, sizeof quoted, "{\"case\": \"%s\", ", name);
+    const char *found = strstr(json, quoted);
+    assert_non_null(found);
+    assert_null(strstr(found + 1, "{\"case\""));
+    return found;
+}
+
+/* Every bracket closes the one that is open, outside of texts, and the object ends the line. */
+static void check_brackets(const char *json) {
+    char open[16] = "";
+    size_t depth = 0;
+    int in_text = 0;
+    for (const char *c = json; *c; c++) {
+        if (*c == '"' && (c == json || c[-1] != '\\')) {
+            in_text = !in_text;
+        } else if (!in_text && (*c == '{' || *c == '[')) {
+            assert_true(depth < sizeof open);
+            open[depth++] = *c;
+        } else if (!in_text && (*c == '}' || *c == ']')) {
+            assert_true(depth > 0 && open[depth - 1] == (*c == '}' ? '{' : '['));
+            depth--;
+            assert_true(depth > 0 || strcmp(c + 1, "\n") == 0);
+        }
+    }
+    assert_true(depth == 0 && !in_text && json[0] == '{' && lines_in(json) == 1);
+}
+
+/* All fields of one case: finite, >= 0, in order. */
+static void check_case(const char *json, const char *name, double ticks) {
+    static const char *const keys[] = {"p50_ns", "p99_ns", "p999_ns", "max_ns", "bytes", "build_ms"};
+    const char *object = only_case(json, name);
+    double values[COUNT_OF(keys)];
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        values[i] = json_number_of(object, keys[i]);
+        assert_true(isfinite(values[i]) && values[i] >= 0.0);
+        assert_true(i == 0 || i > 3 || values[i] >= values[i - 1]);
+    }
+    CHECK_SAME(json_number_of(object, "ticks"), ticks);
+}
+
+TEST(one_case_is_told_with_all_its_fields) {
+    process p = RUN_TOOL("bench", "--case", "plane", "--json", "--ticks", "2000");
+    check_done(&p);
+    check_brackets(p.out);
+    check_case(p.out, "plane", 2000.0);
+    assert_true(isfinite(json_number_of(p.out, "timer_ns")) && json_number_of(p.out, "timer_ns") >= 0.0);
+    assert_non_null(strstr(p.out, "\"machine\": \""));
+    assert_true(json_number_of(p.out, "bytes") > 0.0);
+    process_free(&p);
+}
+
+TEST(each_kind_of_case_runs) {
+    static const char *const names[] = {"empty", "motion_foaw", "grating_S1", "grating_S2"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        process p = RUN_TOOL("bench", "--json", "--ticks", "20", "--case", names[i]);
+        check_done(&p);
+        check_brackets(p.out);
+        check_case(p.out, names[i], 20.0);
+        CHECK_SAME(json_number_of(p.out, "contact"), 0.0);
+        process_free(&p);
+    }
+}
+
+/* A HIP that had slipped off would be cheap. 600 ticks: there and back once, over every seam. */
+TEST(each_scene_is_touched_in_every_tick) {
+    static const char *const names[] = {"plane_smooth",      "plane_friction", "mesh_1k", "mesh_1k_smooth",
+                                        "mesh_10k_friction", "surfaces_10k",   "moving",  "two_hips",
+                                        "paced_plane",       "paced_mesh_100k"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        process p = RUN_TOOL("bench", "--json", "--ticks", "600", "--case", names[i]);
+        check_done(&p);
+        check_brackets(p.out);
+        check_case(p.out, names[i], 600.0);
+        CHECK_SAME(json_number_of(p.out, "contact"), 1.0);
+        process_free(&p);
+    }
+}
+
+TEST(a_mesh_tells_its_triangles_and_bytes) {
+    process p = RUN_TOOL("bench", "--json", "--ticks", "1", "--case", "mesh_10k");
+    check_done(&p);
+    const double triangles = json_number_of(p.out, "triangles");
+    CHECK_CLOSE(triangles, 10000.0, 100.0);
+    assert_true(json_number_of(p.out, "bytes") > 12.0 * triangles); /* three corners of four bytes at the least */
+    process_free(&p);
+}
+
+TEST(the_table_has_a_line_a_case) {
+    process p = RUN_TOOL("bench", "--case", "plane", "--ticks", "100");
+    check_done(&p);
+    assert_int_equal(lines_in(p.out), 3); /* the machine, the columns, the case */
+    assert_non_null(strstr(p.out, "\nplane "));
+    process_free(&p);
+}
+
+TEST(a_case_that_this_library_refuses_is_skipped_and_says_why) {
+    process p = RUN_TOOL("bench", "--json", "--ticks", "10", "--case", "grating_locked");
+    assert_int_equal(p.exit_code, 1);
+    check_brackets(p.out);
+    assert_non_null(strstr(p.out, "\"cases\": []"));
+    assert_non_null(strstr(only_case(p.out, "grating_locked"), "not built yet"));
+    assert_non_null(strstr(p.err, "knurl: note: grating_locked is skipped: "));
+    assert_int_equal(lines_in(p.err), 1);
+    process_free(&p);
+}
+
+TEST(an_unknown_case_is_refused_with_the_list) {
+    process p = RUN_TOOL("bench", "--case", "mesh_2k");
+    char names[1024] = "";
+    for (size_t i = 0; i < COUNT_OF(contract); i++) {
+        (void)strncat(names, i > 0 ? ", " : "expected one of ", sizeof names - strlen(names) - 1);
+        (void)strncat(names, contract[i], sizeof names - strlen(names) - 1);
+    }
+    assert_non_null(strstr(p.err, names)); /* all of them, no others */
+    check_refused(&p, 2, "--case|empty|paced_mesh_100k|found 'mesh_2k'", "an unknown case");
+}
+
+TEST(wrong_ticks_are_refused) {
+    static const char *const wrong[] = {"0", "-1", "many", "1e9", "nan"};
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        process p = RUN_TOOL("bench", "--case", "plane", "--ticks", wrong[i]);
+        check_refused(&p, 2, "--ticks|found", wrong[i]);
+    }
+}
+
+TEST(an_interrupt_ends_it_with_what_there_is) {
+    const char *const arguments[] = {KNURL_TEST_TOOL, "bench", "--json", "--case", "paced_plane", NULL};
+    process p = process_start(arguments, NULL);
+    const struct timespec while_it_runs = {1, 0}; /* of 5 s */
+    (void)nanosleep(&while_it_runs, NULL);
+    assert_int_equal(kill(p.pid, SIGINT), 0);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 1);
+    check_brackets(p.out);
+    assert_non_null(strstr(p.err, "interrupted in paced_plane"));
+    process_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_case_is_told_with_all_its_fields),
+        cmocka_unit_test(each_kind_of_case_runs),
+        cmocka_unit_test(each_scene_is_touched_in_every_tick),
+        cmocka_unit_test(a_mesh_tells_its_triangles_and_bytes),
+        cmocka_unit_test(the_table_has_a_line_a_case),
+        cmocka_unit_test(a_case_that_this_library_refuses_is_skipped_and_says_why),
+        cmocka_unit_test(an_unknown_case_is_refused_with_the_list),
+        cmocka_unit_test(wrong_ticks_are_refused),
+        cmocka_unit_test(an_interrupt_ends_it_with_what_there_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,554 @@
+/* Which meshes come to planes with an outline, which stay meshes and why. Outlines against what was drawn.
+ * SPDX-License-Identifier: MIT */
+#include "support/flat.h"
+
+/* What became of a mesh; why holds where it did not become a plane as well. */
+typedef struct outcome {
+    knurl_heap heap;
+    knurl_plane *plane;
+    double position[3];
+    double rotation[9];
+    const char *why;
+} outcome;
+
+static outcome decide_with(const knurl_mesh_desc *desc, const double *axis) {
+    outcome o;
+    memset(&o, 0, sizeof o);
+    knurl_heap_init(&o.heap, NULL);
+    assert_int_equal(knurl_mesh_check(desc), KNURL_OK);
+    assert_int_equal(knurl_plane_from_mesh(&o.heap, desc, axis, &o.plane, o.position, o.rotation, &o.why), KNURL_OK);
+    assert_non_null(o.why);
+    assert_true(o.heap.bytes == (o.plane ? knurl_plane_bytes(o.plane) : 0)); /* no scratch is left */
+    return o;
+}
+
+static outcome decide(const shape *s) {
+    const knurl_mesh_desc desc = shape_desc(s);
+    return decide_with(&desc, NULL);
+}
+
+static void forget(outcome *o) {
+    knurl_plane_destroy(&o->heap, o->plane);
+    assert_int_equal(o->heap.bytes, 0);
+}
+
+/* Frees the shape. */
+#define CHECK_STAYS(s, reason) check_stays(s, NULL, reason, __LINE__)
+
+static void check_stays(shape *s, const double *axis, const char *reason, int line) {
+    const knurl_mesh_desc desc = shape_desc(s);
+    outcome o = decide_with(&desc, axis);
+    if (o.plane || strcmp(o.why, reason) != 0) {
+        print_error("line %d: expected \"%s\", found \"%s\"\n", line, reason, o.why);
+        fail();
+    }
+    forget(&o);
+    shape_free(s);
+}
+
+/* The plane goes round `area` m2 with `edges` straight edges of `length` m in all. Frees the shape. */
+#define CHECK_OUTLINE(s, edges, area, length) check_outline(s, edges, area, length, __LINE__)
+
+static void check_outline(shape *s, uint32_t edges, double area, double length, int line) {
+    outcome o = decide(s);
+    double found_length = 0.0;
+    if (!o.plane || o.plane->edge_count != edges || (edges == 0) != !o.plane->outline) {
+        print_error("line %d: expected %u edges, found %u: %s\n", line, (unsigned)edges,
+                    (unsigned)(o.plane ? o.plane->edge_count : 0), o.why);
+        fail();
+        return;
+    }
+    CHECK_CLOSE(flat_area(o.plane, &found_length), area, 1e-7 * length);
+    CHECK_CLOSE(found_length, length, 1e-7 + 1e-6 * length);
+    assert_true(knurl_plane_covers(o.plane, o.plane->inside));
+    assert_true(flat_to_outline(o.plane, o.plane->inside) > 1e-4 * length);
+    forget(&o);
+    shape_free(s);
+}
+
+TEST(rectangular_sheet_becomes_a_rectangle_about_its_middle) {
+    shape s = DRAWING("########", "########", "########", "########");
+    outcome o = decide(&s);
+    assert_string_equal(o.why, "plane: a flat mesh, a rectangle");
+    assert_null(o.plane->outline);
+    assert_int_equal(o.plane->edge_count, 0);
+    assert_int_equal(o.plane->triangle_count, 64);
+    CHECK_CLOSE(o.plane->half_extents[0], 4.0 * CELL, 1e-12);
+    CHECK_CLOSE(o.plane->half_extents[1], 2.0 * CELL, 1e-12);
+    CHECK_CLOSE(o.plane->flatness, 0.0, 1e-15);
+    const double middle[3] = {4.0 * CELL, 2.0 * CELL, 0.0};
+    CHECK_CLOSE(distance3(o.position, middle), 0.0, 1e-12);
+    for (int i = 0; i < 9; i++) {
+        CHECK_CLOSE(o.rotation[i], i % 4 == 0, 1e-12);
+    }
+    assert_true(o.plane->has_coordinates);
+    CHECK_CLOSE(o.plane->map[0][0], 1.0, 1e-12);
+    CHECK_CLOSE(o.plane->map[0][2], middle[0], 1e-12);
+    CHECK_CLOSE(o.plane->map[1][1], 1.0, 1e-12);
+    CHECK_CLOSE(o.plane->map[1][2], middle[1], 1e-12);
+    forget(&o);
+    shape_free(&s);
+}
+
+TEST(outline_is_what_was_drawn) {
+    const double c = CELL;
+    shape l = DRAWING("#...", "#...", "####");
+    CHECK_OUTLINE(&l, 6, 6.0 * c * c, 14.0 * c);
+    shape ring = DRAWING("#####", "#...#", "#...#", "#####");
+    CHECK_OUTLINE(&ring, 8, 14.0 * c * c, 28.0 * c);
+    shape islands = DRAWING("##..#", "##..#", "....#");
+    CHECK_OUTLINE(&islands, 8, 7.0 * c * c, 16.0 * c);
+    shape touching = DRAWING("##..", "##..", "..##", "..##"); /* in a corner */
+    CHECK_OUTLINE(&touching, 8, 8.0 * c * c, 16.0 * c);
+    shape island_in_hole = DRAWING("#######", "#.....#", "#..#..#", "#.....#", "#######");
+    CHECK_OUTLINE(&island_in_hole, 12, 21.0 * c * c, 44.0 * c);
+    shape holes_touch = DRAWING("#####", "#.###", "##.##", "#####");
+    CHECK_OUTLINE(&holes_touch, 12, 18.0 * c * c, 26.0 * c);
+    const double s = sin(PI / 5.0) * 0.05 * 0.02; /* twice the area of one of the star's triangles */
+    const double edge = sqrt(0.05 * 0.05 + 0.02 * 0.02 - 2.0 * 0.05 * 0.02 * cos(PI / 5.0));
+    shape star = flat_fan(10, 0.05, 0.02);
+    CHECK_OUTLINE(&star, 10, 5.0 * s, 10.0 * edge);
+}
+
+TEST(single_triangle_is_a_plane_of_three_edges) {
+    shape s = flat_fan(3, 0.05, 0.05);
+    s.index_count = 3;
+    const double a = 0.05 * sqrt(3.0); /* middle, corner, corner: angles of 30, 30 and 120 degrees */
+    CHECK_OUTLINE(&s, 3, 0.5 * 0.05 * 0.05 * sin(2.0 * PI / 3.0), 0.1 + a);
+}
+
+TEST(outline_of_64_edges_is_a_plane_and_of_65_stays_a_mesh) {
+    shape s = flat_fan(64, 0.05, 0.05);
+    CHECK_OUTLINE(&s, 64, 32.0 * 0.05 * 0.05 * sin(2.0 * PI / 64.0), 128.0 * 0.05 * sin(PI / 64.0));
+    shape more = flat_fan(65, 0.05, 0.05);
+    CHECK_STAYS(&more, "mesh: its outline has more than 64 edges");
+}
+
+TEST(fine_grids_of_confetti_stay_meshes) {
+    shape s = flat_fan(400, 0.05, 0.03);
+    CHECK_STAYS(&s, "mesh: its outline has more than 64 edges");
+    const char *const rows[] = {"#.#.#.#.#.#.#.#.#.#.", "....................", "#.#.#.#.#.#.#.#.#.#."};
+    shape dots = flat_drawing(rows, 3);
+    CHECK_STAYS(&dots, "mesh: its outline has more than 64 edges");
+}
+
+TEST(sheet_without_shared_vertices_has_the_same_outline) {
+    shape s = DRAWING("#####", "#...#", "#...#", "#####");
+    shape_unweld(&s);
+    CHECK_OUTLINE(&s, 8, 14.0 * CELL * CELL, 28.0 * CELL);
+}
+
+TEST(sheet_without_indices_has_the_same_outline) {
+    shape s = DRAWING("#...", "#...", "####");
+    shape_unweld(&s);
+    knurl_mesh_desc desc = shape_desc(&s);
+    desc.indices = NULL;
+    desc.index_count = 0;
+    outcome o = decide_with(&desc, NULL);
+    double length;
+    assert_int_equal(o.plane->edge_count, 6);
+    CHECK_CLOSE(flat_area(o.plane, &length), 6.0 * CELL * CELL, 1e-12);
+    forget(&o);
+    shape_free(&s);
+}
+
+/* Rows of bricks: the long side of one is covered by two halves, by thirds, and by both. */
+static shape bricks(const uint32_t *cuts, uint32_t rows) {
+    shape s = shape_new(4 * 60 * rows, 6 * 60 * rows, 1);
+    uint32_t v = 0;
+    uint32_t at = 0;
+    for (uint32_t j = 0; j < rows; j++) {
+        for (uint32_t i = 0; i < cuts[j]; i++) {
+            for (uint32_t k = 0; k < 4; k++) {
+                const double x = 0.1 * (i + (k == 1 || k == 2)) / cuts[j];
+                const double y = 0.01 * (j + (k >= 2));
+                shape_set(&s, v + k, x, y, 0.0);
+                s.uvs[2 * (v + k)] = (float)x;
+                s.uvs[2 * (v + k) + 1] = (float)y;
+            }
+            at = shape_quad(&s, at, v, v + 1, v + 2, v + 3);
+            v += 4;
+        }
+    }
+    s.index_count = at;
+    s.vertex_count = v;
+    return s;
+}
+
+TEST(edges_covered_by_several_shorter_ones_are_inside) {
+    const uint32_t cuts[] = {1, 2, 3, 6, 4, 1, 7, 5, 60, 59};
+    for (uint32_t rows = 1; rows <= COUNT_OF(cuts); rows++) {
+        shape s = bricks(cuts, rows);
+        CHECK_OUTLINE(&s, 0, 0.1 * 0.01 * rows, 2.0 * (0.1 + 0.01 * rows));
+    }
+}
+
+TEST(turned_edges_covered_by_several_shorter_ones_are_inside) {
+    const uint32_t cuts[] = {1, 2, 3, 6, 4, 1, 7, 5, 60, 59};
+    const double turned[4] = {0.1, -0.3, 0.5, sqrt(1.0 - 0.35)};
+    shape s = bricks(cuts, 10);
+    flat_move(&s, turned, (const double[3]){0.3, -0.2, 0.1});
+    CHECK_OUTLINE(&s, 0, 0.01, 0.4);
+}
+
+/* A hole, one side of which is a part of one long edge: its outline has to be split there. */
+TEST(hole_beside_a_long_edge_has_an_outline_of_its_own) {
+    shape s = shape_new(12, 18, 1);
+    static const double places[12][2] = {{0, 0}, {6, 0}, {6, 1}, {0, 1}, {0, 1}, {2, 1},
+                                         {2, 3}, {0, 3}, {3, 1}, {6, 1}, {6, 3}, {3, 3}};
+    for (uint32_t v = 0; v < 12; v++) {
+        shape_set(&s, v, CELL * places[v][0], CELL * places[v][1], 0.0);
+        s.uvs[2 * v] = (float)places[v][0];
+        s.uvs[2 * v + 1] = (float)places[v][1];
+    }
+    (void)shape_quad(&s, shape_quad(&s, shape_quad(&s, 0, 0, 1, 2, 3), 4, 5, 6, 7), 8, 9, 10, 11);
+    CHECK_OUTLINE(&s, 8, 16.0 * CELL * CELL, 22.0 * CELL); /* a notch of 1 x 2 in 6 x 3 */
+}
+
+TEST(duplicates_slivers_and_unused_vertices_change_nothing) {
+    shape s = DRAWING("#...", "#...", "####");
+    const uint32_t *t = s.indices;
+    flat_add(&s, t[0], t[1], t[2]);
+    t = s.indices;
+    flat_add(&s, t[4], t[5], t[3]); /* turned round on itself */
+    flat_add(&s, 0, 1, 2);          /* on one line */
+    flat_add(&s, 3, 3, 7);
+    shape_set(&s, 14, 1.0, 2.0, 3.0); /* above the notch: no triangle uses it */
+    outcome o = decide(&s);
+    double length;
+    assert_non_null(o.plane);
+    assert_int_equal(o.plane->edge_count, 6);
+    assert_int_equal(o.plane->triangle_count, 12);
+    assert_int_equal(o.plane->dropped, 4);
+    assert_int_equal(o.plane->reversed_twins, 0);
+    assert_int_equal(o.plane->double_sided, 0);
+    assert_string_equal(o.why, "plane: a flat mesh with its outline");
+    CHECK_CLOSE(flat_area(o.plane, &length), 6.0 * CELL * CELL, 1e-12);
+    forget(&o);
+    shape_free(&s);
+}
+
+static void add_twins(shape *s, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        flat_add(s, s->indices[3 * i], s->indices[3 * i + 2], s->indices[3 * i + 1]);
+    }
+}
+
+TEST(sheet_of_reversed_twins_is_double_sided) {
+    shape s = DRAWING("#...", "#...", "####");
+    add_twins(&s, 12);
+    flat_add(&s, s.indices[0], s.indices[2], s.indices[1]); /* the twin once more */
+    outcome o = decide(&s);
+    assert_non_null(o.plane);
+    assert_int_equal(o.plane->edge_count, 6);
+    assert_int_equal(o.plane->triangle_count, 12);
+    assert_int_equal(o.plane->reversed_twins, 12);
+    assert_int_equal(o.plane->dropped, 1);
+    assert_int_equal(o.plane->double_sided, 1);
+    CHECK_CLOSE(o.rotation[8], 1.0, 1e-12); /* the first triangle says where the front is */
+    forget(&o);
+    shape_free(&s);
+}
+
+TEST(sheet_with_a_twin_missing_stays_a_mesh) {
+    shape s = DRAWING("#...", "#...", "####");
+    add_twins(&s, 11);
+    CHECK_STAYS(&s, "mesh: only some of its triangles have a reversed twin");
+}
+
+TEST(sheet_that_faces_both_ways_stays_a_mesh) {
+    shape s = DRAWING("####", "####");
+    const uint32_t b = s.indices[7];
+    s.indices[7] = s.indices[8];
+    s.indices[8] = b;
+    CHECK_STAYS(&s, "mesh: its triangles face both ways");
+}
+
+static double bump;
+
+static double bumped(double x, double y) {
+    return x > 0.0 && y > 0.0 ? bump : 0.0;
+}
+
+TEST(sheet_is_flat_to_a_micrometre_and_to_1e5th_of_its_size) {
+    const struct {
+        double half;
+        double height;
+        int flat;
+    } cases[] = {{0.25, 1.8e-6, 1}, {0.25, 2.4e-6, 0}, {0.01, 2e-7, 1}, {0.01, 1e-6, 0}, {0.25, 1e-3, 0}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        bump = cases[i].height;
+        shape s = shape_sheet(2, 2, (const double[2]){cases[i].half, cases[i].half}, bumped);
+        if (cases[i].flat) {
+            outcome o = decide(&s);
+            assert_non_null(o.plane);
+            assert_true(o.plane->flatness >= 0.25 * bump && o.plane->flatness <= 0.51 * bump);
+            forget(&o);
+            shape_free(&s);
+        } else {
+            CHECK_STAYS(&s, "mesh: not flat");
+        }
+    }
+}
+
+TEST(bump_that_the_samples_miss_keeps_a_mesh) {
+    shape s = shape_sheet(100, 100, (const double[2]){0.05, 0.05}, NULL);
+    s.positions[3 * 5050 + 2] = 0.001F;
+    CHECK_STAYS(&s, "mesh: not flat");
+}
+
+TEST(solids_and_curved_sheets_stay_meshes) {
+    shape box = shape_box((const double[3]){0.05, 0.05, 0.05}, 0);
+    CHECK_STAYS(&box, "mesh: not flat");
+    shape sphere = shape_sphere(0.05, 3);
+    CHECK_STAYS(&sphere, "mesh: not flat");
+    shape soup = shape_soup(7, 500, 0.1);
+    CHECK_STAYS(&soup, "mesh: not flat");
+}
+
+TEST(mesh_without_any_area_stays_one) {
+    shape s = DRAWING("#");
+    memset(s.positions, 0, s.vertex_count * 3 * sizeof(float));
+    CHECK_STAYS(&s, "mesh: no triangle has an area");
+}
+
+TEST(overlapping_triangles_stay_a_mesh) {
+    shape twice = DRAWING("###", "###"); /* a third triangle on an edge, above another */
+    flat_add(&twice, 0, 1, 11);
+    CHECK_STAYS(&twice, "mesh: its triangles overlap");
+
+    shape upon = DRAWING("#####.", "#####.", "#####.", "......"); /* an island within the sheet, on no edge of it */
+    const uint32_t corners[3] = {4 * 7 - 1 - 7, 4 * 7 - 1, 5 * 7 - 1};
+    shape_set(&upon, corners[0], 1.3 * CELL, 1.4 * CELL, 0.0);
+    shape_set(&upon, corners[1], 3.3 * CELL, 1.4 * CELL, 0.0);
+    shape_set(&upon, corners[2], 1.3 * CELL, 3.4 * CELL, 0.0);
+    for (uint32_t k = 0; k < 3; k++) {
+        upon.uvs[2 * corners[k]] = 8.0F * upon.positions[3 * corners[k]];
+        upon.uvs[2 * corners[k] + 1] = 8.0F * upon.positions[3 * corners[k] + 1];
+    }
+    flat_add(&upon, corners[0], corners[1], corners[2]);
+    CHECK_STAYS(&upon, "mesh: its triangles overlap");
+
+    shape across = DRAWING("#..", "#..", "#.."); /* a strip, and another laid across it */
+    const double bar[4][2] = {{-1.0, 1.25}, {2.0, 1.25}, {2.0, 1.75}, {-1.0, 1.75}};
+    const uint32_t free_ones[4] = {2, 3, 6, 7};
+    for (uint32_t k = 0; k < 4; k++) {
+        shape_set(&across, free_ones[k], bar[k][0] * CELL, bar[k][1] * CELL, 0.0);
+        across.uvs[2 * free_ones[k]] = (float)(8.0 * CELL * bar[k][0]);
+        across.uvs[2 * free_ones[k] + 1] = (float)(8.0 * CELL * bar[k][1]);
+    }
+    flat_add(&across, 2, 3, 6);
+    flat_add(&across, 2, 6, 7);
+    CHECK_STAYS(&across, "mesh: its triangles overlap");
+}
+
+/* A ring cut open whose turns lie upon each other: every edge has at most one neighbour, and the area of the triangles
+ * is what the outline goes round, counted with its sign. */
+TEST(spiral_that_passes_over_itself_stays_a_mesh) {
+    const uint32_t steps = 30; /* of 24 that make a turn */
+    shape s = shape_new(2 * (steps + 1), 6 * steps, 1);
+    uint32_t at = 0;
+    for (uint32_t i = 0; i <= steps; i++) {
+        for (uint32_t k = 0; k < 2; k++) {
+            const double angle = 2.0 * PI * i / 24.0;
+            const double radius = 0.03 + 0.02 * k + 0.0004 * i; /* 0.0096 a turn: narrower than the band */
+            const uint32_t v = 2 * i + k;
+            shape_set(&s, v, radius * cos(angle), radius * sin(angle), 0.0);
+            s.uvs[2 * v] = s.positions[3 * v];
+            s.uvs[2 * v + 1] = s.positions[3 * v + 1];
+        }
+        at = i < steps ? shape_quad(&s, at, 2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2) : at;
+    }
+    CHECK_STAYS(&s, "mesh: its triangles overlap");
+}
+
+TEST(uvs_that_are_not_affine_keep_a_mesh) {
+    shape bent = shape_sheet(8, 8, (const double[2]){0.05, 0.05}, NULL);
+    for (uint32_t v = 0; v < bent.vertex_count; v++) {
+        const float u = bent.uvs[2 * v];
+        bent.uvs[2 * v] = u + 0.001F * u * u;
+    }
+    CHECK_STAYS(&bent, "mesh: its uvs are not affine");
+    shape seam = DRAWING("####", "####"); /* the right half starts again at 0, as an atlas does */
+    shape_unweld(&seam);
+    for (uint32_t i = 0; i < seam.index_count; i += 6) {
+        for (uint32_t k = i; seam.uvs && seam.positions[3 * i] >= (float)(2.0 * CELL) && k < i + 6; k++) {
+            seam.uvs[2 * k] -= 0.0625F;
+        }
+    }
+    CHECK_STAYS(&seam, "mesh: its uvs are not affine");
+}
+
+TEST(uvs_without_area_or_mirrored_in_part_keep_a_mesh) {
+    const char *const reason = "mesh: some of its uvs have no area, or run the other way round";
+    shape none = DRAWING("####", "####");
+    memset(none.uvs, 0, none.vertex_count * 2 * sizeof(float));
+    CHECK_STAYS(&none, reason);
+    shape folded = DRAWING("####", "####"); /* mirrored about its middle: the map is continuous */
+    for (uint32_t v = 0; v < folded.vertex_count; v++) {
+        folded.uvs[2 * v] = fabsf(folded.uvs[2 * v] - (float)(16.0 * CELL));
+    }
+    CHECK_STAYS(&folded, reason);
+}
+
+TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
+    shape s = DRAWING("####", "####");
+    float tangents[15][4];
+    knurl_mesh_desc desc = shape_desc(&s);
+    desc.tangents = &tangents[0][0];
+    static const struct {
+        float wrong[3];
+        const char *why;
+    } cases[] = {{{1.0F, 3e-4F, 0.0F}, "mesh: its tangents do not all run one way"},
+                 {{-1.0F, 0.0F, 0.0F}, "mesh: its tangents do not all run one way"},
+                 {{0.0F, 0.0F, 1.0F}, "mesh: its x direction stands on it like a post"},
+                 {{0.0F, 0.0F, 0.0F}, "mesh: its x direction stands on it like a post"},
+                 {{0.5F, 1e-5F, 0.3F}, "plane: a flat mesh, a rectangle"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        for (uint32_t v = 0; v < 15; v++) {
+            const float along[4] = {1.0F, 0.0F, 0.0F, 1.0F};
+            memcpy(tangents[v], along, sizeof along);
+        }
+        memcpy(tangents[7], cases[i].wrong, sizeof cases[i].wrong);
+        outcome o = decide_with(&desc, NULL);
+        assert_string_equal(o.why, cases[i].why);
+        forget(&o);
+    }
+    shape_free(&s);
+}
+
+TEST(axis_along_the_normal_keeps_a_mesh) {
+    const double upright[3] = {0.0, sin(0.009), cos(0.009)};
+    shape s = DRAWING("####", "####");
+    check_stays(&s, upright, "mesh: its x direction stands on it like a post", __LINE__);
+}
+
+TEST(mesh_without_axis_tangents_or_uvs_stays_one) {
+    shape s = DRAWING("####", "####");
+    free(s.uvs);
+    s.uvs = NULL;
+    CHECK_STAYS(&s, "mesh: nothing says which way its x runs");
+}
+
+TEST(axis_gives_metres_from_the_meshs_origin) {
+    const double axis[3] = {0.6, 0.64, 0.48};
+    shape s = DRAWING("#...", "#...", "####");
+    for (uint32_t v = 0; v < s.vertex_count; v++) {
+        s.positions[3 * v + 2] = 0.25F;
+    }
+    const knurl_mesh_desc desc = shape_desc(&s);
+    outcome o = decide_with(&desc, axis);
+    const double length = sqrt(0.36 + 0.4096);
+    assert_non_null(o.plane);
+    CHECK_CLOSE(o.rotation[0], 0.6 / length, 1e-12); /* the plane's x runs along the axis */
+    CHECK_CLOSE(o.rotation[3], 0.64 / length, 1e-12);
+    CHECK_CLOSE(o.plane->x[0], 1.0, 0.0);
+    for (int i = 0; i < 3; i++) {
+        CHECK_CLOSE(o.plane->stretch[i], length, 1e-12);
+    }
+    CHECK_CLOSE(o.plane->map[0][0], length, 1e-12);
+    CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* what 0.25 m along z adds is in it */
+    CHECK_CLOSE(o.plane->map[1][2], (o.position[1] * 0.6 - o.position[0] * 0.64) / length, 1e-12);
+    forget(&o);
+    shape_free(&s);
+}
+
+TEST(tangents_alone_give_no_coordinates) {
+    shape s = DRAWING("#...", "#...", "####");
+    float tangents[20][4];
+    for (uint32_t v = 0; v < 20; v++) {
+        const float along[4] = {0.0F, 2.0F, 0.0F, 1.0F};
+        memcpy(tangents[v], along, sizeof along);
+    }
+    knurl_mesh_desc desc = shape_desc(&s);
+    desc.tangents = &tangents[0][0];
+    desc.uvs = NULL;
+    outcome o = decide_with(&desc, NULL);
+    const double nothing[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    assert_non_null(o.plane);
+    assert_int_equal(o.plane->has_coordinates, 0);
+    assert_memory_equal(o.plane->map, nothing, sizeof nothing);
+    CHECK_CLOSE(o.rotation[3], 1.0, 1e-12); /* its x is the mesh's y */
+    CHECK_CLOSE(o.plane->stretch[1], 1.0, 0.0);
+    forget(&o);
+    shape_free(&s);
+}
+
+/* Memory of which the n-th request is refused. */
+static int requests;
+static int refused;
+
+static void *take(size_t size, size_t alignment, void *user) {
+    (void)user;
+    (void)alignment;
+    return ++requests == refused ? NULL : malloc(size);
+}
+
+static void give_back(void *memory, size_t size, void *user) {
+    (void)size;
+    (void)user;
+    free(memory);
+}
+
+TEST(refused_memory_leaves_nothing_behind) {
+    shape s = DRAWING("#####", "#...#", "#...#", "#####");
+    const knurl_mesh_desc desc = shape_desc(&s);
+    const knurl_allocator allocator = {take, give_back, NULL};
+    knurl_plane *plane = NULL;
+    double position[3] = {1.0, 2.0, 3.0};
+    double rotation[9] = {4.0};
+    const char *why = "untouched";
+    knurl_heap heap;
+    knurl_result result = KNURL_ERROR_MEMORY;
+    knurl_heap_init(&heap, &allocator);
+    for (refused = 1; result == KNURL_ERROR_MEMORY; refused++) {
+        requests = 0;
+        result = knurl_plane_from_mesh(&heap, &desc, NULL, &plane, position, rotation, &why);
+        if (result) {
+            assert_int_equal(result, KNURL_ERROR_MEMORY);
+            assert_int_equal(heap.bytes, 0);
+            assert_null(plane);
+            assert_string_equal(why, "untouched");
+            assert_true(position[2] == 3.0 && rotation[0] == 4.0);
+        }
+    }
+    assert_int_equal(result, KNURL_OK);
+    assert_in_range(refused, 8, 40);
+    knurl_plane_destroy(&heap, plane);
+    assert_int_equal(heap.bytes, 0);
+    shape_free(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rectangular_sheet_becomes_a_rectangle_about_its_middle),
+        cmocka_unit_test(outline_is_what_was_drawn),
+        cmocka_unit_test(single_triangle_is_a_plane_of_three_edges),
+        cmocka_unit_test(outline_of_64_edges_is_a_plane_and_of_65_stays_a_mesh),
+        cmocka_unit_test(fine_grids_of_confetti_stay_meshes),
+        cmocka_unit_test(sheet_without_shared_vertices_has_the_same_outline),
+        cmocka_unit_test(sheet_without_indices_has_the_same_outline),
+        cmocka_unit_test(edges_covered_by_several_shorter_ones_are_inside),
+        cmocka_unit_test(turned_edges_covered_by_several_shorter_ones_are_inside),
+        cmocka_unit_test(hole_beside_a_long_edge_has_an_outline_of_its_own),
+        cmocka_unit_test(duplicates_slivers_and_unused_vertices_change_nothing),
+        cmocka_unit_test(sheet_of_reversed_twins_is_double_sided),
+        cmocka_unit_test(sheet_with_a_twin_missing_stays_a_mesh),
+        cmocka_unit_test(sheet_that_faces_both_ways_stays_a_mesh),
+        cmocka_unit_test(sheet_is_flat_to_a_micrometre_and_to_1e5th_of_its_size),
+        cmocka_unit_test(bump_that_the_samples_miss_keeps_a_mesh),
+        cmocka_unit_test(solids_and_curved_sheets_stay_meshes),
+        cmocka_unit_test(mesh_without_any_area_stays_one),
+        cmocka_unit_test(overlapping_triangles_stay_a_mesh),
+        cmocka_unit_test(spiral_that_passes_over_itself_stays_a_mesh),
+        cmocka_unit_test(uvs_that_are_not_affine_keep_a_mesh),
+        cmocka_unit_test(uvs_without_area_or_mirrored_in_part_keep_a_mesh),
+        cmocka_unit_test(tangents_that_turn_or_stand_up_keep_a_mesh),
+        cmocka_unit_test(axis_along_the_normal_keeps_a_mesh),
+        cmocka_unit_test(mesh_without_axis_tangents_or_uvs_stays_one),
+        cmocka_unit_test(axis_gives_metres_from_the_meshs_origin),
+        cmocka_unit_test(tangents_alone_give_no_coordinates),
+        cmocka_unit_test(refused_memory_leaves_nothing_behind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
