@@ -64,8 +64,7 @@ static void edit(knurl_scene *scene, uint64_t seed, const shape *s, double x, do
     const int row = (int)fmin(SIDE - 1.0, fmax(0.0, y / PITCH));
     const uint32_t here = (uint32_t)(row * SIDE + column); /* close by, as long as few were taken out */
     const knurl_surface near = knurl_scene_surface_at(scene, here < count ? here : 0);
-    surface_parts parts =
-        tile(&seed, s, x + random_between(&seed, -0.05, 0.05), y + random_between(&seed, -0.05, 0.05));
+    surface_parts parts = tile(&seed, s, x + random_between(&seed, -0.1, 0.1), y + random_between(&seed, -0.1, 0.1));
     pose p;
     memcpy(p.position, parts.desc.position, sizeof p.position);
     memcpy(p.quaternion, parts.desc.rotation, sizeof p.quaternion);
@@ -178,7 +177,7 @@ TEST(ten_thousand_tiles_feel_as_if_all_were_looked_at) {
 
 TEST(the_same_while_tiles_move_come_and_go) {
     for (uint64_t seed = 1; seed <= 3; seed++) {
-        assert_true(compare_models(KNURL_FULL_SEARCH, seed, 1500, 1 + (int)(seed * seed)) > 200);
+        assert_true(compare_models(KNURL_FULL_SEARCH, seed, 1500, 1 + (int)(seed * seed)) > 50);
     }
 }
 
@@ -265,6 +264,38 @@ TEST(surfaces_taken_out_are_no_longer_near) {
         assert_int_equal(out.flags, KNURL_TICK_CONTACT);
         knurl_scene_destroy(scene);
     }
+}
+
+/* 60 have come by here on their way and are long gone: the floor is felt all the same. */
+TEST(surfaces_that_went_by_are_no_longer_near) {
+    knurl_surface passers[60];
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = many_scene(0, 1);
+    parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
+    for (int i = 0; i < 60; i++) {
+        const pose start = {{-1.0, -0.3 + 0.01 * i, 0.02}, {0.0, 0.0, 0.0, 1.0}};
+        place(&parts, &start);
+        passers[i] = add_surface(scene, &parts);
+    }
+    surface_parts floor_parts = surface_plane();
+    const knurl_surface floor_id = add_surface(scene, &floor_parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)tick_at(scene, 0.0, 0.0, 0.1);
+    for (int i = 0; i < 60; i++) {
+        const pose end = {{1.0, 0.3 - 0.01 * i, -0.02}, {0.0, 0.0, 0.0, 1.0}};
+        move_to(scene, passers[i], &end, 0.1);
+    }
+    for (int k = 0; k < 500; k++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.1);
+    }
+    for (int k = 0; k < 10; k++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.005);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
+        CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, 1e-12L);
+        assert_true(out.surface == floor_id);
+        assert_int_equal(out.flags, KNURL_TICK_CONTACT);
+    }
+    knurl_scene_destroy(scene);
 }
 
 /* One tick across the whole scene comes by thousands; the next ones are ordinary again, and miss nothing. */
@@ -371,6 +402,7 @@ int main(void) {
         cmocka_unit_test(surfaces_far_off_are_never_felt),
         cmocka_unit_test(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged),
         cmocka_unit_test(surfaces_taken_out_are_no_longer_near),
+        cmocka_unit_test(surfaces_that_went_by_are_no_longer_near),
         cmocka_unit_test(after_a_leap_across_everything_all_is_felt_again),
         cmocka_unit_test(of_a_stack_the_topmost_is_met_first),
         cmocka_unit_test(eight_hips_feel_each_what_one_alone_feels),
