@@ -158,7 +158,7 @@ static int compare_models(uint32_t model, uint64_t seed, int ticks, int edit_eve
         wander(&w, &seed);
         const knurl_tick_output a = tick_moving(reduced, w.at, w.velocity);
         const knurl_tick_output b = tick_moving(full, w.at, w.velocity);
-        if (memcmp(&a, &b, sizeof a) != 0) {
+        if (a.flags != b.flags || a.contacts != b.contacts || distance3(a.force, b.force) > 0.0) {
             print_difference(k, &a, &b);
         }
         assert_memory_equal(&a, &b, sizeof a);
