@@ -50,6 +50,14 @@ static inline void check_refusal(knurl_result result, knurl_result expected, con
     }
 }
 
+/** The latest error says so. */
+static inline void check_message(const char *word) {
+    if (!strstr(knurl_error_message(), word)) {
+        print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);
+        fail();
+    }
+}
+
 /** Reproducible random numbers (xorshift64); `state` is never 0. */
 static inline uint64_t random_bits(uint64_t *state) {
     *state ^= *state << 13;

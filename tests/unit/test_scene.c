@@ -3,13 +3,6 @@
 
 static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
 
-static void check_message(const char *word) {
-    if (!strstr(knurl_error_message(), word)) {
-        print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);
-        fail();
-    }
-}
-
 #define CHECK_ADD_REFUSED(scene, parts, code, word)                                                                    \
     do {                                                                                                               \
         knurl_surface id_ = 77;                                                                                        \

@@ -1,56 +1,6 @@
 /* What a scene holds: bytes that come back, failures that leave it as it was, structs of older and newer callers, and
  * what it tells of its surfaces. SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
-
-/* Memory with its books: nothing may be given back wrongly, and the n-th request may be refused. */
-typedef struct ledger {
-    uint64_t bytes;
-    int32_t blocks;
-    int32_t requests;
-    int32_t refused; /* which request gets nothing, counted from 1; 0: none */
-} ledger;
-
-static void *take(size_t size, size_t alignment, void *user) {
-    ledger *books = user;
-    assert_true(size > 0 && alignment > 0 && (alignment & (alignment - 1)) == 0);
-    if (++books->requests == books->refused) {
-        return NULL;
-    }
-    char *raw = malloc(size + 2 * alignment + sizeof(size_t) + sizeof raw);
-    assert_non_null(raw);
-    char *memory = raw + sizeof(size_t) + sizeof raw;
-    memory += (alignment - (uintptr_t)memory % alignment) % alignment;
-    memcpy(memory - sizeof raw, &raw, sizeof raw);
-    memcpy(memory - sizeof raw - sizeof size, &size, sizeof size);
-    memset(memory, 0x5a, size);
-    books->bytes += size;
-    books->blocks++;
-    return memory;
-}
-
-static void give_back(void *memory, size_t size, void *user) {
-    ledger *books = user;
-    char *raw;
-    size_t taken;
-    memcpy(&raw, (char *)memory - sizeof raw, sizeof raw);
-    memcpy(&taken, (char *)memory - sizeof raw - sizeof taken, sizeof taken);
-    assert_int_equal(size, taken);
-    books->bytes -= size;
-    books->blocks--;
-    free(raw);
-}
-
-static knurl_scene *scene_with(ledger *books) {
-    const knurl_allocator allocator = {take, give_back, books};
-    knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
-    knurl_scene_desc_init(&desc, sizeof desc);
-    desc.hip_count = 2;
-    desc.allocator = &allocator;
-    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
-    assert_true(knurl_scene_bytes(scene) == books->bytes);
-    return scene;
-}
+#include "support/ledger.h"
 
 static double valley(double x, double y) {
     return 0.2 * x + 0.1 * y * y; /* flat, it would be stored as a plane */

@@ -1,6 +1,6 @@
 /* What one tick renders on one surface: Eq. 9 with S1 and S2, damping, limits, frames and coordinates.
  * SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "support/poses.h"
 
 #define PI  3.14159265358979323846
 #define K   400.0  /* N/m, the default */
@@ -167,36 +167,6 @@ TEST(damping_acts_along_the_normal_and_never_pulls) {
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
     }
     knurl_scene_destroy(scene);
-}
-
-/* A pose for a surface, and the same point or direction in the scene. */
-typedef struct pose {
-    double position[3];
-    double quaternion[4];
-} pose;
-
-static void turn(const double q[4], const double v[3], double out[3]) {
-    for (int i = 0; i < 3; i++) { /* v + 2 u x (u x v + w v), u the vector part */
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        const double inner_j = q[k] * v[i] - q[i] * v[k] + q[3] * v[j];
-        const double inner_k = q[i] * v[j] - q[j] * v[i] + q[3] * v[k];
-        out[i] = v[i] + 2.0 * (q[j] * inner_k - q[k] * inner_j);
-    }
-}
-
-static pose random_pose(uint64_t *seed) {
-    pose p;
-    double norm = 0.0;
-    for (int i = 0; i < 4; i++) {
-        p.quaternion[i] = random_between(seed, -1.0, 1.0);
-        norm += p.quaternion[i] * p.quaternion[i];
-    }
-    for (int i = 0; i < 4; i++) {
-        p.quaternion[i] /= sqrt(norm);
-        p.position[i % 3] = random_between(seed, -0.5, 0.5);
-    }
-    return p;
 }
 
 /* The same stroke over a surface at the origin and over one elsewhere. */

@@ -1,0 +1,501 @@
+/* Surfaces that move: where they are at each tick, how fast they slide under a HIP, what they push.
+ * SPDX-License-Identifier: MIT */
+#include "support/poses.h"
+
+#define K   400.0 /* N/m, the default */
+#define TOL 1e-9L
+
+static const pose HOME = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+
+static pose at_height(double x, double y, double z) {
+    pose p = HOME;
+    p.position[0] = x;
+    p.position[1] = y;
+    p.position[2] = z;
+    return p;
+}
+
+static surface_parts wide_plane(void) {
+    surface_parts parts = surface_plane();
+    parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.5;
+    return parts;
+}
+
+/* HIP 0 stands at a place, and says so. */
+static knurl_tick_output stand_at(knurl_scene *scene, double x, double y, double z) {
+    return tick_moving(scene, (const double[3]){x, y, z}, (const double[3]){0.0, 0.0, 0.0});
+}
+
+static knurl_scene *stood_on(surface_parts *parts, knurl_surface *id) {
+    knurl_scene *scene = scene_of(parts);
+    *id = knurl_scene_surface_at(scene, 0);
+    (void)stand_at(scene, 0.0, 0.0, -0.001);
+    return scene;
+}
+
+TEST(surface_rises_evenly_and_stays) {
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose top = at_height(0.0, 0.0, 0.005);
+    move_to(scene, id, &top, 0.05);
+    for (int k = 1; k <= 80; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        const double depth = 0.001 + 0.005 * (k < 50 ? k : 50) / 50.0;
+        CHECK_CLOSE(out.depth, depth, 1e-12L);
+        CHECK_VECTOR(out.force, 0.0, 0.0, K * depth, TOL);
+        CHECK_VECTOR(out.proxy, 0.0, 0.0, depth - 0.001, 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* Eq. 9's damping: 0.1 m/s towards the HIP are as good as the HIP's own. */
+TEST(damping_takes_the_relative_velocity_along_the_normal) {
+    surface_parts parts = wide_plane();
+    parts.material.damping = 5.0;
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose top = at_height(0.0, 0.0, 0.005);
+    move_to(scene, id, &top, 0.05);
+    for (int k = 1; k <= 60; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        if (k != 50) { /* at the very end it may be said to move still, or to stand */
+            CHECK_CLOSE(out.force[2], K * out.depth + (k < 50 ? 5.0 * 0.1 : 0.0), TOL);
+        }
+    }
+    const pose down = at_height(0.0, 0.0, 0.0);
+    move_to(scene, id, &down, 0.005); /* 1 m/s away: no pull */
+    for (int k = 1; k < 5; k++) {
+        CHECK_VECTOR(stand_at(scene, 0.0, 0.0, -0.001).force, 0.0, 0.0, 0.0, 0.0L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* The surface slides at 0.1 m/s under a HIP that rests: T3 events at f_t = fs v = 100 Hz. */
+TEST(sliding_under_a_resting_hip_plays_events) {
+    surface_parts parts = wide_plane();
+    knurl_event event;
+    knurl_surface id;
+    set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose end = at_height(0.02, 0.0, 0.0);
+    assert_int_equal(knurl_event_init(10.0, 0.0005, &event), KNURL_OK);
+    move_to(scene, id, &end, 0.2);
+    for (int k = 1; k < 200; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        CHECK_CLOSE(out.surface_velocity[0], -0.1, 1e-12L);
+        CHECK_CLOSE(out.surface_velocity[1], 0.0, 1e-12L);
+        CHECK_CLOSE(out.temporal_frequency, 100.0, 1e-8L);
+        CHECK_CLOSE(out.height, knurl_event_height(&event, (k - 1) % 10), 1e-15L);
+        assert_int_equal(out.event, (k - 1) / 10);
+        CHECK_CLOSE(out.force[2], K * (out.height + 0.001), TOL);
+    }
+    for (int k = 0; k < 30; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        if (k > 12) { /* the last event is over */
+            assert_int_equal(out.event, KNURL_NO_EVENT);
+            CHECK_SAME(out.surface_velocity[0], 0.0);
+        }
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(surface_that_goes_with_the_hip_plays_none) {
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    set_grating(&parts, KNURL_S2, 1000.0, 500.0, 0.0005);
+    parts.material.damping = 5.0;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose end = at_height(0.04, 0.02, 0.01);
+    move_to(scene, id, &end, 0.2);
+    for (int k = 1; k < 200; k++) {
+        const double at[3] = {0.0002 * k, 0.0001 * k, -0.001 + 0.00005 * k};
+        const knurl_tick_output out = tick_moving(scene, at, (const double[3]){0.2, 0.1, 0.05});
+        CHECK_CLOSE(out.surface_velocity[0], 0.0, 1e-12L);
+        CHECK_CLOSE(out.surface_velocity[1], 0.0, 1e-12L);
+        CHECK_CLOSE(out.force[2], K * 0.001, TOL);
+        assert_int_equal(out.event, KNURL_NO_EVENT);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* About an origin that is 0.22 m off: omega x r goes past the HIP. `turns`: rad in 0.1 s. The long way round: the
+ * same target, named by the quaternion's negative, or by an angle beyond half a turn. */
+static void rotate_under(double angle, double shown_angle, double sign) {
+    static const double z[3] = {0.0, 0.0, 1.0};
+    const double hip[3] = {0.2, 0.1, -0.001};
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = scene_of(&parts);
+    pose end = HOME;
+    turn_about(z, shown_angle, end.quaternion);
+    for (int i = 0; i < 4; i++) {
+        end.quaternion[i] *= sign;
+    }
+    (void)stand_at(scene, hip[0], hip[1], hip[2]);
+    move_to(scene, knurl_scene_surface_at(scene, 0), &end, 0.1);
+    const double omega = angle / 0.1;
+    for (int k = 1; k <= 120; k++) {
+        const knurl_tick_output out = stand_at(scene, hip[0], hip[1], hip[2]);
+        const double now = angle * (k < 100 ? k : 100) / 100.0;
+        const double v[2] = {k < 100 ? omega * hip[1] : 0.0, k < 100 ? -omega * hip[0] : 0.0}; /* -omega x r */
+        if (k != 100) {
+            CHECK_CLOSE(out.surface_velocity[0], cos(now) * v[0] + sin(now) * v[1], 1e-9L);
+            CHECK_CLOSE(out.surface_velocity[1], cos(now) * v[1] - sin(now) * v[0], 1e-9L);
+        }
+        CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(rotation_about_an_origin_elsewhere_slides_by_omega_cross_r) {
+    rotate_under(0.5, 0.5, 1.0);
+    rotate_under(-1.2, -1.2, 1.0);
+    rotate_under(0.002, 0.002, 1.0);
+    rotate_under(3.0, 3.0, 1.0);
+}
+
+TEST(rotation_goes_the_short_way) {
+    const double whole = 8.0 * atan(1.0);
+    rotate_under(0.5, 0.5, -1.0);
+    rotate_under(0.75 * whole - whole, 0.75 * whole, 1.0);
+    rotate_under(-0.3, whole - 0.3, -1.0);
+}
+
+/* Turned about a slanting axis and moved at once: every tick has the closed form of a screw-free motion, position
+ * linear, rotation at a constant angular velocity. */
+TEST(place_and_turn_on_the_way_have_their_closed_forms) {
+    uint64_t seed = 12;
+    for (int run = 0; run < 20; run++) {
+        double axis[3];
+        random_direction(&seed, axis);
+        const pose from = random_pose(&seed);
+        const double angle = random_between(&seed, 0.1, 0.3);
+        const double shift[3] = {random_between(&seed, -0.01, 0.01), random_between(&seed, -0.01, 0.01),
+                                 random_between(&seed, -0.01, 0.01)};
+        pose to;
+        double whole[4];
+        turn_about(axis, angle, whole);
+        turn_after(whole, from.quaternion, to.quaternion);
+        add3(from.position, 1.0, shift, to.position);
+        surface_parts parts = wide_plane();
+        place(&parts, &from);
+        knurl_scene *scene = scene_of(&parts);
+        double hip[3];
+        pose_point(&from, (const double[3]){0.001, -0.002, 0.02}, hip); /* first in front: comes in when it is time */
+        (void)stand_at(scene, hip[0], hip[1], hip[2]);
+        pose_point(&from, (const double[3]){0.001, -0.002, -0.008}, hip);
+        (void)stand_at(scene, hip[0], hip[1], hip[2]);
+        move_to(scene, knurl_scene_surface_at(scene, 0), &to, 0.04);
+        for (int k = 1; k < 40; k++) {
+            const double share = k / 40.0;
+            pose now;
+            double part[4];
+            double normal[3];
+            double offset[3];
+            double swept[3];
+            double relative[3];
+            double x[3];
+            double y[3];
+            turn_about(axis, angle * share, part);
+            turn_after(part, from.quaternion, now.quaternion);
+            add3(from.position, share, shift, now.position);
+            turn(now.quaternion, (const double[3]){0.0, 0.0, 1.0}, normal);
+            turn(now.quaternion, (const double[3]){1.0, 0.0, 0.0}, x);
+            turn(now.quaternion, (const double[3]){0.0, 1.0, 0.0}, y);
+            add3(hip, -1.0, now.position, offset);
+            const double depth = -dot3(offset, normal);
+            const knurl_tick_output out = stand_at(scene, hip[0], hip[1], hip[2]);
+            if (depth < 1e-6) {
+                break; /* it has gone away from under the HIP */
+            }
+            CHECK_CLOSE(out.depth, depth, 1e-9L);
+            CHECK_VECTOR(out.normal, normal[0], normal[1], normal[2], 1e-9L);
+            double lever[3]; /* p - origin, p the contact point */
+            add3(offset, depth, normal, lever);
+            cross3(axis, lever, swept);
+            for (int i = 0; i < 3; i++) {
+                relative[i] = -shift[i] / 0.04 - angle / 0.04 * swept[i];
+            }
+            CHECK_CLOSE(out.surface_velocity[0], dot3(relative, x), 1e-8L);
+            CHECK_CLOSE(out.surface_velocity[1], dot3(relative, y), 1e-8L);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+/* Arrived, it stands exactly where a surface put there from the start does: the same numbers, bit for bit. */
+TEST(arrival_is_exactly_at_the_target) {
+    uint64_t seed = 31;
+    for (int run = 0; run < 20; run++) {
+        const pose from = random_pose(&seed);
+        const pose to = random_pose(&seed);
+        surface_parts parts = wide_plane();
+        set_grating(&parts, KNURL_S1, 300.0, 170.0, 0.0005);
+        place(&parts, &to);
+        knurl_scene *there = scene_of(&parts);
+        place(&parts, &from);
+        knurl_scene *moved = scene_of(&parts);
+        move_to(moved, knurl_scene_surface_at(moved, 0), &to, 0.003 * run); /* also 0, also not whole ticks */
+        for (int k = 0; k < 3 * run + 3; k++) {
+            (void)stand_at(moved, 5.0, 5.0, 5.0);
+            (void)stand_at(there, 5.0, 5.0, 5.0);
+        }
+        for (int k = 0; k < 50; k++) {
+            double hip[3];
+            const double local[3] = {0.003 * k - 0.07, 0.02, k == 0 ? 0.003 : -0.001 + 1e-5 * k};
+            pose_point(&to, local, hip);
+            const knurl_tick_output expected = stand_at(there, hip[0], hip[1], hip[2]);
+            const knurl_tick_output out = stand_at(moved, hip[0], hip[1], hip[2]);
+            assert_true(k == 0 || out.contacts == 1);
+            assert_memory_equal(&expected, &out, sizeof out);
+        }
+        knurl_scene_destroy(there);
+        knurl_scene_destroy(moved);
+    }
+}
+
+TEST(new_target_on_the_way_goes_on_from_where_it_is) {
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose up = at_height(0.0, 0.0, 0.005);
+    const pose back = at_height(0.0, 0.0, 0.001);
+    move_to(scene, id, &up, 0.05);
+    for (int k = 1; k <= 20; k++) { /* 2 mm up */
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0001 * k, 1e-12L);
+    }
+    move_to(scene, id, &back, 0.02);
+    for (int k = 1; k <= 30; k++) { /* 1 mm down again in 20 ticks */
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.003 - 0.00005 * (k < 20 ? k : 20), 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* As a game does it: a new target every frame, whatever the frame, before or after the last one was reached. */
+TEST(targets_frame_by_frame_make_no_jumps) {
+    uint64_t seed = 5;
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    double z = 0.0;
+    double last = 0.001;
+    double fastest = 0.0;
+    int left = 0;
+    for (int k = 0; k < 3000; k++) {
+        if (left-- == 0) {
+            const double frame = random_between(&seed, 0.004, 0.03);
+            const double target = random_between(&seed, 0.0, 0.008);
+            pose p = at_height(0.0, 0.0, target);
+            move_to(scene, id, &p, frame);
+            fastest = fabs(target - z) / frame;
+            left = (int)random_integer(&seed, 3, 30);
+        }
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        assert_true(fabs(out.depth - last) <= 1.0001e-3 * fastest + 1e-12);
+        last = out.depth;
+        z = last - 0.001;
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* Half way through a turn another one: the normal goes on from there. */
+TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
+    static const double y[3] = {0.0, 1.0, 0.0};
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    pose end = HOME;
+    turn_about(y, 0.4, end.quaternion);
+    move_to(scene, id, &end, 0.1);
+    for (int k = 1; k <= 50; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        CHECK_VECTOR(out.normal, sin(0.004 * k), 0.0, cos(0.004 * k), 1e-12L);
+    }
+    turn_about(y, -0.1, end.quaternion);
+    move_to(scene, id, &end, 0.1);
+    for (int k = 1; k <= 120; k++) {
+        const double angle = 0.2 - 0.003 * (k < 100 ? k : 100);
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+        CHECK_VECTOR(out.normal, sin(angle), 0.0, cos(angle), 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(before_the_commit_a_way_is_made_at_once) {
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = empty_scene(1);
+    const knurl_surface id = add_surface(scene, &parts);
+    const pose there = at_height(0.0, 0.0, 0.003);
+    configure_plainly(scene, 0);
+    move_to(scene, id, &there, 5.0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.001);
+    CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.002, TOL);
+    CHECK_CLOSE(out.surface_velocity[0], 0.0, 0.0L);
+    knurl_scene_destroy(scene);
+}
+
+/* --- jumps --- */
+
+TEST(jump_passes_by_what_is_on_its_way) {
+    static const double ends[] = {0.002, 0.005, 0.05, 0.5};
+    for (size_t i = 0; i < COUNT_OF(ends); i++) {
+        surface_parts parts = wide_plane();
+        const pose low = at_height(0.0, 0.0, -0.02);
+        const pose high = at_height(0.0, 0.0, ends[i]);
+        place(&parts, &low);
+        knurl_scene *scene = scene_of(&parts);
+        (void)stand_at(scene, 0.0, 0.0, 0.0);
+        (void)stand_at(scene, 0.0, 0.0, 0.0);
+        move_to(scene, knurl_scene_surface_at(scene, 0), &high, 0.0);
+        for (int k = 0; k < 5; k++) {
+            const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
+            CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
+            assert_int_equal(out.contacts, 0);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+/* A HIP that was in contact has a first tick with it: held up to 10 mm deep, let go beyond; slid past at no speed. */
+TEST(jump_of_what_is_touched_is_a_first_tick) {
+    static const struct {
+        double x, z;
+        double depth; /* 0: let go */
+    } cases[] = {{0.0, 0.004, 0.005}, {0.0, 0.0088, 0.0098}, {0.0, 0.0092, 0.0},
+                 {0.0, 0.3, 0.0},     {0.1, 0.0, 0.001},     {0.4, 0.001, 0.002},
+                 {0.0, -0.002, 0.0},  {0.6, 0.0, 0.0},       {0.0, -0.0005, 0.0005}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        surface_parts parts = wide_plane();
+        knurl_surface id;
+        set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+        knurl_scene *scene = stood_on(&parts, &id);
+        const pose end = at_height(cases[i].x, 0.0, cases[i].z);
+        move_to(scene, id, &end, 0.0);
+        for (int k = 0; k < 3; k++) {
+            const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+            CHECK_VECTOR(out.force, 0.0, 0.0, K * cases[i].depth, TOL);
+            assert_int_equal(out.contacts, cases[i].depth > 0.0);
+            CHECK_SAME(out.surface_velocity[0], 0.0);
+            assert_int_equal(out.event, KNURL_NO_EVENT);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+TEST(jump_ends_a_way) {
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose up = at_height(0.0, 0.0, 0.005);
+    const pose home = HOME;
+    move_to(scene, id, &up, 0.05);
+    (void)stand_at(scene, 0.0, 0.0, -0.001);
+    move_to(scene, id, &home, 0.0);
+    for (int k = 0; k < 60; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001, 1e-15L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* --- time --- */
+
+TEST(while_nobody_ticks_the_way_waits) {
+    surface_parts parts = wide_plane();
+    knurl_surface id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose up = at_height(0.0, 0.0, 0.004);
+    const pose higher = at_height(0.0, 0.0, 0.008);
+    move_to(scene, id, &up, 0.01);
+    move_to(scene, id, &higher, 0.01); /* no tick between: from where it still is */
+    for (int k = 1; k <= 10; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0008 * k, 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* 1 kHz and 4 kHz side by side: each sees the same place at the same second, give or take a period of the slower. */
+TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
+    static const double rates[2] = {1000.0, 4000.0};
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = empty_scene(2);
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    const pose up = at_height(0.0, 0.0, 0.004);
+    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 1, 0};
+    knurl_tick_output out[2];
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.workspace = &workspace;
+    hip.max_force = 100.0;
+    for (uint32_t i = 0; i < 2; i++) {
+        hip.update_rate_hz = rates[i];
+        assert_int_equal(knurl_scene_configure_hip(scene, i, &hip), KNURL_OK);
+    }
+    const knurl_surface id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    for (int k = 0; k < 480; k++) { /* quarters of a millisecond; a way of 0.08 s from 0.02 s on */
+        assert_int_equal(knurl_scene_tick(scene, 1, &input, &out[1]), KNURL_OK);
+        if (k % 4 == 3) {
+            assert_int_equal(knurl_scene_tick(scene, 0, &input, &out[0]), KNURL_OK);
+        }
+        if (k == 79) {
+            move_to(scene, id, &up, 0.08);
+        }
+        for (int i = 0; i < 2 && k > 3; i++) {
+            const double since = (k - 79) / 4000.0;
+            const double depth = 0.001 + 0.05 * fmin(0.08, fmax(0.0, since));
+            CHECK_CLOSE(out[i].depth, depth, 0.05 * 0.00101);
+        }
+    }
+    CHECK_CLOSE(out[0].depth, 0.005, 1e-15L);
+    CHECK_CLOSE(out[1].depth, 0.005, 1e-15L);
+    knurl_scene_destroy(scene);
+}
+
+/* The faster of two alone: its own seconds count. */
+TEST(way_at_4_khz_takes_its_seconds) {
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = empty_scene(1);
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    const pose up = at_height(0.0, 0.0, 0.004);
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.workspace = &workspace;
+    hip.max_force = 100.0;
+    hip.update_rate_hz = 4000.0;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
+    const knurl_surface id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)stand_at(scene, 0.0, 0.0, -0.001);
+    move_to(scene, id, &up, 0.02);
+    for (int k = 1; k <= 100; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.004 * (k < 80 ? k : 80) / 80.0, 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(surface_rises_evenly_and_stays),
+        cmocka_unit_test(damping_takes_the_relative_velocity_along_the_normal),
+        cmocka_unit_test(sliding_under_a_resting_hip_plays_events),
+        cmocka_unit_test(surface_that_goes_with_the_hip_plays_none),
+        cmocka_unit_test(rotation_about_an_origin_elsewhere_slides_by_omega_cross_r),
+        cmocka_unit_test(rotation_goes_the_short_way),
+        cmocka_unit_test(place_and_turn_on_the_way_have_their_closed_forms),
+        cmocka_unit_test(arrival_is_exactly_at_the_target),
+        cmocka_unit_test(new_target_on_the_way_goes_on_from_where_it_is),
+        cmocka_unit_test(targets_frame_by_frame_make_no_jumps),
+        cmocka_unit_test(new_turn_on_the_way_goes_on_from_where_it_is),
+        cmocka_unit_test(before_the_commit_a_way_is_made_at_once),
+        cmocka_unit_test(jump_passes_by_what_is_on_its_way),
+        cmocka_unit_test(jump_of_what_is_touched_is_a_first_tick),
+        cmocka_unit_test(jump_ends_a_way),
+        cmocka_unit_test(while_nobody_ticks_the_way_waits),
+        cmocka_unit_test(hips_of_different_rates_see_the_same_way_in_seconds),
+        cmocka_unit_test(way_at_4_khz_takes_its_seconds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
