@@ -7,8 +7,8 @@
 #include <string.h>
 
 /* How far a HIP looks, m. margin: how far it may go before it looks again; at 250 mm/s the first serves for 40 ticks.
- * capture: how deep it may find itself in a surface at a first tick, or when an edit has put one here. Where more
- * surfaces are in there than a list holds, the next is tried, down to what the tick itself needs. */
+ * capture: how deep it may find itself in a surface at a first tick. Where more surfaces are in there than a list
+ * holds, the next is tried, down to what the tick itself needs. */
 static const struct {
     double margin;
     double capture;
@@ -72,11 +72,10 @@ void knurl_hip_look_around(const knurl_scene *scene, const knurl_world *world, k
     const double *from = hip->has_previous ? hip->previous : position;
     uint32_t places[KNURL_MAX_NEAR];
     uint32_t found = KNURL_MAX_NEAR + 1;
-    /* a first tick may be felt this far, and so may what an edit has put here */
-    const int fresh = !hip->has_previous || hip->version != version;
-    for (size_t v = everything ? NARROWS : 0; v < VIEWS && found > KNURL_MAX_NEAR; v++) {
+    size_t v = 0;
+    for (; v < VIEWS && found > KNURL_MAX_NEAR; v++) {
         hip->near_depth = hip->depth + (v < NARROWS ? DEEPER : 1e-4);
-        const double reach = 1e-9 + fmax(hip->near_depth, fresh ? views[v].capture : 0.0);
+        const double reach = 1e-9 + fmax(hip->near_depth, hip->has_previous ? 0.0 : views[v].capture);
         double low[3];
         double high[3];
         for (int i = 0; i < 3; i++) {
@@ -85,9 +84,10 @@ void knurl_hip_look_around(const knurl_scene *scene, const knurl_world *world, k
             low[i] = hip->near_low[i] - reach;
             high[i] = hip->near_high[i] + reach;
         }
-        found = knurl_world_find(world, low, high, everything, KNURL_MAX_NEAR, places);
+        const knurl_view view = {low, high, hip->time, everything, v >= NARROWS};
+        found = knurl_world_find(world, &view, KNURL_MAX_NEAR, places);
     }
-    hip->version = version;
+    hip->version = v > NARROWS ? 0 : version; /* a look without margin serves for this tick */
     hip->near_overflow = found > KNURL_MAX_NEAR;
     found = hip->near_overflow ? KNURL_MAX_NEAR : found;
     hip->near_count = keep(hip->near, hip->near_count, places, found);

@@ -122,7 +122,6 @@ void knurl_motion_place(const knurl_pose *origin, const knurl_pose *local, knurl
     memset(motion, 0, sizeof *motion);
     knurl_pose_compose(origin, local, &motion->end);
     motion->start = motion->end;
-    motion->jump_time = -HUGE_VAL; /* it has always been there */
 }
 
 void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl_pose *local, double now,
@@ -134,11 +133,9 @@ void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl
     knurl_motion_at(&before, now, &here);
     knurl_motion_place(target, local, motion);
     motion->jumps = before.jumps;
-    motion->jump_time = before.jump_time;
     motion->start_time = motion->end_time = now;
     if (!(seconds > 0.0)) {
         motion->jumps++;
-        motion->jump_time = now;
         return;
     }
     /* the body's rotation is the frame's without the local one */

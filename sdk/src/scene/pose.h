@@ -24,7 +24,6 @@ typedef struct knurl_motion {
     double rate;        /* rad/s about it */
     double start_time;  /* s, scene time */
     double end_time;    /* not after start_time: it stands still */
-    double jump_time;   /* s: of the latest jump */
     uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
 } knurl_motion;
 

@@ -117,7 +117,7 @@ void knurl_scene_centre(const knurl_scene *scene, double centre[3]) {
         const knurl_surface_data *surface = scene->surfaces[scene->order[i]];
         double least[3];
         double greatest[3];
-        knurl_surface_bounds(surface, &surface->record->motion, least, greatest);
+        knurl_surface_bounds(surface, &surface->record->motion, knurl_scene_time(scene), least, greatest);
         for (int axis = 0; axis < 3; axis++) {
             low[axis] = fmin(low[axis], least[axis]);
             high[axis] = fmax(high[axis], greatest[axis]);

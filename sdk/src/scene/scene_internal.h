@@ -31,6 +31,7 @@ typedef struct knurl_record {
     int32_t has_grating;          /* 0: nothing to play, the stage is left out */
     int32_t is_smooth;            /* 1: neither ridges nor height */
     knurl_motion motion;          /* of the shape's frame */
+    float arrived[6];             /* a box of where it is once the motion is over, with room; scene axes */
 } knurl_record;
 
 /* A surface. But for `record` and what edits keep for themselves it never changes. */
@@ -160,8 +161,12 @@ knurl_record *knurl_record_copy(knurl_heap *heap, const knurl_record *record);
 /* Checks a pose and turns it into one of the surface's own frame. Errors: KNURL_ERROR_ARGUMENT. */
 knurl_result knurl_surface_check_pose(const double position[3], const double rotation[4], knurl_pose *pose);
 
-/* Scene bounds of all that a motion has yet to sweep; without the reach. */
-void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double low[3], double high[3]);
+/* Scene bounds of all that a motion sweeps or, once it is over, of where it has arrived; without the reach. */
+void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double time, double low[3],
+                          double high[3]);
+
+/* Sets the box of where a record's surface arrives, crests included, with `room` round it (world.c). */
+void knurl_record_set_box(const knurl_surface_data *surface, knurl_record *record, double room);
 
 /* --- edits that ticks may see (world.c, retire.c) --- */
 
@@ -187,10 +192,18 @@ double knurl_scene_time(const knurl_scene *scene);
 void knurl_hip_look_around(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip,
                            const double position[3]);
 
-/* Places whose boxes meet a box (world.c). At most `room` of them are written; returns how many there are, at most
- * room + 1. */
-uint32_t knurl_world_find(const knurl_world *world, const double low[3], const double high[3], int everything,
-                          uint32_t room, uint32_t *places);
+/* What to look for in a world. */
+typedef struct knurl_view {
+    const double *low; /* a box, scene axes, m */
+    const double *high;
+    double time;    /* s: what has arrived by then is where it is */
+    int everything; /* 1: without the hierarchy */
+    int exact;      /* 1: without the room round what moves */
+} knurl_view;
+
+/* Places of the surfaces that a view meets (world.c). At most `room` of them are written; returns how many there are,
+ * at most room + 1. */
+uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint32_t room, uint32_t *places);
 
 /* A surface's tangent frame at a contact, in the shape's frame (surface_frame.c). x, y: unit, tangent to the contact's
  * normal. coordinates: m, what S1 looks up. */

@@ -143,14 +143,14 @@ static void add_box(const knurl_surface_data *surface, const knurl_pose *pose, d
     }
 }
 
-void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double low[3],
+void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double time, double low[3],
                           double high[3]) {
     for (int i = 0; i < 3; i++) {
         low[i] = HUGE_VAL;
         high[i] = -HUGE_VAL;
     }
     add_box(surface, &motion->end, low, high);
-    if (motion->end_time <= motion->start_time) {
+    if (knurl_motion_is_over(motion, time)) {
         return;
     }
     add_box(surface, &motion->start, low, high);
@@ -201,6 +201,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     result = result ? result : set_name(heap, d->name, surface);
     if (!result) {
         knurl_motion_place(&pose, &surface->local, &surface->record->motion);
+        knurl_record_set_box(surface, surface->record, 0.0);
     }
     return result;
 }

@@ -47,14 +47,16 @@ static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near
         knurl_motion_at(motion, hip->time, &t->moved);
         t->pose = &t->moved;
     }
-    const int jumped = near->asked ? near->jumps != motion->jumps : motion->jump_time >= hip->previous_time;
-    if (jumped) {
+    /* what holds a HIP and jumps may hold it still; what jumps past one never touched it */
+    const int jumped = near->asked && near->jumps != motion->jumps;
+    const int let_go = jumped && near->in_contact;
+    if (let_go) {
         near->in_contact = 0;
         memset(&near->contact, 0, sizeof near->contact);
     }
     knurl_pose_to_own(t->pose, position, t->query.hip);
-    t->query.has_previous = hip->has_previous && !jumped;
-    if (near->asked) {
+    t->query.has_previous = hip->has_previous && !let_go;
+    if (near->asked && !jumped) {
         vec3_copy(near->previous, t->query.previous);
     } else if (knurl_motion_is_over(motion, hip->previous_time)) {
         knurl_pose_to_own(&motion->end, hip->previous, t->query.previous);
@@ -113,7 +115,7 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     knurl_surface_frame(t->surface, t->record, contact, x, y, coordinates);
     t->velocity[0] = vec3_dot(over, x);
     t->velocity[1] = vec3_dot(over, y);
-    if (t->record->has_grating) {
+    if (t->record->has_grating || near->grating.playing) { /* an event plays to its end */
         const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
                                        t->record->is_smooth ? 0.0 : m->amplitude,
                                        hip->rate,
@@ -123,7 +125,6 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     } else {
         static const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
         t->grating = none;
-        near->grating.playing = 0;
     }
     const double height = t->grating.height;
     double size = 0.0;
@@ -241,15 +242,14 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
 static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
     const int same_version = hip->version == knurl_load_acquire(&scene->version);
     handover over = {{0.0, 0.0, 0.0}, 0.0, 0};
-    double margin = 1e-9;
+    const double margin = hip->has_previous ? 1e-9 : KNURL_CAPTURE_DEPTH;
     int inside = 1;
     for (int i = 0; i < 3; i++) {
         inside &= out->hip[i] >= hip->near_low[i] && out->hip[i] <= hip->near_high[i];
     }
-    if (!same_version || !hip->has_previous || !inside || hip->depth > hip->near_depth ||
+    if (!same_version || !hip->has_previous || !inside || hip->depth > hip->near_depth || hip->near_overflow ||
         (scene->full_model & KNURL_FULL_SEARCH)) {
         knurl_hip_look_around(scene, world, hip, out->hip);
-        margin = KNURL_CAPTURE_DEPTH; /* a first tick, or something may have jumped here */
     }
     uint64_t asked = 0;
     for (uint32_t i = 0; i < hip->near_count; i++) {

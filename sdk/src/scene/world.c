@@ -36,14 +36,26 @@ static float round_up(double value) {
     return -round_down(-value);
 }
 
-/* The box of all that a record's motion sweeps, with its crests and `room` round it. */
-static void make_box(const knurl_surface_data *surface, const knurl_record *record, double room, float box[6]) {
+/* The box of all that a motion sweeps from `now` on, with the crests and `room` round it. */
+static void make_box(const knurl_surface_data *surface, const knurl_record *record, double now, double room,
+                     float box[6]) {
     double low[3];
     double high[3];
-    knurl_surface_bounds(surface, &record->motion, low, high);
+    knurl_surface_bounds(surface, &record->motion, now, low, high);
     for (int i = 0; i < 3; i++) {
         box[i] = round_down(low[i] - record->reach - room);
         box[3 + i] = round_up(high[i] + record->reach + room);
+    }
+}
+
+void knurl_record_set_box(const knurl_surface_data *surface, knurl_record *record, double room) {
+    make_box(surface, record, HUGE_VAL, room, record->arrived);
+}
+
+static void add_box(const float box[6], float to[6]) {
+    for (int i = 0; i < 3; i++) {
+        to[i] = box[i] < to[i] ? box[i] : to[i];
+        to[3 + i] = box[3 + i] > to[3 + i] ? box[3 + i] : to[3 + i];
     }
 }
 
@@ -119,12 +131,13 @@ static void make_loose(knurl_world *world, uint32_t place) {
 knurl_result knurl_world_rebuild(knurl_scene *scene, uint32_t capacity) {
     uint32_t *still = knurl_heap_alloc(&scene->heap, (uint64_t)scene->surface_count + 1, sizeof *still);
     knurl_world *world = still ? create(&scene->heap, capacity) : NULL;
+    const double now = knurl_scene_time(scene);
     uint32_t still_count = 0;
     for (uint32_t i = 0; world && i < scene->surface_count; i++) {
         knurl_surface_data *surface = scene->surfaces[scene->order[i]];
-        const knurl_motion *motion = &surface->record->motion;
         world->items[surface->place] = surface;
-        make_box(surface, surface->record, surface->moved ? room_of(motion) : 0.0, world->boxes[surface->place]);
+        make_box(surface, surface->record, now, 0.0, world->boxes[surface->place]);
+        add_box(surface->record->arrived, world->boxes[surface->place]);
         if (surface->moved) {
             make_loose(world, surface->place);
         } else {
@@ -162,9 +175,7 @@ knurl_result knurl_world_add(knurl_scene *scene, knurl_surface_data *surface) {
         const uint32_t larger = scene->surface_count + scene->surface_count / 2 + LOOSE_MIN;
         return knurl_world_rebuild(scene, larger > scene->capacity ? larger : scene->capacity);
     }
-    float box[6];
-    make_box(surface, surface->record, 0.0, box);
-    store_box(world->boxes[surface->place], box);
+    store_box(world->boxes[surface->place], surface->record->arrived);
     make_loose(world, surface->place);
     __atomic_store_n(&world->items[surface->place], surface, __ATOMIC_SEQ_CST);
     knurl_store_release(&scene->version, scene->version + 1);
@@ -176,29 +187,28 @@ static int holds(const float outer[6], const float inner[6]) {
            outer[4] >= inner[4] && outer[5] >= inner[5];
 }
 
+/* Lists were made from the stored box and, once a motion was over, from the box of where it had arrived. While the new
+ * motion stays within the latter, they hold. */
 void knurl_world_publish(knurl_scene *scene, knurl_surface_data *surface, knurl_record *record) {
     knurl_world *world = scene->world;
-    float needed[6];
-    float *stored = world ? world->boxes[surface->place] : NULL;
-    make_box(surface, record, 0.0, needed);
-    const int stays = !world || holds(stored, needed);
-    const int jumps = record->motion.jumps != surface->record->motion.jumps;
+    float swept[6];
+    make_box(surface, record, knurl_scene_time(scene), 0.0, swept);
+    const int stays = world && holds(record->arrived, swept); /* still the old record's */
     if (!stays) {
-        float both[6];
-        for (int i = 0; i < 3; i++) {
-            both[i] = needed[i] < stored[i] ? needed[i] : stored[i];
-            both[3 + i] = needed[3 + i] > stored[3 + i] ? needed[3 + i] : stored[3 + i];
-        }
-        store_box(stored, both);
-        make_loose(world, surface->place);
+        knurl_record_set_box(surface, record, world ? room_of(&record->motion) : 0.0);
+        add_box(record->arrived, swept);
     }
-    if (!stays || jumps) {
+    if (!stays && world) {
+        float both[6];
+        memcpy(both, swept, sizeof both);
+        add_box(world->boxes[surface->place], both);
+        store_box(world->boxes[surface->place], both);
+        make_loose(world, surface->place);
         knurl_store_release(&scene->version, scene->version + 1);
     }
     knurl_record *old = __atomic_exchange_n(&surface->record, record, __ATOMIC_SEQ_CST);
-    if (!stays) { /* lists that were made meanwhile hold more than they need */
-        make_box(surface, record, room_of(&record->motion), needed);
-        store_box(stored, needed);
+    if (!stays && world) { /* lists that were made meanwhile hold more than they need */
+        store_box(world->boxes[surface->place], swept);
         knurl_store_release(&scene->version, scene->version + 1);
     }
     knurl_scene_retire(scene, &old->retired);
@@ -215,17 +225,35 @@ void knurl_world_remove(knurl_scene *scene, knurl_surface_data *surface) {
     knurl_scene_retire(scene, &surface->retired);
 }
 
-static int meets(const float *box, const double low[3], const double high[3]) {
+static int meets(const float *box, const knurl_view *view) {
     for (int i = 0; i < 3; i++) {
         float least;
         float greatest;
         __atomic_load(&box[i], &least, __ATOMIC_RELAXED);
         __atomic_load(&box[3 + i], &greatest, __ATOMIC_RELAXED);
-        if (high[i] < (double)least || low[i] > (double)greatest) {
+        if (view->high[i] < (double)least || view->low[i] > (double)greatest) {
             return 0;
         }
     }
     return 1;
+}
+
+/* A stored box holds all of a way; what has arrived, or is asked for exactly, is in less of it. */
+static int is_there(const knurl_world *world, uint32_t place, const knurl_view *view) {
+    if (!meets(world->boxes[place], view)) {
+        return 0;
+    }
+    const knurl_surface_data *surface = __atomic_load_n(&world->items[place], __ATOMIC_SEQ_CST);
+    if (!surface) {
+        return 0;
+    }
+    const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
+    if (view->exact) {
+        float box[6];
+        make_box(surface, record, view->time, 0.0, box);
+        return meets(box, view);
+    }
+    return !knurl_motion_is_over(&record->motion, view->time) || meets(record->arrived, view);
 }
 
 /* A place may be found twice, loose and in the hierarchy. */
@@ -241,17 +269,17 @@ static uint32_t note(uint32_t place, uint32_t room, uint32_t count, uint32_t *pl
     return count + 1;
 }
 
-static int node_meets(const knurl_bvh_node *node, const double low[3], const double high[3]) {
+static int node_meets(const knurl_bvh_node *node, const knurl_view *view) {
     for (int i = 0; i < 3; i++) {
-        if (high[i] < (double)node->min[i] || low[i] > (double)node->max[i]) {
+        if (view->high[i] < (double)node->min[i] || view->low[i] > (double)node->max[i]) {
             return 0;
         }
     }
     return 1;
 }
 
-static uint32_t find_still(const knurl_world *world, const double low[3], const double high[3], uint32_t room,
-                           uint32_t count, uint32_t *places) {
+static uint32_t find_still(const knurl_world *world, const knurl_view *view, uint32_t room, uint32_t count,
+                           uint32_t *places) {
     uint32_t stack[KNURL_BVH_MAX_DEPTH];
     uint32_t top = 0;
     if (world->node_count > 0) {
@@ -260,12 +288,12 @@ static uint32_t find_still(const knurl_world *world, const double low[3], const 
     while (top > 0 && count <= room) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &world->nodes[index];
-        if (!node_meets(node, low, high)) {
+        if (!node_meets(node, view)) {
             continue;
         }
         for (uint32_t i = 0; i < node->count && count <= room; i++) {
             const uint32_t place = world->order[node->first + i];
-            if (meets(world->boxes[place], low, high)) { /* it may have gone from here since */
+            if (is_there(world, place, view)) { /* it may have gone from here since */
                 count = note(place, room, count, places);
             }
         }
@@ -277,12 +305,11 @@ static uint32_t find_still(const knurl_world *world, const double low[3], const 
     return count;
 }
 
-uint32_t knurl_world_find(const knurl_world *world, const double low[3], const double high[3], int everything,
-                          uint32_t room, uint32_t *places) {
+uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint32_t room, uint32_t *places) {
     uint32_t count = 0;
-    if (everything) {
+    if (view->everything) {
         for (uint32_t place = 0; place < world->capacity && count <= room; place++) {
-            if (knurl_load_acquire(&world->items[place]) && meets(world->boxes[place], low, high)) {
+            if (is_there(world, place, view)) {
                 count = note(place, room, count, places);
             }
         }
@@ -290,10 +317,9 @@ uint32_t knurl_world_find(const knurl_world *world, const double low[3], const d
     }
     const uint32_t loose = knurl_load_acquire(&world->loose_count);
     for (uint32_t i = 0; i < loose && count <= room; i++) {
-        const uint32_t place = world->loose[i];
-        if (meets(world->boxes[place], low, high)) {
-            count = note(place, room, count, places);
+        if (is_there(world, world->loose[i], view)) {
+            count = note(world->loose[i], room, count, places);
         }
     }
-    return find_still(world, low, high, room, count, places);
+    return find_still(world, view, room, count, places);
 }
