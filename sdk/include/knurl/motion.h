@@ -19,19 +19,21 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 
 /** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
 typedef struct knurl_velocity {
-    int64_t history[3][16]; /**< FOAW: the newest positions in fixed point, 1024 steps a count, a ring per axis */
-    double last[3];         /**< DIFFERENCE: the previous position, m */
-    double rate;            /**< update rate, Hz */
-    double steps_per_m;     /**< FOAW: fixed-point steps per metre */
-    double m_per_step;      /**< FOAW: 1 / steps_per_m */
-    uint32_t count;         /**< positions seen, at most 16 */
-    uint32_t newest;        /**< FOAW: ring index of the newest position */
-    int32_t method;         /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
-    uint32_t reserved;      /**< 0 */
+    double history[32][4]; /**< FOAW: positions in whole 1024ths of a count, rows -x, -y, -z, z, the newest in row
+                                `newest`, older ones after it; a ring of 16, kept twice so that nobody has to wrap */
+    double last[3];        /**< DIFFERENCE: the previous position, m */
+    double rate;           /**< update rate, Hz */
+    double steps_per_m;    /**< FOAW: fixed-point steps per metre */
+    double slope_unit;     /**< FOAW: m/s per 1/360360 of a step a tick */
+    uint32_t newest;       /**< FOAW: row of the newest position, 0 to 15 */
+    uint32_t started;      /**< 1: a position has been seen */
+    int32_t method;        /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
+    uint32_t reserved;     /**< 0 */
 } knurl_velocity;
 
 /** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
- * needs >= 1e-9; it can tell 2^31 quanta either side of 0 apart, 1 m at 1e-9). update_rate_hz: 1 to 100,000 Hz.
+ * needs >= 1e-9; it can tell 2^30 quanta either side of 0 apart, 1 m at 1e-9, and chooses its window exactly while 15
+ * ticks span less than 2^24 quanta, beyond that to a double's rounding). update_rate_hz: 1 to 100,000 Hz.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
                                            knurl_velocity *velocity);

@@ -1,0 +1,102 @@
+/* The library's velocity estimators, with SIMD where the machine has it, against the same source compiled without: bit
+ * for bit, whatever comes in. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include <knurl/motion.h>
+
+/* velocity.c with KNURL_NO_SIMD and renamed (CMakeLists.txt) */
+knurl_result plain_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity);
+void plain_update(knurl_velocity *velocity, const double position[3], double out[3]);
+void plain_reset(knurl_velocity *velocity);
+
+#define QUANTUM 0.055e-3
+#define TICKS   1000000
+
+/* One axis' next position (m) from the one before; each way in which windows are chosen. */
+typedef double next_position(double before, uint64_t *seed);
+
+static double anywhere(double before, uint64_t *seed) {
+    (void)before;
+    return random_between(seed, -0.2, 0.2);
+}
+
+static double smooth(double before, uint64_t *seed) {
+    return before + random_between(seed, -0.2, 0.6) * QUANTUM;
+}
+
+/* On counts: samples lie exactly one count off the line in a third of all ticks. */
+static double tied(double before, uint64_t *seed) {
+    return QUANTUM * (floor(before / QUANTUM + 0.5) + (double)random_integer(seed, -2, 3));
+}
+
+/* From below a step to beyond what is told apart, where slopes round and positions clamp; NaN and infinities too. */
+static double extreme(double before, uint64_t *seed) {
+    static const double others[] = {0.0, -0.0, 1e300, -1e300, 5e-324, (double)INFINITY, -(double)INFINITY, (double)NAN};
+    (void)before;
+    if (random_integer(seed, 0, 9) == 0) {
+        return others[random_integer(seed, 0, 7)];
+    }
+    return ldexp(random_between(seed, -1.0, 1.0), (int)random_integer(seed, -40, 40));
+}
+
+static int same_bits(const double a[3], const double b[3]) {
+    uint64_t x[3];
+    uint64_t y[3];
+    memcpy(x, a, sizeof x);
+    memcpy(y, b, sizeof y);
+    return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];
+}
+
+static void compare(next_position *next, uint64_t seed) {
+    knurl_velocity library;
+    knurl_velocity plain;
+    double position[3] = {0.0, 0.0, 0.0};
+    assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0, &library), KNURL_OK);
+    assert_int_equal(plain_init(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0, &plain), KNURL_OK);
+    for (int k = 0; k < TICKS; k++) {
+        double out[3];
+        double expected[3];
+        if (random_integer(&seed, 0, 99) == 0) {
+            knurl_velocity_reset(&library);
+            plain_reset(&plain);
+        }
+        for (size_t axis = 0; axis < 3; axis++) {
+            position[axis] = next(position[axis], &seed);
+        }
+        knurl_velocity_update(&library, position, out);
+        plain_update(&plain, position, expected);
+        if (!same_bits(out, expected)) {
+            assert_memory_equal(out, expected, sizeof out); /* tells which; a million of these would take seconds */
+        }
+        if (!(isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]))) {
+            fail_msg("tick %d: not finite", k);
+        }
+    }
+    assert_memory_equal(&library, &plain, sizeof plain);
+}
+
+TEST(both_builds_agree_on_positions_without_order) {
+    compare(anywhere, 1);
+}
+
+TEST(both_builds_agree_on_smooth_motion_between_counts) {
+    compare(smooth, 2);
+}
+
+TEST(both_builds_agree_where_samples_lie_one_count_off_the_line) {
+    compare(tied, 3);
+}
+
+TEST(both_builds_agree_on_extreme_positions_and_stay_finite) {
+    compare(extreme, 4);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_builds_agree_on_positions_without_order),
+        cmocka_unit_test(both_builds_agree_on_smooth_motion_between_counts),
+        cmocka_unit_test(both_builds_agree_where_samples_lie_one_count_off_the_line),
+        cmocka_unit_test(both_builds_agree_on_extreme_positions_and_stay_finite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
