@@ -1,6 +1,7 @@
 /* Haptic gratings: S1 (Eqs. 10, 11), S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
 #include <knurl/grating.h>
 
+#include "vibration/event.h"
 #include "vibration/ticks.h"
 
 #include <math.h>
@@ -60,10 +61,14 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
     }
 }
 
-double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) {
+static double highest(const double spatial_frequency[2], const double velocity[2]) {
     const double along_x = spatial_frequency[0] * fabs(velocity[0]);
     const double along_y = spatial_frequency[1] * fabs(velocity[1]);
     return along_x > along_y ? along_x : along_y;
+}
+
+double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) {
+    return highest(spatial_frequency, velocity);
 }
 
 /* Which half of its cycle a phase (in cycles) is in. */
@@ -82,39 +87,38 @@ double knurl_grating_s1(const double position[2], const double spatial_frequency
     return x == y ? amplitude : -amplitude;
 }
 
-/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */
-static void step_s2(const knurl_grating *grating, knurl_grating_state *state, const double velocity[2],
-                    knurl_grating_output *output) {
+/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. 0: none plays. */
+static int step_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
     if (!state->playing) {
-        const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-        /* infinite across no ridge; below a tick, however fast, it is played as 2 */
-        const double ticks = fmax(1.0, grating->update_rate_hz / output->temporal_frequency);
+        const double ticks = grating->update_rate_hz / frequency; /* infinite across no ridge */
         if (!(speed2 >= KNURL_S2_DEADBAND * KNURL_S2_DEADBAND) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
-            return; /* idle: the height stays 0 */
+            return 0;
         }
-        (void)knurl_event_init(ticks, grating->amplitude, &state->event); /* checked: cannot fail */
+        /* below a tick, however fast, it is played as 2 */
+        knurl_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
         state->playing = 1;
         state->next_tick = 0;
         state->event_count++;
     }
-    output->height = knurl_event_height(&state->event, state->next_tick);
-    output->event = state->event_count - 1;
-    state->next_tick++;
-    state->playing = state->next_tick < state->event.length;
+    return 1;
 }
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
     const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-    const double frequency = knurl_grating_frequency(grating->spatial_frequency, velocity);
-    memset(output, 0, sizeof *output);
-    output->temporal_frequency = frequency;
+    const double frequency = highest(grating->spatial_frequency, velocity);
+    output->height = 0.0;
     output->spatial_frequency = speed2 > 0.0 ? frequency / sqrt(speed2) : 0.0;
-    output->saturated = frequency > 0.5 * grating->update_rate_hz;
+    output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
-    if (grating->method == KNURL_S2) {
-        step_s2(grating, state, velocity, output);
-    } else {
+    output->saturated = frequency > 0.5 * grating->update_rate_hz;
+    output->reserved = 0;
+    if (grating->method != KNURL_S2) {
         output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
+    } else if (step_s2(grating, state, speed2, frequency)) {
+        output->height = knurl_event_value(&state->event, state->next_tick);
+        output->event = state->event_count - 1;
+        state->next_tick++;
+        state->playing = state->next_tick < state->event.length;
     }
 }

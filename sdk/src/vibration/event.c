@@ -1,7 +1,6 @@
 /* One T3 event: Algorithms 2, 4 and 5 with Eqs. 7 and 8, chosen by Algorithm 6. SPDX-License-Identifier: MIT */
+#include "vibration/event.h"
 #include "vibration/ticks.h"
-
-#include <knurl/vibration.h>
 
 #include <math.h>
 
@@ -10,7 +9,7 @@
 #define EVEN (2.0 / 3.605551275463989)                      /* 2/sqrt(13) */
 #define UP   (3.0 / 3.605551275463989 * 0.7071067811865476) /* 3/sqrt(13) sqrt(1/2) */
 #define DOWN (3.0 / 3.605551275463989 * 1.4142135623730951) /* 3/sqrt(13) sqrt(2) */
-static const double mixed_heights[6] = {EVEN + UP, -EVEN + UP, EVEN - DOWN, -EVEN + UP, EVEN + UP, -EVEN - DOWN};
+const double knurl_mixed_heights[6] = {EVEN + UP, -EVEN + UP, EVEN - DOWN, -EVEN + UP, EVEN + UP, -EVEN - DOWN};
 
 static void init_even(int32_t length, double amplitude, knurl_event *event) {
     event->kind = KNURL_EVENT_EVEN;
@@ -32,14 +31,7 @@ static void init_odd(int32_t length, double amplitude, knurl_event *event) {
     event->negative = amplitude * sqrt(period * positive / (negative * negative + negative * positive));
 }
 
-knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event) {
-    if (!(period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to %g ticks, found %g",
-                          KNURL_MAX_PERIOD_TICKS, period_ticks);
-    }
-    if (!(amplitude >= 0.0 && isfinite(amplitude))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
-    }
+void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event) {
     const double ticks = knurl_snap_ticks(period_ticks);
     event->saturated = ticks < 2.0;
     if (ticks < 2.25) {
@@ -58,15 +50,20 @@ knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event
             init_odd(length, amplitude, event);
         }
     }
+}
+
+knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event) {
+    if (!(period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to %g ticks, found %g",
+                          KNURL_MAX_PERIOD_TICKS, period_ticks);
+    }
+    if (!(amplitude >= 0.0 && isfinite(amplitude))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
+    }
+    knurl_event_prepare(period_ticks, amplitude, event);
     return KNURL_OK;
 }
 
 double knurl_event_height(const knurl_event *event, int32_t index) {
-    if (index < 0 || index >= event->length) {
-        return 0.0;
-    }
-    if (event->kind == KNURL_EVENT_MIXED) {
-        return event->positive * mixed_heights[index];
-    }
-    return index < event->positive_ticks ? event->positive : -event->negative;
+    return index >= 0 && index < event->length ? knurl_event_value(event, index) : 0.0;
 }

@@ -1,0 +1,22 @@
+/* One T3 event, for those who play it in a tick: no checks, no messages, no calls where a call would cost more than
+ * what it does. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_EVENT_H
+#define KNURL_SRC_EVENT_H
+
+#include <knurl/vibration.h>
+
+/* Algorithm 5's six values in units of A (event.c). */
+extern const double knurl_mixed_heights[6];
+
+/* knurl_event_init() for what is in range: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >= 0. */
+void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event);
+
+/* knurl_event_height() for 0 <= index < event->length. */
+static inline double knurl_event_value(const knurl_event *event, int32_t index) {
+    if (event->kind == KNURL_EVENT_MIXED) {
+        return event->positive * knurl_mixed_heights[index];
+    }
+    return index < event->positive_ticks ? event->positive : -event->negative;
+}
+
+#endif
