@@ -49,9 +49,9 @@ void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh);
 
 uint64_t knurl_mesh_bytes(const knurl_mesh *mesh);
 
-void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out);
+void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out) KNURL_NONBLOCKING;
 
 /* dP/du and dP/dv of one triangle; 0 where its uvs have no area (or there are none). */
-int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]);
+int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) KNURL_NONBLOCKING;
 
 #endif

@@ -76,7 +76,7 @@ knurl_result knurl_surface_set_material(knurl_surface_data *surface, const knurl
 /* A surface's tangent frame and coordinates at a contact, in its own frame (surface_frame.c). x, y: unit, tangent to
  * the contact's normal. coordinates: m, what S1 looks up. Allowed in a tick. */
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_contact *contact, double x[3], double y[3],
-                         double coordinates[2]);
+                         double coordinates[2]) KNURL_NONBLOCKING;
 
 /* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did.
  * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
