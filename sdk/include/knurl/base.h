@@ -28,6 +28,17 @@
 #define KNURL_PRINTF(format_index, first)
 #endif
 
+/** Marks what may run in a tick: no heap, lock, wait or message. Clang 20 and later hold its code, and all that it
+ * calls, to that (-Wfunction-effects); to other compilers it is a comment. */
+#if defined(__has_attribute)
+#if __has_attribute(nonblocking)
+#define KNURL_NONBLOCKING __attribute__((nonblocking))
+#endif
+#endif
+#ifndef KNURL_NONBLOCKING
+#define KNURL_NONBLOCKING
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -54,22 +54,23 @@ KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
 
 /** The temporal frequency of a scan, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
  * spatial_frequency: cycles/m along x and y. velocity: m/s along x and y. [any thread; allowed in a tick] */
-KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]);
+KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) KNURL_NONBLOCKING;
 
 /** S1 in 2D, Eq. 10: +amplitude while the fractional phase of position x spatial_frequency is below one half.
  * position: m. spatial_frequency: cycles/m. amplitude: m. [any thread; allowed in a tick] */
-KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude);
+KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) KNURL_NONBLOCKING;
 
 /** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars where one
  * frequency is 0. position: m along x and y. [any thread; allowed in a tick] */
-KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude);
+KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2],
+                                  double amplitude) KNURL_NONBLOCKING;
 
 /** One tick of a checked grating. position: m along the surface's x and y (S1). velocity: m/s along x and y, of the HIP
  * relative to the surface. state and output: caller's. S2: a new period and amplitude are taken only when an event has
  * ended (Algorithm 7); with no event, below the deadband or where an event would last over 1e6 ticks, the height is 0.
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
-                                  const double velocity[2], knurl_grating_output *output);
+                                  const double velocity[2], knurl_grating_output *output) KNURL_NONBLOCKING;
 
 /** "S1", "S2" or "locked" for a method, null for any other number. [any thread] */
 KNURL_API const char *knurl_method_name(int32_t method);

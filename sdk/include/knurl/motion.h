@@ -39,10 +39,11 @@ KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, do
                                            knurl_velocity *velocity);
 
 /** Takes the position (m, finite) of this tick and gives the velocity (m/s); the first tick gives 0. [haptic thread] */
-KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3], double out[3]);
+KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3],
+                                     double out[3]) KNURL_NONBLOCKING;
 
 /** Forgets all positions, so that the next one is a first one again. [haptic thread] */
-KNURL_API void knurl_velocity_reset(knurl_velocity *velocity);
+KNURL_API void knurl_velocity_reset(knurl_velocity *velocity) KNURL_NONBLOCKING;
 
 /** Device to scene: scene = origin + rotation * scale * device. */
 typedef struct knurl_workspace {
@@ -60,18 +61,20 @@ KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
 KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
 
 /** A device position (m) in the scene (m). [any thread; allowed in a tick] */
-KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]);
+KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3],
+                                        double scene[3]) KNURL_NONBLOCKING;
 
 /** A scene position (m) in device coordinates (m). [any thread; allowed in a tick] */
-KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]);
+KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3],
+                                         double device[3]) KNURL_NONBLOCKING;
 
 /** Turns a device velocity (m/s) into the scene's, scale included. [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3],
-                                                 double scene[3]);
+                                                 double scene[3]) KNURL_NONBLOCKING;
 
 /** Turns a scene direction or force (N) into device axes; lengths are kept. [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3],
-                                                double device[3]);
+                                                double device[3]) KNURL_NONBLOCKING;
 
 #ifdef __cplusplus
 }

@@ -238,7 +238,7 @@ KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint3
  * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed),
  * KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
-                                        knurl_tick_output *output);
+                                        knurl_tick_output *output) KNURL_NONBLOCKING;
 
 /** The latest complete tick of a HIP, as one consistent snapshot, for cursors and plots. All zeros before the first.
  * Errors: KNURL_ERROR_ARGUMENT. [any thread] */

@@ -41,11 +41,11 @@ typedef struct knurl_wave {
 /** Prepares the T3 event for one period (Algorithms 4, 5, 6; Eqs. 7, 8).
  * period_ticks: temporal period in ticks, > 0; below 2 it is played as 2 and marked saturated; at most 1e6.
  * amplitude: finite, >= 0, in the unit that heights are wanted in. event: caller's.
- * Errors: KNURL_ERROR_ARGUMENT. [any thread; allowed in a tick] */
+ * Errors: KNURL_ERROR_ARGUMENT, with a message. [any thread, never from a tick] */
 KNURL_API knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event);
 
 /** The event's height at tick `index`, 0 <= index < event->length; 0 outside. [any thread; allowed in a tick] */
-KNURL_API double knurl_event_height(const knurl_event *event, int32_t index);
+KNURL_API double knurl_event_height(const knurl_event *event, int32_t index) KNURL_NONBLOCKING;
 
 /** Prepares a temporal signal (Algorithms 1-6; Eqs. 1-8).
  * method: KNURL_T1, KNURL_T2 or KNURL_T3. period_s: (0, 10] s. amplitude: finite, >= 0, in the unit of the output (N).
@@ -57,7 +57,7 @@ KNURL_API knurl_result knurl_wave_init(int32_t method, double period_s, double a
 /** The signal's value at tick `tick` (any; the signal starts with its positive part at 0), in the unit of its
  * amplitude. Peaks: T1 A; T2 up to sqrt(2) A; T3 up to 1.414 A, in the mixed case 1.732 A. [any thread; allowed in a
  * tick] */
-KNURL_API double knurl_wave_value(const knurl_wave *wave, uint64_t tick);
+KNURL_API double knurl_wave_value(const knurl_wave *wave, uint64_t tick) KNURL_NONBLOCKING;
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,18 @@
 #define knurl_store_release(p, v) __atomic_store_n((p), (v), __ATOMIC_RELEASE)
 #define knurl_exchange(p, v)      __atomic_exchange_n((p), (v), __ATOMIC_ACQ_REL)
 
+/* A floating-point number that one thread writes and any may read. (Clang's __atomic_store wants a source that is not
+ * const; the copies compile to nothing.) */
+static inline void knurl_store_double(double *to, double value) {
+    double copy = value;
+    __atomic_store(to, &copy, __ATOMIC_RELAXED);
+}
+
+static inline void knurl_store_float(float *to, float value) {
+    float copy = value;
+    __atomic_store(to, &copy, __ATOMIC_RELAXED);
+}
+
 /* For counters with one writer and any number of readers. */
 #define knurl_count_up(p) knurl_store_relaxed((p), knurl_load_relaxed(p) + 1)
 

@@ -3,7 +3,7 @@
 #ifndef KNURL_SRC_HISTOGRAM_H
 #define KNURL_SRC_HISTOGRAM_H
 
-#include <stdint.h>
+#include <knurl/base.h>
 
 #define KNURL_HISTOGRAM_BUCKETS (32 * 60)
 
@@ -14,7 +14,7 @@ typedef struct knurl_histogram {
 } knurl_histogram;
 
 /* [haptic thread] negative values count as 0 */
-void knurl_histogram_add(knurl_histogram *histogram, int64_t value);
+void knurl_histogram_add(knurl_histogram *histogram, int64_t value) KNURL_NONBLOCKING;
 
 /* The value that a share (0..1) of what was added does not exceed, to the bucket's middle; 0 when empty. */
 double knurl_histogram_percentile(const knurl_histogram *histogram, double share);

@@ -43,18 +43,20 @@ typedef struct knurl_contact {
 /* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
  * state. */
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
-                       knurl_contact *contact);
+                       knurl_contact *contact) KNURL_NONBLOCKING;
 
 /* Which way the grating's x runs at a contact, by tangents or uvs (any length, not made tangent; 0 where the uvs have
  * no area), and where on the grating it is by the uvs (m; 0 without). Allowed in a tick. */
-void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]);
+void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3],
+                      double coordinates[2]) KNURL_NONBLOCKING;
 
 /* The nearest point of the mesh within `radius` of p; 0 where there is none. Fills in proxy, weights and triangle. */
-int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest);
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
+                       knurl_contact *nearest) KNURL_NONBLOCKING;
 
 /* Where the segment from a to b first goes through a triangle: from the front, or from either side. Returns the side
  * (+1, -1) or 0 for none. */
 int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
-                     uint32_t *triangle);
+                     uint32_t *triangle) KNURL_NONBLOCKING;
 
 #endif

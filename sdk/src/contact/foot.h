@@ -21,7 +21,7 @@ typedef struct knurl_foot {
 
 /* Which edge or corner is nearest to a point that is not above the inside, by Voronoi regions (Ericson 2005, section
  * 5.1.5). inside: of b and c, signed, 0 on the edge that faces the corner. */
-void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *foot);
+void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *foot) KNURL_NONBLOCKING;
 
 /* Above the inside, which is nearly always, everything comes from the normal: one division. */
 static inline void knurl_foot_find(const knurl_mesh *mesh, uint32_t triangle, const double p[3], knurl_foot *foot) {
@@ -59,10 +59,10 @@ static inline void knurl_foot_leave(const double point[3], const double p[3], do
 }
 
 /* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */
-void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot);
+void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) KNURL_NONBLOCKING;
 
 /* Which side of the surface a point is on whose foot this is: +1 in front, -1 behind, 0 neither.
  * *rim: whether the foot is on the rim of an open mesh. */
-int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim);
+int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) KNURL_NONBLOCKING;
 
 #endif

@@ -80,10 +80,10 @@ static inline void knurl_mesh_corners(const knurl_mesh *mesh, uint32_t triangle,
     }
 }
 
-void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out);
+void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out) KNURL_NONBLOCKING;
 
 /* dP/du and dP/dv of one triangle; 0 where its uvs have no area (or there are none). */
-int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]);
+int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) KNURL_NONBLOCKING;
 
 /* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
  * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */

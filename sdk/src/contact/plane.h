@@ -59,17 +59,18 @@ static inline int knurl_plane_band(const knurl_plane *plane, double y) {
 
 /* 1 for a point (of z = 0) within the outline. On an edge: 1 on a rectangle's, either on another's. Allowed in a tick.
  */
-int knurl_plane_covers(const knurl_plane *plane, const double p[2]);
+int knurl_plane_covers(const knurl_plane *plane, const double p[2]) KNURL_NONBLOCKING;
 
 uint64_t knurl_plane_bytes(const knurl_plane *plane);
 
 /* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
  * state. Allowed in a tick. */
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
-                        knurl_contact *contact);
+                        knurl_contact *contact) KNURL_NONBLOCKING;
 
 /* Which way the grating's x runs at a contact (unit, tangent, in the plane's frame), and where on the grating it is (m;
  * not turned by the material's orientation). Allowed in a tick. */
-void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double coordinates[2]);
+void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3],
+                       double coordinates[2]) KNURL_NONBLOCKING;
 
 #endif

@@ -105,15 +105,16 @@ typedef struct lane_pairs {
     __m128d slack;
 } lane_pairs;
 
+#define WINDOW(i) {{LCM / (i), LCM / (i)}, {STEPS_PER_COUNT * (LCM / (i)), STEPS_PER_COUNT * (LCM / (i))}},
+static const lane_pairs windows[RING] = {WINDOWS(WINDOW)};
+#undef WINDOW
+
 static __m128d choose(__m128d mask, __m128d yes, __m128d no) {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
 }
 
 /* x and y side by side; z with -z, whose lower bound is minus z's upper bound: one maximum keeps both. */
 static void widest_slopes(const double (*rows)[4], double slopes[4]) {
-#define WINDOW(i) {{LCM / (i), LCM / (i)}, {STEPS_PER_COUNT * (LCM / (i)), STEPS_PER_COUNT * (LCM / (i))}},
-    static const lane_pairs windows[RING] = {WINDOWS(WINDOW)};
-#undef WINDOW
     const __m128d sign = _mm_set1_pd(-0.0);
     const __m128d xy = _mm_xor_pd(_mm_loadu_pd(rows[0]), sign);
     const __m128d zz = _mm_xor_pd(_mm_loadu_pd(rows[0] + 2), sign);
@@ -139,11 +140,12 @@ static void widest_slopes(const double (*rows)[4], double slopes[4]) {
     _mm_storeu_pd(slopes + 2, best_zz);
 }
 #else
+#define WINDOW(i) LCM / (i),
+static const double scale[RING] = {WINDOWS(WINDOW)};
+#undef WINDOW
+
 /* Four lanes and no branch, so that compilers may vectorise it; the fourth is not used. */
 static void widest_slopes(const double (*rows)[4], double slopes[4]) {
-#define WINDOW(i) LCM / (i),
-    static const double scale[RING] = {WINDOWS(WINDOW)};
-#undef WINDOW
     double low[4] = {-ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE};
     double high[4] = {ANY_SLOPE, ANY_SLOPE, ANY_SLOPE, ANY_SLOPE};
     double best[4] = {0.0, 0.0, 0.0, 0.0};

@@ -53,8 +53,9 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     } else if (scene->committed) {
         knurl_scene_centre(scene, made.workspace.origin);
     }
-    static const double one[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    made.is_turned = memcmp(made.workspace.rotation, one, sizeof one) != 0;
+    for (int i = 0; i < 9; i++) {
+        made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
+    }
     *hip = made;
     return KNURL_OK;
 }

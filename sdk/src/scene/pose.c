@@ -13,10 +13,9 @@ static void mat3_product(const double a[9], const double b[9], double out[9]) {
 }
 
 void knurl_pose_settle(knurl_pose *pose) {
-    static const double one[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     pose->is_turned = 0;
     for (int i = 0; i < 9; i++) {
-        pose->is_turned |= pose->rotation[i] != one[i];
+        pose->is_turned |= pose->rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include "base/vec3.h"
 
+#include <knurl/base.h>
+
 #include <stdint.h>
 
 /* A frame in its parent's: parent = position + rotation * own. */
@@ -66,12 +68,12 @@ static inline int knurl_motion_is_over(const knurl_motion *motion, double time) 
 }
 
 /* The pose at a time; before start_time as at it. Allowed in a tick. */
-void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose);
+void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) KNURL_NONBLOCKING;
 
 /* The velocity, over the `period` that ends at `time`, of the point of the moving body that is then at `point` (scene,
  * m); 0 where most of the period was before the way or after it. Allowed in a tick. */
 void knurl_motion_velocity(const knurl_motion *motion, double time, double period, const double point[3],
-                           double velocity[3]);
+                           double velocity[3]) KNURL_NONBLOCKING;
 
 /* A frame that stands still. origin: the body's frame in the scene; local: the moving frame in the body's. */
 void knurl_motion_place(const knurl_pose *origin, const knurl_pose *local, knurl_motion *motion);

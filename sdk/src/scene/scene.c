@@ -45,9 +45,11 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
         return KNURL_ERROR_MEMORY;
     }
     made->heap = heap;
-    knurl_system_mutex_init(&made->lock);
-    knurl_system_mutex_init(&made->heap_lock);
-    made->heap.lock = &made->heap_lock;
+    for (int i = 0; i < 2; i++) {
+        knurl_system_mutex_init(&made->mutexes[i]);
+    }
+    made->lock = &made->mutexes[0];
+    made->heap.lock = &made->mutexes[1];
     made->epoch = made->version = 1;
     made->full_model = d.full_model;
     made->max_surfaces = d.max_surfaces;
@@ -84,19 +86,20 @@ void knurl_scene_destroy(knurl_scene *scene) {
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         knurl_heap_free(&scene->heap, arrays[i]);
     }
-    knurl_system_mutex_destroy(&scene->lock);
-    knurl_system_mutex_destroy(&scene->heap_lock);
+    for (int i = 0; i < 2; i++) {
+        knurl_system_mutex_destroy(&scene->mutexes[i]);
+    }
     knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
     heap.lock = NULL;
     knurl_heap_free(&heap, scene);
 }
 
 void knurl_scene_lock(const knurl_scene *scene) {
-    knurl_system_mutex_lock(&((knurl_scene *)(uintptr_t)scene)->lock); /* reading takes it too */
+    knurl_system_mutex_lock(scene->lock);
 }
 
 void knurl_scene_unlock(const knurl_scene *scene) {
-    knurl_system_mutex_unlock(&((knurl_scene *)(uintptr_t)scene)->lock);
+    knurl_system_mutex_unlock(scene->lock);
 }
 
 knurl_surface_data *knurl_scene_get(const knurl_scene *scene, knurl_surface surface) {

@@ -129,9 +129,9 @@ struct knurl_scene {
     uint32_t committed;
 
     /* for edits, under the lock */
-    knurl_mutex lock;
-    knurl_mutex heap_lock;
-    knurl_heap heap;
+    knurl_mutex *lock; /* who only reads takes it too */
+    knurl_mutex mutexes[2];
+    knurl_heap heap; /* under the second */
     knurl_retired *retired;
     knurl_surface_data **surfaces; /* by place; null: free */
     uint32_t *generations;         /* by place */
@@ -163,7 +163,7 @@ knurl_result knurl_surface_check_pose(const double position[3], const double rot
 
 /* Scene bounds of all that a motion sweeps or, once it is over, of where it has arrived; without the reach. */
 void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double time, double low[3],
-                          double high[3]);
+                          double high[3]) KNURL_NONBLOCKING;
 
 /* Sets the box of where a record's surface arrives, crests included, with `room` round it (world.c). */
 void knurl_record_set_box(const knurl_surface_data *surface, knurl_record *record, double room);
@@ -190,7 +190,7 @@ double knurl_scene_time(const knurl_scene *scene);
 /* Makes the HIP's list of near surfaces complete for a tick that takes it from its previous position to `position`
  * (near.c). */
 void knurl_hip_look_around(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip,
-                           const double position[3]);
+                           const double position[3]) KNURL_NONBLOCKING;
 
 /* What to look for in a world. */
 typedef struct knurl_view {
@@ -203,12 +203,13 @@ typedef struct knurl_view {
 
 /* Places of the surfaces that a view meets (world.c). At most `room` of them are written; returns how many there are,
  * at most room + 1. */
-uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint32_t room, uint32_t *places);
+uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint32_t room,
+                          uint32_t *places) KNURL_NONBLOCKING;
 
 /* A surface's tangent frame at a contact, in the shape's frame (surface_frame.c). x, y: unit, tangent to the contact's
  * normal. coordinates: m, what S1 looks up. */
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
-                         double x[3], double y[3], double coordinates[2]);
+                         double x[3], double y[3], double coordinates[2]) KNURL_NONBLOCKING;
 
 /* --- HIPs --- */
 

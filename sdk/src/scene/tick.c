@@ -39,7 +39,7 @@ typedef struct touch {
 static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near, touch *t) {
     const knurl_motion *motion = &t->record->motion;
     if (motion->start_time - hip->time > MAX_LAG) {
-        __atomic_store(&hip->time, &motion->start_time, __ATOMIC_RELAXED);
+        knurl_store_double(&hip->time, motion->start_time);
         hip->previous_time = motion->start_time - hip->period;
     }
     t->pose = &motion->end;
@@ -123,7 +123,7 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
                                        0};
         knurl_grating_step(&grating, &near->grating, coordinates, t->velocity, &t->grating);
     } else {
-        static const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+        const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
         t->grating = none;
     }
     const double height = t->grating.height;
@@ -274,9 +274,9 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     }
 }
 
-/* What is not finite stays so, or becomes NaN, when it is taken from itself. */
+/* No number times 0 is anything but 0, but for infinities and NaN. */
 static int is_finite(const double a[3]) {
-    return (a[0] - a[0]) + (a[1] - a[1]) + (a[2] - a[2]) == 0.0;
+    return 0.0 * a[0] + 0.0 * a[1] + 0.0 * a[2] == 0.0;
 }
 
 /* What is told while nothing is touched, beside the HIP: all the rest of an output, field by field, because clearing it
@@ -391,7 +391,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
     output->tick = hip->counts.ticks;
     const double time = hip->time + hip->period;
     hip->previous_time = hip->time;
-    __atomic_store(&hip->time, &time, __ATOMIC_RELAXED);
+    knurl_store_double(&hip->time, time);
     if (read_hip(hip, input, output)) {
         force = feel(scene, world, hip, output);
     } else {

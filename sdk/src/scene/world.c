@@ -61,7 +61,7 @@ static void add_box(const float box[6], float to[6]) {
 
 static void store_box(float to[6], const float box[6]) {
     for (int i = 0; i < 6; i++) {
-        __atomic_store(&to[i], &box[i], __ATOMIC_RELAXED);
+        knurl_store_float(&to[i], box[i]);
     }
 }
 

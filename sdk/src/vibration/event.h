@@ -9,7 +9,7 @@
 extern const double knurl_mixed_heights[6];
 
 /* knurl_event_init() for what is in range: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >= 0. */
-void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event);
+void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event) KNURL_NONBLOCKING;
 
 /* knurl_event_height() for 0 <= index < event->length. */
 static inline double knurl_event_value(const knurl_event *event, int32_t index) {
