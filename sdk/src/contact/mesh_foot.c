@@ -132,6 +132,7 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
     const uint32_t *corners;
     const uint32_t count = knot_at(mesh, from, &corners);
     double best = -HUGE_VAL;
+    int found = 0;
     for (uint32_t i = 0; i < count; i++) {
         knurl_foot other;
         knurl_foot_find(mesh, corners[i] >> 2, p, &other);
@@ -142,10 +143,11 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
         if (score > best) {
             best = score;
             *to = other;
+            found = 1;
         }
     }
     *capped |= count == MAX_FAN;
-    return best > -HUGE_VAL;
+    return found;
 }
 
 /* Swings round a vertex, both ways where the fan is open. */
