@@ -6,6 +6,7 @@
 
 /* Two shapes as one, each with vertices of its own; frees both. */
 static shape join(shape *a, shape *b) {
+    assert_true(a->vertex_count > 0 && a->index_count > 0);
     shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
     memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
     memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
