@@ -114,6 +114,7 @@ static inline shape body_moon(void) {
 }
 
 static inline shape body_copy(const shape *s) {
+    assert_true(s->vertex_count > 0 && s->index_count > 0);
     shape copy = shape_new(s->vertex_count, s->index_count, 0);
     memcpy(copy.positions, s->positions, (size_t)s->vertex_count * 3 * sizeof(float));
     memcpy(copy.indices, s->indices, (size_t)s->index_count * sizeof(uint32_t));

@@ -6,6 +6,7 @@
 
 /* Two shapes as one, each with vertices of its own; frees both. */
 static shape join(shape *a, shape *b) {
+    assert_true(a->vertex_count > 0 && a->index_count > 0);
     shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
     memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
     memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
@@ -98,6 +99,21 @@ TEST(double_layers_hold_across_every_border) {
     }
 }
 
+/* Whichever way each triangle faces, swinging gets round every vertex, over the rim's as well. */
+TEST(triangles_turned_at_random_hang_together) {
+    uint64_t seed = 9;
+    shape sheet = shape_sheet(20, 20, half, NULL);
+    for (uint32_t i = 0; i < sheet.index_count / 3; i++) {
+        if (random_integer(&seed, 0, 1)) {
+            turn_over(&sheet, i);
+        }
+    }
+    probe p = probe_shape(&sheet);
+    assert_int_equal(p.mesh->knot_count, 0);
+    assert_int_equal(p.mesh->triangle_count, 800);
+    probe_free(&p);
+}
+
 /* A double-sided surface has no inside: what is first seen behind it is behind it. */
 TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     shape sheet = shape_sheet(8, 8, half, NULL);
@@ -188,6 +204,7 @@ int main(void) {
         cmocka_unit_test(three_sheets_on_one_edge_hold_on),
         cmocka_unit_test(bow_ties_hold_on),
         cmocka_unit_test(double_layers_hold_across_every_border),
+        cmocka_unit_test(triangles_turned_at_random_hang_together),
         cmocka_unit_test(first_tick_behind_a_double_sided_sheet_is_behind),
         cmocka_unit_test(t_junction_on_a_thin_plate_is_slid_over_however_deep),
         cmocka_unit_test(soup_of_everything_stays_finite_and_on_the_mesh),

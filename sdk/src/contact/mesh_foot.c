@@ -132,6 +132,7 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
     const uint32_t *corners;
     const uint32_t count = knot_at(mesh, from, &corners);
     double best = -HUGE_VAL;
+    int found = 0;
     for (uint32_t i = 0; i < count; i++) {
         knurl_foot other;
         knurl_foot_find(mesh, corners[i] >> 2, p, &other);
@@ -142,10 +143,11 @@ static int step_at_knot(const knurl_mesh *mesh, const double p[3], int32_t side,
         if (score > best) {
             best = score;
             *to = other;
+            found = 1;
         }
     }
     *capped |= count == MAX_FAN;
-    return best > -HUGE_VAL;
+    return found;
 }
 
 /* Swings round a vertex, both ways where the fan is open. */
@@ -194,60 +196,12 @@ static int step(const knurl_mesh *mesh, const double p[3], int32_t side, const k
     return nearer_beyond(mesh, apex, p, from, to);
 }
 
-/* Whether a foot behind the surface stays back in a sharp concave corner: p is well off (20 degrees) the way its face
- * looks. In a valley of a curved surface, whose facets meet at small angles, it never is. */
-static int stays_back(const knurl_foot *foot, int32_t side) {
-    const double along = vec3_dot(foot->offset, foot->normal);
-    return foot->held != 7 && along * side <= 0.0 && along * along < 0.88 * foot->distance2 * foot->area2;
-}
-
-/* Whether the surface lies between a foot and p: then p has gone through a further wall. */
-static int is_walled_off(const knurl_mesh *mesh, const double p[3], int32_t side, const knurl_foot *foot) {
-    double from[3];
-    uint32_t triangle;
-    knurl_foot_leave(foot->point, p, from);
-    return knurl_mesh_cross(mesh, from, p, side < 0, &triangle) == side;
-}
-
-/* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
- * stay for ever while p goes on below the ridges), goes on at what is nearest of all, if the surface holds p there from
- * the same side: the far side of a thin wall faces the other way, and a further wall has p in front of it or shuts the
- * foot off. */
-static void jump(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) {
-    knurl_contact nearest;
-    knurl_foot other;
-    int rim;
-    if (!knurl_mesh_closest(mesh, p, sqrt(foot->distance2) * (1.0 - 1e-9), &nearest)) {
-        return;
-    }
-    knurl_foot_find(mesh, nearest.triangle, p, &other);
-    if (vec3_dot(other.offset, foot->offset) > 0.0 && knurl_foot_side(mesh, &other, &rim) * side < 0 &&
-        !is_walled_off(mesh, p, side, foot)) {
-        *foot = other;
-    }
-}
-
-void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) {
-    knurl_foot feet[2];
-    const knurl_foot *here = foot;
-    int capped = 0;
-    int steps = 0;
-    while (steps < MAX_STEPS && step(mesh, p, side, here, &feet[steps & 1], &capped)) {
-        here = &feet[steps++ & 1];
-    }
-    if (here != foot) {
-        *foot = *here;
-    }
-    if (capped || steps == MAX_STEPS || stays_back(foot, side)) {
-        jump(mesh, p, side, foot);
-    }
-}
-
 /* Sums over the triangles that touch a foot what their normals make of its offset. */
 typedef struct facing {
     const knurl_mesh *mesh;
     const knurl_foot *foot;
     int front, back; /* whether any says so */
+    int askew;       /* whether any looks more than 37 degrees off it: 0.64 is the square of the cosine */
     double weighted; /* by angle at a vertex, alike on an edge */
 } facing;
 
@@ -263,6 +217,7 @@ static void look(facing *f, uint32_t corner, int weigh) {
     const double along = vec3_dot(f->foot->offset, normal);
     f->front |= along > 0.0;
     f->back |= along < 0.0;
+    f->askew |= along * along < 0.64 * f->foot->distance2 * vec3_dot(normal, normal);
     if (weigh) {
         const double size = vec3_length(normal);
         f->weighted += along / size * (at_vertex(f->foot) ? atan2(size, vec3_dot(next, last)) : 1.0);
@@ -310,6 +265,60 @@ static int look_round(facing *f, int weigh) {
     return rim;
 }
 
+/* Whether a foot stays back in a sharp concave corner: p is well off (37 degrees) the way that some face of the corner
+ * looks. In a valley of a curved surface, whose facets meet at small angles, it hardly is. Not the foot's own face
+ * alone: p goes straight away from a groove's wall. */
+static int stays_back(const knurl_mesh *mesh, const knurl_foot *foot, int32_t side) {
+    if (foot->held == 7 || vec3_dot(foot->offset, foot->normal) * side > 0.0) {
+        return 0;
+    }
+    facing f = {mesh, foot, 0, 0, 0, 0.0};
+    (void)look_round(&f, 0);
+    return f.askew;
+}
+
+/* Whether the surface lies between a foot and p: then p has gone through a further wall. */
+static int is_walled_off(const knurl_mesh *mesh, const double p[3], int32_t side, const knurl_foot *foot) {
+    double from[3];
+    uint32_t triangle;
+    knurl_foot_leave(foot->point, p, from);
+    return knurl_mesh_cross(mesh, from, p, side < 0, &triangle) == side;
+}
+
+/* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
+ * stay for ever while p goes on below the ridges), goes on at what is nearest of all, if the surface holds p there from
+ * the same side: the far side of a thin wall faces the other way, and a further wall has p in front of it or shuts the
+ * foot off. */
+static void jump(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) {
+    knurl_contact nearest;
+    knurl_foot other;
+    int rim;
+    if (!knurl_mesh_closest(mesh, p, sqrt(foot->distance2) * (1.0 - 1e-9), &nearest)) {
+        return;
+    }
+    knurl_foot_find(mesh, nearest.triangle, p, &other);
+    if (vec3_dot(other.offset, foot->offset) > 0.0 && knurl_foot_side(mesh, &other, &rim) * side < 0 &&
+        !is_walled_off(mesh, p, side, foot)) {
+        *foot = other;
+    }
+}
+
+void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) {
+    knurl_foot feet[2];
+    const knurl_foot *here = foot;
+    int capped = 0;
+    int steps = 0;
+    while (steps < MAX_STEPS && step(mesh, p, side, here, &feet[steps & 1], &capped)) {
+        here = &feet[steps++ & 1];
+    }
+    if (here != foot) {
+        *foot = *here;
+    }
+    if (capped || steps == MAX_STEPS || stays_back(mesh, foot, side)) {
+        jump(mesh, p, side, foot);
+    }
+}
+
 /* Where the triangles round the foot do not agree, the angle-weighted normal decides: its dot product with the offset
  * has the right sign wherever on the mesh the nearest point lies (Baerentzen and Aanaes 2005); one face's has not. */
 int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) {
@@ -318,7 +327,7 @@ int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) {
         *rim = 0;
         return (along > 0.0) - (along < 0.0);
     }
-    facing f = {mesh, foot, 0, 0, 0.0};
+    facing f = {mesh, foot, 0, 0, 0, 0.0};
     *rim = look_round(&f, 0);
     if (f.front && f.back) {
         (void)look_round(&f, 1);
