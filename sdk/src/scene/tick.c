@@ -212,6 +212,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     place_hip(hip, out->hip, near, &t);
     t.query.reach = t.record->reach;
     t.query.double_sided = t.surface->double_sided;
+    memset(&t.contact, 0, sizeof t.contact);
     int held = find_contact(&t, near);
     if (!held && near->in_contact) {
         hand_over(near, out->hip, over);
