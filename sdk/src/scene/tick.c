@@ -26,7 +26,6 @@ typedef struct touch {
     const knurl_record *record;
     knurl_pose moved;       /* used while it moves */
     const knurl_pose *pose; /* of the shape's frame, now */
-    knurl_contact_query query;
     knurl_contact contact;
     double force[3];    /* scene, N */
     double proxy[3];    /* scene, m */
@@ -36,7 +35,8 @@ typedef struct touch {
 } touch;
 
 /* Where the surface stands now, and the HIP before and now in the shape's frame. */
-static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near, touch *t) {
+static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near, touch *t,
+                      knurl_contact_query *query) {
     const knurl_motion *motion = &t->record->motion;
     if (motion->start_time - hip->time > MAX_LAG) {
         knurl_store_double(&hip->time, motion->start_time);
@@ -54,20 +54,20 @@ static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near
         near->in_contact = 0;
         memset(&near->contact, 0, sizeof near->contact);
     }
-    knurl_pose_to_own(t->pose, position, t->query.hip);
-    t->query.has_previous = hip->has_previous && !let_go;
+    knurl_pose_to_own(t->pose, position, query->hip);
+    query->has_previous = hip->has_previous && !let_go;
     if (near->asked && !jumped) {
-        vec3_copy(near->previous, t->query.previous);
+        vec3_copy(near->previous, query->previous);
     } else if (knurl_motion_is_over(motion, hip->previous_time)) {
-        knurl_pose_to_own(&motion->end, hip->previous, t->query.previous);
+        knurl_pose_to_own(&motion->end, hip->previous, query->previous);
     } else {
         knurl_pose before;
         knurl_motion_at(motion, hip->previous_time, &before);
-        knurl_pose_to_own(&before, hip->previous, t->query.previous);
+        knurl_pose_to_own(&before, hip->previous, query->previous);
     }
     near->jumps = motion->jumps;
     near->asked = 1;
-    vec3_copy(t->query.hip, near->previous);
+    vec3_copy(query->hip, near->previous);
 }
 
 /* Friction: the HIP drags an anchor along the surface by a spring of the material's stiffness, and the anchor slips
@@ -113,15 +113,16 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     knurl_pose_turn_to_parent(t->pose, contact->normal, t->normal);
     relative_velocity(hip, t, velocity, over);
     knurl_surface_frame(t->surface, t->record, contact, x, y, coordinates);
-    t->velocity[0] = vec3_dot(over, x);
-    t->velocity[1] = vec3_dot(over, y);
+    const double along[2] = {vec3_dot(over, x), vec3_dot(over, y)};
+    t->velocity[0] = along[0];
+    t->velocity[1] = along[1];
     if (t->record->has_grating || near->grating.playing) { /* an event plays to its end */
         const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
                                        t->record->is_smooth ? 0.0 : m->amplitude,
                                        hip->rate,
                                        m->method,
                                        0};
-        knurl_grating_step(&grating, &near->grating, coordinates, t->velocity, &t->grating);
+        knurl_grating_step(&grating, &near->grating, coordinates, along, &t->grating);
     } else {
         const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
         t->grating = none;
@@ -176,9 +177,9 @@ static int comes_near(const knurl_hip *hip, const knurl_near *near, const double
     return 1;
 }
 
-static int find_contact(touch *t, knurl_near *near) {
-    return t->surface->mesh ? knurl_mesh_contact(t->surface->mesh, &t->query, &near->contact, &t->contact)
-                            : knurl_plane_contact(t->surface->plane, &t->query, &near->contact, &t->contact);
+static int find_contact(touch *t, const knurl_contact_query *query, knurl_near *near) {
+    return t->surface->mesh ? knurl_mesh_contact(t->surface->mesh, query, &near->contact, &t->contact)
+                            : knurl_plane_contact(t->surface->plane, query, &near->contact, &t->contact);
 }
 
 /* A contact has ended: over a rim, or in front? */
@@ -196,6 +197,7 @@ static void hand_over(const knurl_near *near, const double position[3], handover
 /* One surface of the list. Where there is no contact (any more), its state is cleared. */
 static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, handover *over, knurl_tick_output *out) {
     touch t;
+    knurl_contact_query query;
     t.surface = near->place < world->capacity ? __atomic_load_n(&world->items[near->place], __ATOMIC_SEQ_CST) : NULL;
     if (!t.surface || (near->in_contact && near->generation != t.surface->generation)) {
         near->in_contact = near->asked = 0; /* it was taken out; another may be in its place */
@@ -209,16 +211,15 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
         near->asked = 0;
     }
     t.record = __atomic_load_n(&t.surface->record, __ATOMIC_SEQ_CST);
-    place_hip(hip, out->hip, near, &t);
-    t.query.reach = t.record->reach;
-    t.query.double_sided = t.surface->double_sided;
-    memset(&t.contact, 0, sizeof t.contact);
-    int held = find_contact(&t, near);
+    place_hip(hip, out->hip, near, &t, &query);
+    query.reach = t.record->reach;
+    query.double_sided = t.surface->double_sided;
+    int held = find_contact(&t, &query, near);
     if (!held && near->in_contact) {
         hand_over(near, out->hip, over);
-    } else if (!held && over->given && t.query.has_previous) {
-        knurl_pose_to_own(t.pose, over->from, t.query.previous);
-        held = find_contact(&t, near);
+    } else if (!held && over->given && query.has_previous) {
+        knurl_pose_to_own(t.pose, over->from, query.previous);
+        held = find_contact(&t, &query, near);
     }
     if (held && !near->in_contact) {
         if (out->contacts == KNURL_MAX_CONTACTS) { /* beyond what is felt at once; asked again at the next tick */
