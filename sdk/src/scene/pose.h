@@ -11,22 +11,22 @@
 /* A frame in its parent's: parent = position + rotation * own. */
 typedef struct knurl_pose {
     double position[3];
-    double rotation[9]; /* row-major */
     int64_t is_turned;  /* 0: the rotation is 1, as it is for most of what is loaded, and is left out */
+    double rotation[9]; /* row-major */
 } knurl_pose;
 
 /* A way from one pose to another: its origin in a straight line, its turning at a constant rate. The frame that moves
  * may stand off the origin that it turns about. */
 typedef struct knurl_motion {
+    double start_time;  /* s, scene time */
+    double end_time;    /* not after start_time: it stands still */
+    uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
     knurl_pose end;     /* where it stands from end_time on, exactly */
     knurl_pose start;   /* where it stood at start_time */
     double arm[3];      /* at start_time, from the origin to the frame, scene axes */
     double velocity[3]; /* m/s of the origin */
     double axis[3];     /* unit, scene axes */
     double rate;        /* rad/s about it */
-    double start_time;  /* s, scene time */
-    double end_time;    /* not after start_time: it stands still */
-    uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
 } knurl_motion;
 
 static inline void knurl_pose_turn_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {

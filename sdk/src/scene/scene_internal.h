@@ -78,12 +78,12 @@ typedef struct knurl_near {
     uint32_t asked;     /* 1: it was asked at the last tick, so that `previous` and `jumps` hold */
     uint64_t jumps;     /* the motion's, at the last tick */
     double previous[3]; /* the HIP at the last tick, shape's frame */
-    double anchor[3];   /* friction: where the HIP sticks, shape's frame */
-    double proxy[3];    /* of the latest contact, scene axes */
-    double normal[3];
-    float box[6]; /* scene axes; outside it there is nothing to ask */
     knurl_contact_state contact;
     knurl_grating_state grating;
+    double proxy[3]; /* of the latest contact, scene axes */
+    double normal[3];
+    float box[6];     /* scene axes; outside it there is nothing to ask */
+    double anchor[3]; /* friction: where the HIP sticks, shape's frame */
 } knurl_near;
 
 /* What any thread may read of a HIP. */
@@ -92,30 +92,31 @@ typedef struct knurl_snapshot {
     knurl_hip_counts counts;
 } knurl_snapshot;
 
+/* What every tick reads comes first and close together: at 1 kHz it comes from a cold cache. */
 typedef struct knurl_hip {
     uint64_t pinned; /* atomic: the epoch in which the tick that runs began; 0: none runs */
     double time;     /* atomic: s, scene time after the latest tick */
-    knurl_workspace workspace;
-    knurl_velocity velocity;
-    knurl_hip_desc given; /* as configured; what it leaves open a loop fills in */
+    double previous_time;
+    double previous[3]; /* HIP position at the last tick, scene */
     double rate;
     double period;
     double max_force;
-    double previous[3]; /* HIP position at the last tick, scene */
-    double previous_time;
     int32_t has_previous;
     int32_t is_turned;  /* 0: the workspace's rotation is 1, and is left out */
-    int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     double depth;       /* of the deepest contact at the latest tick, m; 0 without */
     double near_low[3]; /* the list below is complete while the HIP stays in this box, */
     double near_high[3];
     double near_depth; /* is pressed no deeper than this, and the scene's version stays */
-    uint64_t version;  /* the scene's, when the list was made; 0: never */
+    uint64_t version;  /* the scene's, when the list was made; 0: look again */
     uint32_t near_count;
     uint32_t near_overflow; /* 1: there were more than fit */
-    knurl_near near[KNURL_MAX_NEAR];
+    knurl_workspace workspace;
     knurl_hip_counts counts;
+    knurl_near near[KNURL_MAX_NEAR];
     KNURL_SEQLOCK(knurl_snapshot) published;
+    knurl_velocity velocity;
+    knurl_hip_desc given; /* as configured; what it leaves open a loop fills in */
+    int32_t centred;      /* 1: the scene chooses the workspace at its commit */
 } knurl_hip;
 
 struct knurl_scene {
@@ -127,6 +128,7 @@ struct knurl_scene {
     uint32_t hip_count;
     uint32_t full_model;
     uint32_t committed;
+    uint64_t apart[2]; /* what edits write begins in another cache line */
 
     /* for edits, under the lock */
     knurl_mutex *lock; /* who only reads takes it too */
