@@ -33,31 +33,35 @@ static int finish(const knurl_mesh *mesh, int32_t side, const knurl_foot *foot, 
         c->z = vec3_dot(foot->offset, c->normal);
         return 1;
     }
-    double outwards[3];
+    double outwards[3], offset[3];
     int rim;
     const double distance = sqrt(foot->distance2);
     const int inside = knurl_foot_side(mesh, foot, &rim) * side < 0;
-    if (rim && off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
-        return 0;
+    vec3_copy(foot->offset, offset);
+    if (rim) {
+        if (off_the_rim(foot, outwards) > RIM + 1e-6 * distance) {
+            return 0;
+        }
+        vec3_madd(offset, -1.0, outwards, offset); /* what little is off it does not tilt the normal */
     }
     if (distance < KNURL_NORMAL_DISTANCE) {
         vec3_scale(side / sqrt(foot->area2), foot->normal, c->normal);
     } else {
-        vec3_scale((inside ? -1.0 : 1.0) / distance, foot->offset, c->normal);
+        vec3_scale((inside ? -1.0 : 1.0) / vec3_length(offset), offset, c->normal);
     }
     c->z = inside ? -distance : distance;
     return 1;
 }
 
-/* Whether the HIP is behind what is nearest to it of all, within `radius`. */
-static int held_by_nearest(const knurl_mesh *mesh, const double hip[3], double radius, int32_t side, knurl_contact *c) {
+/* The contact with what is nearest of all, within `radius`. */
+static int touch_nearest(const knurl_mesh *mesh, const double hip[3], double radius, int32_t side, knurl_contact *c) {
     knurl_contact nearest;
     knurl_foot foot;
     if (!knurl_mesh_closest(mesh, hip, radius, &nearest)) {
         return 0;
     }
     knurl_foot_find(mesh, nearest.triangle, hip, &foot);
-    return finish(mesh, side, &foot, c) && c->z < 0.0;
+    return finish(mesh, side, &foot, c);
 }
 
 /* The HIP is in front of its proxy: is another part of the mesh between the two? Then that part holds it: within one
@@ -86,12 +90,48 @@ static int held_by_another(const knurl_mesh *mesh, const knurl_contact_query *qu
             return 1;
         }
     }
-    if (last == 0 || !held_by_nearest(mesh, query->hip, c->z, last, &part)) {
+    if (last == 0 || !touch_nearest(mesh, query->hip, c->z, last, &part) || !(part.z < 0.0)) {
         return 0;
     }
     *side = last;
     *c = part;
     return 1;
+}
+
+/* Whether a contact is one: the HIP is behind it, behind another part of the mesh that it met on its way out, or in
+ * reach. */
+static int stands(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, int32_t *side,
+                  knurl_contact *c) {
+    return c->z <= 0.0 || held_by_another(mesh, query, side, c) || c->z <= reach;
+}
+
+/* Where a surface ends in its middle (T-junctions, cracks, holes that a tick leads across) it goes on in another part:
+ * that is where the HIP, moved back along its proxy's face, meets it, however deep it is. Else what is nearest has it.
+ */
+static int beyond_the_rim(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, const knurl_foot *rim,
+                          int32_t *side, knurl_contact *c) {
+    double at[3];
+    knurl_contact other;
+    knurl_foot foot;
+    const double off = off_the_rim(rim, at);
+    vec3_madd(rim->point, 1.0, at, at);
+    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), &other)) {
+        knurl_foot_find(mesh, other.triangle, query->hip, &foot);
+        if (vec3_dot(foot.normal, rim->normal) > 0.0) {
+            knurl_foot_walk(mesh, query->hip, *side, &foot);
+            if (finish(mesh, *side, &foot, c) && stands(mesh, query, reach, side, c)) {
+                return 1;
+            }
+        }
+    }
+    return touch_nearest(mesh, query->hip, sqrt(rim->distance2), *side, c) && c->z <= reach;
+}
+
+/* The contact with the surface that a foot is on, or goes on on. */
+static int touch(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, const knurl_foot *foot,
+                 int32_t *side, knurl_contact *c) {
+    return finish(mesh, *side, foot, c) ? stands(mesh, query, reach, side, c)
+                                        : beyond_the_rim(mesh, query, reach, foot, side, c);
 }
 
 /* The foot of a HIP in front: from where it was a tick ago, if there was one, and by the hierarchy, which then has
@@ -124,7 +164,7 @@ static int come_through(const knurl_mesh *mesh, const knurl_contact_query *query
     }
     knurl_foot_find(mesh, triangle, query->hip, &foot);
     knurl_foot_walk(mesh, query->hip, side, &foot);
-    if (!finish(mesh, side, &foot, c) || !((c->z > 0.0 && held_by_another(mesh, query, &side, c)) || c->z <= reach)) {
+    if (!touch(mesh, query, reach, &foot, &side, c)) {
         return 0;
     }
     state->side = side;
@@ -166,27 +206,6 @@ static int watch(const knurl_mesh *mesh, const knurl_contact_query *query, doubl
     return c->z >= 0.0 ? c->z <= reach : captures;
 }
 
-/* Where a surface ends in its middle (T-junctions, cracks) it goes on in another part: that is where the HIP, moved
- * back along its proxy's face, meets it, however deep it is. Else whatever it is behind holds it. */
-static int beyond_the_rim(const knurl_mesh *mesh, const double hip[3], int32_t side, const knurl_foot *rim,
-                          knurl_contact *c) {
-    double at[3];
-    knurl_contact other;
-    knurl_foot foot;
-    const double off = off_the_rim(rim, at);
-    vec3_madd(rim->point, 1.0, at, at);
-    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), &other)) {
-        knurl_foot_find(mesh, other.triangle, hip, &foot);
-        if (vec3_dot(foot.normal, rim->normal) > 0.0) {
-            knurl_foot_walk(mesh, hip, side, &foot);
-            if (finish(mesh, side, &foot, c) && c->z < 0.0) {
-                return 1;
-            }
-        }
-    }
-    return held_by_nearest(mesh, hip, sqrt(rim->distance2), side, c);
-}
-
 /* A HIP inside: the proxy walks after it. */
 static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, knurl_contact_state *state,
                   knurl_contact *c) {
@@ -195,10 +214,7 @@ static int follow(const knurl_mesh *mesh, const knurl_contact_query *query, doub
     if (foot.held != 7) {
         knurl_foot_walk(mesh, query->hip, state->side, &foot);
     }
-    if (finish(mesh, state->side, &foot, c)) {
-        return c->z <= 0.0 || held_by_another(mesh, query, &state->side, c) || c->z <= reach;
-    }
-    return beyond_the_rim(mesh, query->hip, state->side, &foot, c);
+    return touch(mesh, query, reach, &foot, &state->side, c);
 }
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
