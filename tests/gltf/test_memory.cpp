@@ -90,8 +90,10 @@ std::string three_among(unsigned untagged) {
         }
         const std::string at = std::to_string(file.vec3(positions));
         const std::string uv = std::to_string(file.vec2(uvs));
-        File::append(file.meshes, R"({"primitives":[{"material":)" + std::string(m < untagged ? "0" : "1") +
-                                      R"(,"attributes":{"POSITION":)" + at + R"(,"TEXCOORD_0":)" + uv + "}}]}");
+        std::string mesh = R"({"primitives":[{"material":)";
+        mesh.append(m < untagged ? "0" : "1").append(R"(,"attributes":{"POSITION":)").append(at);
+        mesh.append(R"(,"TEXCOORD_0":)").append(uv).append("}}]}");
+        File::append(file.meshes, mesh);
         if (m > 0)
             File::append(file.nodes, R"({"mesh":)" + std::to_string(m) + "}");
     }

@@ -20,7 +20,8 @@
 #define SANITIZED 0
 #endif
 
-#define TICKS 10000
+#define TICKS    10000
+#define SEGMENTS 20 /* of a stroke; edits, where a scene has some, come between them */
 
 /* Of anything that is wrapped, by whatever thread. Volatile: compilers know that malloc() changes nothing of ours. */
 static volatile uint64_t calls;
@@ -110,32 +111,99 @@ static void add_touched(knurl_scene *scene, surface_parts *parts, int32_t method
 }
 
 /* A plane and hills of 10,000 triangles side by side; they overlap by 10 mm. */
-static void add_plane_and_mesh(knurl_scene *scene, int32_t method) {
+static void add_plane_and_mesh(knurl_scene *scene, int32_t method, double friction) {
     shape mesh = shape_sheet(100, 50, (const double[2]){0.05, 0.05}, hills);
     surface_parts plane = surface_plane();
     surface_parts sheet = surface_mesh(&mesh);
     assert_int_equal(mesh.index_count / 3, 10000);
+    plane.material.friction = sheet.material.friction = friction;
     add_touched(scene, &plane, method, 0.0);
     add_touched(scene, &sheet, method, 0.09);
     shape_free(&mesh);
 }
 
+/* A floor of 40 x 50 tiles side by side: more than a HIP can keep in view, and one hands it over to the next. */
+static void add_tiles(knurl_scene *scene, int32_t method, double friction) {
+    surface_parts tile = surface_plane();
+    tile.plane.half_extents[0] = tile.plane.half_extents[1] = 0.0025;
+    tile.material.friction = friction;
+    for (int i = 0; i < 2000; i++) {
+        tile.desc.position[1] = -0.125 + 0.005 * (double)(i / 40);
+        add_touched(scene, &tile, method, -0.0525 + 0.005 * (i % 40));
+    }
+}
+
+/* Both surfaces are on their way for most of each segment; every fifth time one of them jumps. */
+static void move_both(knurl_scene *scene, int segment) {
+    for (uint32_t i = 0; i < 2; i++) {
+        const double side = (segment + (int)i) % 2 ? 1.0 : -1.0;
+        const double position[3] = {0.09 * i + 0.004 * side, 0.01 * side, 0.0005 * side};
+        const double rotation[4] = {0.0, 0.02 * side, 0.1 * side, sqrt(1.0 - 0.0104)};
+        const double seconds = segment % 5 == 4 && i == 0 ? 0.0 : 0.4;
+        const knurl_surface surface = knurl_scene_surface_at(scene, i);
+        assert_int_equal(knurl_scene_set_transform(scene, surface, position, rotation, seconds), KNURL_OK);
+    }
+}
+
+/* A third surface crosses the others, every second time, then is taken out again. */
+static void add_and_remove(knurl_scene *scene, int segment) {
+    if (segment % 2 == 0) {
+        surface_parts ramp = surface_plane();
+        ramp.desc.rotation[1] = 0.02;
+        ramp.desc.rotation[3] = sqrt(1.0 - 0.0004);
+        add_touched(scene, &ramp, KNURL_S2, 0.045);
+    } else {
+        assert_int_equal(knurl_scene_remove_surface(scene, knurl_scene_surface_at(scene, 2)), KNURL_OK);
+    }
+}
+
+/* From grating to smooth and back, rough and slippery. */
+static void change_materials(knurl_scene *scene, int segment) {
+    for (uint32_t i = 0; i < 2; i++) {
+        knurl_material_desc material;
+        knurl_material_desc_init(&material, sizeof material);
+        material.stiffness = 300.0 + 20.0 * segment;
+        material.friction = segment % 3 == 1 ? 0.5 : 0.0;
+        material.amplitude = segment % 4 == 3 ? 0.0 : 0.0002;
+        material.spatial_frequency[0] = 800.0 + 50.0 * segment;
+        const knurl_surface surface = knurl_scene_surface_at(scene, i);
+        assert_int_equal(knurl_scene_set_material(scene, surface, &material), KNURL_OK);
+    }
+}
+
 /* What is stroked: surfaces that reach from x = -0.05 to 0.14 m at z = 0, or thereabouts. */
 static const struct stroked {
     const char *name;
-    void (*add)(knurl_scene *scene, int32_t method);
+    void (*add)(knurl_scene *scene, int32_t method, double friction);
+    void (*edit)(knurl_scene *scene, int segment); /* before each segment, or null */
     int32_t method;
+    uint32_t full_model;
+    double friction;
+    int handovers; /* from one surface straight to another, at least */
 } scenes[] = {
-    {"plane and mesh, S1", add_plane_and_mesh, KNURL_S1},
-    {"plane and mesh, S2", add_plane_and_mesh, KNURL_S2},
+    {"plane and mesh, S1", add_plane_and_mesh, NULL, KNURL_S1, 0, 0.0, 0},
+    {"plane and mesh, S2", add_plane_and_mesh, NULL, KNURL_S2, 0, 0.0, 0},
+    {"friction", add_plane_and_mesh, NULL, KNURL_S2, 0, 0.4, 0},
+    {"all that a scene can model", add_plane_and_mesh, NULL, KNURL_S2, KNURL_FULL_ALL, 0.4, 0},
+    {"surfaces that move", add_plane_and_mesh, move_both, KNURL_S2, 0, 0.0, 0},
+    {"surfaces that move, friction", add_plane_and_mesh, move_both, KNURL_S2, 0, 0.4, 0},
+    {"surfaces that come and go", add_plane_and_mesh, add_and_remove, KNURL_S2, 0, 0.0, 0},
+    {"materials that change", add_plane_and_mesh, change_materials, KNURL_S2, 0, 0.0, 0},
+    {"tiles", add_tiles, NULL, KNURL_S2, 0, 0.0, 100},
+    {"tiles, friction", add_tiles, NULL, KNURL_S1, 0, 0.4, 100},
+    {"tiles, every one looked at in every tick", add_tiles, NULL, KNURL_S2, KNURL_FULL_SEARCH, 0.0, 100},
 };
 
 /* Committed, FOAW at the Touch's resolution. */
 static knurl_scene *make_scene(const struct stroked *what) {
-    knurl_scene *scene = empty_scene(1);
+    knurl_scene *scene = NULL;
+    knurl_scene_desc desc;
     knurl_workspace workspace;
     knurl_hip_desc hip;
-    what->add(scene, what->method);
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.full_model = what->full_model;
+    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    what->add(scene, what->method, what->friction);
     knurl_workspace_init(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.velocity_method = KNURL_VELOCITY_FOAW;
@@ -145,38 +213,63 @@ static knurl_scene *make_scene(const struct stroked *what) {
     return scene;
 }
 
-/* Strokes over both surfaces, entering and leaving, over the outline as well; a NaN now and then. Plain sums for the
- * path: nothing here may call anything either. Returns the ticks in contact. */
-static uint64_t stroke(knurl_scene *scene) {
-    uint64_t contact_ticks = 0;
-    double x = -0.06;
-    double z = 0.006;
-    double vx = 0.00021;
-    double vz = -0.00003;
-    for (int k = 0; k < TICKS; k++) {
-        x += vx;
-        z += vz;
-        vx = x > 0.15 || x < -0.06 ? -vx : vx;
-        vz = z > 0.006 || z < -0.004 ? -vz : vz;
-        knurl_tick_input input = {{x, 0.003 + 0.1 * z, z}, {0.0, 0.0, 0.0}, 0, 0};
-        if (k % 1000 == 999) {
+/* Strokes over all of it, entering and leaving, over the outline as well. Where the HIP is, and what came of it. */
+typedef struct stroke {
+    double x, z;
+    double vx, vz; /* m a tick */
+    int tick;
+    knurl_surface latest; /* felt in the tick before, or 0 */
+    int handovers;        /* ticks that feel another than the tick before */
+    int dragged;          /* ticks of one contact whose force is not along its normal */
+    uint64_t contact_ticks;
+} stroke;
+
+static const stroke at_start = {-0.06, 0.006, 0.00021, -0.00003, 0, 0, 0, 0, 0};
+
+static void note(stroke *s, const knurl_tick_output *out) {
+    double along = 0.0;
+    double all = 0.0;
+    for (int i = 0; i < 3; i++) {
+        along += out->force[i] * out->normal[i];
+        all += out->force[i] * out->force[i];
+    }
+    s->handovers += s->latest && out->surface && out->surface != s->latest;
+    s->dragged += out->contacts == 1 && all - along * along > 1e-3 * all;
+    s->latest = out->surface;
+}
+
+/* One segment; a NaN now and then. Plain sums for the path: nothing here may call anything either. */
+static void stroke_on(knurl_scene *scene, stroke *s) {
+    for (int k = 0; k < TICKS / SEGMENTS; k++, s->tick++) {
+        s->x += s->vx;
+        s->z += s->vz;
+        s->vx = s->x > 0.15 || s->x < -0.06 ? -s->vx : s->vx;
+        s->vz = s->z > 0.006 || s->z < -0.004 ? -s->vz : s->vz;
+        knurl_tick_input input = {{s->x, 0.003 + 0.1 * s->z, s->z}, {0.0, 0.0, 0.0}, 0, 0};
+        if (s->tick % 1000 == 999) {
             input.position[1] = (double)NAN;
         }
         knurl_tick_output out;
         knurl_hip_counts counts;
         (void)knurl_scene_tick(scene, 0, &input, &out);
         (void)knurl_scene_get_tick(scene, 0, &out, &counts);
-        contact_ticks = counts.contact_ticks;
+        note(s, &out);
+        s->contact_ticks = counts.contact_ticks;
     }
-    return contact_ticks;
 }
 
-static void check_counts(const knurl_scene *scene, int32_t method) {
+/* The stroke was what it is meant to be. */
+static void check_stroke(const knurl_scene *scene, const struct stroked *what, const stroke *s) {
     knurl_hip_counts counts;
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    assert_int_equal(counts.ticks, TICKS);
     assert_in_range(counts.contact_ticks, TICKS / 5, TICKS * 4 / 5);
     assert_int_equal(counts.not_finite, TICKS / 1000);
-    assert_true((counts.events > 100) == (method == KNURL_S2));
+    assert_true((counts.events > 100) == (what->method == KNURL_S2));
+    assert_true(s->handovers >= what->handovers);
+    if (what->friction > 0.0) {
+        assert_true(s->dragged > TICKS / 10);
+    }
 }
 
 TEST(whatever_is_wrapped_is_noticed) {
@@ -211,15 +304,22 @@ TEST(whatever_is_wrapped_is_noticed) {
 
 TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
-        const uint64_t at_start = calls;
-        knurl_scene *scene = make_scene(&scenes[i]);
-        assert_true(calls > at_start + 10); /* the wrapping works */
-        const uint64_t before = calls;
-        (void)stroke(scene);
-        if (calls != before) {
-            fail_msg("%s: %u calls", scenes[i].name, (unsigned)(calls - before));
+        const struct stroked *what = &scenes[i];
+        const uint64_t before_all = calls;
+        knurl_scene *scene = make_scene(what);
+        assert_true(calls > before_all + 10); /* the wrapping works */
+        stroke s = at_start;
+        for (int segment = 0; segment < SEGMENTS; segment++) {
+            if (what->edit) {
+                what->edit(scene, segment);
+            }
+            const uint64_t before = calls;
+            stroke_on(scene, &s);
+            if (calls != before) {
+                fail_msg("%s: %u calls in segment %d", what->name, (unsigned)(calls - before), segment);
+            }
         }
-        check_counts(scene, scenes[i].method);
+        check_stroke(scene, what, &s);
         knurl_scene_destroy(scene);
     }
 }
@@ -249,24 +349,55 @@ TEST(estimators_and_gratings_ask_for_nothing) {
     assert_true(states[1].event_count > 100);
 }
 
-/* 0 where a child could do its strokes with no system call but its exit. */
-static int run_strictly(knurl_scene *scene, int ask_for_something) {
+#define REFUSED 77 /* a child's exit code where the kernel has no strict mode */
+
+/* A child does the segment that comes next, with no system call but its exit. How it ended: its exit code says in how
+ * many ticks there was contact, modulo 64. */
+static int run_strictly(knurl_scene *scene, const stroke *from, int ask_for_something) {
     int status = -1;
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
         const unsigned long strict = 1; /* SECCOMP_MODE_STRICT: read, write, exit; SIGKILL for anything else */
+        stroke s = *from;
         if (prctl(PR_SET_SECCOMP, strict) != 0) {
-            (void)syscall(SYS_exit, 77);
+            (void)syscall(SYS_exit, REFUSED);
         }
-        const uint64_t contact_ticks = stroke(scene);
+        stroke_on(scene, &s);
         if (ask_for_something) {
             (void)syscall(SYS_getppid);
         }
-        (void)syscall(SYS_exit, contact_ticks > TICKS / 5 ? 0 : 1);
+        (void)syscall(SYS_exit, (int)(s.contact_ticks % 64));
     }
     assert_true(waitpid(child, &status, 0) == child);
     return status;
+}
+
+static int kernel_is_strict(void) {
+    knurl_scene *scene = make_scene(&scenes[0]);
+    const int status = run_strictly(scene, &at_start, 0);
+    knurl_scene_destroy(scene);
+    return !WIFEXITED(status) || WEXITSTATUS(status) != REFUSED;
+}
+
+/* Edits are made here, and so may ask for anything; then a child does the ticks up to the next edit, and the same ones
+ * are done here, to go on from. */
+static void stroke_strictly(const struct stroked *what) {
+    knurl_scene *scene = make_scene(what);
+    stroke s = at_start;
+    assert_true(WIFSIGNALED(run_strictly(scene, &s, 1))); /* a call would be noticed */
+    for (int segment = 0; segment < SEGMENTS; segment++) {
+        if (what->edit) {
+            what->edit(scene, segment);
+        }
+        const int status = run_strictly(scene, &s, 0);
+        stroke_on(scene, &s);
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != (int)(s.contact_ticks % 64)) {
+            fail_msg("%s: the kernel ended segment %d, status %#x", what->name, segment, (unsigned)status);
+        }
+    }
+    check_stroke(scene, what, &s);
+    knurl_scene_destroy(scene);
 }
 
 TEST(ticks_make_no_system_call) {
@@ -274,17 +405,12 @@ TEST(ticks_make_no_system_call) {
         print_message("skipped: sanitizers make system calls of their own\n");
         skip();
     }
+    if (!kernel_is_strict()) {
+        print_message("skipped: this kernel refuses seccomp's strict mode\n");
+        skip();
+    }
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
-        knurl_scene *scene = make_scene(&scenes[i]);
-        const int status = run_strictly(scene, 0);
-        if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
-            knurl_scene_destroy(scene);
-            print_message("skipped: this kernel refuses seccomp's strict mode\n");
-            skip();
-        }
-        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-        assert_true(WIFSIGNALED(run_strictly(scene, 1))); /* a call would have been noticed */
-        knurl_scene_destroy(scene);
+        stroke_strictly(&scenes[i]);
     }
 }
 

@@ -161,10 +161,31 @@ TEST(scan_finds_its_columns_by_name_in_any_order_among_others) {
 /* --- inspect, devices, version --- */
 
 TEST(inspect_tells_each_surface_in_one_line_of_json) {
-    static const char *const keys[] = {"surfaces", "name",     "shape",     "model",      "triangles",
-                                       "bytes",    "material", "amplitude", "damping",    "spatial_frequency",
-                                       "friction", "method",   "stretch",   "min",        "mean",
-                                       "max",      "skipped",  "stiffness", "orientation"};
+    static const char *const keys[] = {"surfaces",
+                                       "name",
+                                       "shape",
+                                       "model",
+                                       "triangles",
+                                       "dropped_triangles",
+                                       "bytes",
+                                       "material",
+                                       "amplitude",
+                                       "damping",
+                                       "spatial_frequency",
+                                       "friction",
+                                       "method",
+                                       "stretch",
+                                       "min",
+                                       "mean",
+                                       "max",
+                                       "skipped",
+                                       "stiffness",
+                                       "orientation",
+                                       "why",
+                                       "model_error",
+                                       "in_reach",
+                                       "double_sided",
+                                       "reversed_twins"};
     process p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');
@@ -182,6 +203,114 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
     assert_non_null(strstr(p.out, "\"method\": \"S2\""));
     assert_non_null(strstr(p.out, "[1000, 0]"));
     process_free(&p);
+}
+
+/* Two triangles that face up, 100 x 100 mm; and each of them turned round. */
+static const float sheet[12][3] = {{-0.05F, 0, 0.05F}, {0.05F, 0, 0.05F},   {0.05F, 0, -0.05F},  {-0.05F, 0, 0.05F},
+                                   {0.05F, 0, -0.05F}, {-0.05F, 0, -0.05F}, {-0.05F, 0, 0.05F},  {0.05F, 0, -0.05F},
+                                   {0.05F, 0, 0.05F},  {-0.05F, 0, 0.05F},  {-0.05F, 0, -0.05F}, {0.05F, 0, -0.05F}};
+
+/* `copies` nodes that stand at places[i] along x, all of one mesh of the first `corners` of a sheet. */
+static const char *write_sheets(const float (*from)[3], int corners, const double *places, size_t copies) {
+    char nodes[512] = "";
+    char list[64] = "";
+    char text[2048];
+    for (size_t i = 0; i < copies; i++) {
+        const size_t used = strlen(nodes);
+        const size_t listed = strlen(list);
+        (void)snprintf(nodes + used, sizeof nodes - used, "%s{\"name\":\"n%d\",\"mesh\":0,\"translation\":[%g,0,0]}",
+                       i > 0 ? "," : "", (int)i, places[i]);
+        (void)snprintf(list + listed, sizeof list - listed, "%s%d", i > 0 ? "," : "", (int)i);
+    }
+    (void)snprintf(text, sizeof text,
+                   "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],\"nodes\":[%s],"
+                   "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+                   "\"materials\":[{\"extras\":" TAG "}],"
+                   "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],"
+                   "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],"
+                   "\"buffers\":[{\"uri\":\"sheets.bin\",\"byteLength\":%d}]}",
+                   list, nodes, corners, 12 * corners, 12 * corners);
+    write_file(tool_path("sheets.bin"), from, (size_t)corners * sizeof *from);
+    write_text(tool_path("sheets.gltf"), text);
+    return tool_path("sheets.gltf");
+}
+
+/* What stands behind a key of the surface `name`; until its end, the surface's later keys. */
+static const char *value_of(const char *json, const char *name, const char *key) {
+    char quoted[64];
+    (void)snprintf(quoted, sizeof quoted, "\"name\": \"%s\"", name);
+    const char *surface = strstr(json, quoted);
+    assert_non_null(surface);
+    (void)snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+    const char *value = surface ? strstr(surface, quoted) : NULL;
+    if (!value) {
+        fail_msg("no %s of %s in %s", key, name, json);
+        return "";
+    }
+    return value + strlen(quoted);
+}
+
+static int is_value(const char *json, const char *name, const char *key, const char *value) {
+    return strncmp(value_of(json, name, key), value, strlen(value)) == 0;
+}
+
+TEST(inspect_tells_the_model_and_why) {
+    process reduced = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
+    process full = RUN_TOOL("inspect", tool_path("plate.gltf"), "--full-model");
+    check_done(&reduced);
+    check_done(&full);
+    assert_true(is_value(reduced.out, "plate", "model", "\"plane\""));
+    assert_true(is_value(full.out, "plate", "model", "\"mesh+bvh\""));
+    assert_true(strncmp(value_of(reduced.out, "plate", "why"), value_of(full.out, "plate", "why"), 12) != 0);
+    assert_true(json_number_of(reduced.out, "model_error") <= 1e-9);
+    CHECK_SAME(json_number_of(full.out, "model_error"), 0.0L); /* the mesh itself */
+    process_free(&reduced);
+    process_free(&full);
+}
+
+/* One corner of four a distance d above the plane of the others: no plane comes nearer to all of them than d/4, and
+ * that of the others errs by d. */
+TEST(inspect_tells_how_far_a_model_is_off) {
+    const double d = 4e-7;
+    float bent[6][3];
+    memcpy(bent, sheet, sizeof bent);
+    bent[5][1] = (float)d;
+    process p = RUN_TOOL("inspect", write_sheets((const float (*)[3])bent, 6, (const double[1]){0.0}, 1));
+    check_done(&p);
+    assert_true(is_value(p.out, "n0", "model", "\"plane"));
+    assert_true(json_number_of(p.out, "model_error") > 0.999 * d / 4.0);
+    assert_true(json_number_of(p.out, "model_error") < 1.001 * d);
+    process_free(&p);
+}
+
+TEST(inspect_counts_triangles_in_reversed_pairs_and_calls_them_double_sided) {
+    for (int twins = 0; twins < 2; twins++) {
+        process p = RUN_TOOL("inspect", write_sheets(sheet, twins ? 12 : 6, (const double[1]){0.0}, 1));
+        check_done(&p);
+        CHECK_SAME(json_number_of(p.out, "triangles"), 2.0L);
+        CHECK_SAME(json_number_of(p.out, "reversed_twins"), twins ? 2.0L : 0.0L);
+        assert_true(is_value(p.out, "n0", "double_sided", twins ? "true" : "false"));
+        process_free(&p);
+    }
+}
+
+/* The workspace's middle is put at the middle of them all: the sheet that stands there can be touched, those 5 m away
+ * cannot; and one whose edge is 1 mm inside the Touch's 160 mm can, 1 mm outside not. */
+TEST(inspect_tells_what_a_device_can_reach) {
+    const double reach = 0.5 * 0.16 + 0.05; /* m, of a sheet's middle */
+    const struct {
+        double away;
+        const char *expected;
+    } cases[] = {{5.0, "false"}, {reach + 0.001, "false"}, {reach - 0.001, "true"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        const double places[3] = {-cases[i].away, 0.0, cases[i].away};
+        process p = RUN_TOOL("inspect", write_sheets(sheet, 6, places, 3));
+        check_done(&p);
+        assert_true(is_value(p.out, "n0", "in_reach", cases[i].expected));
+        assert_true(is_value(p.out, "n1", "in_reach", "true"));
+        assert_true(is_value(p.out, "n2", "in_reach", cases[i].expected));
+        process_free(&p);
+    }
 }
 
 static void remove_spaces(char *text) {
@@ -282,6 +411,10 @@ int main(void) {
         cmocka_unit_test(scan_tells_the_spatial_frequency_in_the_direction_of_motion),
         cmocka_unit_test(scan_finds_its_columns_by_name_in_any_order_among_others),
         cmocka_unit_test(inspect_tells_each_surface_in_one_line_of_json),
+        cmocka_unit_test(inspect_tells_the_model_and_why),
+        cmocka_unit_test(inspect_tells_how_far_a_model_is_off),
+        cmocka_unit_test(inspect_counts_triangles_in_reversed_pairs_and_calls_them_double_sided),
+        cmocka_unit_test(inspect_tells_what_a_device_can_reach),
         cmocka_unit_test(pretty_is_the_same_json_over_several_lines),
         cmocka_unit_test(inspect_of_an_untagged_file_finds_nothing_and_hints),
         cmocka_unit_test(devices_are_listed_for_people_and_as_json),

@@ -134,6 +134,41 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
     check_no_leftovers();
 }
 
+/* By S1, whose height is looked up at the proxy, and by S2; over a rim too: the sweep's strokes are longer than a bar.
+ */
+TEST(the_full_model_feels_the_same) {
+    static const char *const methods[] = {"S1", "S2"};
+    static const char *const devices[] = {"fake:?resolution=0", "fake"};
+    for (size_t i = 0; i < COUNT_OF(methods); i++) {
+        process reduced = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method",
+                                   methods[i], "--device", devices[i], "--out", tool_path("reduced.csv"));
+        process full = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method", methods[i],
+                                "--device", devices[i], "--out", tool_path("full.csv"), "--full-model");
+        check_done(&reduced);
+        check_done(&full);
+        char *first = read_run(tool_path("reduced.csv"), 2000);
+        char *second = read_run(tool_path("full.csv"), 2000);
+        int touching = 0;
+        for (size_t row = 0; row < 2000; row++) {
+            double a[COLUMNS] = {0.0};
+            double b[COLUMNS] = {0.0};
+            (void)csv_row(first, row, a, COLUMNS);
+            (void)csv_row(second, row, b, COLUMNS);
+            for (int column = 0; column < COLUMNS; column++) {
+                if (column != SURFACE) { /* a name */
+                    CHECK_CLOSE(a[column], b[column], 1e-9 * fmax(1.0, fabs(b[column])));
+                }
+            }
+            touching += b[FY] > 0.0;
+        }
+        assert_true(touching > 1000);
+        free(first);
+        free(second);
+        process_free(&reduced);
+        process_free(&full);
+    }
+}
+
 TEST(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe) {
     process slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));
     /* A machine that stands still for 50 ms has its motors let go of, and rightly so: then the forces do differ. */
@@ -302,6 +337,7 @@ int main(void) {
         cmocka_unit_test(a_trace_on_a_plate_gives_the_forces_of_the_equations),
         cmocka_unit_test(the_summary_is_one_line_of_json_with_every_key_of_the_contract),
         cmocka_unit_test(fast_twice_gives_the_same_bytes_and_another_seed_others),
+        cmocka_unit_test(the_full_model_feels_the_same),
         cmocka_unit_test(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe),
         cmocka_unit_test(rate_seconds_surface_and_method_are_obeyed),
         cmocka_unit_test(a_stroke_lies_1_mm_below_the_surface_along_its_x),

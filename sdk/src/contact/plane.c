@@ -28,8 +28,11 @@ static int within_outline(const knurl_plane *plane, const double p[2]) {
     return inside;
 }
 
+/* m that a rectangle reaches beyond its edges: rounding leaves no gap between planes side by side. */
+#define SEAM 1e-10
+
 static inline int covers(const knurl_plane *plane, const double p[2]) {
-    return fabs(p[0]) <= plane->half_extents[0] && fabs(p[1]) <= plane->half_extents[1] &&
+    return fabs(p[0]) <= plane->half_extents[0] + SEAM && fabs(p[1]) <= plane->half_extents[1] + SEAM &&
            (!plane->outline || within_outline(plane, p));
 }
 
