@@ -134,8 +134,9 @@ static inline oracle oracle_make(const shape *s) {
     oracle o = {0};
     double high[3];
     o.count = s->index_count / 3;
-    o.flats = calloc(o.count, sizeof *o.flats);
-    o.stamps = calloc(o.count, sizeof *o.stamps);
+    const size_t room = o.count > 0 ? o.count : 1;
+    o.flats = calloc(room, sizeof *o.flats);
+    o.stamps = calloc(room, sizeof *o.stamps);
     for (int axis = 0; axis < 3; axis++) {
         o.low[axis] = HUGE_VAL;
         high[axis] = -HUGE_VAL;

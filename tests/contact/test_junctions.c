@@ -133,6 +133,70 @@ TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     probe_free(&p);
 }
 
+/* Two halves of a sheet, with vertices of their own, whose borders along x = 0 run `gap` m apart; four times as many on
+ * the right, so that hardly any meet. */
+static shape halves(double gap) {
+    shape left = shape_sheet(4, 4, half, NULL);
+    shape right = shape_sheet(4, 16, half, NULL);
+    for (uint32_t v = 0; v < left.vertex_count; v++) {
+        left.positions[3 * (size_t)v] -= (float)(half[0] + 0.5 * gap);
+    }
+    for (uint32_t v = 0; v < right.vertex_count; v++) {
+        right.positions[3 * (size_t)v] += (float)(half[0] + 0.5 * gap);
+    }
+    return join(&left, &right);
+}
+
+/* In by one half and at the end of the tick below the other, at all angles. */
+TEST(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds) {
+    shape s = halves(0.0);
+    probe p = probe_shape(&s);
+    for (int line = -18; line <= 18; line++) {
+        for (int k = 1; k <= 60; k++) {
+            for (int32_t front = 1; front >= -1; front -= 2) {
+                const double y = 0.001 * line + 1e-5;
+                const double across = k % 2 ? 0.0001 * k : -0.0001 * k;
+                p.query.double_sided = front < 0;
+                probe_forget(&p);
+                (void)probe_to(&p, -across, y, front * 0.001);
+                assert_true(probe_to(&p, across, y + 0.0002, -front * 0.0015));
+                CHECK_CLOSE(p.contact.z, -0.0015, 1e-12);
+                CHECK_CLOSE(p.contact.normal[2], front, 1e-12);
+            }
+        }
+    }
+    probe_free(&p);
+}
+
+/* A slot of 1 mm, crossed within a tick from inside: in reach on its own side beyond it is in contact, further is not;
+ * in the slot itself there is nothing. */
+TEST(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it) {
+    shape s = halves(0.001);
+    probe p = probe_shape(&s);
+    p.query.reach = 0.0005;
+    p.query.double_sided = 1;
+    for (int32_t side = 1; side >= -1; side -= 2) {
+        for (int way = -1; way <= 1; way += 2) {
+            for (int k = -2; k <= 12; k++) {
+                const double x = way * (0.0001 * k + 0.00005); /* the slot ends at 0.5 mm */
+                for (int height = -6; height <= 6; height++) {
+                    const double z = 0.0001 * height + 0.00005;
+                    probe_forget(&p);
+                    (void)probe_to(&p, -0.002 * way, 0.0011, side * 0.0003);
+                    assert_true(probe_to(&p, -0.002 * way, 0.0011, -side * 0.0003));
+                    const int over_the_slot = k < 5;
+                    assert_int_equal(probe_to(&p, x, 0.0031, side * z), !over_the_slot && z <= 0.0005);
+                    if (p.state.side != 0) {
+                        assert_int_equal(p.state.side, side);
+                        CHECK_CLOSE(p.contact.z, z, 1e-12);
+                    }
+                }
+            }
+        }
+    }
+    probe_free(&p);
+}
+
 /* A plate of 1 mm whose top is cut in two along T-junctions: pressed 3 mm through the plate, over the cut. */
 TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
     shape left = shape_sheet(4, 4, half, NULL);
@@ -206,6 +270,8 @@ int main(void) {
         cmocka_unit_test(double_layers_hold_across_every_border),
         cmocka_unit_test(triangles_turned_at_random_hang_together),
         cmocka_unit_test(first_tick_behind_a_double_sided_sheet_is_behind),
+        cmocka_unit_test(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds),
+        cmocka_unit_test(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it),
         cmocka_unit_test(t_junction_on_a_thin_plate_is_slid_over_however_deep),
         cmocka_unit_test(soup_of_everything_stays_finite_and_on_the_mesh),
     };

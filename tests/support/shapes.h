@@ -18,10 +18,11 @@ typedef struct shape {
     uint32_t index_count;
 } shape;
 
-/** Room for so many vertices and corners. */
+/** Room for so many vertices and corners, and for one where there are none: calloc() may then give null. */
 static inline shape shape_new(uint32_t vertices, uint32_t corners, int with_uvs) {
-    shape s = {calloc(vertices, 3 * sizeof(float)), with_uvs ? calloc(vertices, 2 * sizeof(float)) : NULL,
-               calloc(corners, sizeof(uint32_t)), vertices, corners};
+    const size_t room = vertices > 0 ? vertices : 1;
+    shape s = {calloc(room, 3 * sizeof(float)), with_uvs ? calloc(room, 2 * sizeof(float)) : NULL,
+               calloc(corners > 0 ? corners : 1, sizeof(uint32_t)), vertices, corners};
     assert_non_null(s.positions);
     assert_non_null(s.indices);
     return s;
