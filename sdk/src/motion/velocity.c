@@ -88,9 +88,7 @@ static void forget(knurl_velocity *velocity) {
 #define WINDOWS(f)                                                                                                     \
     {f(1), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)}
 #define SCALE(i) (LCM / (i))
-#define SLACK(i) (STEPS_PER_COUNT * (LCM / (i)))
 static const double scales[RING] = WINDOWS(SCALE);
-static const double slacks[RING] = WINDOWS(SLACK);
 
 /* Positions beyond it are clamped to it (a NaN too), so that all is finite. */
 #define LIMIT 1099511627776.0 /* 2^40 steps */
@@ -119,7 +117,7 @@ static void foaw(const knurl_velocity *velocity, double (*rows)[4], const double
     double high[4] = {ANY_SLOPE, ANY_SLOPE, ANY_SLOPE, ANY_SLOPE};
     double best[4] = {0.0, 0.0, 0.0, 0.0};
     for (int i = 1; i < RING; i++) {
-        const double slack = slacks[i];
+        const double slack = STEPS_PER_COUNT * scales[i];
         for (int axis = 0; axis < 4; axis++) {
             const double slope = (x[axis] - rows[i][axis]) * scales[i];
             const int fits = (slope >= low[axis]) & (slope <= high[axis]);
@@ -134,6 +132,9 @@ static void foaw(const knurl_velocity *velocity, double (*rows)[4], const double
 }
 
 #if AVX
+#define SLACK(i) (STEPS_PER_COUNT * (LCM / (i)))
+static const double slacks[RING] = WINDOWS(SLACK);
+
 /* The choice by masks rather than by a blend, which GCC 12 takes apart into branches. */
 __attribute__((target("avx"))) static void foaw_avx(const knurl_velocity *velocity, double (*rows)[4],
                                                     const double position[3], double out[3]) {
