@@ -19,7 +19,7 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 
 /** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
 typedef struct knurl_velocity {
-    double history[32][4]; /**< FOAW: positions in whole 1024ths of a count, rows -x, -y, -z, z, the newest in row
+    double history[32][4]; /**< FOAW: positions in whole 1024ths of a count, rows x, y, z, 0, the newest in row
                                 `newest`, older ones after it; a ring of 16, kept twice so that nobody has to wrap */
     double last[3];        /**< DIFFERENCE: the previous position, m */
     double rate;           /**< update rate, Hz */
@@ -28,7 +28,7 @@ typedef struct knurl_velocity {
     uint32_t newest;       /**< FOAW: row of the newest position, 0 to 15 */
     uint32_t started;      /**< 1: a position has been seen */
     int32_t method;        /**< KNURL_VELOCITY_DIFFERENCE or KNURL_VELOCITY_FOAW */
-    uint32_t reserved;     /**< 0 */
+    uint32_t avx;          /**< FOAW: 1: all axes at once, where init found AVX; 0 gives the same numbers, later */
 } knurl_velocity;
 
 /** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#if defined(__SSE2__) && !defined(KNURL_NO_SIMD)
-#include <emmintrin.h>
-#define SIMD 1
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(KNURL_NO_SIMD)
+#include <immintrin.h>
+#define AVX 1
 #else
-#define SIMD 0
+#define AVX 0
 #endif
 
 /* Positions become fixed point with this many steps a count: what sits on an encoder's counts stays exact, and what
@@ -52,6 +52,9 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
     if (method == KNURL_VELOCITY_FOAW) {
         velocity->steps_per_m = STEPS_PER_COUNT / resolution;
         velocity->slope_unit = resolution / STEPS_PER_COUNT * update_rate_hz / LCM;
+#if AVX
+        velocity->avx = __builtin_cpu_supports("avx") != 0;
+#endif
     }
     return KNURL_OK;
 }
@@ -68,23 +71,12 @@ static void difference(knurl_velocity *velocity, const double position[3], doubl
     velocity->started = 1;
 }
 
-/* Rounds half to even, by adding a number whose unit in the last place is 1; clamps (a NaN, to the limit), so that all
- * is finite. */
-static double to_steps(double position, double steps_per_m) {
-    const double limit = 1099511627776.0;    /* 2^40 steps */
-    const double whole = 6755399441055744.0; /* 3 * 2^51 */
-    double steps = position * steps_per_m;
-    steps = steps < limit ? steps : limit;
-    steps = steps > -limit ? steps : -limit;
-    return (steps + whole) - whole;
-}
-
 /* Forgets all positions: ring and mirror. */
 static void forget(knurl_velocity *velocity) {
     for (int i = 0; i < 2 * RING; i++) {
         double *row = velocity->history[i];
-        row[0] = row[1] = row[2] = -UNSEEN;
-        row[3] = UNSEEN;
+        row[0] = row[1] = row[2] = UNSEEN;
+        row[3] = 0.0;
     }
     velocity->started = 1;
 }
@@ -92,74 +84,84 @@ static void forget(knurl_velocity *velocity) {
 /* Beyond every slope between positions, within every slope to UNSEEN. */
 #define ANY_SLOPE 1e304
 
-/* X(i) for each place of a table over windows; place 0 is not used. */
-#define WINDOWS(X) X(1) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
+/* f(i) for each place of a table over windows; place 0 is not used. */
+#define WINDOWS(f)                                                                                                     \
+    {f(1), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)}
+#define SCALE(i) (LCM / (i))
+static const double scales[RING] = WINDOWS(SCALE);
 
-/* The slopes (LCM times steps per tick, three axes) of the lines through the newest and the oldest sample of the widest
- * window whose interior samples all lie within one count of that line. Sample i back lies within it when the slope is
- * in [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals shrinks as the window grows, so one
- * pass does. Both versions below do the same operations on the same numbers. rows[i]: minus what was seen i back. */
-#if SIMD
-typedef struct lane_pairs {
-    __m128d scale;
-    __m128d slack;
-} lane_pairs;
+/* Positions beyond it are clamped to it (a NaN too), so that all is finite. */
+#define LIMIT 1099511627776.0 /* 2^40 steps */
 
-#define WINDOW(i) {{LCM / (i), LCM / (i)}, {STEPS_PER_COUNT * (LCM / (i)), STEPS_PER_COUNT * (LCM / (i))}},
-static const lane_pairs windows[RING] = {WINDOWS(WINDOW)};
-#undef WINDOW
+/* Added and taken off again it rounds half to even, as its unit in the last place is 1. */
+#define WHOLE 6755399441055744.0 /* 3 * 2^51 */
 
-static __m128d choose(__m128d mask, __m128d yes, __m128d no) {
-    return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
-}
-
-/* x and y side by side; z with -z, whose lower bound is minus z's upper bound: one maximum keeps both. */
-static void widest_slopes(const double (*rows)[4], double slopes[4]) {
-    const __m128d sign = _mm_set1_pd(-0.0);
-    const __m128d xy = _mm_xor_pd(_mm_loadu_pd(rows[0]), sign);
-    const __m128d zz = _mm_xor_pd(_mm_loadu_pd(rows[0] + 2), sign);
-    __m128d low = _mm_set1_pd(-ANY_SLOPE);
-    __m128d high = _mm_set1_pd(ANY_SLOPE);
-    __m128d low_zz = low;
-    __m128d best_xy = _mm_setzero_pd();
-    __m128d best_zz = _mm_setzero_pd();
-    for (int i = 1; i < RING; i++) {
-        const __m128d scale = windows[i].scale;
-        const __m128d slack = windows[i].slack;
-        const __m128d slope = _mm_mul_pd(_mm_add_pd(_mm_loadu_pd(rows[i]), xy), scale);
-        const __m128d slope_zz = _mm_mul_pd(_mm_add_pd(_mm_loadu_pd(rows[i] + 2), zz), scale);
-        const __m128d within = _mm_cmpge_pd(slope_zz, low_zz);
-        const __m128d fits_zz = _mm_and_pd(within, _mm_shuffle_pd(within, within, 1));
-        best_xy = choose(_mm_and_pd(_mm_cmpge_pd(slope, low), _mm_cmple_pd(slope, high)), slope, best_xy);
-        best_zz = choose(fits_zz, slope_zz, best_zz);
-        low = _mm_max_pd(low, _mm_sub_pd(slope, slack));
-        high = _mm_min_pd(high, _mm_add_pd(slope, slack));
-        low_zz = _mm_max_pd(low_zz, _mm_sub_pd(slope_zz, slack));
-    }
-    _mm_storeu_pd(slopes, best_xy);
-    _mm_storeu_pd(slopes + 2, best_zz);
-}
-#else
-#define WINDOW(i) LCM / (i),
-static const double scale[RING] = {WINDOWS(WINDOW)};
-#undef WINDOW
+/* Both versions below do the same operations on the same numbers: the position in whole steps goes into rows[0] and its
+ * mirror; the velocity is the slope (LCM times steps per tick, in slope units) of the line through the newest and the
+ * oldest sample of the widest window whose interior samples all lie within one count of that line. Sample i back lies
+ * within it when the slope is in [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals shrinks
+ * as the window grows, so one pass does. It does not end where the interval is empty: an axis at rest never is. */
 
 /* Four lanes and no branch, so that compilers may vectorise it; the fourth is not used. */
-static void widest_slopes(const double (*rows)[4], double slopes[4]) {
+static void foaw(const knurl_velocity *velocity, double (*rows)[4], const double position[3], double out[3]) {
+    double x[4] = {0.0, 0.0, 0.0, 0.0};
+    for (int axis = 0; axis < 3; axis++) {
+        double steps = position[axis] * velocity->steps_per_m;
+        steps = steps < LIMIT ? steps : LIMIT;
+        steps = steps > -LIMIT ? steps : -LIMIT;
+        x[axis] = (steps + WHOLE) - WHOLE;
+    }
+    memcpy(rows[0], x, sizeof x);
+    memcpy(rows[RING], x, sizeof x);
     double low[4] = {-ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE};
     double high[4] = {ANY_SLOPE, ANY_SLOPE, ANY_SLOPE, ANY_SLOPE};
     double best[4] = {0.0, 0.0, 0.0, 0.0};
     for (int i = 1; i < RING; i++) {
-        const double slack = STEPS_PER_COUNT * scale[i];
+        const double slack = STEPS_PER_COUNT * scales[i];
         for (int axis = 0; axis < 4; axis++) {
-            const double slope = (rows[i][axis] - rows[0][axis]) * scale[i];
+            const double slope = (x[axis] - rows[i][axis]) * scales[i];
             const int fits = (slope >= low[axis]) & (slope <= high[axis]);
             best[axis] = fits ? slope : best[axis];
             low[axis] = slope - slack > low[axis] ? slope - slack : low[axis];
             high[axis] = slope + slack < high[axis] ? slope + slack : high[axis];
         }
     }
-    memcpy(slopes, best, sizeof best);
+    for (int axis = 0; axis < 3; axis++) {
+        out[axis] = best[axis] * velocity->slope_unit;
+    }
+}
+
+#if AVX
+#define SLACK(i) (STEPS_PER_COUNT * (LCM / (i)))
+static const double slacks[RING] = WINDOWS(SLACK);
+
+/* The choice by masks rather than by a blend, which GCC 12 takes apart into branches. */
+__attribute__((target("avx"))) static void foaw_avx(const knurl_velocity *velocity, double (*rows)[4],
+                                                    const double position[3], double out[3]) {
+    const __m256d whole = _mm256_set1_pd(WHOLE);
+    __m256d x = _mm256_set_pd(0.0, position[2], position[1], position[0]);
+    x = _mm256_min_pd(_mm256_mul_pd(x, _mm256_set1_pd(velocity->steps_per_m)), _mm256_set1_pd(LIMIT));
+    x = _mm256_max_pd(x, _mm256_set1_pd(-LIMIT));
+    x = _mm256_sub_pd(_mm256_add_pd(x, whole), whole);
+    _mm256_storeu_pd(rows[0], x);
+    _mm256_storeu_pd(rows[RING], x);
+    __m256d low = _mm256_set1_pd(-ANY_SLOPE);
+    __m256d high = _mm256_set1_pd(ANY_SLOPE);
+    __m256d best = _mm256_setzero_pd();
+#pragma GCC unroll 15
+    for (int i = 1; i < RING; i++) {
+        const __m256d slack = _mm256_broadcast_sd(&slacks[i]);
+        const __m256d slope =
+            _mm256_mul_pd(_mm256_sub_pd(x, _mm256_loadu_pd(rows[i])), _mm256_broadcast_sd(&scales[i]));
+        const __m256d above = _mm256_cmp_pd(slope, low, _CMP_GE_OQ);
+        const __m256d fits = _mm256_and_pd(above, _mm256_cmp_pd(slope, high, _CMP_LE_OQ));
+        best = _mm256_or_pd(_mm256_and_pd(fits, slope), _mm256_andnot_pd(fits, best));
+        low = _mm256_max_pd(low, _mm256_sub_pd(slope, slack));
+        high = _mm256_min_pd(high, _mm256_add_pd(slope, slack));
+    }
+    best = _mm256_mul_pd(best, _mm256_set1_pd(velocity->slope_unit));
+    _mm_storeu_pd(out, _mm256_castpd256_pd128(best));
+    _mm_store_sd(out + 2, _mm256_extractf128_pd(best, 1));
 }
 #endif
 
@@ -173,18 +175,11 @@ void knurl_velocity_update(knurl_velocity *velocity, const double position[3], d
     }
     velocity->newest = (velocity->newest - 1) % RING;
     double (*rows)[4] = &velocity->history[velocity->newest];
-    const double x = to_steps(position[0], velocity->steps_per_m);
-    const double y = to_steps(position[1], velocity->steps_per_m);
-    const double z = to_steps(position[2], velocity->steps_per_m);
-    for (int copy = 0; copy <= RING; copy += RING) {
-        rows[copy][0] = -x;
-        rows[copy][1] = -y;
-        rows[copy][2] = -z;
-        rows[copy][3] = z;
+#if AVX
+    if (velocity->avx) {
+        foaw_avx(velocity, rows, position, out);
+        return;
     }
-    double slopes[4];
-    widest_slopes((const double (*)[4])rows, slopes);
-    for (int axis = 0; axis < 3; axis++) {
-        out[axis] = slopes[axis] * velocity->slope_unit;
-    }
+#endif
+    foaw(velocity, rows, position, out);
 }
