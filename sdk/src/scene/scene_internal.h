@@ -111,6 +111,9 @@ typedef struct knurl_hip {
     uint32_t near_count;
     uint32_t near_overflow; /* 1: there were more than fit */
     knurl_workspace workspace;
+    double left_time; /* s: when it slid off a surface; before 0: it did not, or another holds it */
+    double left_proxy[3];
+    double left_normal[3];
     knurl_hip_counts counts;
     knurl_near near[KNURL_MAX_NEAR];
     KNURL_SEQLOCK(knurl_snapshot) published;

@@ -13,6 +13,10 @@
  * this is a step that stops nobody who is already below it. */
 #define HANDOVER_HEIGHT 1e-5
 
+/* s that it may be between two surfaces: cracks of some nanometres are all that floats leave, but a tick may fall into
+ * one. */
+#define HANDOVER_SECONDS 0.005
+
 /* A HIP that was pressed into a surface and is now beside it: where its proxy would be, had the surface gone on. */
 typedef struct handover {
     double from[3]; /* scene, m */
@@ -182,14 +186,14 @@ static int find_contact(touch *t, const knurl_contact_query *query, knurl_near *
                             : knurl_plane_contact(t->surface->plane, query, &near->contact, &t->contact);
 }
 
-/* A contact has ended: over a rim, or in front? */
-static void hand_over(const knurl_near *near, const double position[3], handover *over) {
+/* Where a HIP comes from that has slid off a surface, as long as it is behind where the surface was. */
+static void hand_over(const knurl_hip *hip, const double position[3], handover *over) {
     double offset[3];
-    vec3_sub(position, near->proxy, offset);
-    const double along = vec3_dot(offset, near->normal);
+    vec3_sub(position, hip->left_proxy, offset);
+    const double along = vec3_dot(offset, hip->left_normal);
     if (along < 0.0) {
         over->depth = HANDOVER_HEIGHT - along;
-        vec3_madd(position, over->depth, near->normal, over->from);
+        vec3_madd(position, over->depth, hip->left_normal, over->from);
         over->given = 1;
     }
 }
@@ -216,7 +220,10 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     query.double_sided = t.surface->double_sided;
     int held = find_contact(&t, &query, near);
     if (!held && near->in_contact) {
-        hand_over(near, out->hip, over);
+        vec3_copy(near->proxy, hip->left_proxy);
+        vec3_copy(near->normal, hip->left_normal);
+        hand_over(hip, out->hip, over);
+        hip->left_time = over->given ? hip->time : -1.0;
     } else if (!held && over->given && query.has_previous) {
         knurl_pose_to_own(t.pose, over->from, query.previous);
         held = find_contact(&t, &query, near);
@@ -254,6 +261,9 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
         knurl_hip_look_around(scene, world, hip, out->hip);
     }
     uint64_t asked = 0;
+    if (hip->time - hip->left_time < HANDOVER_SECONDS && hip->has_previous) {
+        hand_over(hip, out->hip, &over);
+    }
     for (uint32_t i = 0; i < hip->near_count; i++) {
         if (hip->near[i].in_contact) {
             asked |= (uint64_t)1 << i;
@@ -270,7 +280,11 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
             hip->near[i].asked = 0;
         }
     }
-    hip->depth = out->contacts > 0 && out->depth > 0.0 ? out->depth : 0.0;
+    hip->depth = over.given ? over.depth : 0.0;
+    if (out->contacts > 0) {
+        hip->depth = out->depth > 0.0 ? out->depth : 0.0;
+        hip->left_time = -1.0;
+    }
     if (hip->near_overflow) {
         out->flags |= KNURL_TICK_CONTACTS_FULL;
     }
@@ -340,6 +354,7 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     knurl_velocity_reset(&hip->velocity);
     hip->near_count = 0;
     hip->has_previous = 0;
+    hip->left_time = -1.0;
     hip->depth = 0.0;
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
