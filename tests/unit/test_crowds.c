@@ -147,12 +147,48 @@ TEST(below_a_tile_2_mm_higher_than_its_neighbour_the_hip_passes_and_contact_ends
     }
 }
 
+/* Two planes with a crack of 0.1 um between them; the HIP is dragged from one to the other and spends `ticks` ticks
+ * above the crack. Whether the second one holds it. */
+static uint32_t cross_crack(int ticks) {
+    const double crack = 1e-7;
+    knurl_scene *scene = empty_scene(1);
+    surface_parts parts = surface_plane();
+    configure_plainly(scene, 0);
+    parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
+    for (int i = 0; i < 2; i++) {
+        parts.desc.position[0] = i == 0 ? -0.01 : 0.01 + crack;
+        (void)add_surface(scene, &parts);
+    }
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    assert_int_equal(tick_at(scene, -STEP, 0.0, -DEPTH).contacts, 1);
+    for (int k = 0; k < ticks; k++) {
+        const knurl_tick_output between = tick_at(scene, 0.5 * crack, 0.0, -DEPTH);
+        assert_int_equal(between.contacts, 0);
+        CHECK_VECTOR(between.force, 0.0, 0.0, 0.0, 0.0L);
+    }
+    const uint32_t contacts = tick_at(scene, STEP, 0.0, -DEPTH).contacts;
+    knurl_scene_destroy(scene);
+    return contacts;
+}
+
+TEST(a_tick_that_falls_into_a_crack_between_two_surfaces_loses_neither) {
+    for (int ticks = 0; ticks <= 4; ticks++) { /* at 1 kHz: less than 5 ms */
+        assert_int_equal(cross_crack(ticks), 1);
+    }
+}
+
+TEST(a_hip_that_stays_between_two_surfaces_has_slid_off_both) {
+    assert_int_equal(cross_crack(6), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_floor_of_tiles_is_felt_in_every_tick_of_a_straight_drag),
         cmocka_unit_test(a_floor_of_tiles_is_felt_in_every_tick_of_a_diagonal_drag),
         cmocka_unit_test(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick),
         cmocka_unit_test(a_tile_half_a_millimetre_lower_than_its_neighbour_takes_the_hip_over),
+        cmocka_unit_test(a_tick_that_falls_into_a_crack_between_two_surfaces_loses_neither),
+        cmocka_unit_test(a_hip_that_stays_between_two_surfaces_has_slid_off_both),
         cmocka_unit_test(below_a_tile_2_mm_higher_than_its_neighbour_the_hip_passes_and_contact_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
