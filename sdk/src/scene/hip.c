@@ -46,7 +46,7 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     }
     made.period = 1.0 / made.rate;
     made.time = knurl_scene_time(scene); /* the scene's goes on */
-    made.left_time = -1.0;
+    made.calm = made.left_time = -1.0;
     made.centred = d->workspace == NULL;
     knurl_workspace_init(&made.workspace);
     if (d->workspace) {

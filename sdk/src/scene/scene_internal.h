@@ -110,6 +110,8 @@ typedef struct knurl_hip {
     uint64_t version;  /* the scene's, when the list was made; 0: look again */
     uint32_t near_count;
     uint32_t near_overflow; /* 1: there were more than fit */
+    double calm_at[3];      /* no farther than `calm` (m, each axis) from here, nothing but what is touched is met */
+    double calm;
     knurl_workspace workspace;
     double left_time; /* s: when it slid off a surface; before 0: it did not, or another holds it */
     double left_proxy[3];

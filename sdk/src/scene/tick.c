@@ -247,6 +247,48 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     near->in_contact = (uint32_t)held;
 }
 
+/* m along the axis where it is farthest: from a point to a surface's box; negative inside. */
+static double gap(const knurl_near *near, const double p[3]) {
+    double widest = -HUGE_VAL;
+    for (int i = 0; i < 3; i++) {
+        const double below = (double)near->box[i] - p[i];
+        const double above = p[i] - (double)near->box[3 + i];
+        widest = below > widest ? below : widest;
+        widest = above > widest ? above : widest;
+    }
+    return widest;
+}
+
+/* Whether the HIP is still where no box but those of what it touches can be met. */
+static int is_calm(const knurl_hip *hip, const double p[3]) {
+    return fabs(p[0] - hip->calm_at[0]) < hip->calm && fabs(p[1] - hip->calm_at[1]) < hip->calm &&
+           fabs(p[2] - hip->calm_at[2]) < hip->calm;
+}
+
+/* Whatever is near and not touched (asked: what was, as bits) may begin. Finds out how far the HIP can go before it
+ * comes near anything else. */
+static void begin_others(const knurl_world *world, knurl_hip *hip, uint64_t asked, double margin, handover *over,
+                         knurl_tick_output *out) {
+    double calm = HUGE_VAL;
+    for (uint32_t i = 0; i < hip->near_count; i++) {
+        knurl_near *near = &hip->near[i];
+        if (asked >> i & 1) {
+            calm = near->in_contact ? calm : -1.0;
+            continue;
+        }
+        if (comes_near(hip, near, out->hip, margin + over->depth)) {
+            ask(world, hip, near, over, out);
+        } else {
+            near->asked = 0;
+        }
+        if (!near->in_contact) {
+            calm = fmin(calm, gap(near, out->hip));
+        }
+    }
+    hip->calm = calm - 2e-9; /* of which comes_near() takes one */
+    vec3_copy(out->hip, hip->calm_at);
+}
+
 /* What is touched stays touched until its contact ends; then whatever else is near may begin. */
 static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
     const int same_version = hip->version == knurl_load_acquire(&scene->version);
@@ -259,6 +301,7 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     if (!same_version || !hip->has_previous || !inside || hip->depth > hip->near_depth || hip->near_overflow ||
         (scene->full_model & KNURL_FULL_SEARCH)) {
         knurl_hip_look_around(scene, world, hip, out->hip);
+        hip->calm = -1.0;
     }
     uint64_t asked = 0;
     if (hip->time - hip->left_time < HANDOVER_SECONDS && hip->has_previous) {
@@ -268,17 +311,11 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
         if (hip->near[i].in_contact) {
             asked |= (uint64_t)1 << i;
             ask(world, hip, &hip->near[i], &over, out);
+            hip->calm = hip->near[i].in_contact ? hip->calm : -1.0;
         }
     }
-    for (uint32_t i = 0; i < hip->near_count; i++) {
-        if (asked >> i & 1) {
-            continue;
-        }
-        if (comes_near(hip, &hip->near[i], out->hip, margin + over.depth)) {
-            ask(world, hip, &hip->near[i], &over, out);
-        } else {
-            hip->near[i].asked = 0;
-        }
+    if (over.given || !is_calm(hip, out->hip)) {
+        begin_others(world, hip, asked, margin, &over, out);
     }
     hip->depth = over.given ? over.depth : 0.0;
     if (out->contacts > 0) {
@@ -354,7 +391,7 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     knurl_velocity_reset(&hip->velocity);
     hip->near_count = 0;
     hip->has_previous = 0;
-    hip->left_time = -1.0;
+    hip->calm = hip->left_time = -1.0;
     hip->depth = 0.0;
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
