@@ -189,9 +189,9 @@ KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surfac
 /** Moves a surface's origin to `position` (m) and turns it to `rotation` (unit quaternion x, y, z, w), both scene axes,
  * evenly over `seconds` (0 to 10: the game's frame time) from where it is now; there it stays until moved again. What
  * slides under a HIP is felt: velocities are taken relative to the surface. 0 seconds: it stands there at once, and
- * what it passed on the way is not touched. Time is counted by ticks: while none runs, the way waits to be made; before
- * the commit it is made at once. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY.
- * [any thread but the haptic] */
+ * what it passed on the way is not touched (a HIP that it held is looked at anew, as at a first tick). Time is counted
+ * by ticks: while none runs, the way waits to be made; before the commit it is made at once.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface, const double position[3],
                                                  const double rotation[4], double seconds);
 
@@ -234,7 +234,10 @@ KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hi
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
 
 /** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B
- * vn) along n for each surface in contact). Bounded time; no heap, lock, system call, clock, log or file. `output` is
+ * vn) along n for each surface in contact, and friction across it). A HIP that is pressed in and slides off one surface
+ * is held by the next, where that lies at most 10 um higher or anywhere below, and the crack between them is crossed
+ * within 5 ms. Of more than 32 surfaces about one place some may be overlooked (KNURL_TICK_CONTACTS_FULL says so).
+ * Bounded time; no heap, lock, system call, clock, log or file, whatever other threads edit meanwhile. `output` is
  * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed),
  * KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,

@@ -67,7 +67,7 @@ typedef struct knurl_world {
     uint32_t node_count;  /* 0: nothing stands still */
     uint32_t capacity;    /* places */
     uint32_t loose_count; /* atomic */
-    uint8_t *is_loose;    /* edits: by place */
+    uint8_t *is_loose;    /* by place; atomic: 0: it has stood still since the world was built */
 } knurl_world;
 
 /* One surface near a HIP. */

@@ -122,7 +122,7 @@ static double room_of(const knurl_motion *motion) {
 
 static void make_loose(knurl_world *world, uint32_t place) {
     if (!world->is_loose[place]) {
-        world->is_loose[place] = 1;
+        knurl_store_relaxed(&world->is_loose[place], (uint8_t)1);
         world->loose[world->loose_count] = place;
         knurl_store_release(&world->loose_count, world->loose_count + 1);
     }
@@ -244,8 +244,8 @@ static int is_there(const knurl_world *world, uint32_t place, const knurl_view *
         return 0;
     }
     const knurl_surface_data *surface = __atomic_load_n(&world->items[place], __ATOMIC_SEQ_CST);
-    if (!surface) {
-        return 0;
+    if (!surface || !knurl_load_relaxed(&world->is_loose[place])) {
+        return surface != NULL; /* what stands still fills its box */
     }
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
     if (view->exact) {
