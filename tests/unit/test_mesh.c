@@ -222,7 +222,7 @@ static void compare_cross(uint64_t seed, uint32_t triangles, double size, double
         double b[3];
         double direction[3];
         crossing expected;
-        uint32_t found = KNURL_NO_TRIANGLE;
+        uint32_t found = UINT32_MAX;
         random_direction(&seed, direction);
         for (int axis = 0; axis < 3; axis++) {
             a[axis] = random_between(&seed, -1.0, 1.0);

@@ -178,7 +178,7 @@ KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_s
 
 /** Takes a surface out, before the commit or after: whoever touches it lets go at its next tick. Its id is stale from
  * then on; its memory is given back by a later edit, when no tick can see it any more.
- * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
+ * Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface);
 
 /** Gives a surface another material, before the commit or after; an event that plays is played to its end.

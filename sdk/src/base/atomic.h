@@ -6,7 +6,6 @@
 #define knurl_load_acquire(p)     __atomic_load_n((p), __ATOMIC_ACQUIRE)
 #define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)
 #define knurl_store_release(p, v) __atomic_store_n((p), (v), __ATOMIC_RELEASE)
-#define knurl_exchange(p, v)      __atomic_exchange_n((p), (v), __ATOMIC_ACQ_REL)
 
 /* A floating-point number that one thread writes and any may read. (Clang's __atomic_store wants a source that is not
  * const; the copies compile to nothing.) */

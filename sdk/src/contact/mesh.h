@@ -7,8 +7,6 @@
 
 #include <knurl/contact.h>
 
-#define KNURL_NO_TRIANGLE UINT32_MAX
-
 /* A corner of the mesh is one number: 4 times its triangle plus 0, 1 or 2. Triangles stay below 2^26, so the high bits
  * are free, and numbers that end in 3 are no corners. */
 #define KNURL_CORNER  0x0fffffffu
@@ -84,6 +82,13 @@ void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triang
 
 /* dP/du and dP/dv of one triangle; 0 where its uvs have no area (or there are none). */
 int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) KNURL_NONBLOCKING;
+
+/* Of each vertex the first that stands exactly where it stands. welds: vertex_count entries of the caller's; where
+ * `marked`, only vertices whose entry is not 0 are looked at. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_mesh_weld(knurl_heap *heap, const knurl_mesh_desc *desc, int marked, uint32_t *welds);
+
+/* Slots of an open hash table for so many entries: a power of two, at most half full. */
+uint64_t knurl_table_slots(uint64_t entries);
 
 /* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
  * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */

@@ -23,45 +23,9 @@ typedef struct draft {
     uint32_t place_count;
 } draft;
 
-static uint64_t hash_position(const float *p) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (int axis = 0; axis < 3; axis++) {
-        const float value = p[axis] + 0.0f; /* -0 and 0 are one place */
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 29;
-    }
-    return hash;
-}
-
-/* Vertices at exactly the same place become one for the walk over the surface (uv seams and hard edges double them). */
 static knurl_result weld(draft *d) {
-    const float *positions = d->desc->positions;
-    uint64_t slots = 16;
-    while (slots < 2 * (uint64_t)d->desc->vertex_count) {
-        slots *= 2;
-    }
-    uint32_t *table = knurl_heap_alloc(d->heap, slots, sizeof *table); /* vertex + 1, or 0 */
     d->welds = knurl_heap_alloc(d->heap, d->desc->vertex_count, sizeof *d->welds);
-    for (uint32_t v = 0; table && d->welds && v < d->desc->vertex_count; v++) {
-        const float *p = &positions[3 * (size_t)v];
-        uint64_t slot = hash_position(p) & (slots - 1);
-        while (table[slot] != 0) {
-            const float *q = &positions[3 * (size_t)(table[slot] - 1)];
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
-                break;
-            }
-            slot = (slot + 1) & (slots - 1);
-        }
-        if (table[slot] == 0) {
-            table[slot] = v + 1;
-        }
-        d->welds[v] = table[slot] - 1;
-    }
-    const int failed = !table || !d->welds;
-    knurl_heap_free(d->heap, table);
-    return failed ? KNURL_ERROR_MEMORY : KNURL_OK;
+    return d->welds ? knurl_mesh_weld(d->heap, d->desc, 0, d->welds) : KNURL_ERROR_MEMORY;
 }
 
 /* Whether a triangle is thicker than float's own resolution; thinner, its normal would be noise. */
@@ -122,10 +86,7 @@ static knurl_result keep_triangles(draft *d) {
     const knurl_mesh_desc *desc = d->desc;
     knurl_mesh *mesh = d->mesh;
     const uint64_t corners = desc->indices ? desc->index_count : desc->vertex_count;
-    uint64_t slots = 16;
-    while (slots < 2 * (corners / 3)) {
-        slots *= 2;
-    }
+    const uint64_t slots = knurl_table_slots(corners / 3);
     d->corners = knurl_heap_alloc(d->heap, corners, sizeof *d->corners);
     uint32_t *table = knurl_heap_alloc(d->heap, slots, sizeof *table); /* triangle + 1, or 0 */
     if (!d->corners || !table) {

@@ -153,52 +153,6 @@ static uint64_t mix(uint64_t hash, uint32_t value) {
     return hash ^ hash >> 29;
 }
 
-static uint64_t slots_for(uint64_t entries) {
-    uint64_t slots = 16;
-    while (slots < 2 * entries) {
-        slots *= 2;
-    }
-    return slots;
-}
-
-static uint64_t hash_position(const float *p) {
-    uint64_t hash = 1;
-    for (int axis = 0; axis < 3; axis++) {
-        const float value = p[axis] + 0.0f; /* -0 and 0 are one place */
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        hash = mix(hash, bits);
-    }
-    return hash;
-}
-
-/* Vertices at exactly the same place become one (uv seams and hard edges double them). */
-static knurl_result weld(knurl_heap *heap, knurl_sheet *sheet) {
-    const knurl_mesh_desc *d = sheet->desc;
-    const uint64_t slots = slots_for(d->vertex_count);
-    uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table); /* vertex + 1, or 0 */
-    if (!table) {
-        return KNURL_ERROR_MEMORY;
-    }
-    for (uint32_t v = 0; v < d->vertex_count; v++) {
-        const float *p = &d->positions[3 * (size_t)v];
-        uint64_t slot = hash_position(p) & (slots - 1);
-        while (sheet->welds[v] && table[slot] != 0) {
-            const float *q = &d->positions[3 * (size_t)(table[slot] - 1)];
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
-                break;
-            }
-            slot = (slot + 1) & (slots - 1);
-        }
-        if (sheet->welds[v]) {
-            table[slot] = table[slot] ? table[slot] : v + 1;
-            sheet->welds[v] = table[slot] - 1;
-        }
-    }
-    knurl_heap_free(heap, table);
-    return KNURL_OK;
-}
-
 /* A triangle's welded corners, lowest first. */
 static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t out[3]) {
     for (uint32_t k = 0; k < 3; k++) {
@@ -259,7 +213,7 @@ static void keep_triangles(knurl_sheet *sheet, uint32_t *table, uint64_t mask, u
 }
 
 static knurl_result sort_out(knurl_heap *heap, knurl_sheet *sheet, const char **why) {
-    const uint64_t slots = slots_for(sheet->count);
+    const uint64_t slots = knurl_table_slots(sheet->count);
     uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table);
     uint8_t *seen = knurl_heap_alloc(heap, sheet->count, 1);
     sheet->kept = knurl_heap_alloc(heap, sheet->count, sizeof *sheet->kept);
@@ -294,7 +248,7 @@ knurl_result knurl_sheet_make(knurl_heap *heap, const knurl_mesh_desc *desc, knu
     if (*why) {
         return KNURL_OK;
     }
-    const knurl_result result = weld(heap, sheet);
+    const knurl_result result = knurl_mesh_weld(heap, desc, 1, sheet->welds);
     return result ? result : sort_out(heap, sheet, why);
 }
 

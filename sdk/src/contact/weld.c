@@ -1,0 +1,52 @@
+/* Which vertices stand in one place (uv seams and hard edges double them). SPDX-License-Identifier: MIT */
+#include "contact/mesh.h"
+
+#include <string.h>
+
+static uint64_t hash_position(const float *p) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (int axis = 0; axis < 3; axis++) {
+        const float value = p[axis] + 0.0f; /* -0 and 0 are one place */
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+uint64_t knurl_table_slots(uint64_t entries) {
+    uint64_t slots = 16;
+    while (slots < 2 * entries) {
+        slots *= 2;
+    }
+    return slots;
+}
+
+knurl_result knurl_mesh_weld(knurl_heap *heap, const knurl_mesh_desc *desc, int marked, uint32_t *welds) {
+    const uint64_t slots = knurl_table_slots(desc->vertex_count);
+    uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table); /* vertex + 1, or 0 */
+    if (!table) {
+        return KNURL_ERROR_MEMORY;
+    }
+    for (uint32_t v = 0; v < desc->vertex_count; v++) {
+        if (marked && !welds[v]) {
+            continue;
+        }
+        const float *p = &desc->positions[3 * (size_t)v];
+        uint64_t slot = hash_position(p) & (slots - 1);
+        while (table[slot] != 0) {
+            const float *q = &desc->positions[3 * (size_t)(table[slot] - 1)];
+            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
+                break;
+            }
+            slot = (slot + 1) & (slots - 1);
+        }
+        if (table[slot] == 0) {
+            table[slot] = v + 1;
+        }
+        welds[v] = table[slot] - 1;
+    }
+    knurl_heap_free(heap, table);
+    return KNURL_OK;
+}
