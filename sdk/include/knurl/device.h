@@ -22,6 +22,12 @@ typedef struct knurl_device_info {
     double resolution;       /**< position quantum, m; 0: not quantised */
     double max_force;        /**< N */
     double delay;            /**< ticks from a force written to a force felt, beyond the tick itself */
+    double continuous_force; /**< N that the motors can hold for ever; INFINITY: no limit but max_force */
+    double heat_time;        /**< s: time constant with which the motors warm up, > 0 */
+    double mass;             /**< kg: apparent mass at the grip */
+    double viscous;          /**< N s/m: the device's own viscous friction */
+    double coulomb;          /**< N: the device's own dry friction */
+    double max_stiffness;    /**< N/m: the stiffest wall that its maker promises; INFINITY: nothing is promised */
 } knurl_device_info;
 
 /** One reading. Device frame: x right, y up, z towards the user. */
@@ -107,6 +113,18 @@ KNURL_API const char *knurl_fake_keys(void);
 /** Gives the fake device's hand a stroke; from the next knurl_device_start().
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device). [game thread] */
 KNURL_API knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc);
+
+/** What the simulated world really is, for studies and tests: nothing that a real device could tell. */
+typedef struct knurl_fake_truth {
+    double position[3]; /**< m, device frame: before it is quantised */
+    double velocity[3]; /**< m/s */
+    double motor[3];    /**< N: the force that acts now, delayed and limited */
+    double hand[3];     /**< N: what the hand's spring and damper pull with now */
+} knurl_fake_truth;
+
+/** The fake device as of its latest reading.
+ * Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays a trace). [haptic thread] */
+KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth);
 
 /** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated
  * linearly, the last one held. The positions are exact unless the URI names a resolution; no force moves them. Errors:

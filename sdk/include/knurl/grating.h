@@ -11,23 +11,30 @@ extern "C" {
 #endif
 
 /** The spatial methods. S1 looks the height up at the position (Eqs. 10, 11); S2 plays complete T3 events at the
- * frequency that the velocity calls for (Algorithm 7); LOCKED keeps S2's events in step with the surface and is not
- * built yet: it is refused with a sentence. */
+ * frequency that the velocity calls for (Algorithm 7); LOCKED, this project's own, plays balanced events whose lengths
+ * keep step with the surface above a crossover frequency, and follows the position below it. */
 enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3 };
 
 /** No event: S1, or S2 while idle. */
 #define KNURL_NO_EVENT (-1)
 
-/** Below this speed (m/s) S2 starts no event (Algorithm 7). */
+/** Below this speed (m/s) S2 starts no event (Algorithm 7); with positions that are quantised it goes on down to half
+ * of it once it has begun, so that a speed that flickers about it does not start and stop events. */
 #define KNURL_S2_DEADBAND 0.001
+
+/** Hz: where LOCKED goes over from following the position to playing events. */
+#define KNURL_LOCKED_CROSSOVER_HZ 120.0
 
 /** What a grating is; filled in by its owner, constant while it is felt. */
 typedef struct knurl_grating {
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
     double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
-    int32_t method;              /**< KNURL_S1 or KNURL_S2 */
+    int32_t method;              /**< KNURL_S1, KNURL_S2 or KNURL_LOCKED */
     uint32_t reserved;           /**< 0 */
+    double resolution;           /**< m: the quantum that positions come in, 0 where they are exact. LOCKED: a position
+                                      that comes back by no more than it has not moved */
+    double crossover_hz;         /**< LOCKED: 0 means KNURL_LOCKED_CROSSOVER_HZ */
 } knurl_grating;
 
 /** Where one HIP is on one grating. Zero it to start anew. */
@@ -36,6 +43,11 @@ typedef struct knurl_grating_state {
     int64_t event_count; /**< events started since the state was zeroed */
     int32_t next_tick;   /**< S2: index into the event of the next tick */
     int32_t playing;     /**< S2: 1 while an event has ticks left */
+    double phase;        /**< LOCKED: cycles crossed in the direction of motion, from a ridge's rising edge */
+    double played;       /**< LOCKED: cycles played to the end of the event, on the same count */
+    double held;         /**< LOCKED: the position behind its hysteresis, m */
+    int32_t direction;   /**< LOCKED: +1 or -1; 0 before the first tick */
+    int32_t moving;      /**< above the deadband, S2, or the crossover, LOCKED, with their hysteresis */
 } knurl_grating_state;
 
 /** What a grating does in one tick. */

@@ -10,9 +10,9 @@ extern "C" {
 #endif
 
 /** Velocity estimators. FOAW: the widest window, up to 15 ticks, whose straight line stays within the quantisation
- * (Janabi-Sharifi 2000). DIFFERENCE: the last two positions; right for positions without quantisation. AUTO: FOAW
- * where the resolution is known (> 0), DIFFERENCE where it is 0. */
-enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2 };
+ * (Janabi-Sharifi 2000). DIFFERENCE: the last two positions; right for positions without quantisation. LOWPASS: the
+ * difference, smoothed; for comparison. AUTO: FOAW where the resolution is known (> 0), DIFFERENCE where it is 0. */
+enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2, KNURL_VELOCITY_LOWPASS = 3 };
 
 /** The widest FOAW window in ticks. 15 is the common choice of the field; wider ones only add delay. */
 #define KNURL_FOAW_WINDOW 15

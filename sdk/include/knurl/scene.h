@@ -55,6 +55,18 @@ typedef struct knurl_surface_desc {
                                               metres from the surface's origin along it */
 } knurl_surface_desc;
 
+/** The protections of a HIP; a bit leaves one out, to study what it does. All are on by default. */
+enum {
+    KNURL_UNGUARDED_ENTRY = 1,     /**< the depth that is felt may jump, not only grow at KNURL_ENTRY_SPEED */
+    KNURL_UNGUARDED_SLEW = 2,      /**< the force may jump by more than the texture's step and slew_rate */
+    KNURL_UNGUARDED_HEAT = 4,      /**< continuous_force is not respected */
+    KNURL_UNGUARDED_PASSIVITY = 8, /**< walls may give out more energy than was put into them */
+    KNURL_UNGUARDED_ALL = 15
+};
+
+/** m/s: the felt depth grows no faster, so that a wall that is suddenly there comes in as a ramp. */
+#define KNURL_ENTRY_SPEED 0.5
+
 /** One haptic interaction point: how fast it ticks, where its device's workspace lies, what its device can do. */
 typedef struct knurl_hip_desc {
     uint32_t struct_size;    /**< set by knurl_hip_desc_init() */
@@ -66,6 +78,22 @@ typedef struct knurl_hip_desc {
                                   without one 3.3 (Touch) */
     const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
+    double continuous_force; /**< N that the motors can hold for ever; 0 (default): as the loop's device says, without
+                                  one 0.88 (Touch); INFINITY: no limit but max_force */
+    double heat_time;        /**< s: time constant of the motors' warming; 0 (default): as the loop's device says,
+                                  without one the Touch's */
+    double viscous;          /**< N s/m: the device's viscous friction, for knurl_scene_check_surface() and the
+                                  passivity controller; negative (default): as the loop's device says, without one the
+                                  Touch's */
+    double delay;            /**< ticks from a force written to a force felt, 0 to 16; negative (default): as the
+                                  loop's device says, without one 1 */
+    double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
+                                  device says, without one the Touch's */
+    double slew_rate;        /**< N/s: the force grows or turns no faster, but for the texture's own steps; 0
+                                  (default): max_force within 5 ms */
+    uint32_t unguarded;      /**< KNURL_UNGUARDED_ bits; default 0 */
+    uint32_t clamp;          /**< 1: walls and textures beyond what knurl_scene_check_surface() allows are felt at
+                                  what it allows; default 0: they are felt as asked for */
 } knurl_hip_desc;
 
 /** The reductions a scene makes, so that it models no more than it needs; a bit turns one off, to compare. */
@@ -118,11 +146,15 @@ typedef struct knurl_tick_input {
 
 /** Bits of knurl_tick_output.flags. */
 enum {
-    KNURL_TICK_CONTACT = 1,       /**< some surface is in reach of its grating's crests */
-    KNURL_TICK_FORCE_LIMIT = 2,   /**< the force was shortened to max_force */
-    KNURL_TICK_FREQUENCY = 4,     /**< f_t above f_h/2: the grating is finer than the update rate can render */
-    KNURL_TICK_NOT_FINITE = 8,    /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
-    KNURL_TICK_CONTACTS_FULL = 16 /**< a further surface was in reach, beyond KNURL_MAX_CONTACTS */
+    KNURL_TICK_CONTACT = 1,     /**< some surface is in reach of its grating's crests */
+    KNURL_TICK_FORCE_LIMIT = 2, /**< the force was shortened to max_force */
+    KNURL_TICK_FREQUENCY = 4,   /**< f_t above f_h/2: the grating is finer than the update rate can render */
+    KNURL_TICK_NOT_FINITE = 8,  /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
+    KNURL_TICK_CONTACTS_FULL = 16, /**< a further surface was in reach, beyond KNURL_MAX_CONTACTS */
+    KNURL_TICK_ENTRY = 32,         /**< a wall came in as a ramp */
+    KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
+    KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
+    KNURL_TICK_PASSIVITY = 256     /**< the force was made smaller because the wall gave out energy */
 };
 
 /** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */
@@ -153,7 +185,12 @@ typedef struct knurl_hip_counts {
     uint64_t force_limits;          /**< ticks with KNURL_TICK_FORCE_LIMIT */
     uint64_t frequency_saturations; /**< ticks with KNURL_TICK_FREQUENCY */
     uint64_t not_finite;            /**< ticks with KNURL_TICK_NOT_FINITE */
+    uint64_t entries;               /**< ticks with KNURL_TICK_ENTRY */
+    uint64_t slews;                 /**< ticks with KNURL_TICK_SLEW */
+    uint64_t heats;                 /**< ticks with KNURL_TICK_HEAT */
+    uint64_t passivities;           /**< ticks with KNURL_TICK_PASSIVITY */
     double force_max;               /**< N, longest force played */
+    double heat;                    /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -232,6 +269,34 @@ KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hi
 /** The workspace that a HIP's ticks use; after the commit also where it was left to the scene.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [game thread] */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
+
+/** The limits that a surface can exceed on a device. */
+enum {
+    KNURL_LIMIT_STABILITY = 1, /**< K s above the closed-form bound for the HIP's rate, delay and damping */
+    KNURL_LIMIT_STIFFNESS = 2, /**< K s above the device's max_stiffness */
+    KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
+    KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
+    KNURL_LIMIT_PERIOD = 16    /**< ridges finer than two of the device's position quanta */
+};
+
+/** What a device makes of a surface. An output: set struct_size with knurl_surface_check_init() first. */
+typedef struct knurl_surface_check {
+    uint32_t struct_size;
+    uint32_t exceeded;      /**< KNURL_LIMIT_ bits; 0: nothing to warn of */
+    double stiffness;       /**< N/m that the device feels: K times the workspace's scale */
+    double stiffness_limit; /**< N/m: the least of its bounds */
+    double amplitude;       /**< m */
+    double amplitude_limit; /**< m: at the stiffness that is felt */
+    char message[512];      /**< a sentence for each limit: which, by how much, what to do; "" where none is exceeded */
+} knurl_surface_check;
+
+KNURL_API void knurl_surface_check_init(knurl_surface_check *check, uint32_t size);
+
+/** Holds a surface's stiffness and amplitude against what the HIP's device can do: to be asked at load, before anybody
+ * feels it. A game shows the message; knurl_hip_desc.clamp has the limits kept. Errors: KNURL_ERROR_ARGUMENT (hip),
+ * KNURL_ERROR_STALE_ID. [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface surface,
+                                                 knurl_surface_check *check);
 
 /** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B
  * vn) along n for each surface in contact, and friction across it). A HIP that is pressed in and slides off one surface

@@ -7,7 +7,7 @@
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
-    const knurl_hip_desc defaults = {.resolution = -1.0};
+    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .delay = -1.0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 

@@ -125,7 +125,9 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
                                        t->record->is_smooth ? 0.0 : m->amplitude,
                                        hip->rate,
                                        m->method,
-                                       0};
+                                       0,
+                                       0.0,
+                                       0.0};
         knurl_grating_step(&grating, &near->grating, coordinates, along, &t->grating);
     } else {
         const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
