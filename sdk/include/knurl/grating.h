@@ -15,7 +15,7 @@ extern "C" {
  * keep step with the surface above a crossover frequency, and follows the position below it. */
 enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3 };
 
-/** No event: S1, or S2 while idle. */
+/** No event: S1, S2 while idle, LOCKED below its crossover. */
 #define KNURL_NO_EVENT (-1)
 
 /** Below this speed (m/s) S2 starts no event (Algorithm 7); with positions that are quantised it goes on down to half
@@ -39,15 +39,15 @@ typedef struct knurl_grating {
 
 /** Where one HIP is on one grating. Zero it to start anew. */
 typedef struct knurl_grating_state {
-    knurl_event event;   /**< S2: the event that plays; its amplitude and kind are held to its end */
+    knurl_event event;   /**< S2, LOCKED: the event that plays; its amplitude and kind are held to its end */
     int64_t event_count; /**< events started since the state was zeroed */
-    int32_t next_tick;   /**< S2: index into the event of the next tick */
-    int32_t playing;     /**< S2: 1 while an event has ticks left */
+    int32_t next_tick;   /**< S2, LOCKED: index into the event of the next tick */
+    int32_t playing;     /**< S2, LOCKED: 1 while an event has ticks left */
     double phase;        /**< LOCKED: cycles crossed in the direction of motion, from a ridge's rising edge */
     double played;       /**< LOCKED: cycles played to the end of the event, on the same count */
     double held;         /**< LOCKED: the position behind its hysteresis, m */
     int32_t direction;   /**< LOCKED: +1 or -1; 0 before the first tick */
-    int32_t moving;      /**< above the deadband, S2, or the crossover, LOCKED, with their hysteresis */
+    int32_t moving;      /**< S2: an event was played, so the deadband is halved; LOCKED: events follow one another */
 } knurl_grating_state;
 
 /** What a grating does in one tick. */
@@ -60,8 +60,8 @@ typedef struct knurl_grating_output {
     uint32_t reserved;         /**< 0 */
 } knurl_grating_output;
 
-/** Checks a grating once, so that its steps need not. method KNURL_METHOD_DEFAULT is resolved to KNURL_S2 in place.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_UNSUPPORTED (KNURL_LOCKED). [any thread] */
+/** Checks a grating once, so that its steps need not. method KNURL_METHOD_DEFAULT is resolved to KNURL_LOCKED in place.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
 
 /** The temporal frequency of a scan, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
@@ -77,9 +77,16 @@ KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency
 KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2],
                                   double amplitude) KNURL_NONBLOCKING;
 
-/** One tick of a checked grating. position: m along the surface's x and y (S1). velocity: m/s along x and y, of the HIP
- * relative to the surface. state and output: caller's. S2: a new period and amplitude are taken only when an event has
- * ended (Algorithm 7); with no event, below the deadband or where an event would last over 1e6 ticks, the height is 0.
+/** One tick of a checked grating. position: m along the surface's x and y (S1, LOCKED); null for LOCKED where there is
+ * none, which then counts the way by the velocity. velocity: m/s along x and y, of the HIP relative to the surface, as
+ * the position changes. state and output: caller's.
+ * S2: a new period and amplitude are taken only when an event has ended (Algorithm 7); with no event, below the
+ * deadband or where an event would last over 1e6 ticks, the height is 0. LOCKED: phase p counts cycles crossed in the
+ * direction of motion: on a grating of one direction from the position (a cycle begins where Eq. 11 rises), on a grid
+ * the integral of Eq. 12's frequency. Below the crossover the height is +A in the first half of p's cycle, else -A.
+ * Above it, from a cycle's boundary on, T3's even and odd events follow one another; after n of them the next has the
+ * whole number of ticks nearest T (1 - (p - n)), kept within T/1.38 to 1.38 T or to the whole numbers either side of T,
+ * so that played cycles keep step with those crossed. A reversal, or f_t above f_h/2, begins a new count from p.
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                                   const double velocity[2], knurl_grating_output *output) KNURL_NONBLOCKING;

@@ -30,7 +30,7 @@ typedef uint64_t knurl_surface;
 /** How a surface feels. K, A and fs are per scene metre. */
 typedef struct knurl_material_desc {
     uint32_t struct_size;        /**< set by knurl_material_desc_init() */
-    int32_t method;              /**< KNURL_METHOD_DEFAULT (S2), KNURL_S1 or KNURL_S2; KNURL_LOCKED is refused */
+    int32_t method;              /**< KNURL_METHOD_DEFAULT (LOCKED), KNURL_S1, KNURL_S2 or KNURL_LOCKED */
     double spatial_frequency[2]; /**< fsx, fsy: cycles/m along the surface's x and y, >= 0; [0, 0] is smooth */
     double amplitude;            /**< A: m, half peak to peak of the square wave, >= 0 */
     double stiffness;            /**< K: N/m, > 0 */
@@ -181,7 +181,7 @@ typedef struct knurl_tick_output {
 typedef struct knurl_hip_counts {
     uint64_t ticks;
     uint64_t contact_ticks;         /**< with KNURL_TICK_CONTACT */
-    uint64_t events;                /**< S2 events started */
+    uint64_t events;                /**< events started (S2, LOCKED) */
     uint64_t force_limits;          /**< ticks with KNURL_TICK_FORCE_LIMIT */
     uint64_t frequency_saturations; /**< ticks with KNURL_TICK_FREQUENCY */
     uint64_t not_finite;            /**< ticks with KNURL_TICK_NOT_FINITE */
@@ -208,7 +208,7 @@ KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_sc
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface; before the commit or after.
- * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_UNSUPPORTED (locked), KNURL_ERROR_FULL,
+ * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_FULL,
  * KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
                                                knurl_surface *surface);

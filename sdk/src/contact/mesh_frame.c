@@ -83,6 +83,26 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
+/* The velocity in the triangle's plane, in its edges: v = a edge1 + b edge2. */
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2]) {
+    uv_edges e;
+    double across[3];
+    double turned[3];
+    if (!find_uv_edges(mesh, contact->triangle, &e)) {
+        return 0;
+    }
+    vec3_cross(e.edge1, e.edge2, across);
+    const double area2 = vec3_dot(across, across);
+    vec3_cross(velocity, e.edge2, turned);
+    const double a = vec3_dot(turned, across) / area2;
+    vec3_cross(e.edge1, velocity, turned);
+    const double b = vec3_dot(turned, across) / area2;
+    const double facing = vec3_dot(across, contact->normal) * e.det;
+    rates[0] = (a * e.u1 + b * e.u2) * mesh->uv_scale[0];
+    rates[1] = (a * e.v1 + b * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
+    return 1;
+}
+
 /* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. Of dP/du and
  * dP/dv only the directions are asked for, so nothing is divided. */
 void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {

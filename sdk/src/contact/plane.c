@@ -103,3 +103,11 @@ void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, d
     }
     coordinates[1] *= contact->normal[2]; /* y = n x x: from behind it runs the other way */
 }
+
+void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
+                       double rates[2]) {
+    for (int i = 0; i < 2; i++) {
+        rates[i] = plane->map[i][0] * velocity[0] + plane->map[i][1] * velocity[1];
+    }
+    rates[1] *= contact->normal[2];
+}

@@ -1,6 +1,8 @@
-/* Haptic gratings: S1 (Eqs. 10, 11), S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
+/* Haptic gratings: S1 (Eqs. 10, 11), S2 (Algorithm 7 with Eqs. 12, 13), and what all methods share.
+ * SPDX-License-Identifier: MIT */
 #include <knurl/grating.h>
 
+#include "grating/locked.h"
 #include "vibration/event.h"
 #include "vibration/ticks.h"
 
@@ -45,20 +47,20 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz",
                           grating->update_rate_hz);
     }
-    switch (grating->method) {
-    case KNURL_METHOD_DEFAULT:
-        grating->method = KNURL_S2;
-        return KNURL_OK;
-    case KNURL_S1:
-    case KNURL_S2:
-        return KNURL_OK;
-    case KNURL_LOCKED:
-        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
-                          "method: 'locked' is not built yet in Knurl %s; use S2 (the default) or S1",
-                          knurl_version_string());
-    default:
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_S1 or KNURL_S2, found %d", (int)grating->method);
+    if (!(grating->resolution >= 0.0 && isfinite(grating->resolution))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: expected a finite number >= 0 (m), found %g",
+                          grating->resolution);
     }
+    if (!(grating->crossover_hz >= 0.0 && isfinite(grating->crossover_hz))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected a finite number >= 0 (Hz), found %g Hz",
+                          grating->crossover_hz);
+    }
+    if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_LOCKED) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_S1, KNURL_S2 or KNURL_LOCKED, found %d",
+                          (int)grating->method);
+    }
+    grating->method = grating->method == KNURL_METHOD_DEFAULT ? KNURL_LOCKED : grating->method;
+    return KNURL_OK;
 }
 
 static double highest(const double spatial_frequency[2], const double velocity[2]) {
@@ -91,9 +93,12 @@ double knurl_grating_s1(const double position[2], const double spatial_frequency
 static int step_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
     if (!state->playing) {
         const double ticks = grating->update_rate_hz / frequency; /* infinite across no ridge */
-        if (!(speed2 >= KNURL_S2_DEADBAND * KNURL_S2_DEADBAND) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+        const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
+        state->moving = 0;
+        if (!(speed2 >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
             return 0;
         }
+        state->moving = grating->resolution > 0.0;
         /* below a tick, however fast, it is played as 2 */
         knurl_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
         state->playing = 1;
@@ -113,7 +118,9 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     output->event = KNURL_NO_EVENT;
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
     output->reserved = 0;
-    if (grating->method != KNURL_S2) {
+    if (grating->method == KNURL_LOCKED) {
+        output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
+    } else if (grating->method != KNURL_S2) {
         output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
     } else if (step_s2(grating, state, speed2, frequency)) {
         output->height = knurl_event_value(&state->event, state->next_tick);

@@ -45,6 +45,7 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
         return result;
     }
     made.period = 1.0 / made.rate;
+    made.quantum = d->resolution < 0.0 ? resolution : d->resolution;
     made.time = knurl_scene_time(scene); /* the scene's goes on */
     made.calm = made.left_time = -1.0;
     made.centred = d->workspace == NULL;
@@ -54,6 +55,7 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     } else if (scene->committed) {
         knurl_scene_centre(scene, made.workspace.origin);
     }
+    made.quantum *= 1.7320508075688772 * made.workspace.scale;
     for (int i = 0; i < 9; i++) {
         made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }

@@ -3,9 +3,9 @@
 
 #include "base/base.h"
 
-/* How far the crests of each method stand above the surface, in amplitudes: S1 never leaves A; S2's 400 Hz mix reaches
- * (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"). */
-#define CREST_S1 1.0
+/* How far the crests of each method stand above the surface, in amplitudes: S1 and LOCKED (T3's events without the mix)
+ * never leave A; S2's 400 Hz mix reaches (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"). */
+#define CREST    1.0
 #define CREST_S2 1.1431
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
@@ -36,10 +36,6 @@ static knurl_result check_material(knurl_material_desc *m) {
     return result;
 }
 
-static int has_coordinates(const knurl_surface_data *surface) {
-    return surface->mesh ? surface->mesh->uvs || surface->has_axis : surface->plane->has_coordinates;
-}
-
 knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface_data *surface,
                                        const knurl_material_desc *desc, uint32_t full_model) {
     knurl_material_desc m;
@@ -50,14 +46,14 @@ knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (m.method == KNURL_S1 && !smooth && !has_coordinates(surface)) {
+    if (m.method == KNURL_S1 && !smooth && !knurl_surface_has_coordinates(surface)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }
     record->material = m;
     record->turn[0] = cos(m.orientation);
     record->turn[1] = sin(m.orientation);
-    record->reach = smooth ? 0.0 : m.amplitude * (m.method == KNURL_S1 ? CREST_S1 : CREST_S2);
+    record->reach = smooth ? 0.0 : m.amplitude * (m.method == KNURL_S2 ? CREST_S2 : CREST);
     record->is_smooth = smooth;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;
     return KNURL_OK;

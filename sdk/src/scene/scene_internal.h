@@ -101,6 +101,7 @@ typedef struct knurl_hip {
     double rate;
     double period;
     double max_force;
+    double quantum; /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
     int32_t has_previous;
     int32_t is_turned;  /* 0: the workspace's rotation is 1, and is left out */
     double depth;       /* of the deepest contact at the latest tick, m; 0 without */
@@ -217,6 +218,14 @@ uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint
  * normal. coordinates: m, what S1 looks up. */
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
                          double x[3], double y[3], double coordinates[2]) KNURL_NONBLOCKING;
+
+/* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame). 0,
+ * and untouched, where there are no coordinates. */
+int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
+                        const double velocity[3], double rates[2]) KNURL_NONBLOCKING;
+
+/* 1: it has uvs or an axis, or is a plane, so that there is a place on the grating to go by. */
+int knurl_surface_has_coordinates(const knurl_surface_data *surface);
 
 /* --- HIPs --- */
 

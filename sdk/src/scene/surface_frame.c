@@ -45,3 +45,38 @@ void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *
         coordinates[1] = c * place[1] - s * place[0];
     }
 }
+
+int knurl_surface_has_coordinates(const knurl_surface_data *surface) {
+    return surface->mesh ? surface->mesh->uvs || surface->has_axis : surface->plane->has_coordinates;
+}
+
+/* Before the orientation turns them. 0: where there are no coordinates. */
+static int find_rates(const knurl_surface_data *surface, const knurl_contact *contact, const double velocity[3],
+                      double rates[2]) {
+    if (!surface->mesh) {
+        knurl_plane_rates(surface->plane, contact, velocity, rates);
+        return surface->plane->has_coordinates;
+    }
+    if (!surface->has_axis) {
+        return knurl_mesh_rates(surface->mesh, contact, velocity, rates);
+    }
+    double x[3];
+    double y[3];
+    double place[2];
+    mesh_frame(surface, contact, x, place);
+    vec3_cross(contact->normal, x, y);
+    rates[0] = vec3_dot(velocity, surface->axis);
+    rates[1] = vec3_dot(velocity, y);
+    return 1;
+}
+
+int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
+                        const double velocity[3], double rates[2]) {
+    double straight[2];
+    if (!find_rates(surface, contact, velocity, straight)) {
+        return 0;
+    }
+    rates[0] = record->turn[0] * straight[0] + record->turn[1] * straight[1];
+    rates[1] = record->turn[0] * straight[1] - record->turn[1] * straight[0];
+    return 1;
+}

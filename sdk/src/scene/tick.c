@@ -105,6 +105,28 @@ static void relative_velocity(const knurl_hip *hip, const touch *t, const double
     }
 }
 
+/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. */
+static void play(const knurl_hip *hip, const double over[3], const double coordinates[2], knurl_near *near, touch *t) {
+    const knurl_material_desc *m = &t->record->material;
+    if (!t->record->has_grating && !near->grating.playing) { /* an event plays to its end */
+        const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+        t->grating = none;
+        return;
+    }
+    const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
+                                   t->record->is_smooth ? 0.0 : m->amplitude,
+                                   hip->rate,
+                                   m->method,
+                                   0,
+                                   hip->quantum,
+                                   0.0};
+    double velocity[2] = {t->velocity[0], t->velocity[1]};
+    if (m->method == KNURL_LOCKED && !knurl_surface_rates(t->surface, t->record, &t->contact, over, velocity)) {
+        coordinates = NULL; /* it counts the way */
+    }
+    knurl_grating_step(&grating, &near->grating, coordinates, velocity, &t->grating);
+}
+
 /* From a contact to a force: the grating's height at the HIP's velocity over the surface, then Eq. 9. */
 static void render(const knurl_hip *hip, const double velocity[3], knurl_near *near, touch *t) {
     const knurl_material_desc *m = &t->record->material;
@@ -120,19 +142,7 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     const double along[2] = {vec3_dot(over, x), vec3_dot(over, y)};
     t->velocity[0] = along[0];
     t->velocity[1] = along[1];
-    if (t->record->has_grating || near->grating.playing) { /* an event plays to its end */
-        const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
-                                       t->record->is_smooth ? 0.0 : m->amplitude,
-                                       hip->rate,
-                                       m->method,
-                                       0,
-                                       0.0,
-                                       0.0};
-        knurl_grating_step(&grating, &near->grating, coordinates, along, &t->grating);
-    } else {
-        const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
-        t->grating = none;
-    }
+    play(hip, over, coordinates, near, t);
     const double height = t->grating.height;
     double size = 0.0;
     if (contact->z < height) { /* Eq. 9, with the wall's damping; never a pull */
