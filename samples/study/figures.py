@@ -2,11 +2,12 @@
 """Draws a study: the JSON and CSV that `knurl study NAME --out DIR` wrote, as one picture.
 
 The study's name is the JSON's. A figure is a function of the JSON (as a dict) and of its folder, where the CSV is;
-figures_spatial.py, figures_tradeoff.py and figures_bench.py (of `knurl bench --json`) hold those that are not here.
+the files figures_*.py hold those that are not here.
 
 SPDX-License-Identifier: MIT
 """
 import argparse
+import glob
 import importlib
 import json
 import os
@@ -280,11 +281,10 @@ FIGURES = {"signals": draw_signals, "coverage": draw_coverage, "temporal": draw_
 
 
 def all_figures():
-    """Those of the other files too, as far as they are there."""
+    """Those of the files beside this one too."""
     figures = dict(FIGURES)
-    for name in ("figures_spatial", "figures_tradeoff", "figures_bench"):
-        if os.path.exists(os.path.join(os.path.dirname(os.path.abspath(__file__)), f"{name}.py")):
-            figures.update(importlib.import_module(name).FIGURES)
+    for path in sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "figures_*.py"))):
+        figures.update(importlib.import_module(os.path.splitext(os.path.basename(path))[0]).FIGURES)
     return figures
 
 

@@ -1,0 +1,159 @@
+/* The catalogue's rows, its traces and its page. SPDX-License-Identifier: MIT */
+#include "failures.h"
+#include "json_out.h"
+#include "study.h"
+
+#include <math.h>
+#include <string.h>
+
+const failure failures[] = {
+    {"s1_pushes", "S1", "pushes where it should only vibrate",
+     "With an odd number of ticks a cycle one more of them is up than down.", "a mean force of %.3f K A at 333 Hz",
+     "1/N at N ticks", "S2 or locked; or a faster loop: at 10 kHz it is a tenth", "ms", failure_s1_pushes},
+    {"s1_silent", "S1", "falls silent", "At f_t = f_h every tick sees the same place of its cycle.",
+     "%.0f %% of the half cycles are lost at 1000 Hz", "all of them, at every multiple of f_h",
+     "f_t below f_h/2; KNURL_TICK_FREQUENCY says when it is not", "ms", failure_s1_silent},
+    {"s1_alias", "S1", "plays another frequency", "Above f_h/2 the ticks sample an alias.",
+     "%.0f Hz are felt where 900 Hz are crossed", "f_h - f_t", "the same", "ms", failure_s1_alias},
+    {"s1_diagonal", "S1", "is smooth along a grid's diagonal",
+     "Through the cells' centres both cosines of Eq. 11 change sign at once.", "%.0f of 50 cycles are felt", "none",
+     "S2 or locked on a grid: Eq. 12 has no such line", "ms", failure_s1_diagonal},
+    {"s1_grid", "S1", "loses cycles of a grid", "Two of its edges that fall into one tick cancel.",
+     "%.1f %% of the cycles at 100 mm/s, in the worst direction", "measured over 89 directions",
+     "S2 or locked; or a faster loop", "ms", failure_s1_grid},
+    {"s2_freezes", "S2", "freezes while the hand sets off",
+     "The event that begins at 1 mm/s is played to its end, whatever the hand does meanwhile.",
+     "%.3f s without a ridge, over 2 mm ridges", "1 / (fs 1 mm/s)", "locked: it follows the position there", "s",
+     failure_s2_freezes},
+    {"s2_drifts", "S2", "plays more cycles than are crossed, or fewer",
+     "A period is rounded to whole ticks, and nothing makes up for it.", "%+.1f %% just below 3.5 ticks", "3.5/3 - 1",
+     "locked, or a faster loop", "ms", failure_s2_drifts},
+    {"s2_loses_step", "S2", "loses step with what is seen",
+     "Each event takes the speed at its beginning for its whole length.",
+     "%.0f cycles out within 10 s of strokes up to 480 Hz on 1 mm", "measured", "locked: within 0.3 cycle", "s",
+     failure_s2_loses_step},
+    {"s2_outlives", "S2", "vibrates on after the hand has stopped", "An event that has begun is played to its end.",
+     "%.0f ms at 20 Hz", "T less a tick", "locked: its events are short, 12 ms at most at 1 kHz", "ms",
+     failure_s2_outlives},
+    {"grazed", "S2, locked", "push when the surface is only grazed",
+     "Contact is one-sided (Eq. 9): what lies above the HIP is felt, the troughs are not.",
+     "a mean force of %.3f K A at no depth and 333 Hz", "sqrt(2)/3",
+     "press deeper than the troughs: 1.41 A, for S2's mix 1.73 A", "ms", failure_grazed},
+    {"locked_pushes", "locked", "pushes a little below its crossover",
+     "There the height follows the position, as S1 does.", "a mean force of %.3f K A at 111 Hz",
+     "1/N at N ticks, N >= 9", "a faster loop (A/90 at 10 kHz); a lower crossover_hz, for the price of step", "ms",
+     failure_locked_pushes},
+    {"locked_dithers", "locked", "is not as pure as S2", "Event lengths alternate so that their mean is the period.",
+     "%.0f %% of the energy lies off 400 Hz and its odd harmonics",
+     "measured; S1: 47 %; S2's mix has no line there at all", "S2 where tone matters more than step", "ms",
+     failure_locked_dithers},
+    {"locked_quantised", "locked", "wavers with a coarse encoder",
+     "The speed lags by FOAW's window while the hand sets off, and the position is off by half a quantum.",
+     "%.2f cycle at most, 0.5 mm ridges from 0.055 mm positions, twice a second to 480 Hz", "measured; at most 0.5",
+     "ridges of 1 mm or more, or a finer encoder: 0.24 with exact positions", "ms", failure_locked_quantised},
+    {"locked_grid", "locked", "does not find a grid's ridges again on the way back",
+     "Eq. 12 counts the way, not the place.", "%.0f %% of the places have another height on the way back",
+     "by how far the turn lies from a cycle's end", "ridges one way, where the phase comes from the position", "mm",
+     failure_locked_grid},
+    {"difference", "velocity", "first differences of counts are noise",
+     "A tick sees one count more or less: a quantum times f_h.", "f_t jumps by %.0f Hz at a steady 100 Hz",
+     "0.055 mm x 1 kHz x 1000/m", "FOAW (the default where the resolution is known)", "ms", failure_difference},
+    {"foaw_pulses", "velocity", "slow motion comes in bursts", "A count comes more rarely than the window is long.",
+     "%.2f mm/s at a steady 1 mm/s", "a quantum in 15 ms", "a finer encoder; locked goes by the position there", "ms",
+     failure_foaw_pulses},
+    {0}};
+
+void failure_point(const failure_sink *sink, const char *series, double t, double value) {
+    if (sink->csv) {
+        fprintf(sink->csv, "%s,\"%s\",", sink->id, series);
+        out_number(sink->csv, t);
+        fputc(',', sink->csv);
+        out_number(sink->csv, value);
+        fputc('\n', sink->csv);
+    }
+}
+
+void failure_draw_heights(const failure_sink *sink, const study_scan *scan, double cycle, size_t ticks) {
+    for (size_t k = 0; k < ticks && k < scan->ticks; k++) {
+        const double t = 1e3 * (double)k / scan->update_rate_hz;
+        failure_point(sink, "height", t, scan->height[k]);
+        if (!isnan(cycle)) {
+            failure_point(sink, "cycle", t, cycle + scan->crossed[k]);
+        }
+    }
+}
+
+void failure_draw_cycles(const failure_sink *sink, const study_scan *scan, size_t step) {
+    for (size_t k = 0; k <= scan->ticks; k += step) {
+        failure_point(sink, "cycles crossed", (double)k / scan->update_rate_hz, scan->crossed[k]);
+        failure_point(sink, "cycles played", (double)k / scan->update_rate_hz, scan->played[k]);
+    }
+}
+
+static void write_page_row(FILE *page, const failure *f, double number) {
+    char text[160];
+    (void)snprintf(text, sizeof text, f->format, number); /* NOLINT(clang-diagnostic-format-nonliteral): the table's */
+    fprintf(page, "| %s | **%s.** %s | %s (%s) | %s | `%s` |\n", f->group, f->name, f->what, text, f->expect, f->avoid,
+            f->id);
+}
+
+static void write_json_row(FILE *json, const failure *f, double number) {
+    char text[160];
+    (void)snprintf(text, sizeof text, f->format, number); /* NOLINT(clang-diagnostic-format-nonliteral): the table's */
+    fputs("{\n", json);
+    study_json_text(json, "id", f->id, ",");
+    study_json_text(json, "group", f->group, ",");
+    study_json_text(json, "name", f->name, ",");
+    study_json_text(json, "text", text, ",");
+    study_json_text(json, "axis", f->axis, ",");
+    study_json_member(json, "number", number, "");
+    fputs(f[1].id ? "},\n" : "}\n", json);
+}
+
+static int write_all(FILE *csv, FILE *json, FILE *page) {
+    size_t count = 0;
+    while (failures[count].id) {
+        count++;
+    }
+    fputs("id,series,t,value\n", csv);
+    fputs("{\"study\": \"failures\", \"table\": \"failures.csv\", \"failures\": [\n", json);
+    fputs(
+        "# Where methods fail\n\n"
+        "Written by `knurl study failures`; each number is measured by this code, and pinned against the closed form or "
+        "bound\nin brackets by the test of the same name (`tests/stability/test_failures.c`). A is the amplitude, K the "
+        "stiffness, f_h the\nupdate rate (1 kHz here), f_t the temporal frequency.\n\n"
+        "![Each failure as a trace](../../assets/pictures/failures.png)\n\n"
+        "| method | how it fails | number | how to avoid it | test |\n|---|---|---|---|---|\n",
+        page);
+    for (size_t i = 0; i < count; i++) {
+        const failure_sink sink = {csv, failures[i].id};
+        double number = NAN;
+        if (!failures[i].measure(&sink, &number)) {
+            return 1;
+        }
+        write_json_row(json, &failures[i], number);
+        write_page_row(page, &failures[i], number);
+        study_progress("failures", (double)(i + 1) / (double)count);
+    }
+    fputs("]}\n", json);
+    return 0;
+}
+
+int study_failures(const char *folder) {
+    out_file files[3];
+    static const char *const names[3] = {"failures.csv", "failures.json", "failures.md"};
+    int failed = 0;
+    memset(files, 0, sizeof files);
+    for (int i = 0; i < 3 && !failed; i++) {
+        failed = study_open(&files[i], folder, names[i]);
+    }
+    if (!failed && write_all(files[0].stream, files[1].stream, files[2].stream)) {
+        fprintf(stderr, "knurl: study: failures: no memory\n");
+        failed = 1;
+    }
+    for (int i = 0; i < 3; i++) {
+        failed = failed || out_keep(&files[i]);
+        out_discard(&files[i]);
+    }
+    return failed;
+}

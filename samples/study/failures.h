@@ -1,0 +1,65 @@
+/* The catalogue of failures: for each method each way it fails, as a number with its closed form or bound, a trace to
+ * draw, the condition that avoids it, and the test that pins it. One row a failure; failures.md is written from them.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_FAILURES_H
+#define KNURL_STUDY_FAILURES_H
+
+#include "grating_metrics.h"
+
+#include <stdio.h>
+
+/** Where a failure's trace goes; a null stream draws nothing. */
+typedef struct failure_sink {
+    FILE *csv; /**< rows of id, series, t, value */
+    const char *id;
+} failure_sink;
+
+typedef struct failure {
+    const char *id;     /**< one word, as in the CSV */
+    const char *group;  /**< the method, or "velocity", "wall" */
+    const char *name;   /**< what it does wrong, in a few words */
+    const char *what;   /**< how, in a sentence */
+    const char *format; /**< of the number, with its unit; one %g-like conversion */
+    const char *expect; /**< where the number comes from: a closed form or a bound */
+    const char *avoid;  /**< the condition to keep to */
+    const char *axis;   /**< what t is */
+    /** Measures the number and draws the trace. 1, or 0 where memory is not to be had. */
+    int (*measure)(const failure_sink *sink, double *number);
+} failure;
+
+/** All of them, ended by a null id. The same name in tests/stability/test_failures.c pins the number. */
+extern const failure failures[];
+
+/** One point of a trace. */
+void failure_point(const failure_sink *sink, const char *series, double t, double value);
+
+/** Draws the first `ticks` of a scan: its height in A, and where it is on the surface ("cycle"): `cycle` at the start,
+ * NaN where there is no such thing. t: ms. */
+void failure_draw_heights(const failure_sink *sink, const study_scan *scan, double cycle, size_t ticks);
+
+/** Draws cycles played and crossed, every `step`-th tick. t: s. */
+void failure_draw_cycles(const failure_sink *sink, const study_scan *scan, size_t step);
+
+int failure_s1_pushes(const failure_sink *sink, double *number);
+int failure_s1_silent(const failure_sink *sink, double *number);
+int failure_s1_alias(const failure_sink *sink, double *number);
+int failure_s1_diagonal(const failure_sink *sink, double *number);
+int failure_s1_grid(const failure_sink *sink, double *number);
+int failure_s2_freezes(const failure_sink *sink, double *number);
+int failure_s2_drifts(const failure_sink *sink, double *number);
+int failure_s2_loses_step(const failure_sink *sink, double *number);
+int failure_s2_outlives(const failure_sink *sink, double *number);
+int failure_grazed(const failure_sink *sink, double *number);
+int failure_locked_pushes(const failure_sink *sink, double *number);
+int failure_locked_dithers(const failure_sink *sink, double *number);
+int failure_locked_quantised(const failure_sink *sink, double *number);
+int failure_locked_grid(const failure_sink *sink, double *number);
+int failure_difference(const failure_sink *sink, double *number);
+int failure_foaw_pulses(const failure_sink *sink, double *number);
+int failure_wall_runaway(const failure_sink *sink, double *number);
+int failure_wall_delay(const failure_sink *sink, double *number);
+int failure_wall_quantised(const failure_sink *sink, double *number);
+int failure_force_limit(const failure_sink *sink, double *number);
+int failure_heat(const failure_sink *sink, double *number);
+
+#endif
