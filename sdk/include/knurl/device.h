@@ -24,7 +24,7 @@ typedef struct knurl_device_info {
     double delay;            /**< ticks from a force written to a force felt, beyond the tick itself */
     double continuous_force; /**< N that the motors can hold for ever; INFINITY: no limit but max_force */
     double heat_time;        /**< s: time constant with which the motors warm up, > 0 */
-    double mass;             /**< kg: apparent mass at the grip */
+    double mass;             /**< kg: apparent mass at the grip, without the hand's */
     double viscous;          /**< N s/m: the device's own viscous friction */
     double coulomb;          /**< N: the device's own dry friction */
     double max_stiffness;    /**< N/m: the stiffest wall that its maker promises; INFINITY: nothing is promised */
@@ -71,7 +71,8 @@ typedef struct knurl_stroke_desc {
 KNURL_API void knurl_device_info_init(knurl_device_info *info, uint32_t size);
 KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
-/** Opens a device by URI: "fake", or "fake:?key=value&..." with any of the keys that knurl_fake_keys() lists.
+/** Opens a device by URI: "fake", or "fake:?key=value&..." with any of the keys that knurl_fake_keys() lists; a later
+ * key counts over an earlier one, and `preset` sets all of them anew.
  * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (touch, falcon and
  * rawhid: their drivers are not in this version), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
@@ -118,12 +119,12 @@ KNURL_API knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_s
 typedef struct knurl_fake_truth {
     double position[3]; /**< m, device frame: before it is quantised */
     double velocity[3]; /**< m/s */
-    double motor[3];    /**< N: the force that acts now, delayed and limited */
+    double motor[3];    /**< N: the force that acted over the period that ends now, delayed and limited */
     double hand[3];     /**< N: what the hand's spring and damper pull with now */
 } knurl_fake_truth;
 
-/** The fake device as of its latest reading.
- * Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays a trace). [haptic thread] */
+/** The fake device as of its latest reading. Errors, without a message: KNURL_ERROR_UNSUPPORTED (not a fake device, or
+ * one that plays a trace). No heap, lock or message. [haptic thread] */
 KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth);
 
 /** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated

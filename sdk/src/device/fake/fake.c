@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/vec3.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,7 @@ typedef struct fake {
     knurl_plant plant;
     knurl_hand hand;
     double target[3];
+    double target_velocity[3]; /* m/s, over the period that ends now */
 } fake;
 
 static fake *of(knurl_device *device) {
@@ -54,8 +56,8 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
     const fake *f = (const fake *)(const void *)device;
     const knurl_fake_settings *s = &f->settings;
     const double size[3] = {s->width, s->height, s->depth};
-    const char *name = f->trace ? "fake (a trace)" : "fake (a simulated Touch in a simulated hand)";
-    memcpy(info->name, name, strlen(name) + 1);
+    (void)snprintf(info->name, sizeof info->name, "fake (%s%s)",
+                   f->trace ? "a trace" : knurl_fake_preset_name(s->preset), f->trace ? "" : " in a simulated hand");
     for (int axis = 0; axis < 3; axis++) {
         info->workspace_min[axis] = -0.5 * size[axis];
         info->workspace_max[axis] = 0.5 * size[axis];
@@ -63,20 +65,28 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
     info->resolution = f->trace && !s->resolution_named ? 0.0 : s->resolution;
     info->max_force = s->max_force;
     info->delay = s->delay;
+    info->continuous_force = s->continuous_force > 0.0 ? s->continuous_force : INFINITY;
+    info->heat_time = s->heat_time;
+    info->mass = s->mass;
+    info->viscous = s->viscous;
+    info->coulomb = s->coulomb;
+    info->max_stiffness = s->max_stiffness > 0.0 ? s->max_stiffness : INFINITY;
 }
 
 static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     fake *f = of(device);
     const knurl_fake_settings *s = &f->settings;
     const knurl_plant_config config = {
-        s->mass,          s->viscous,    s->coulomb,   s->hand_stiffness,
-        s->hand_damping,  s->resolution, s->max_force, {0.5 * s->width, 0.5 * s->height, 0.5 * s->depth},
-        (int32_t)s->delay};
+        s->mass + s->hand_mass, s->viscous,       s->coulomb,   s->hand_stiffness,
+        s->hand_damping,        s->resolution,    s->max_force, {0.5 * s->width, 0.5 * s->height, 0.5 * s->depth},
+        (int32_t)s->delay,      (int32_t)s->exact};
+    const double still[3] = {0.0, 0.0, 0.0};
     f->dt = 1.0 / update_rate_hz;
     f->ticks = 0;
     f->trace_at = 0;
     knurl_hand_init(&f->hand, &f->stroke, s->tremor, (uint64_t)s->seed);
     knurl_hand_target(&f->hand, 0.0, f->dt, f->target);
+    vec3_copy(still, f->target_velocity);
     knurl_plant_init(&f->plant, &config, f->target);
     return KNURL_OK;
 }
@@ -103,16 +113,15 @@ static void play_trace(fake *f, double t, double position[3]) {
 
 static void move_hand(fake *f, double t, double position[3]) {
     double before[3];
-    double velocity[3];
     if (knurl_load_acquire(&f->base.halted)) {
         knurl_plant_let_go(&f->plant);
     }
     if (f->ticks > 0) {
         vec3_copy(f->target, before);
         knurl_hand_target(&f->hand, t, f->dt, f->target);
-        vec3_sub(f->target, before, velocity);
-        vec3_scale(1.0 / f->dt, velocity, velocity);
-        knurl_plant_step(&f->plant, f->dt, f->target, velocity);
+        vec3_sub(f->target, before, f->target_velocity);
+        vec3_scale(1.0 / f->dt, f->target_velocity, f->target_velocity);
+        knurl_plant_step(&f->plant, f->dt, f->target, f->target_velocity);
     }
     knurl_plant_measure(&f->plant, position);
 }
@@ -139,6 +148,17 @@ static knurl_result fake_write(knurl_device *device, const double force[3]) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     knurl_plant_write(&f->plant, force);
+    return KNURL_OK;
+}
+
+knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth) {
+    const fake *f = (const fake *)(const void *)device;
+    if (device->driver != &knurl_fake_driver || f->trace) {
+        return KNURL_ERROR_UNSUPPORTED;
+    }
+    vec3_copy(f->plant.position, truth->position);
+    vec3_copy(f->plant.velocity, truth->velocity);
+    knurl_plant_forces(&f->plant, f->target, f->target_velocity, truth->motor, truth->hand);
     return KNURL_OK;
 }
 

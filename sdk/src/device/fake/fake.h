@@ -6,33 +6,61 @@
 #include "device/fake/hand.h"
 #include "device/fake/plant.h"
 
-/* Every key of a fake URI: name, default, least, greatest, unit, meaning. One table for parsing and for the help.
- * Touch: 0.055 mm and 3.3 N as in the paper; 160 x 120 x 70 mm, 45 g, 0.26 N as on its data sheet. Its viscous damping
- * is not published: 0.5 N s/m is what a passive 400 N/m wall at 1 kHz with a tick of delay needs. The hand is a light
- * grip on a stylus: soft enough to be felt through, stiff enough to keep a 1 mm press. */
+/* Every key of a fake URI but `preset`: name, default, least, greatest, unit, meaning. One table for parsing and for
+ * the help. The defaults are the preset "touch" and nobody's hand in particular: a light grip on a stylus, soft enough
+ * to be felt through, stiff enough to keep a 1 mm press, whose mass is counted as the device's. */
 #define KNURL_FAKE_KEYS(X)                                                                                             \
-    X(mass, 0.045, 0.001, 10.0, "kg", "moving mass")                                                                   \
+    X(mass, 0.045, 0.001, 10.0, "kg", "the device's moving mass")                                                      \
     X(viscous, 0.5, 0.0, 1000.0, "N s/m", "the device's viscous friction")                                             \
     X(coulomb, 0.26, 0.0, 10.0, "N", "the device's dry friction")                                                      \
+    X(hand_mass, 0, 0.0, 10.0, "kg", "what of the hand moves with the device")                                         \
     X(hand_stiffness, 700, 0.0, 10000.0, "N/m", "spring of the hand")                                                  \
     X(hand_damping, 5, 0.0, 100.0, "N s/m", "damper of the hand")                                                      \
     X(resolution, 0.000055, 0.0, 0.01, "m", "position quantum, 0 for none")                                            \
     X(max_force, 3.3, 0.001, 1000.0, "N", "what the motors can do")                                                    \
+    X(continuous_force, 0.88, 0.0, 1000.0, "N", "what they can do for ever, 0 for max_force")                          \
+    X(heat_time, 10, 0.001, 1e6, "s", "time constant with which they warm up")                                         \
+    X(max_stiffness, 1020, 0.0, 1e9, "N/m", "the stiffest wall that is promised, 0 for no promise")                    \
     X(delay, 1, 0.0, 16.0, "ticks", "from a force written to a force felt, a whole number")                            \
     X(width, 0.160, 0.001, 10.0, "m", "workspace along x")                                                             \
     X(height, 0.120, 0.001, 10.0, "m", "workspace along y")                                                            \
     X(depth, 0.070, 0.001, 10.0, "m", "workspace along z")                                                             \
+    X(exact, 0, 0.0, 1.0, "", "1: exact motion, 0: four steps a tick where they are stable")                           \
     X(tremor, 0.00002, 0.0, 0.01, "m", "rms of the hand's 10 Hz tremor")                                               \
     X(seed, 1, 0.0, 4294967295.0, "", "of the tremor's noise, a whole number")                                         \
     X(lose_at, 0, 0.0, 1e9, "s", "when the cable is pulled, 0 for never")
+
+/* Every preset: name, what it is, and the keys in which it differs from the defaults.
+ *
+ * touch: 0.055 mm and 3.3 N as in the paper; 160 x 120 x 70 mm, 45 g, 0.26 N, 0.88 N continuous and 1.26, 2.31, 1.02
+ * N/mm (x, y, z; the least counts) as on the Phantom Omni's data sheet, as it is quoted. Its viscous friction is not
+ * published: 0.5 N s/m is what a passive 400 N/m wall at 1 kHz with a tick of delay needs. Its heat_time is assumed:
+ * what the windings of small DC motors take.
+ *
+ * falcon: 8.9 N (2 lbf) at the peak, over 400 dpi (0.06 mm), 4 inches cubed as in Novint's brochure, as it is quoted;
+ * 3000 N/m as CHAI3D has it. Mass, frictions, continuous force (a third of the peak), heat_time and delay (a transfer
+ * each way at 1 kHz) are assumed.
+ *
+ * ideal: what theory starts from: a mass that does what it is told. Its hand does not shake. */
+#define KNURL_FAKE_PRESETS(X)                                                                                          \
+    X(touch, "a simulated Touch", "")                                                                                  \
+    X(falcon, "a simulated Falcon",                                                                                    \
+      "mass=0.2&viscous=1.5&coulomb=0.5&resolution=0.00006&max_force=8.9&continuous_force=3&max_stiffness=3000&"       \
+      "delay=2&width=0.1016&height=0.1016&depth=0.1016&exact=1")                                                       \
+    X(ideal, "an ideal device",                                                                                        \
+      "viscous=0&coulomb=0&resolution=0&max_force=1000&continuous_force=0&max_stiffness=0&delay=0&width=1&height=1&"   \
+      "depth=1&exact=1&tremor=0")
 
 typedef struct knurl_fake_settings {
 #define KNURL_FAKE_FIELD(name, standard, least, greatest, unit, meaning) double name;
     KNURL_FAKE_KEYS(KNURL_FAKE_FIELD)
 #undef KNURL_FAKE_FIELD
     int32_t resolution_named; /* 1: the URI named it, so it holds for traces too */
-    uint32_t reserved;
+    int32_t preset;           /* in the order of KNURL_FAKE_PRESETS */
 } knurl_fake_settings;
+
+/* What a preset is, for people; static. */
+const char *knurl_fake_preset_name(int32_t preset);
 
 /* Reads "?key=value&key=value", or "". Errors: KNURL_ERROR_ARGUMENT (which key, expected, found). */
 knurl_result knurl_fake_parse(const char *options, knurl_fake_settings *settings);

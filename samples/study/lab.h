@@ -1,0 +1,106 @@
+/* The stability laboratory: a simulated device in a simulated hand against a wall or a grating, tick by tick, and what
+ * came of it, decided by the signals. Along the wall's normal, "height" below is that of the true position over the
+ * surface: m, negative inside. SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_LAB_H
+#define KNURL_STUDY_LAB_H
+
+#include <knurl/knurl.h>
+
+#include <stddef.h>
+
+/** How a hand holds a device: a spring, a damper and what moves with it. */
+typedef struct lab_grip {
+    const char *name;
+    double stiffness; /**< N/m */
+    double damping;   /**< N s/m */
+    double mass;      /**< kg */
+} lab_grip;
+
+/** "none", "light", "medium", "firm", ended by a null name (lab.c says where from). */
+extern const lab_grip lab_grips[];
+
+const lab_grip *lab_grip_named(const char *name);
+
+/** What is run. lab_case_init() fills in the defaults. */
+typedef struct lab_case {
+    const char *device; /**< what follows "fake:?"; default "preset=touch". The tremor is off unless it is named */
+    const char *grip;   /**< default "light" */
+    double rate;        /**< Hz; default 1000 */
+    double seconds;     /**< after the hand has come down; default 0.8 */
+    double press;       /**< N that the hand presses with at rest; default 1 */
+    double approach;    /**< m/s at which the hand crosses the surface; default 0.05; 0: it starts 5 mm above */
+    double speed;       /**< m/s along the surface; 0 (default): on the spot */
+    double reach;       /**< m either side of the middle of a stroke; default 0.04 */
+    double stiffness;   /**< K: N/m; default 400 */
+    double damping;     /**< B: N s/m; default 0 */
+    double amplitude;   /**< A: m; default 0: a flat wall */
+    double period;      /**< m; default 0.002 */
+    int32_t method;     /**< KNURL_S1, ... */
+    uint32_t unguarded; /**< KNURL_UNGUARDED_; default all: raw */
+    int32_t bilateral;  /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
+    int32_t reserved;   /**< 0 */
+} lab_case;
+
+/** What was recorded, a value a tick. Zero it first; the arrays are reused from run to run; lab_signals_free(). */
+typedef struct lab_signals {
+    size_t count, capacity;
+    size_t judged;     /**< from this tick on: the hand has come down and what that stirred up has had time to die */
+    double *height;    /**< m */
+    double *measured;  /**< m: the same as the encoders tell it */
+    double *motor;     /**< N: the force that acted along the normal over the tick that ends here */
+    double *written;   /**< N: the force along the normal that this tick asked for */
+    double *texture;   /**< H: m */
+    double *reference; /**< m: the height of the same device and hand without delay, quantum and dry friction, on a wall
+                            that is there all the time and follows the same H */
+    double *reference_force; /**< N: on it */
+    int64_t *event;
+    uint32_t *flags; /**< of the tick */
+} lab_signals;
+
+/** What a run came to. */
+enum {
+    LAB_REST = 0,        /**< nothing that could be felt but the press */
+    LAB_VIBRATION = 1,   /**< bounded, as the texture asked for */
+    LAB_LIMIT_CYCLE = 2, /**< bounded, and felt beyond what was asked for: "aliveness", buzzing */
+    LAB_UNSTABLE = 3     /**< a runaway: grows, or bangs between the force limit and the loss of contact */
+};
+
+typedef struct lab_result {
+    int outcome;             /**< LAB_ */
+    double energy;           /**< J: what the motors gave the hand, over what they had taken, at its highest */
+    double unauthorised;     /**< J: the same without what the texture asked for */
+    double activity_force;   /**< N rms: what acted, 20 to 500 Hz, beyond the reference */
+    double activity_motion;  /**< m rms: the same of the position */
+    double activity;         /**< the motion's, in detection thresholds (lab_threshold()), root of sum of squares */
+    double asked;            /**< the reference's motion, in detection thresholds */
+    double bangs;            /**< swings between the force limit and no contact, while judged */
+    double reference_bangs;  /**< the same of the reference */
+    double swing;            /**< m from the lowest to the highest position, while judged */
+    double reference_swing;  /**< m */
+    double growth;           /**< rms about the mean of the last third over that of the first, while judged */
+    double reference_growth; /**< the same of the reference */
+    double force_max;        /**< N that acted */
+    double guarded_ticks;    /**< ticks in which a protection did something */
+} lab_result;
+
+void lab_case_init(lab_case *c);
+
+/** Runs it. 0, or 1 with the library's message. */
+int lab_run(const lab_case *c, lab_signals *signals, lab_result *result);
+
+void lab_signals_free(lab_signals *signals);
+
+/** The outcome and its numbers, of signals that have been recorded (lab_judge.c). max_force: N. 0, or 1 where memory is
+ * not to be had. */
+int lab_judge(const lab_case *c, const lab_signals *signals, double max_force, lab_result *result);
+
+/** The energies, of what went on: work of the motors and of the texture (lab_judge.c). */
+void lab_energies(const lab_case *c, const lab_signals *signals, lab_result *result);
+
+/** m rms at which a vibration of a held tool is just felt: 0.2 um at 250 Hz, more below and above. */
+double lab_threshold(double hz);
+
+/** "rest", "vibration", "limit cycle", "unstable". */
+const char *lab_outcome_name(int outcome);
+
+#endif
