@@ -33,12 +33,20 @@ void flat_form_is_read(void **) {
     assert_int_equal(m.method, KNURL_S2);
 }
 
-void method_is_s2_and_the_rest_0_unless_said(void **) {
+void method_is_locked_and_the_rest_0_unless_said(void **) {
     const knurl_material_desc m = material_of(quad());
-    assert_int_equal(m.method, KNURL_S2);
+    assert_int_equal(m.method, KNURL_LOCKED);
     assert_number(m.damping, 0);
     assert_number(m.friction, 0);
     assert_number(m.orientation, 0);
+}
+
+void every_method_is_read_by_its_name(void **) {
+    for (const auto &[name, method] : {std::pair("S1", KNURL_S1), {"S2", KNURL_S2}, {"locked", KNURL_LOCKED}}) {
+        File file = quad();
+        file.materials = "{" + tag(R"("method":")" + std::string(name) + '"') + "}";
+        assert_int_equal(material_of(file).method, method);
+    }
 }
 
 void one_spatial_frequency_is_along_x(void **) {
@@ -149,13 +157,6 @@ void what_is_missing_after_merging_is_named(void **) {
     assert_tag_fails(R"({"knurl_version":1})", {"knurl.spatial_frequency: missing"});
 }
 
-void what_is_not_built_yet_is_refused_with_file_and_object(void **) {
-    File file = quad();
-    file.nodes = R"({"mesh":0,"name":"plate"})";
-    file.materials = "{" + tag(R"("method":"locked")") + "}";
-    assert_fails(file.glb(), KNURL_ERROR_UNSUPPORTED, {"node 'plate' (0), mesh 0, primitive 0: ", "locked"});
-}
-
 void a_tag_that_would_be_lost_is_refused(void **) {
     File file = quad();
     file.nodes = R"({"mesh":0},{"name":"group",)" + tag() + "}";
@@ -193,7 +194,8 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(nested_form_is_read),
         cmocka_unit_test(flat_form_is_read),
-        cmocka_unit_test(method_is_s2_and_the_rest_0_unless_said),
+        cmocka_unit_test(method_is_locked_and_the_rest_0_unless_said),
+        cmocka_unit_test(every_method_is_read_by_its_name),
         cmocka_unit_test(one_spatial_frequency_is_along_x),
         cmocka_unit_test(mesh_overrides_material_and_node_overrides_mesh),
         cmocka_unit_test(a_mesh_or_node_can_carry_the_whole_tag),
@@ -202,7 +204,6 @@ int main() {
         cmocka_unit_test(flat_keys_are_named_as_they_stand),
         cmocka_unit_test(form_of_the_tag_is_checked),
         cmocka_unit_test(what_is_missing_after_merging_is_named),
-        cmocka_unit_test(what_is_not_built_yet_is_refused_with_file_and_object),
         cmocka_unit_test(a_tag_that_would_be_lost_is_refused),
         cmocka_unit_test(a_mistake_in_an_unused_material_is_told_too),
         cmocka_unit_test(the_axis_turns_the_grating),

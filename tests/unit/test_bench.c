@@ -66,7 +66,7 @@ TEST(one_case_is_told_with_all_its_fields) {
 }
 
 TEST(each_kind_of_case_runs) {
-    static const char *const names[] = {"empty", "motion_foaw", "grating_S1", "grating_S2"};
+    static const char *const names[] = {"empty", "motion_foaw", "grating_S1", "grating_S2", "grating_locked"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         process p = RUN_TOOL("bench", "--json", "--ticks", "20", "--case", names[i]);
         check_done(&p);
@@ -109,17 +109,6 @@ TEST(the_table_has_a_line_a_case) {
     process_free(&p);
 }
 
-TEST(a_case_that_this_library_refuses_is_skipped_and_says_why) {
-    process p = RUN_TOOL("bench", "--json", "--ticks", "10", "--case", "grating_locked");
-    assert_int_equal(p.exit_code, 1);
-    check_brackets(p.out);
-    assert_non_null(strstr(p.out, "\"cases\": []"));
-    assert_non_null(strstr(only_case(p.out, "grating_locked"), "not built yet"));
-    assert_non_null(strstr(p.err, "knurl: note: grating_locked is skipped: "));
-    assert_int_equal(lines_in(p.err), 1);
-    process_free(&p);
-}
-
 TEST(an_unknown_case_is_refused_with_the_list) {
     process p = RUN_TOOL("bench", "--case", "mesh_2k");
     char names[1024] = "";
@@ -159,7 +148,6 @@ int main(void) {
         cmocka_unit_test(each_scene_is_touched_in_every_tick),
         cmocka_unit_test(a_mesh_tells_its_triangles_and_bytes),
         cmocka_unit_test(the_table_has_a_line_a_case),
-        cmocka_unit_test(a_case_that_this_library_refuses_is_skipped_and_says_why),
         cmocka_unit_test(an_unknown_case_is_refused_with_the_list),
         cmocka_unit_test(wrong_ticks_are_refused),
         cmocka_unit_test(an_interrupt_ends_it_with_what_there_is),

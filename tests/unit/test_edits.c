@@ -248,10 +248,10 @@ TEST(materials_out_of_range_are_refused_after_the_commit_and_change_nothing) {
         check_message(i < 2 ? "stiffness" : i == 2 ? "damping" : i < 5 ? "friction" : "amplitude");
         check_still_pressed(scene, id);
     }
-    knurl_material_desc locked;
-    knurl_material_desc_init(&locked, sizeof locked);
-    locked.method = KNURL_LOCKED;
-    CHECK_REFUSED(knurl_scene_set_material(scene, id, &locked), KNURL_ERROR_UNSUPPORTED, locked);
+    knurl_material_desc unknown;
+    knurl_material_desc_init(&unknown, sizeof unknown);
+    unknown.method = KNURL_LOCKED + 1;
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &unknown), KNURL_ERROR_UNKNOWN, unknown);
     check_still_pressed(scene, id);
     knurl_scene_destroy(scene);
 }

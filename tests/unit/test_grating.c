@@ -1,4 +1,4 @@
-/* Gratings S1 and S2 against Eqs. 10 to 13, Algorithm 7 and the paper's last table.
+/* Gratings S1 and S2, and what all methods share, against Eqs. 10 to 13, Algorithm 7 and the paper's last table.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/paper.h"
@@ -310,28 +310,33 @@ TEST(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event) {
     }
 }
 
-TEST(default_method_is_resolved_to_s2) {
-    assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_S2);
+TEST(default_method_is_resolved_to_locked) {
+    assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_LOCKED);
+    assert_int_equal(make_grating(KNURL_LOCKED, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_LOCKED);
     assert_int_equal(make_grating(KNURL_S1, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_S1);
     assert_int_equal(make_grating(KNURL_S2, 0.0, 0.0, 0.0, 1.0).method, KNURL_S2);
     assert_int_equal(make_grating(KNURL_S2, 1.0, 0.0, 0.0, 100000.0).method, KNURL_S2);
 }
 
-TEST(locked_and_unknown_methods_are_refused_with_a_sentence) {
+TEST(unknown_methods_are_refused_with_a_sentence) {
     static const int32_t unknown[] = {-1, 4, 1000};
     knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
-    grating.method = KNURL_LOCKED;
-    CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_UNSUPPORTED, grating);
-    assert_non_null(strchr(knurl_error_message(), ' '));
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         grating.method = unknown[i];
         CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_UNKNOWN, grating);
+        assert_non_null(strchr(knurl_error_message(), ' '));
     }
 }
 
 TEST(bad_gratings_are_refused_and_left_as_they_were) {
-    static const double bad[][4] = {/* fsx, fsy, amplitude, rate */
+    static const double bad[][6] = {/* fsx, fsy, amplitude, rate, resolution, crossover */
                                     {-1.0, 0.0, 1.0, 1000.0},
+                                    {1.0, 0.0, 1.0, 1000.0, -1e-9, 0.0},
+                                    {1.0, 0.0, 1.0, 1000.0, (double)NAN, 0.0},
+                                    {1.0, 0.0, 1.0, 1000.0, (double)INFINITY, 0.0},
+                                    {1.0, 0.0, 1.0, 1000.0, 0.0, -1.0},
+                                    {1.0, 0.0, 1.0, 1000.0, 0.0, (double)NAN},
+                                    {1.0, 0.0, 1.0, 1000.0, 0.0, (double)INFINITY},
                                     {0.0, -1.0, 1.0, 1000.0},
                                     {(double)NAN, 0.0, 1.0, 1000.0},
                                     {0.0, (double)INFINITY, 1.0, 1000.0},
@@ -342,7 +347,8 @@ TEST(bad_gratings_are_refused_and_left_as_they_were) {
                                     {1.0, 1.0, 1.0, 1e9},
                                     {1.0, 1.0, 1.0, (double)NAN}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        knurl_grating grating = {{bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], KNURL_METHOD_DEFAULT, 0, 0.0, 0.0};
+        knurl_grating grating = {
+            {bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], KNURL_METHOD_DEFAULT, 0, bad[i][4], bad[i][5]};
         CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_ARGUMENT, grating);
     }
 }
@@ -394,8 +400,8 @@ int main(void) {
         cmocka_unit_test(above_half_the_update_rate_is_flagged_and_played_at_two_ticks),
         cmocka_unit_test(every_complete_event_has_no_impulse_and_rms_of_its_amplitude),
         cmocka_unit_test(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event),
-        cmocka_unit_test(default_method_is_resolved_to_s2),
-        cmocka_unit_test(locked_and_unknown_methods_are_refused_with_a_sentence),
+        cmocka_unit_test(default_method_is_resolved_to_locked),
+        cmocka_unit_test(unknown_methods_are_refused_with_a_sentence),
         cmocka_unit_test(bad_gratings_are_refused_and_left_as_they_were),
         cmocka_unit_test(names_of_methods_go_both_ways),
         cmocka_unit_test(unknown_names_are_refused_with_the_known_ones),

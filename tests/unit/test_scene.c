@@ -134,16 +134,17 @@ TEST(full_scene_has_room_after_a_removal) {
     knurl_scene_destroy(scene);
 }
 
-TEST(what_is_not_built_is_refused_with_a_sentence) {
+TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
     const knurl_surface id = add_surface(scene, &parts);
-    parts.material.method = KNURL_LOCKED;
-    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNSUPPORTED, "locked");
-    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_UNSUPPORTED, id);
-    parts = surface_plane();
+    for (parts.material.method = KNURL_METHOD_DEFAULT; parts.material.method <= KNURL_LOCKED; parts.material.method++) {
+        (void)add_surface(scene, &parts);
+        assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
+    }
     parts.material.method = 99;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNKNOWN, "99");
+    CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_UNKNOWN, id);
     knurl_scene_destroy(scene);
 }
 
@@ -349,7 +350,7 @@ int main(void) {
         cmocka_unit_test(ids_of_removed_surfaces_stay_stale),
         cmocka_unit_test(order_of_adding_survives_removal),
         cmocka_unit_test(full_scene_has_room_after_a_removal),
-        cmocka_unit_test(what_is_not_built_is_refused_with_a_sentence),
+        cmocka_unit_test(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence),
         cmocka_unit_test(materials_out_of_range_are_refused_by_name),
         cmocka_unit_test(places_out_of_range_are_refused_by_name),
         cmocka_unit_test(surface_is_exactly_one_shape_with_a_material),

@@ -192,7 +192,7 @@ TEST(info_tells_what_a_plane_came_to_be) {
     assert_string_equal(info.model, "plane");
     assert_int_equal(info.triangle_count, 0);
     assert_int_equal(info.double_sided, 1);
-    assert_int_equal(info.material.method, KNURL_S2); /* the default, resolved */
+    assert_int_equal(info.material.method, KNURL_LOCKED); /* the default, resolved */
     CHECK_VECTOR(info.bounds_min, -0.02, 0.0, 0.47, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.02, 0.0, 0.53, 1e-12);
     CHECK_VECTOR(info.anchor, 0.0, 0.0, 0.5, 1e-12);
