@@ -29,21 +29,22 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 
 /** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
 typedef struct knurl_velocity {
+    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /**< FOAW: a ring for every phase of the samples; rows as in `held`,
+                             the newest in row `newest`, older ones after it; of 16, kept twice so that nobody has to
+                             wrap */
+    double held[4];     /**< FOAW: the newest position behind the backlash: whole 1024ths of a count, x, y, z, 0 */
     double last[3];     /**< DIFFERENCE, LOWPASS: the previous position, m */
     double smooth[3];   /**< LOWPASS: the previous velocity, m/s */
     double share;       /**< LOWPASS: what a new difference weighs, 0 to 1 */
     double rate;        /**< update rate, Hz */
     double steps_per_m; /**< FOAW: fixed-point steps per metre */
-    double slope_unit;  /**< FOAW: m/s per 1/360360 of a step a sample */
-    double held[4];     /**< FOAW: the newest position behind the backlash: whole 1024ths of a count, x, y, z, 0 */
+    double slope_unit;  /**< FOAW: m/s per step a sample */
     uint32_t newest;    /**< FOAW: row of the newest position of a ring, 0 to 15 */
     uint32_t started;   /**< 1: a position has been seen */
     int32_t method;     /**< KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
     uint32_t avx;       /**< FOAW: 1: all axes at once, where init found AVX; 0 gives the same numbers, later */
     uint32_t stride;    /**< FOAW: ticks between samples */
     uint32_t phase;     /**< FOAW: the ring of this tick, 0 to stride - 1 */
-    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /**< FOAW: a ring for every phase; rows as in `held`, the newest in
-                             row `newest`, older ones after it; of 16, kept twice so that nobody has to wrap */
 } knurl_velocity;
 
 /** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
