@@ -10,13 +10,13 @@
 #define LEAST_S 4.0               /* of a run */
 #define CYCLES  20.0              /* of the grating, at least, in a run */
 
-const velocity_contender velocity_contenders[] = {{"difference", KNURL_VELOCITY_DIFFERENCE, 0.0, 0},
-                                                  {"lowpass 10 Hz", KNURL_VELOCITY_LOWPASS, 10.0, 0},
-                                                  {"lowpass 20 Hz", KNURL_VELOCITY_LOWPASS, 20.0, 0},
-                                                  {"lowpass 40 Hz", KNURL_VELOCITY_LOWPASS, 40.0, 0},
-                                                  {"FOAW, 15 ticks", KNURL_VELOCITY_FOAW, 0.0, 1},
-                                                  {"FOAW, 15 ms", KNURL_VELOCITY_FOAW, 0.0, 0},
-                                                  {NULL, 0, 0.0, 0}};
+const velocity_contender velocity_contenders[] = {{"difference", KNURL_VELOCITY_DIFFERENCE, 0.0},
+                                                  {"low pass, 10 Hz", KNURL_VELOCITY_LOWPASS, 10.0},
+                                                  {"low pass, 20 Hz", KNURL_VELOCITY_LOWPASS, 20.0},
+                                                  {"low pass, 40 Hz", KNURL_VELOCITY_LOWPASS, 40.0},
+                                                  {"FOAW as published", KNURL_VELOCITY_AUTO, 0.0},
+                                                  {"FOAW", KNURL_VELOCITY_FOAW, 0.0},
+                                                  {NULL, 0, 0.0}};
 
 /* A hand on a line: where it is and how fast. */
 typedef struct hand {
@@ -26,7 +26,9 @@ typedef struct hand {
 } hand;
 
 static hand hand_at(double speed, double rate, double resolution, int phase) {
-    const hand h = {speed, rate, resolution, (resolution + VELOCITY_PERIOD) * phase / VELOCITY_PHASES, GOLDEN * phase};
+    const double apart = (phase + 0.5) / VELOCITY_PHASES - 0.5;
+    const hand h = {speed * (1.0 + 2.0 * VELOCITY_SPREAD * apart), rate, resolution,
+                    (resolution + VELOCITY_PERIOD) * phase / VELOCITY_PHASES, GOLDEN * phase};
     return h;
 }
 
@@ -50,10 +52,11 @@ static double stroke(const hand *h, double tick, double *speed) {
 }
 
 int velocity_start(velocity_estimator *e, const velocity_contender *contender, double resolution, double rate) {
-    /* FOAW told that it runs at 1 kHz takes ticks for milliseconds, and its velocities are too small by rate / 1 kHz */
-    const double told = contender->by_ticks ? 1000.0 : rate;
-    e->scale = rate / told;
-    if (knurl_velocity_init(contender->method, resolution, told, &e->estimator)) {
+    memset(e, 0, sizeof *e);
+    e->contender = contender;
+    e->resolution = resolution;
+    e->rate = rate;
+    if (knurl_velocity_init(contender->method, resolution, rate, &e->estimator)) {
         return 1;
     }
     if (contender->method == KNURL_VELOCITY_LOWPASS) {
@@ -62,11 +65,32 @@ int velocity_start(velocity_estimator *e, const velocity_contender *contender, d
     return 0;
 }
 
+/* Janabi-Sharifi, Hayward and Chen 2000, the widest window that fits; slopes over i ticks times 360360 are integers. */
+static double as_published(velocity_estimator *e, int64_t counts) {
+    int64_t low = INT64_MIN;
+    int64_t high = INT64_MAX;
+    int64_t best = 0;
+    memmove(e->counts + 1, e->counts, 15 * sizeof *e->counts);
+    e->counts[0] = counts;
+    for (int i = 1; i <= e->seen; i++) {
+        const int64_t slack = 360360 / i;
+        const int64_t slope = (counts - e->counts[i]) * slack;
+        best = slope >= low && slope <= high ? slope : best;
+        low = slope - slack > low ? slope - slack : low;
+        high = slope + slack < high ? slope + slack : high;
+    }
+    e->seen += e->seen < 15;
+    return (double)best / 360360.0 * e->resolution * e->rate;
+}
+
 double velocity_of(velocity_estimator *e, double x) {
     const double position[3] = {x, 0.0, 0.0};
     double velocity[3];
+    if (e->contender->method == KNURL_VELOCITY_AUTO) {
+        return as_published(e, (int64_t)floor(x / e->resolution + 0.5));
+    }
     knurl_velocity_update(&e->estimator, position, velocity);
-    return velocity[0] * e->scale;
+    return velocity[0];
 }
 
 /* S2 on a grating of 1 mm, as the estimate drives it. */
@@ -157,7 +181,7 @@ int velocity_measure(const velocity_contender *contender, double resolution, dou
             return 1;
         }
         ticks += run_steady(&e, &h, &sum, &played, &crossed);
-        knurl_velocity_reset(&e.estimator);
+        (void)velocity_start(&e, contender, resolution, rate);
         run_strokes(&e, &h, parts);
     }
     out->bias = sum.bias / ticks;
