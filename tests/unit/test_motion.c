@@ -17,9 +17,9 @@ static knurl_velocity make_velocity(int32_t method, double resolution, double ra
 static int64_t walk[SAMPLES];
 static int64_t held[SAMPLES];
 
-/* Ticks between samples: a millisecond. */
+/* Ticks between samples: a millisecond, to the nearest, from one to ten. */
 static size_t stride_at(double rate) {
-    return rate < 1500.0 ? 1 : (size_t)floor(rate / 1000.0 + 0.5);
+    return rate < 1500.0 ? 1 : rate > 10000.0 ? 10 : (size_t)floor(rate / 1000.0 + 0.5);
 }
 
 /* Feeds one axis (1024ths of a count) and compares every tick with brute force. */
@@ -111,6 +111,9 @@ TEST(foaw_matches_brute_force_on_ramps_with_corners) {
     }
     compare_with_brute_force(walk, SAMPLES, QUANTUM, 4000.0, 1);
     compare_with_brute_force(walk, SAMPLES, QUANTUM, 100.0, 2); /* no stride below a tick */
+    compare_with_brute_force(walk, SAMPLES, QUANTUM, 1499.0, 0);
+    compare_with_brute_force(walk, SAMPLES, QUANTUM, 1500.0, 0); /* to the nearest */
+    compare_with_brute_force(walk, SAMPLES, QUANTUM, 100000.0, 0);
 }
 
 TEST(foaw_matches_brute_force_between_counts) {

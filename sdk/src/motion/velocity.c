@@ -20,7 +20,7 @@
 #define HALF_COUNT (0.5 * STEPS_PER_COUNT)
 
 /* 16 positions are kept: the newest and the 15 before it. */
-#define RING 16
+#define RING (KNURL_FOAW_WINDOW + 1)
 
 /* lcm(1..15): slopes over 1 to 15 samples, scaled by it, are integers. Samples often lie exactly one count off the
  * line, and where such ties are rounded they choose the wrong window in a third of all ticks. While positions in the
