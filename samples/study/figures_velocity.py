@@ -57,7 +57,7 @@ def draw_velocity(data, folder):
         ax.set_title(f"{resolution:g} mm counts, {rate / 1000:g} kHz", color=INK)
     for ax in grid[-1]:
         ax.set_xlabel("speed (mm/s)", color=INK)
-    say(grid[2][0], "Weber fraction: 38 %", 0.99, 38, "right", "bottom", 7.5, GREY, within=("axes fraction", "data"))
+    say(grid[2][2], "Weber fraction: 38 %", 0.99, 38, "right", "bottom", 7.5, GREY, within=("axes fraction", "data"))
     heading(figure, "What a velocity estimator gets wrong, and how late it is",
             f"a hand at steady speed that wobbles by {100 * data['wobble']:g} %, {data['runs']} speeds within 10 % · delay: in strokes "
             f"to and fro at {data['stroke_hz']:g} Hz of that highest speed · S2 on a {1e3 * data['period_m']:g} mm grating")

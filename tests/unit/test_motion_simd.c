@@ -10,7 +10,7 @@ void plain_update(knurl_velocity *velocity, const double position[3], double out
 void plain_reset(knurl_velocity *velocity);
 
 #define QUANTUM 0.055e-3
-#define TICKS   300000
+#define TICKS   120000
 
 /* One axis' next position (m) from the one before; each way in which windows are chosen. */
 typedef double next_position(double before, uint64_t *seed);

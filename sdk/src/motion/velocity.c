@@ -16,7 +16,7 @@
  * does not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
 #define STEPS_PER_COUNT 1024
 
-/* What the held position lags behind, in steps: half a count either side makes a backlash of one. */
+/* Half a count either side makes a backlash of one. */
 #define HALF_COUNT (0.5 * STEPS_PER_COUNT)
 
 /* 16 positions are kept: the newest and the 15 before it. */
@@ -104,10 +104,8 @@ static void lowpass(knurl_velocity *velocity, const double position[3], double o
 static const double scales[RING] = WINDOWS(SCALE);
 
 /* Positions are held within it (a NaN too), so that all is finite. */
-#define LIMIT 1099511627776.0 /* 2^40 steps */
-
-/* Added and taken off again it rounds half to even, as its unit in the last place is 1. */
-#define WHOLE 6755399441055744.0 /* 3 * 2^51 */
+#define LIMIT 1099511627776.0    /* 2^40 steps */
+#define WHOLE 6755399441055744.0 /* 3 * 2^51: added and taken off again it rounds half to even */
 
 /* Forgets all positions, rings and mirrors; this one is held, in the middle of its backlash. */
 static void forget(knurl_velocity *velocity, const double position[3]) {
@@ -125,21 +123,21 @@ static void forget(knurl_velocity *velocity, const double position[3]) {
     velocity->started = 1;
 }
 
-/* Both versions below do the same operations on the same numbers. The held position is taken along by the new one where
- * that is over half a count away, and goes into rows[0] and its mirror. The window is FOAW's: the widest whose interior
- * samples all lie within one count of the line through its newest and its oldest. Sample i back lies within it when the
- * slope is in [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals shrinks as the window grows,
- * so one pass does. It does not end where the interval is empty: an axis at rest never is.
- *
- * The velocity is not that line's slope, which hangs on two samples, but the mean of the window's newest third less
- * that of its oldest, over the time between (Bartlett 1949). Sums along the way, sums[i] = (x0 - x1) + ... + (x0 - xi),
- * give it for little; not trying every window pays for them (the study `velocity` has the figures). */
+/* Both versions below do the same operations on the same numbers. The held position is taken along by the new one and
+ * goes into rows[0] and its mirror. The window is the widest whose interior samples all lie within one count of the
+ * line through its newest and its oldest. Sample i back lies within it when the slope is in [(x0 - xi - d) / i,
+ * (x0 - xi + d) / i]; the intersection of these intervals shrinks as the window grows, so one pass does. It does not
+ * end where the interval is empty: an axis at rest never is. The velocity is not that line's slope, which hangs on two
+ * samples, but the mean of the window's newest third less that of its oldest, over the time between (Bartlett 1949).
+ * Sums along the way, sums[i] = (x0 - x1) + ... + (x0 - xi), give it for little; not trying every window pays for them
+ * (the study `velocity` has the figures). */
 
 /* Of a window of i samples back, i + 1 in all: how many make a third, and which sums are looked up. */
 #define THIRD(i)  (((i) + 2) / 3)
 #define NEAR(i)   (THIRD(i) - 1)
 #define FAR(i)    ((i) - THIRD(i))
-#define WEIGHT(i) (1.0 / (THIRD(i) * ((i) + 1 - THIRD(i))))
+#define WEIGHT(i) (1.0 / (double)(THIRD(i) * ((i) + 1 - THIRD(i))))
+/* NOLINTNEXTLINE(bugprone-integer-division): a third is a whole number of samples */
 static const double weights[RING] = WINDOWS(WEIGHT);
 
 /* The windows that are tried, a bit for each: 1, 2, 3, 4, 6, 8, 11 and 15. */
