@@ -11,6 +11,9 @@
 /* The haptic Weber fraction for frequencies that the paper uses (figure 3). */
 #define JND 0.38
 
+/* Positions a quantum apart are so to within rounding. */
+#define ROUNDED 1.000001
+
 /* In one tick. What is more, or no number, is not counted, so that the count stays one. */
 #define MOST_CYCLES 1e6
 
@@ -22,7 +25,7 @@ static double follow(const knurl_grating *g, knurl_grating_state *s, double plac
         s->held = place;
     }
     const double ahead = s->direction * (place - s->held);
-    if (ahead < -g->resolution) {
+    if (ahead < -ROUNDED * g->resolution) {
         s->direction = -s->direction;
         s->held = place;
     } else if (ahead > 0.0) {
