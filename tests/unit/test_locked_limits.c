@@ -99,8 +99,8 @@ TEST(a_seam_or_a_teleport_leaves_nothing_behind) {
     }
 }
 
-/* 2-tick events while f_t is above f_h/2, with up to 14 cycles crossed for each; afterwards no debt of them: within 26
- * ticks (events of 3 or 5 ticks, to gain up to a cycle) it is in step at 4 ticks an event. */
+/* 2-tick events while f_t is above f_h/2, with up to 14 cycles crossed for each; afterwards no debt of them: within 16
+ * ticks (events of 3 or 5 ticks, to gain up to half a cycle) it is in step at 4 ticks an event. */
 TEST(saturation_leaves_no_debt) {
     static const double fast[] = {0.501, 0.7, 0.9, 1.0, 1.5, 7.25};
     for (size_t i = 0; i < COUNT_OF(fast); i++) {
@@ -113,7 +113,7 @@ TEST(saturation_leaves_no_debt) {
             (void)walk_x(&w, x, speed);
             assert_int_equal(w.out.saturated, k < 1000);
             assert_true(k < 20 || k >= 1000 || w.state.event.length == 2);
-            if (k >= 1026 && w.state.event_count > events) { /* in step again */
+            if (k >= 1016 && w.state.event_count > events) { /* in step again */
                 CHECK_CLOSE(x * FS + 0.25, floor(x * FS + 0.75), 0.126L);
                 assert_int_equal(w.state.event.length, 4);
             }

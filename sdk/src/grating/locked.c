@@ -65,12 +65,11 @@ static int32_t choose_length(double period, double late) {
     return length;
 }
 
-/* An event follows another, whose end it was to be at: the count, put right where there is no making up for it. */
+/* An event follows another, whose end it was to be at. Whole cycles that were missed, or never were, are not made up
+ * for; where f_t is above f_h/2, no more than half of one. */
 static void go_on(const knurl_grating *g, knurl_grating_state *s, double frequency) {
     const double debt = s->phase - s->played;
-    if (frequency > 0.5 * g->update_rate_hz) {
-        s->played = s->phase;
-    } else if (!(fabs(debt) < 1.0)) { /* whole cycles that were missed, or never were, are not made up for */
+    if (frequency > 0.5 * g->update_rate_hz || !(fabs(debt) < 1.0)) {
         s->played += knurl_whole_cycles(debt + 0.5);
     }
 }
