@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SETTLE         0.15   /* s after the hand has come down */
 #define APPROACH       0.25   /* s that a stroke takes to come down */
 #define HOVER          0.005  /* m above where a stroke starts */
 #define REFERENCE_RATE 4000.0 /* Hz at least: its force is taken in the middle of a step, so that little is left */
@@ -33,9 +32,10 @@ const lab_grip *lab_grip_named(const char *name) {
 
 void lab_case_init(lab_case *c) {
     const lab_case defaults = {.device = "preset=touch",
-                               .grip = "light",
+                               .grip = &lab_grips[1],
                                .rate = 1000.0,
-                               .seconds = 0.8,
+                               .settle = 0.25,
+                               .seconds = 0.75,
                                .press = 1.0,
                                .approach = 0.05,
                                .reach = 0.04,
@@ -102,7 +102,7 @@ static double way_down(double depth, double speed) {
 /* The wall stands at y = 0, its normal up. A stroke starts HOVER above its centre and ends its depth below it, so that
  * a centre above the wall makes for a longer way down, and for a faster one. */
 static knurl_stroke_desc stroke_of(const lab_case *c) {
-    const lab_grip *grip = lab_grip_named(c->grip);
+    const lab_grip *grip = c->grip;
     const double depth = grip->stiffness > 0.0 ? c->press / grip->stiffness : 0.0;
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
@@ -118,7 +118,7 @@ static knurl_stroke_desc stroke_of(const lab_case *c) {
 
 static knurl_result open_device(const lab_case *c, double rate, const char *more, knurl_device **device) {
     char uri[512];
-    const lab_grip *grip = lab_grip_named(c->grip);
+    const lab_grip *grip = c->grip;
     const knurl_stroke_desc stroke = stroke_of(c);
     const char *first = strncmp(c->device, "preset=", 7) == 0 ? c->device : "preset=touch";
     const size_t length = strcspn(first, "&");
@@ -191,9 +191,6 @@ static knurl_result build(const lab_case *c, bench *b) {
     memset(b, 0, sizeof *b);
     b->c = c;
     b->steps = (int)fmax(1.0, ceil(REFERENCE_RATE / c->rate));
-    if (!lab_grip_named(c->grip)) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "lab: grip: expected none, light, medium or firm, found '%s'", c->grip);
-    }
     knurl_device_info_init(&info, sizeof info);
     knurl_result result = open_device(c, c->rate, "", &b->device);
     result = result ? result : knurl_device_get_info(b->device, &info);
@@ -268,7 +265,7 @@ static void perform(bench *b, lab_signals *s) {
 
 int lab_run(const lab_case *c, lab_signals *signals, lab_result *result) {
     bench b;
-    const double start = APPROACH + SETTLE;
+    const double start = APPROACH + c->settle;
     knurl_result failed = build(c, &b);
     if (!failed && make_room(signals, (size_t)((start + c->seconds) * c->rate))) {
         failed = knurl_fail(KNURL_ERROR_MEMORY, "lab: no memory for %g s at %g Hz", start + c->seconds, c->rate);

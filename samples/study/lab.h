@@ -19,14 +19,16 @@ typedef struct lab_grip {
 /** "none", "light", "medium", "firm", ended by a null name (lab.c says where from). */
 extern const lab_grip lab_grips[];
 
+/** Null: there is none of that name. */
 const lab_grip *lab_grip_named(const char *name);
 
 /** What is run. lab_case_init() fills in the defaults. */
 typedef struct lab_case {
     const char *device; /**< what follows "fake:?"; default "preset=touch". The tremor is off unless it is named */
-    const char *grip;   /**< default "light" */
+    const lab_grip *grip; /**< default "light" */
     double rate;        /**< Hz; default 1000 */
-    double seconds;     /**< after the hand has come down; default 0.8 */
+    double settle;        /**< s after the hand has come down, before anything is judged; default 0.25 */
+    double seconds;       /**< that are judged; default 0.75 */
     double press;       /**< N that the hand presses with at rest; default 1 */
     double approach;    /**< m/s at which the hand crosses the surface; default 0.05; 0: it starts 5 mm above */
     double speed;       /**< m/s along the surface; 0 (default): on the spot */

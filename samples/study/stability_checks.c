@@ -1,0 +1,200 @@
+/* The laboratory against closed forms. SPDX-License-Identifier: MIT */
+#include "stability.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEGREE   20
+#define QUANTUM  55e-6  /* m */
+
+/* The regions' wall and device. */
+#define REGION_K    2000.0 /* N/m */
+#define REGION_MASS 0.045  /* kg */
+#define REGION_FALL 0.005  /* m */
+
+#define PI 3.141592653589793
+
+double stability_bound(const stability_loop *l) {
+    return (l->viscous + l->damping) / ((0.5 + l->delay) / l->rate);
+}
+
+/* Schur and Cohn: all roots of p[0] + p[1] z + ... lie inside the unit circle. */
+static int inside(double *p, int degree) {
+    double next[DEGREE + 1];
+    for (int n = degree; n > 0; n--) {
+        if (!(fabs(p[0]) < fabs(p[n]))) {
+            return 0;
+        }
+        for (int i = 0; i < n; i++) {
+            next[i] = p[n] * p[i + 1] - p[0] * p[n - 1 - i];
+        }
+        const double scale = fabs(next[n - 1]);
+        for (int i = 0; i < n; i++) {
+            p[i] = next[i] / scale;
+        }
+    }
+    return 1;
+}
+
+/* The sampled mass-damper under a held force is (c1 z + c0)/((z - 1)(z - e)), e = exp(-b T/m); the law is (K + B/T (1 -
+ * 1/z)) z^-d. Their loop's characteristic polynomial, times z: */
+static int loop_is_stable(const stability_loop *l, double stiffness) {
+    const double period = 1.0 / l->rate;
+    const double tau = l->mass / l->viscous;
+    const double fall = -expm1(-period / tau);
+    const double e = 1.0 - fall;
+    const double c1 = (period - fall * tau) / l->viscous;
+    const double c0 = (fall * tau - e * period) / l->viscous;
+    const double difference = l->damping / period;
+    const int delay = (int)l->delay;
+    double p[DEGREE + 1] = {0.0};
+    p[delay + 1] += e; /* z^(d+1) (z - 1)(z - e) */
+    p[delay + 2] -= 1.0 + e;
+    p[delay + 3] += 1.0;
+    p[0] -= difference * c0; /* (K z + B/T (z - 1)) (c1 z + c0) */
+    p[1] += (stiffness + difference) * c0 - difference * c1;
+    p[2] += (stiffness + difference) * c1;
+    return inside(p, delay + 3);
+}
+
+double stability_exact(const stability_loop *l) {
+    double low = 0.0;
+    double high = 4.0 * stability_bound(l);
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (loop_is_stable(l, middle)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+double stability_found(const stability_loop *l, lab_signals *signals) {
+    char device[160];
+    lab_case c;
+    lab_result r;
+    double low = 0.5 * stability_bound(l);
+    double high = 2.0 * stability_bound(l);
+    (void)snprintf(device, sizeof device, "preset=ideal&mass=%.15g&viscous=%.15g&delay=%d", l->mass, l->viscous,
+                   (int)l->delay);
+    lab_case_init(&c);
+    c.device = device;
+    c.grip = lab_grip_named("none");
+    c.approach = 0.0;
+    c.bilateral = 1;
+    c.damping = l->damping;
+    c.rate = l->rate;
+    c.seconds = 3.0;
+    for (int i = 0; i < 14; i++) { /* to 1e-4 of the bound */
+        c.stiffness = 0.5 * (low + high);
+        if (lab_run(&c, signals, &r)) {
+            return -1.0;
+        }
+        if (r.growth < 1.0) {
+            low = c.stiffness;
+        } else {
+            high = c.stiffness;
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+/* What the motors gave and what the device's damper took over whole cycles of a hand that moves to and fro. The damper
+ * took what motors and hand gave, as the motion repeats; the hand's part is summed by Simpson's rule, whose middles a
+ * device at twice the rate would tell: here v is smooth, and a trapezium will do. */
+static int works(const stability_loop *l, double stiffness, double hz, double *given, double *taken) {
+    char uri[256];
+    knurl_device *device = NULL;
+    knurl_stroke_desc stroke;
+    double last = 0.0;
+    const int cycle = (int)floor(l->rate / hz + 0.5);
+    (void)snprintf(uri, sizeof uri,
+                   "fake:?preset=ideal&mass=%.15g&viscous=%.15g&delay=%d&hand_stiffness=2000&hand_damping=20", l->mass,
+                   l->viscous, (int)l->delay);
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    stroke.stroke = KNURL_STROKE_PRESS;
+    stroke.period = cycle / l->rate;
+    knurl_result result = knurl_device_open(uri, &device);
+    result = result ? result : knurl_fake_set_stroke(device, &stroke);
+    result = result ? result : knurl_device_start(device, l->rate);
+    *given = 0.0;
+    *taken = 0.0;
+    const int settled = (int)(0.8 * l->rate);
+    for (int i = 0; i <= settled + 10 * cycle && !result; i++) {
+        knurl_device_sample sample;
+        knurl_fake_truth truth;
+        (void)knurl_device_read(device, &sample);
+        (void)knurl_fake_get_truth(device, &truth);
+        if (i > settled) {
+            *given += truth.motor[1] * (truth.position[1] - last);
+            *taken += l->viscous * truth.velocity[1] * truth.velocity[1] / l->rate;
+        }
+        last = truth.position[1];
+        const double force[3] = {0.0, -stiffness * truth.position[1], 0.0};
+        (void)knurl_device_write(device, force);
+    }
+    knurl_device_close(device);
+    return result != KNURL_OK;
+}
+
+double stability_passive_found(const stability_loop *l, double hz) {
+    double low = 0.2 * stability_bound(l);
+    double high = 3.0 * stability_bound(l);
+    for (int i = 0; i < 20; i++) {
+        double given;
+        double taken;
+        const double middle = 0.5 * (low + high);
+        if (works(l, middle, hz, &given, &taken)) {
+            return -1.0;
+        }
+        if (given < taken) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+int stability_region_run(double beta, double sigma, lab_signals *signals, lab_result *result) {
+    static const lab_grip push = {"push", 2.0, 0.0, 0.0}; /* so soft that it is a force */
+    char device[160];
+    lab_case c;
+    lab_case_init(&c);
+    (void)snprintf(device, sizeof device, "preset=ideal&mass=%.15g&viscous=%.15g&coulomb=%.15g&resolution=%.15g", REGION_MASS,
+                   beta * REGION_K / c.rate, sigma * REGION_K * QUANTUM, QUANTUM);
+    c.device = device;
+    c.grip = &push;
+    c.press = 1.5 * REGION_K * QUANTUM;
+    c.approach = 0.0;
+    c.stiffness = REGION_K;
+    c.bilateral = 1;
+    c.settle = 3.0;
+    return lab_run(&c, signals, result);
+}
+
+int stability_region_expected(double beta, double sigma) {
+    /* A swing of amplitude X gains (K T/2 - b) pi w X^2 a cycle and loses 4 fc X: what is larger than X grows. */
+    const double gain = (0.5 - beta) * REGION_K / 1000.0 * PI * sqrt(REGION_K / REGION_MASS);
+    if (beta < 0.5 && 4.0 * sigma * REGION_K * QUANTUM / gain < REGION_FALL) {
+        return LAB_UNSTABLE;
+    }
+    return sigma < 0.5 ? LAB_LIMIT_CYCLE : LAB_REST;
+}
+
+double stability_clean_found(const lab_case *c, lab_signals *signals) {
+    lab_case at = *c;
+    lab_result r;
+    for (at.stiffness = 50.0; at.stiffness < 20000.0; at.stiffness *= 1.05) {
+        if (lab_run(&at, signals, &r)) {
+            return -1.0;
+        }
+        if (r.outcome >= LAB_LIMIT_CYCLE) {
+            break;
+        }
+    }
+    return at.stiffness / 1.05;
+}
