@@ -229,8 +229,12 @@ __attribute__((target("avx"))) static void foaw_avx(knurl_velocity *velocity, do
 #endif
 
 void knurl_velocity_update(knurl_velocity *velocity, const double position[3], double out[3]) {
-    if (velocity->method != KNURL_VELOCITY_FOAW) {
-        (velocity->method == KNURL_VELOCITY_LOWPASS ? lowpass : difference)(velocity, position, out);
+    if (velocity->method == KNURL_VELOCITY_DIFFERENCE) {
+        difference(velocity, position, out);
+        return;
+    }
+    if (velocity->method == KNURL_VELOCITY_LOWPASS) {
+        lowpass(velocity, position, out);
         return;
     }
     if (!velocity->started) {
