@@ -99,7 +99,6 @@ static void lowpass(knurl_velocity *velocity, const double position[3], double o
 /* f(i) for each place of a table over windows; place 0 is not used. */
 #define WINDOWS(f)                                                                                                     \
     {f(1), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)}
-
 #define SCALE(i) (LCM / (i))
 static const double scales[RING] = WINDOWS(SCALE);
 
