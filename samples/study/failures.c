@@ -59,7 +59,7 @@ const failure failures[] = {
      "A tick sees one count more or less: a quantum times f_h.", "f_t jumps by %.0f Hz at a steady 100 Hz",
      "0.055 mm x 1 kHz x 1000/m", "FOAW (the default where the resolution is known)", "ms", failure_difference},
     {"foaw_pulses", "velocity", "slow motion comes in bursts", "A count comes more rarely than the window is long.",
-     "%.2f mm/s at a steady 1 mm/s", "a quantum in 15 ms", "a finer encoder; locked goes by the position there", "ms",
+     "%.2f mm/s at a steady 1 mm/s", "a quantum in the 11 ms between the thirds of FOAW's window", "a finer encoder; locked goes by the position there", "ms",
      failure_foaw_pulses},
     {0}};
 

@@ -133,7 +133,7 @@ int failure_difference(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* A steady 1 mm/s: a count comes every 55 ticks, and a window of 15 sees it as a burst. */
+/* A steady 1 mm/s: a count comes every 55 ticks, and a window of 15 ms sees it as a burst. */
 int failure_foaw_pulses(const failure_sink *sink, double *number) {
     knurl_velocity estimator;
     *number = 0.0;
