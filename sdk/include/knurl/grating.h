@@ -1,4 +1,4 @@
-/* Knurl: haptic gratings, methods S1 and S2 of the paper (section III).
+/* Knurl: haptic gratings, methods S1 and S2 of the paper (section III) and this project's own, `locked`.
  * A grating is a height map that repeats along a surface's x and y. State per HIP and surface: one struct, no heap.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_GRATING_H
