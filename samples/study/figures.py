@@ -2,8 +2,8 @@
 """Draws a study: the JSON and CSV that `knurl study NAME --out DIR` wrote, as one picture.
 
 The study's name is the JSON's. A figure is a function of the JSON (as a dict) and of its folder, where the CSV is;
-figures_spatial.py, figures_tradeoff.py, figures_velocity.py and figures_bench.py (of `knurl bench --json`) hold those
-that are not here.
+figures_spatial.py, figures_tradeoff.py, figures_velocity.py, figures_locked.py and figures_bench.py (of `knurl bench
+--json`) hold those that are not here.
 
 SPDX-License-Identifier: MIT
 """
@@ -283,7 +283,7 @@ FIGURES = {"signals": draw_signals, "coverage": draw_coverage, "temporal": draw_
 def all_figures():
     """Those of the other files too, as far as they are there."""
     figures = dict(FIGURES)
-    for name in ("figures_spatial", "figures_tradeoff", "figures_velocity", "figures_bench"):
+    for name in ("figures_spatial", "figures_tradeoff", "figures_velocity", "figures_locked", "figures_bench"):
         if os.path.exists(os.path.join(os.path.dirname(os.path.abspath(__file__)), f"{name}.py")):
             figures.update(importlib.import_module(name).FIGURES)
     return figures
