@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI       3.141592653589793
-#define DIAGONAL 1.7320508075688772 /* a scene's resolution is that of a count's diagonal */
+#define SPECTRUM_TICKS 2000
+#define PI             3.141592653589793
+#define DIAGONAL       1.7320508075688772 /* a scene's resolution is that of a count's diagonal */
 
 /* Where the HIP truly is at t: m from its start, and m/s. */
 static void move(const locked_scan *w, double top, double t, double *way, double *speed) {
@@ -78,7 +79,7 @@ int locked_scan_run(const locked_scan *w, double frequency, int all, locked_foun
         if (all) {
             found->push = study_scan_push(&scan, frequency, 0.05);
             found->net = fabs(study_scan_net(&scan, 1.0, 2.0));
-            scan.ticks = scan.ticks < (size_t)(2.0 * w->rate) ? scan.ticks : (size_t)(2.0 * w->rate);
+            scan.ticks = scan.ticks < SPECTRUM_TICKS ? scan.ticks : SPECTRUM_TICKS;
             found->spurious = study_scan_spurious(&scan, frequency, 0.25);
         }
         study_scan_free(&scan);

@@ -24,7 +24,7 @@ typedef struct locked_found {
     double unbalanced; /**< the greatest |sum of an event's heights|, of those that played to their end; A ticks */
     double push;       /**< study_scan_push() over 50 ms at constant speed; A */
     double net;        /**< |study_scan_net()| at a depth of 2 A; K A */
-    double spurious;   /**< study_scan_spurious() of 2 s at constant speed, a tolerance of a quarter; share */
+    double spurious;   /**< study_scan_spurious() of 2000 ticks at constant speed, a tolerance of a quarter; share */
 } locked_found;
 
 /** Scans at f_t = `frequency` Hz, of a stroke its top. push, net and spurious are found only where `all` is 1. 1, or 0

@@ -16,6 +16,7 @@ const study studies[] = {
     {"preferences", "figure 8: what subjects preferred, beside these metrics", study_preferences},
     {"tradeoff", "cost against accuracy, each method at each rate", study_tradeoff},
     {"velocity", "what each velocity estimator gets wrong, and how late it is", study_velocity},
+    {"locked", "the method locked: in step with the surface at every speed and in strokes", study_locked},
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},
     {"stability", "where walls and gratings run away or buzz: checks against theory, and maps", study_stability},

@@ -85,22 +85,20 @@ double knurl_grating_s1(const double position[2], const double spatial_frequency
     return x == y ? amplitude : -amplitude;
 }
 
-/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. 0: none plays. */
-static int step_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
-    if (!state->playing) {
-        const double ticks = grating->update_rate_hz / frequency; /* infinite across no ridge */
-        const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
-        state->moving = 0;
-        if (!(speed2 >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
-            return 0;
-        }
-        state->moving = grating->resolution > 0.0;
-        /* below a tick, however fast, it is played as 2 */
-        knurl_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
-        state->playing = 1;
-        state->next_tick = 0;
-        state->event_count++;
+/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. 0: none begins. */
+static int begin_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
+    const double ticks = grating->update_rate_hz / frequency; /* infinite across no ridge */
+    const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
+    state->moving = 0;
+    if (!(speed2 >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+        return 0;
     }
+    state->moving = grating->resolution > 0.0;
+    /* below a tick, however fast, it is played as 2 */
+    knurl_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
+    state->playing = 1;
+    state->next_tick = 0;
+    state->event_count++;
     return 1;
 }
 
@@ -116,12 +114,12 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     output->reserved = 0;
     if (grating->method == KNURL_LOCKED) {
         output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
-    } else if (grating->method != KNURL_S2) {
-        output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
-    } else if (step_s2(grating, state, speed2, frequency)) {
-        output->height = knurl_event_value(&state->event, state->next_tick);
+    } else if (state->playing || (grating->method == KNURL_S2 && begin_s2(grating, state, speed2, frequency))) {
+        output->height = knurl_event_value(&state->event, state->next_tick); /* also one that another method began */
         output->event = state->event_count - 1;
         state->next_tick++;
         state->playing = state->next_tick < state->event.length;
+    } else if (grating->method == KNURL_S1) {
+        output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
     }
 }
