@@ -216,6 +216,32 @@ TEST(s2_starts_no_event_below_one_millimetre_a_second) {
     }
 }
 
+/* Ridges of 20 um: an event at 1 mm/s is 20 ticks. A speed that flickers by 10 % about the deadband starts and stops
+ * events where positions are exact, as Algorithm 7 has it; where they are quantised it goes on until below half of it.
+ */
+TEST(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised) {
+    static const double quanta[2] = {0.0, 0.055e-3};
+    for (int i = 0; i < 2; i++) {
+        knurl_grating grating = make_grating(KNURL_S2, 50000.0, 0.0, 1.0, 1000.0);
+        knurl_grating_state s = {0};
+        int stops = 0;
+        int64_t last = KNURL_NO_EVENT;
+        grating.resolution = quanta[i];
+        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* never begun below it */
+        for (int k = 0; k < 2000; k++) {
+            const knurl_grating_output out = step(&grating, &s, k / 13 % 2 ? 0.0009 : 0.0011, 0.0);
+            stops += last != KNURL_NO_EVENT && out.event == KNURL_NO_EVENT;
+            last = out.event;
+        }
+        assert_true(i == 0 ? stops > 20 : stops == 0);
+        for (int k = 0; k < 40; k++) { /* the event's end */
+            last = step(&grating, &s, 0.00049, 0.0).event;
+        }
+        assert_true(last == KNURL_NO_EVENT);
+        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* it has to begin anew */
+    }
+}
+
 TEST(s2_plays_a_started_event_to_its_end_after_the_stop) {
     const knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
     knurl_grating_state s = {0};
@@ -395,6 +421,7 @@ int main(void) {
         cmocka_unit_test(s2_at_400_hz_plays_the_six_tick_mix_to_its_end),
         cmocka_unit_test(s2_holds_amplitude_and_period_until_the_event_ends),
         cmocka_unit_test(s2_starts_no_event_below_one_millimetre_a_second),
+        cmocka_unit_test(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised),
         cmocka_unit_test(s2_plays_a_started_event_to_its_end_after_the_stop),
         cmocka_unit_test(s2_along_the_ridges_of_bars_stays_idle),
         cmocka_unit_test(s2_drifts_by_16_7_percent_below_3_5_ticks_and_12_5_at_it),
