@@ -323,7 +323,8 @@ static void check_sliding(table *t) {
 }
 
 /* Choi and Tan (2004): clean from 0.325 N/mm at 250 Hz to 0.904 at 40 kHz. Their device, hand and texture are not
- * these: a trend only. The larger stiffness is expected to be at least the smaller. */
+ * these: a trend only, here on a flat wall that is slid over. Each is expected to be no less than the one before it,
+ * two steps of the scan aside. */
 static void check_trend(table *t) {
     static const double rates[] = {250.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0};
     double last = 0.0;
@@ -332,13 +333,11 @@ static void check_trend(table *t) {
         lab_case_init(&c);
         c.rate = rates[i];
         c.grip = lab_grip_named("loose");
-        c.speed = 0.05;
-        c.amplitude = 0.0002;
-        c.method = KNURL_S1;
+        c.speed = 0.15;
+        c.reach = 0.03;
         const double found = stability_clean_found(&c, &t->signals);
-        stability_check *k = add(t, "N/m", fmax(last, 50.0), found, INFINITY);
-        (void)snprintf(k->what, sizeof k->what, "largest clean stiffness at %g Hz, against the row above (a trend)",
-                       rates[i]);
+        stability_check *k = add(t, "N/m", fmax(last / (1.05 * 1.05), 50.0), found, INFINITY);
+        (void)snprintf(k->what, sizeof k->what, "largest clean stiffness at %g Hz (a trend)", rates[i]);
         last = found;
     }
 }

@@ -21,6 +21,7 @@ static const struct {
     const char *device, *label;
     uint32_t unguarded;
 } plants[] = {{"preset=touch&coulomb=0", "Touch without dry friction", KNURL_UNGUARDED_ALL},
+              {"preset=touch&coulomb=0", "Touch without dry friction", 0},
               {"preset=touch", "Touch", KNURL_UNGUARDED_ALL},
               {"preset=touch", "Touch", 0}};
 

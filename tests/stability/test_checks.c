@@ -230,18 +230,17 @@ TEST(dry_friction_holds_a_fall_that_is_smaller_than_it_can_take) {
 
 /* Choi and Tan: 0.325 N/mm at 250 Hz to 0.904 at 40 kHz. Another device, hand and texture: the trend only. */
 TEST(the_largest_clean_stiffness_grows_with_the_update_rate) {
-    static const double rates[] = {250.0, 1000.0, 4000.0};
+    static const double rates[] = {250.0, 500.0, 4000.0};
     double last = 0.0;
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         lab_case c;
         lab_case_init(&c);
         c.rate = rates[i];
         c.grip = lab_grip_named("loose");
-        c.speed = 0.05;
-        c.amplitude = 0.0002;
-        c.method = KNURL_S1;
+        c.speed = 0.15;
+        c.reach = 0.03;
         const double clean = stability_clean_found(&c, &signals);
-        assert_true(clean > 1.2 * last);
+        assert_true(clean > 1.05 * last);
         last = clean;
     }
 }
