@@ -24,20 +24,24 @@ static int by_value(const void *a, const void *b) {
 }
 
 /* What is left of a tick when nothing is rendered. Called through a pointer, as the real one is. */
-static double empty_tick(study_rendering *r) {
+static double empty_tick(void *subject) {
+    study_rendering *r = subject;
     const uint64_t tick = r->tick++;
     return r->speed * (double)tick;
 }
 
-/* Medians over batches of what one tick takes. */
-static void time_ticks(double (*tick)(study_rendering *), study_rendering *r, study_cost *cost) {
+static double rendering_tick(void *subject) {
+    return study_rendering_tick(subject);
+}
+
+void study_time_ticks(double (*tick)(void *), void *subject, study_cost *cost) {
     static double samples[BATCHES];
-    double (*volatile call)(study_rendering *) = tick; /* neither is inlined */
+    double (*volatile call)(void *) = tick; /* neither is inlined */
     volatile double sink = 0.0;
     for (int batch = 0; batch < BATCHES; batch++) {
         const double before = now_ns();
         for (int i = 0; i < BATCH; i++) {
-            sink = call(r);
+            sink = call(subject);
         }
         samples[batch] = (now_ns() - before) / BATCH;
     }
@@ -51,7 +55,7 @@ double study_empty_tick_ns(void) {
     study_rendering r;
     study_cost cost;
     memset(&r, 0, sizeof r);
-    time_ticks(empty_tick, &r, &cost);
+    study_time_ticks(empty_tick, &r, &cost);
     return cost.ns_median;
 }
 
@@ -61,7 +65,7 @@ int study_measure_cost(const study_contender *contender, study_cost *cost) {
     if (study_rendering_start(&r, contender, 137.0)) {
         return 0;
     }
-    time_ticks(study_rendering_tick, &r, cost);
+    study_time_ticks(rendering_tick, &r, cost);
     cost->ns_median = fmax(0.0, cost->ns_median - empty);
     cost->ns_p99 = fmax(0.0, cost->ns_p99 - empty);
     return 1;

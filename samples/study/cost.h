@@ -9,6 +9,9 @@ typedef struct study_cost {
     double ns_p99;
 } study_cost;
 
+/** Medians over batches of what one tick of `subject` takes, the empty tick included. */
+void study_time_ticks(double (*tick)(void *), void *subject, study_cost *cost);
+
 /** Times a contender. 0 where memory is not to be had. */
 int study_measure_cost(const study_contender *contender, study_cost *cost);
 

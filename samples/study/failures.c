@@ -25,7 +25,7 @@ const failure failures[] = {
      "The event that begins at 1 mm/s is played to its end, whatever the hand does meanwhile.",
      "%.3f s without a ridge, over 2 mm ridges", "1 / (fs 1 mm/s)", "locked: it follows the position there", "s",
      failure_s2_freezes},
-    {"s2_drifts", "S2", "plays more cycles than are crossed, or fewer",
+    {"s2_drifts", "S2", "plays other cycles than are crossed",
      "A period is rounded to whole ticks, and nothing makes up for it.", "%+.1f %% just below 3.5 ticks", "3.5/3 - 1",
      "locked, or a faster loop", "ms", failure_s2_drifts},
     {"s2_loses_step", "S2", "loses step with what is seen",
@@ -35,7 +35,7 @@ const failure failures[] = {
     {"s2_outlives", "S2", "vibrates on after the hand has stopped", "An event that has begun is played to its end.",
      "%.0f ms at 20 Hz", "T less a tick", "locked: its events are short, 12 ms at most at 1 kHz", "ms",
      failure_s2_outlives},
-    {"grazed", "S2, locked", "push when the surface is only grazed",
+    {"grazed", "S2, locked", "pushes where it is only grazed",
      "Contact is one-sided (Eq. 9): what lies above the HIP is felt, the troughs are not.",
      "a mean force of %.3f K A at no depth and 333 Hz", "sqrt(2)/3",
      "press deeper than the troughs: 1.41 A, for S2's mix 1.73 A", "ms", failure_grazed},
@@ -51,15 +51,15 @@ const failure failures[] = {
      "The speed lags by FOAW's window while the hand sets off, and the position is off by half a quantum.",
      "%.2f cycle at most, 0.5 mm ridges from 0.055 mm positions, twice a second to 480 Hz", "measured; at most 0.5",
      "ridges of 1 mm or more, or a finer encoder: 0.24 with exact positions", "ms", failure_locked_quantised},
-    {"locked_grid", "locked", "does not find a grid's ridges again on the way back",
-     "Eq. 12 counts the way, not the place.", "%.0f %% of the places have another height on the way back",
-     "by how far the turn lies from a cycle's end", "ridges one way, where the phase comes from the position", "mm",
+    {"locked_grid", "locked", "forgets a grid's ridges at a turn", "Eq. 12 counts the way, not the place.",
+     "%.0f %% of the places are low that were high, and high that were low, where the turn lies on an edge",
+     "0 to 100 %, by where the turn lies", "ridges one way, where the phase comes from the position", "mm",
      failure_locked_grid},
     {"difference", "velocity", "first differences of counts are noise",
      "A tick sees one count more or less: a quantum times f_h.", "f_t jumps by %.0f Hz at a steady 100 Hz",
      "0.055 mm x 1 kHz x 1000/m", "FOAW (the default where the resolution is known)", "ms", failure_difference},
     {"foaw_pulses", "velocity", "slow motion comes in bursts", "A count comes more rarely than the window is long.",
-     "%.2f mm/s at a steady 1 mm/s", "a quantum in 15 ms", "a finer encoder; locked goes by the position there", "ms",
+     "%.2f mm/s at a steady 1 mm/s", "a quantum in the 11 ms between the thirds of FOAW's window", "a finer encoder; locked goes by the position there", "ms",
      failure_foaw_pulses},
     {0}};
 
@@ -120,7 +120,7 @@ static int write_all(FILE *csv, FILE *json, FILE *page) {
     fputs(
         "# Where methods fail\n\n"
         "Written by `knurl study failures`; each number is measured by this code, and pinned against the closed form or "
-        "bound\nin brackets by the test of the same name (`tests/stability/test_failures.c`). A is the amplitude, K the "
+        "bound\nin brackets by the test of the same name (`tests/fidelity/test_failures.c`). A is the amplitude, K the "
         "stiffness, f_h the\nupdate rate (1 kHz here), f_t the temporal frequency.\n\n"
         "![Each failure as a trace](../../assets/pictures/failures.png)\n\n"
         "| method | how it fails | number | how to avoid it | test |\n|---|---|---|---|---|\n",

@@ -27,7 +27,7 @@ typedef struct failure {
     int (*measure)(const failure_sink *sink, double *number);
 } failure;
 
-/** All of them, ended by a null id. The same name in tests/stability/test_failures.c pins the number. */
+/** All of them, ended by a null id. The same name in tests/fidelity/test_failures.c pins the number. */
 extern const failure failures[];
 
 /** One point of a trace. */

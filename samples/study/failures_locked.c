@@ -85,22 +85,22 @@ int failure_locked_quantised(const failure_sink *sink, double *number) {
 
 /* There and back on a grid: the way back is counted on, so other places are high. */
 int failure_locked_grid(const failure_sink *sink, double *number) {
-    enum { TICKS = 60 };
+    enum { TICKS = 59 };
     const knurl_grating grating = gratings_make(KNURL_LOCKED, 1000.0, 1000.0);
     knurl_grating_state state;
     double there[TICKS];
     double x = 0.0;
     memset(&state, 0, sizeof state);
     *number = 0.0;
-    for (int k = 0; k < 2 * TICKS; k++) { /* 60 mm/s: 3.6 cycles each way */
-        const double velocity[2] = {k < TICKS ? 0.06 : -0.06, 0.0};
+    for (int k = 0; k < 2 * TICKS; k++) { /* 50 mm/s: the turn is a tick after the last way there, at 3 cycles */
+        const double velocity[2] = {k < TICKS ? 0.05 : -0.05, 0.0};
         const double position[2] = {x, 0.0};
         knurl_grating_output out;
         knurl_grating_step(&grating, &state, position, velocity, &out);
         if (k < TICKS) {
             there[k] = out.height;
-        } else {
-            *number += out.height * there[2 * TICKS - 1 - k] < 0.0 ? 100.0 / TICKS : 0.0;
+        } else if (k > TICKS) { /* the same place */
+            *number += out.height * there[2 * TICKS - k] < 0.0 ? 100.0 / (TICKS - 1) : 0.0;
         }
         failure_point(sink, k < TICKS ? "there" : "back", 1e3 * x, out.height);
         x += velocity[0] / GRATINGS_RATE;
@@ -133,7 +133,7 @@ int failure_difference(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* A steady 1 mm/s: a count comes every 55 ticks, and a window of 15 sees it as a burst. */
+/* A steady 1 mm/s: a count comes every 55 ticks, and a window of 15 ms sees it as a burst. */
 int failure_foaw_pulses(const failure_sink *sink, double *number) {
     knurl_velocity estimator;
     *number = 0.0;

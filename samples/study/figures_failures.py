@@ -4,6 +4,7 @@ SPDX-License-Identifier: MIT
 """
 import csv
 import os
+import textwrap
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -52,7 +53,7 @@ def draw_trace(ax, row, traces):
         elif len(traces) == 1:
             ax.plot(t, values, color=colour, lw=1.1, label=name)
         elif name == list(traces)[-1]:
-            ax.plot(t, values, color=colour, lw=1.1, drawstyle="steps-post", label=name)
+            ax.plot(t, values, color=INK if "height" in traces else colour, lw=1.1, drawstyle="steps-post", label=name)
         else:
             ax.plot(t, values, color=next(others), lw=1, ls=(0, (3, 2)), label=name)
     ax.axhline(0, color=RULE, lw=0.7, zorder=0)
@@ -68,17 +69,18 @@ def draw_failures(data, folder):
     traces = read_traces(folder, data["table"])
     rows = data["failures"]
     lines = -(-len(rows) // COLUMNS)
-    height = 2.15 * lines + 1.0
+    height = 2.25 * lines + 1.0
     figure = plt.figure(figsize=(14, height))
     heading(figure, "Where methods fail", "one trace each at 1 kHz; heights in A; dashed: the surface that is crossed; "
             "failures.md has the conditions that avoid them", 0.035)
     grid = figure.add_gridspec(lines, COLUMNS, left=0.035, right=0.985, top=1 - 1.25 / height, bottom=0.45 / height,
-                               hspace=0.85, wspace=0.16)
+                               hspace=0.78, wspace=0.16)
     for i, row in enumerate(rows):
         ax = figure.add_subplot(grid[i // COLUMNS, i % COLUMNS])
         draw_trace(ax, row, traces[row["id"]])
-        ax.set_title(f"{row['group']} {row['name']}\n", fontsize=8.8, fontweight="bold", pad=3)
-        ax.text(0, 1.03, row["text"], transform=ax.transAxes, fontsize=7.6, color=GREY)
+        words = textwrap.fill(row["text"], 60)
+        ax.set_title(f"{row['group']}: {row['name']}", fontsize=8.8, fontweight="bold", pad=8 + 10 * words.count("\n") + 8)
+        ax.text(0, 1.03, words, transform=ax.transAxes, fontsize=7.6, color=GREY, va="bottom")
     return figure
 
 

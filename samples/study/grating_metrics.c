@@ -31,7 +31,9 @@ static int allocate(size_t ticks, double update_rate_hz, study_scan *scan) {
     scan->height = calloc(ticks + 1, sizeof *scan->height);
     scan->crossed = calloc(ticks + 1, sizeof *scan->crossed);
     scan->played = calloc(ticks + 1, sizeof *scan->played);
-    if (scan->height && scan->crossed && scan->played) {
+    scan->within = calloc(ticks + 1, sizeof *scan->within);
+    scan->cycles = calloc(ticks + 1, sizeof *scan->cycles);
+    if (scan->height && scan->crossed && scan->played && scan->within && scan->cycles) {
         return 1;
     }
     study_scan_free(scan);
@@ -42,6 +44,8 @@ void study_scan_free(study_scan *scan) {
     free(scan->height);
     free(scan->crossed);
     free(scan->played);
+    free(scan->within);
+    free(scan->cycles);
     memset(scan, 0, sizeof *scan);
 }
 
@@ -77,8 +81,11 @@ int study_scan_run(const knurl_grating *grating, const study_motion *motion, siz
             scan->played[k] += turned ? 0.5 : 0.0;
             scan->played[k + 1] = scan->played[k];
             scan->whole = k + 1;
+            scan->within[k] = -1.0;
         } else {
-            scan->played[k + 1] = scan->played[k] + study_event_cycles(&state.event) / state.event.length;
+            scan->within[k] = (double)(state.next_tick - 1) / state.event.length;
+            scan->cycles[k] = study_event_cycles(&state.event);
+            scan->played[k + 1] = scan->played[k] + scan->cycles[k] / state.event.length;
             scan->whole = state.playing ? scan->whole : k + 1;
         }
     }
@@ -95,6 +102,7 @@ int study_scan_of_values(const double *values, size_t ticks, double period_ticks
     memcpy(scan->height, values, ticks * sizeof *values);
     scan->whole = ticks;
     for (size_t k = 0; k < ticks; k++) {
+        scan->within[k] = -1.0;
         scan->played[k] += turns(values[k], &last) ? 0.5 : 0.0;
         scan->played[k + 1] = scan->played[k];
         scan->crossed[k + 1] = (double)(k + 1) / period_ticks;
@@ -113,6 +121,89 @@ double study_scan_phase_error(const study_scan *scan) {
         worst = fmax(worst, fabs(scan->played[k] - scan->crossed[k]));
     }
     return worst;
+}
+
+/* What is felt: from the begin of half cycle `half` on. */
+typedef struct felt {
+    double half;   /* counted in the direction of motion; even: high */
+    double sign;   /* of the height */
+    double cycles; /* of the event that the latest tick was in; 0: of none */
+    int begun;     /* the count has begun */
+} felt;
+
+/* One tick of an event; returns how far it is out. */
+static double feel_event(felt *f, double within, double cycles, double phase) {
+    if (within == 0.0) {
+        if (!f->begun) {
+            f->half = 2.0 * floor(phase + 0.5);
+        } else {
+            f->half = f->cycles > 0.0 ? f->half + 2.0 * f->cycles : 2.0 * floor(0.5 * (f->half + 1.0));
+        }
+        f->begun = 1;
+    }
+    f->cycles = cycles;
+    return f->begun ? fabs(0.5 * f->half + within * cycles - phase) : 0.0;
+}
+
+/* One tick without an event. Returns how far the phase is from the half that is felt. */
+static double feel_half(felt *f, double sign, double phase) {
+    const double odd = sign < 0.0 ? 1.0 : 0.0;
+    if (sign == 0.0) {
+        return 0.0;
+    }
+    if (!f->begun) { /* the middle of a half: (half + 0.5) / 2 */
+        f->half = 2.0 * floor(phase - 0.5 * odd + 0.25) + odd;
+    } else if (f->cycles > 0.0) {
+        f->half += 2.0 * f->cycles - odd; /* the next cycle begins, or the event's second half goes on */
+    } else if (sign != f->sign) {
+        f->half += 1.0;
+    }
+    f->begun = 1;
+    f->cycles = 0.0;
+    return fmax(0.0, fmax(0.5 * f->half - phase, phase - 0.5 * (f->half + 1.0)));
+}
+
+/* Tick k of a scan, its phase ahead in the direction of motion; `first`: where the first cycle began, NaN before. */
+static void take_step(const study_scan *scan, size_t k, double ahead, felt *f, double first[2], study_step *step) {
+    const double sign = scan->height[k] > 0.0 ? 1.0 : scan->height[k] < 0.0 ? -1.0 : 0.0;
+    const double half = f->half;
+    const int begun = f->begun;
+    int begins = scan->within[k] == 0.0;
+    if (scan->within[k] >= 0.0) {
+        step->error = fmax(step->error, feel_event(f, scan->within[k], scan->cycles[k], ahead));
+    } else {
+        step->error = fmax(step->error, feel_half(f, sign, ahead));
+        begins = begun && f->half != half && fmod(f->half, 2.0) == 0.0;
+    }
+    f->sign = sign != 0.0 ? sign : f->sign;
+    if (begins && isnan(first[0])) {
+        first[0] = 0.5 * f->half;
+        first[1] = ahead;
+    }
+    if (begins) {
+        step->played = 0.5 * f->half - first[0];
+        step->crossed = ahead - first[1];
+    }
+}
+
+study_step study_scan_step(const study_scan *scan, const double *phase) {
+    study_step step = {0.0, 0.0, 0.0, 0.0};
+    felt f = {0.0, 0.0, 0.0, 0};
+    double first[2] = {NAN, NAN};
+    double direction = scan->ticks > 1 ? phase[1] - phase[0] : 1.0;
+    double length = 0.0;
+    for (size_t k = 0; k < scan->ticks; k++) {
+        const double way = k > 0 ? phase[k] - phase[k - 1] : 0.0;
+        if (way * direction < 0.0) {
+            f.begun = 0;
+            first[0] = NAN;
+        }
+        direction = way != 0.0 ? way : direction;
+        take_step(scan, k, direction < 0.0 ? 0.5 - phase[k] : phase[k], &f, first, &step);
+        length = scan->within[k] < 0.0 ? 0.0 : scan->within[k] == 0.0 ? 1.0 : length + 1.0;
+        step.longest = fmax(step.longest, length);
+    }
+    return step;
 }
 
 double study_scan_dropout(const study_scan *scan) {

@@ -1,5 +1,5 @@
-/* What a grating is worth under a given motion: played against crossed cycles, phase error, dropout, net force,
- * spurious energy. For studies. SPDX-License-Identifier: MIT */
+/* What a grating is worth under a given motion: played against crossed cycles, phase error, step with the surface,
+ * dropout, net force, spurious energy. For studies. SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_GRATING_METRICS_H
 #define KNURL_STUDY_GRATING_METRICS_H
 
@@ -26,6 +26,8 @@ typedef struct study_scan {
     double *crossed; /**< cycles crossed since the start, before each tick and after the last: ticks + 1 */
     double *played;  /**< cycles played since the start, likewise. A tick of an event plays study_event_cycles() over
                           its length; without an event every change of the height's sign is half a cycle */
+    double *within;  /**< the share of its event that is over before each tick, [0, 1); below 0 without an event */
+    double *cycles;  /**< study_event_cycles() of the event that plays in each tick; 0 without */
     size_t ticks;
     size_t whole; /**< the last tick boundary with no event under way (S1: `ticks`) */
     double update_rate_hz;
@@ -52,6 +54,22 @@ double study_scan_drift(const study_scan *scan);
 
 /** Phase error: the greatest |played - crossed| at a tick, in cycles. S1 without aliasing stays within half a cycle. */
 double study_scan_phase_error(const study_scan *scan);
+
+/** How a scan keeps step with the surface, wherever on it the scan began. */
+typedef struct study_step {
+    double error;   /**< cycles, the worst of all ticks */
+    double played;  /**< cycles from the first that begins to the last that begins */
+    double crossed; /**< cycles crossed between those two ticks */
+    double longest; /**< ticks of the longest event */
+} study_step;
+
+/** Counts what is played by the heights and their events alone. An event runs through its cycles, from a rising edge
+ * on; without one, each change of sign begins the next half, and what is out is the phase's distance from the half that
+ * is felt. phase: cycles crossed before each tick, `ticks` of them; it is whole where the surface rises, forwards (fs x
+ * + 1/4), and may turn back: backwards the surface rises half a cycle off. From each turn on (and at the start) the
+ * first that is felt is taken for the nearest of its kind; from there on it is counted, so that no cycle may be missed
+ * or be one too many. An event that a turn interrupts is not judged. Where H is 0 nothing is played. */
+study_step study_scan_step(const study_scan *scan, const double *phase);
 
 /** Dropout: of the half cycles crossed, the share never played. Half cycle j lies where 2 crossed is in [j, j + 1). It
  * is played when 2 played passes a whole number while 2 crossed is in [j - 1, j + 2), that is, at most a half cycle

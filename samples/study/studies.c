@@ -15,6 +15,7 @@ const study studies[] = {
     {"gratings", "figure 6, section III: S1 and S2 over direction, speed and depth", study_gratings},
     {"preferences", "figure 8: what subjects preferred, beside these metrics", study_preferences},
     {"tradeoff", "cost against accuracy, each method at each rate", study_tradeoff},
+    {"velocity", "what each velocity estimator gets wrong, and how late it is", study_velocity},
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},
     {"stability", "where walls and gratings run away or buzz: checks against theory, and maps", study_stability},

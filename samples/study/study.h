@@ -24,6 +24,7 @@ int study_device(const char *folder);      /* figure 11 */
 int study_gratings(const char *folder);    /* figure 6 and section III */
 int study_preferences(const char *folder); /* figure 8 and Experiment 3 */
 int study_tradeoff(const char *folder);    /* cost against accuracy */
+int study_velocity(const char *folder);    /* the velocity estimators: what chooses the default */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
 int study_failures(const char *folder);    /* where methods fail; writes failures.md too */
 int study_stability(const char *folder);   /* where walls and gratings run away; prints its checks */

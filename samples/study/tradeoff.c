@@ -44,7 +44,7 @@ static size_t scan_length(const study_contender *c, double frequency) {
 static int render(const study_contender *c, double frequency, study_signal *signal, double *played) {
     study_rendering r;
     const size_t length = scan_length(c, frequency);
-    const size_t lead = 64; /* ticks: the estimators' windows fill */
+    const size_t lead = (size_t)(0.064 * c->update_rate_hz); /* the estimators' windows fill */
     if (study_rendering_start(&r, c, frequency)) {
         return 0;
     }

@@ -209,7 +209,7 @@ TEST(dropout_is_what_comes_a_half_cycle_late_or_never) {
     double crossed[11];
     double played[11];
     double height[10] = {0.0};
-    study_scan scan = {height, crossed, played, 10, 10, 1000.0, 0};
+    study_scan scan = {height, crossed, played, NULL, NULL, 10, 10, 1000.0, 0};
     for (int k = 0; k <= 10; k++) {
         crossed[k] = 0.5 * k;
         played[k] = k < 6 ? 0.0 : 0.5 * (k - 3);

@@ -162,7 +162,8 @@ TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
         knurl_tick_output out = tick_at(scene, 0.001, 0.0, 0.0);
         CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0L);
         out = tick_at(scene, 0.00101, 0.0, 0.0);
-        CHECK_VECTOR(out.hip_velocity, 0.0, 0.1, 0.0, 1e-9L);
+        /* FOAW's backlash takes half a count, 0.5 um of the device, of the first move */
+        CHECK_VECTOR(out.hip_velocity, 0.0, methods[i] == KNURL_VELOCITY_FOAW ? 0.095 : 0.1, 0.0, 1e-9L);
         knurl_scene_destroy(scene);
     }
 }

@@ -1,4 +1,4 @@
-/* Knurl: haptic gratings, methods S1 and S2 of the paper (section III).
+/* Knurl: haptic gratings, methods S1 and S2 of the paper (section III) and this project's own, `locked`.
  * A grating is a height map that repeats along a surface's x and y. State per HIP and surface: one struct, no heap.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_GRATING_H
@@ -34,7 +34,7 @@ typedef struct knurl_grating {
     uint32_t reserved;           /**< 0 */
     double resolution;           /**< m: the quantum that positions come in, 0 where they are exact. LOCKED: a position
                                       that comes back by no more than it has not moved */
-    double crossover_hz;         /**< LOCKED: 0 means KNURL_LOCKED_CROSSOVER_HZ */
+    double crossover_hz;         /**< LOCKED: >= 1; 0 means KNURL_LOCKED_CROSSOVER_HZ, or f_h/4 where that is lower */
 } knurl_grating;
 
 /** Where one HIP is on one grating. Zero it to start anew. */

@@ -3,6 +3,7 @@
 #include <knurl/grating.h>
 
 #include "grating/locked.h"
+#include "grating/phase.h"
 #include "vibration/event.h"
 #include "vibration/ticks.h"
 
@@ -51,8 +52,8 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: expected a finite number >= 0 (m), found %g",
                           grating->resolution);
     }
-    if (!(grating->crossover_hz >= 0.0 && isfinite(grating->crossover_hz))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected a finite number >= 0 (Hz), found %g Hz",
+    if (!(grating->crossover_hz == 0.0 || (grating->crossover_hz >= 1.0 && isfinite(grating->crossover_hz)))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected 0 or a finite number >= 1 (Hz), found %g Hz",
                           grating->crossover_hz);
     }
     if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_LOCKED) {
@@ -73,19 +74,14 @@ double knurl_grating_frequency(const double spatial_frequency[2], const double v
     return highest(spatial_frequency, velocity);
 }
 
-/* Which half of its cycle a phase (in cycles) is in. */
-static int first_half(double phase) {
-    return phase - floor(phase) < 0.5;
-}
-
 double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
-    return first_half(position * spatial_frequency) ? amplitude : -amplitude;
+    return knurl_first_half(position * spatial_frequency) ? amplitude : -amplitude;
 }
 
 double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
     /* cos(2 pi p) is positive where p + 1/4 is in the first half of its cycle. */
-    const int x = first_half(position[0] * spatial_frequency[0] + 0.25);
-    const int y = first_half(position[1] * spatial_frequency[1] + 0.25);
+    const int x = knurl_first_half(position[0] * spatial_frequency[0] + 0.25);
+    const int y = knurl_first_half(position[1] * spatial_frequency[1] + 0.25);
     return x == y ? amplitude : -amplitude;
 }
 

@@ -3,12 +3,19 @@
  * rising edge (Eq. 11's, one quarter before a crest of its cosine). SPDX-License-Identifier: MIT */
 #include "grating/locked.h"
 
+#include "grating/phase.h"
 #include "vibration/event.h"
 
 #include <math.h>
 
 /* The haptic Weber fraction for frequencies that the paper uses (figure 3). */
 #define JND 0.38
+
+/* Positions a quantum apart are so to within rounding. */
+#define ROUNDED 1.000001
+
+/* In one tick. What is more, or no number, is not counted, so that the count stays one. */
+#define MOST_CYCLES 1e6
 
 /* Follows the position on a grating with ridges one way: it has moved when it has gone on, or come back by more than a
  * quantum (so an encoder that flickers on a ridge's edge does not toggle the height). */
@@ -18,7 +25,7 @@ static double follow(const knurl_grating *g, knurl_grating_state *s, double plac
         s->held = place;
     }
     const double ahead = s->direction * (place - s->held);
-    if (ahead < -g->resolution) {
+    if (ahead < -ROUNDED * g->resolution) {
         s->direction = -s->direction;
         s->held = place;
     } else if (ahead > 0.0) {
@@ -33,8 +40,9 @@ static double find_phase(const knurl_grating *g, knurl_grating_state *s, const d
     const double *fs = g->spatial_frequency;
     const int along = fs[0] > 0.0 ? 0 : 1;
     if (fs[1 - along] > 0.0 || !position) { /* Eq. 12's cycles are a matter of the way, not of the place */
+        const double cycles = frequency / g->update_rate_hz;
         s->direction = 1;
-        return s->phase + frequency / g->update_rate_hz;
+        return s->phase + (cycles < MOST_CYCLES ? cycles : 0.0);
     }
     const double cycles = fs[along] * follow(g, s, position[along], velocity[along]);
     /* forwards the height rises a quarter cycle before each crest, backwards a quarter cycle after it */
@@ -43,40 +51,49 @@ static double find_phase(const knurl_grating *g, knurl_grating_state *s, const d
 
 /* The length of the next event, which begins at phase `late` of its cycle: what brings the end of the event to the end
  * of the cycle, as far as the hand does not notice; or the whole numbers either side of the period. */
-static double choose_length(double period, double late) {
-    const double least = fmin(floor(period), ceil(period / (1.0 + JND)));
-    const double most = fmax(ceil(period), floor(period * (1.0 + JND)));
-    const double wanted = floor(period * (1.0 - late) + 0.5);
-    return fmax(2.0, fmin(fmax(wanted, least), most));
+static int32_t choose_length(double period, double late) {
+    const double least = period / (1.0 + JND);
+    const double most = period * (1.0 + JND);
+    const int32_t below = (int32_t)period;
+    const int32_t above = below + (below < period);
+    int32_t shortest = (int32_t)least;
+    shortest += shortest < least;
+    shortest = shortest < below ? shortest : below;
+    const int32_t longest = (int32_t)most > above ? (int32_t)most : above;
+    const double wanted = period * (1.0 - late) + 0.5;
+    const int32_t length = !(wanted < longest) ? longest : wanted < shortest ? shortest : (int32_t)wanted;
+    return length;
 }
 
-/* Whether an event begins at this tick; then s->played is where its cycle begins. */
+/* An event follows another, whose end it was to be at. Whole cycles that were missed, or never were, are not made up
+ * for; where f_t is above f_h/2, no more than half of one. */
+static void go_on(const knurl_grating *g, knurl_grating_state *s, double frequency) {
+    const double debt = s->phase - s->played;
+    if (frequency > 0.5 * g->update_rate_hz || !(fabs(debt) < 1.0)) {
+        s->played += knurl_whole_cycles(debt + 0.5);
+    }
+}
+
+/* Whether a cycle begins at this tick, so that events may; then s->played is where. */
+static int is_boundary(knurl_grating_state *s, double before, double half_tick) {
+    const double whole = knurl_whole_cycles(s->phase);
+    const double into = s->phase - whole;
+    s->played = into > 1.0 - half_tick ? whole + 1.0 : whole;
+    return into > 1.0 - half_tick || into <= half_tick || (before < whole && into < 0.5);
+}
+
+/* Whether an event begins at this tick. */
 static int event_begins(const knurl_grating *g, knurl_grating_state *s, double before, double frequency) {
-    const double crossover = g->crossover_hz > 0.0 ? g->crossover_hz : KNURL_LOCKED_CROSSOVER_HZ;
-    if (frequency < crossover) {
+    const double fastest = 0.25 * g->update_rate_hz;
+    const double usual = KNURL_LOCKED_CROSSOVER_HZ < fastest ? KNURL_LOCKED_CROSSOVER_HZ : fastest;
+    if (!(frequency >= (g->crossover_hz > 0.0 ? g->crossover_hz : usual))) {
         s->moving = 0;
-        return 0;
-    }
-    const double whole = floor(s->phase);
-    if (s->moving) {
-        const double debt = s->phase - s->played;
-        if (frequency > 0.5 * g->update_rate_hz) {
-            s->played = s->phase;
-        } else if (!(fabs(debt) < 1.0)) { /* whole cycles that were missed, or never were, are not made up for */
-            s->played += floor(debt + 0.5);
-        }
-        return 1;
-    }
-    const double half_tick = 0.5 * frequency / g->update_rate_hz;
-    if (s->phase - whole > 1.0 - half_tick) {
-        s->played = whole + 1.0;
-    } else if (s->phase - whole <= half_tick || (floor(before) < whole && s->phase - whole < 0.5)) {
-        s->played = whole;
+    } else if (s->moving) {
+        go_on(g, s, frequency);
     } else {
-        return 0; /* within a cycle that the position has begun */
+        s->moving = is_boundary(s, before, 0.5 * frequency / g->update_rate_hz);
     }
-    s->moving = 1;
-    return 1;
+    return s->moving;
 }
 
 double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
@@ -89,15 +106,16 @@ double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *stat
         state->moving = 0;
     }
     if (!state->playing && event_begins(grating, state, before, frequency)) {
-        const double period = fmax(2.0, grating->update_rate_hz / frequency);
-        knurl_event_prepare(choose_length(period, state->phase - state->played), grating->amplitude, &state->event);
+        const double period = grating->update_rate_hz / frequency;
+        const int32_t length = choose_length(period > 2.0 ? period : 2.0, state->phase - state->played);
+        knurl_event_set_length(length, grating->amplitude, &state->event);
         state->played += 1.0;
         state->playing = 1;
         state->next_tick = 0;
         state->event_count++;
     }
     if (!state->playing) {
-        return state->phase - floor(state->phase) < 0.5 ? grating->amplitude : -grating->amplitude;
+        return knurl_first_half(state->phase) ? grating->amplitude : -grating->amplitude;
     }
     output->event = state->event_count - 1;
     const double height = knurl_event_value(&state->event, state->next_tick);

@@ -1,5 +1,5 @@
-/* Velocity estimators: first difference, and first-order adaptive windowing (FOAW; Janabi-Sharifi, Hayward and Chen
- * 2000) on integers, which doubles hold. SPDX-License-Identifier: MIT */
+/* Velocity estimators: first difference, the same through a low pass, and first-order adaptive windowing (FOAW;
+ * Janabi-Sharifi, Hayward and Chen 2000) on integers, which doubles hold. SPDX-License-Identifier: MIT */
 #include <knurl/motion.h>
 
 #include <math.h>
@@ -16,22 +16,33 @@
  * does not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
 #define STEPS_PER_COUNT 1024
 
-/* 16 positions are kept: the newest and the 15 before it. */
-#define RING 16
+/* Half a count either side makes a backlash of one. */
+#define HALF_COUNT (0.5 * STEPS_PER_COUNT)
 
-/* lcm(1..15): slopes over 1 to 15 ticks, scaled by it, are integers. Samples often lie exactly one count off the line,
- * and where such ties are rounded they choose the wrong window in a third of all ticks. While positions in the window
- * differ by less than 2^34 steps (2^24 counts), slopes and slacks stay below 2^53 and no operation here rounds; beyond
- * that ties are decided to a relative 2^-53, and nothing overflows. */
+/* 16 positions are kept: the newest and the 15 before it. */
+#define RING (KNURL_FOAW_WINDOW + 1)
+
+/* lcm(1..15): slopes over 1 to 15 samples, scaled by it, are integers. Samples often lie exactly one count off the
+ * line, and where such ties are rounded they choose the wrong window in a third of all ticks. While positions in the
+ * window differ by less than 2^34 steps (2^24 counts), slopes and slacks stay below 2^53 and no operation here rounds;
+ * beyond that ties are decided to a relative 2^-53, and nothing overflows. */
 #define LCM 360360.0
 
 /* A position that was never seen: out of reach of any slope interval, and finite, so that no floating-point exception
  * is raised even where a host asks for traps. */
 #define UNSEEN 1e300
 
+#define TAU 6.283185307179586
+
+/* Ticks between samples: a millisecond. */
+static uint32_t stride_at(double rate) {
+    const double ticks = floor(rate / 1000.0 + 0.5);
+    return ticks < 1.0 ? 1 : ticks < KNURL_FOAW_STRIDE_MAX ? (uint32_t)ticks : KNURL_FOAW_STRIDE_MAX;
+}
+
 knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity) {
-    if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_FOAW) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE or FOAW, found %d",
+    if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_LOWPASS) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE, FOAW or LOWPASS, found %d",
                           (int)method);
     }
     if (!(resolution >= 0.0 && resolution <= 1.0)) {
@@ -49,9 +60,11 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
     memset(velocity, 0, sizeof *velocity);
     velocity->method = method;
     velocity->rate = update_rate_hz;
+    velocity->share = 1.0 - exp(-TAU * KNURL_VELOCITY_LOWPASS_HZ / update_rate_hz);
     if (method == KNURL_VELOCITY_FOAW) {
+        velocity->stride = stride_at(update_rate_hz);
         velocity->steps_per_m = STEPS_PER_COUNT / resolution;
-        velocity->slope_unit = resolution / STEPS_PER_COUNT * update_rate_hz / LCM;
+        velocity->slope_unit = resolution / STEPS_PER_COUNT * update_rate_hz / velocity->stride;
 #if AVX
         velocity->avx = __builtin_cpu_supports("avx") != 0;
 #endif
@@ -71,14 +84,13 @@ static void difference(knurl_velocity *velocity, const double position[3], doubl
     velocity->started = 1;
 }
 
-/* Forgets all positions: ring and mirror. */
-static void forget(knurl_velocity *velocity) {
-    for (int i = 0; i < 2 * RING; i++) {
-        double *row = velocity->history[i];
-        row[0] = row[1] = row[2] = UNSEEN;
-        row[3] = 0.0;
+static void lowpass(knurl_velocity *velocity, const double position[3], double out[3]) {
+    const int started = velocity->started != 0;
+    difference(velocity, position, out);
+    for (int axis = 0; axis < 3; axis++) {
+        const double before = started ? velocity->smooth[axis] : 0.0;
+        out[axis] = velocity->smooth[axis] = before + velocity->share * (out[axis] - before);
     }
-    velocity->started = 1;
 }
 
 /* Beyond every slope between positions, within every slope to UNSEEN. */
@@ -90,38 +102,78 @@ static void forget(knurl_velocity *velocity) {
 #define SCALE(i) (LCM / (i))
 static const double scales[RING] = WINDOWS(SCALE);
 
-/* Positions beyond it are clamped to it (a NaN too), so that all is finite. */
-#define LIMIT 1099511627776.0 /* 2^40 steps */
+/* Positions are held within it (a NaN too), so that all is finite. */
+#define LIMIT 1099511627776.0    /* 2^40 steps */
+#define WHOLE 6755399441055744.0 /* 3 * 2^51: added and taken off again it rounds half to even */
 
-/* Added and taken off again it rounds half to even, as its unit in the last place is 1. */
-#define WHOLE 6755399441055744.0 /* 3 * 2^51 */
+/* Forgets all positions, rings and mirrors; this one is held, in the middle of its backlash. */
+static void forget(knurl_velocity *velocity, const double position[3]) {
+    for (uint32_t phase = 0; phase < velocity->stride; phase++) {
+        for (int i = 0; i < 2 * RING; i++) {
+            double *row = velocity->history[phase][i];
+            row[0] = row[1] = row[2] = UNSEEN;
+            row[3] = 0.0;
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double steps = position[axis] * velocity->steps_per_m;
+        velocity->held[axis] = (fmax(-LIMIT, fmin(LIMIT, steps)) + WHOLE) - WHOLE;
+    }
+    velocity->started = 1;
+}
 
-/* Both versions below do the same operations on the same numbers: the position in whole steps goes into rows[0] and its
- * mirror; the velocity is the slope (LCM times steps per tick, in slope units) of the line through the newest and the
- * oldest sample of the widest window whose interior samples all lie within one count of that line. Sample i back lies
- * within it when the slope is in [(x0 - xi - d) / i, (x0 - xi + d) / i]; the intersection of these intervals shrinks
- * as the window grows, so one pass does. It does not end where the interval is empty: an axis at rest never is. */
+/* Both versions below do the same operations on the same numbers. The held position is taken along by the new one and
+ * goes into rows[0] and its mirror. The window is the widest whose interior samples all lie within one count of the
+ * line through its newest and its oldest. Sample i back lies within it when the slope is in [(x0 - xi - d) / i,
+ * (x0 - xi + d) / i]; the intersection of these intervals shrinks as the window grows, so one pass does. It does not
+ * end where the interval is empty: an axis at rest never is. The velocity is not that line's slope, which hangs on two
+ * samples, but the mean of the window's newest third less that of its oldest, over the time between (Bartlett 1949).
+ * Sums along the way, sums[i] = (x0 - x1) + ... + (x0 - xi), give it for little; not trying every window pays for them
+ * (the study `velocity` has the figures). */
+
+/* Of a window of i samples back, i + 1 in all: how many make a third, and which sums are looked up. */
+#define THIRD(i)  (((i) + 2) / 3)
+#define NEAR(i)   (THIRD(i) - 1)
+#define FAR(i)    ((i) - THIRD(i))
+#define WEIGHT(i) (1.0 / (double)(THIRD(i) * ((i) + 1 - THIRD(i))))
+/* NOLINTNEXTLINE(bugprone-integer-division): a third is a whole number of samples */
+static const double weights[RING] = WINDOWS(WEIGHT);
+
+/* The windows that are tried, a bit for each: 1, 2, 3, 4, 6, 8, 11 and 15. */
+#define TRIED    0x895eu
+#define TRIES(i) (TRIED >> (i) & 1u)
 
 /* Four lanes and no branch, so that compilers may vectorise it; the fourth is not used. */
-static void foaw(const knurl_velocity *velocity, double (*rows)[4], const double position[3], double out[3]) {
+static void foaw(knurl_velocity *velocity, double (*rows)[4], const double position[3], double out[3]) {
     double x[4] = {0.0, 0.0, 0.0, 0.0};
     for (int axis = 0; axis < 3; axis++) {
-        double steps = position[axis] * velocity->steps_per_m;
-        steps = steps < LIMIT ? steps : LIMIT;
-        steps = steps > -LIMIT ? steps : -LIMIT;
-        x[axis] = (steps + WHOLE) - WHOLE;
+        const double rounded = position[axis] * velocity->steps_per_m + WHOLE;
+        double least = rounded - (WHOLE + HALF_COUNT);
+        double most = rounded - (WHOLE - HALF_COUNT);
+        least = least < LIMIT ? least : LIMIT;
+        most = most > -LIMIT ? most : -LIMIT;
+        most = most < velocity->held[axis] ? most : velocity->held[axis];
+        x[axis] = least > most ? least : most;
     }
+    memcpy(velocity->held, x, sizeof x);
     memcpy(rows[0], x, sizeof x);
     memcpy(rows[RING], x, sizeof x);
     double low[4] = {-ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE};
     double high[4] = {ANY_SLOPE, ANY_SLOPE, ANY_SLOPE, ANY_SLOPE};
     double best[4] = {0.0, 0.0, 0.0, 0.0};
+    double sums[RING][4] = {{0.0, 0.0, 0.0, 0.0}};
+#pragma GCC unroll 15
     for (int i = 1; i < RING; i++) {
         const double slack = STEPS_PER_COUNT * scales[i];
         for (int axis = 0; axis < 4; axis++) {
-            const double slope = (x[axis] - rows[i][axis]) * scales[i];
-            const int fits = (slope >= low[axis]) & (slope <= high[axis]);
-            best[axis] = fits ? slope : best[axis];
+            const double way = x[axis] - rows[i][axis];
+            const double slope = way * scales[i];
+            sums[i][axis] = sums[i - 1][axis] + way;
+            if (TRIES(i)) {
+                const int fits = (slope >= low[axis]) & (slope <= high[axis]);
+                const double thirds = sums[i][axis] - sums[FAR(i)][axis] - sums[NEAR(i)][axis];
+                best[axis] = fits ? thirds * weights[i] : best[axis];
+            }
             low[axis] = slope - slack > low[axis] ? slope - slack : low[axis];
             high[axis] = slope + slack < high[axis] ? slope + slack : high[axis];
         }
@@ -136,26 +188,37 @@ static void foaw(const knurl_velocity *velocity, double (*rows)[4], const double
 static const double slacks[RING] = WINDOWS(SLACK);
 
 /* The choice by masks rather than by a blend, which GCC 12 takes apart into branches. */
-__attribute__((target("avx"))) static void foaw_avx(const knurl_velocity *velocity, double (*rows)[4],
+__attribute__((target("avx"))) static void foaw_avx(knurl_velocity *velocity, double (*rows)[4],
                                                     const double position[3], double out[3]) {
-    const __m256d whole = _mm256_set1_pd(WHOLE);
-    __m256d x = _mm256_set_pd(0.0, position[2], position[1], position[0]);
-    x = _mm256_min_pd(_mm256_mul_pd(x, _mm256_set1_pd(velocity->steps_per_m)), _mm256_set1_pd(LIMIT));
-    x = _mm256_max_pd(x, _mm256_set1_pd(-LIMIT));
-    x = _mm256_sub_pd(_mm256_add_pd(x, whole), whole);
+    const __m256d steps =
+        _mm256_mul_pd(_mm256_set_pd(0.0, position[2], position[1], position[0]), _mm256_set1_pd(velocity->steps_per_m));
+    const __m256d rounded = _mm256_add_pd(steps, _mm256_set1_pd(WHOLE));
+    __m256d least = _mm256_sub_pd(rounded, _mm256_set1_pd(WHOLE + HALF_COUNT));
+    __m256d most = _mm256_sub_pd(rounded, _mm256_set1_pd(WHOLE - HALF_COUNT));
+    least = _mm256_min_pd(least, _mm256_set1_pd(LIMIT));
+    most = _mm256_max_pd(most, _mm256_set1_pd(-LIMIT));
+    const __m256d x = _mm256_max_pd(least, _mm256_min_pd(most, _mm256_loadu_pd(velocity->held)));
+    _mm256_storeu_pd(velocity->held, x);
     _mm256_storeu_pd(rows[0], x);
     _mm256_storeu_pd(rows[RING], x);
     __m256d low = _mm256_set1_pd(-ANY_SLOPE);
     __m256d high = _mm256_set1_pd(ANY_SLOPE);
     __m256d best = _mm256_setzero_pd();
+    __m256d sums[RING];
+    sums[0] = _mm256_setzero_pd();
 #pragma GCC unroll 15
     for (int i = 1; i < RING; i++) {
         const __m256d slack = _mm256_broadcast_sd(&slacks[i]);
-        const __m256d slope =
-            _mm256_mul_pd(_mm256_sub_pd(x, _mm256_loadu_pd(rows[i])), _mm256_broadcast_sd(&scales[i]));
-        const __m256d above = _mm256_cmp_pd(slope, low, _CMP_GE_OQ);
-        const __m256d fits = _mm256_and_pd(above, _mm256_cmp_pd(slope, high, _CMP_LE_OQ));
-        best = _mm256_or_pd(_mm256_and_pd(fits, slope), _mm256_andnot_pd(fits, best));
+        const __m256d way = _mm256_sub_pd(x, _mm256_loadu_pd(rows[i]));
+        const __m256d slope = _mm256_mul_pd(way, _mm256_broadcast_sd(&scales[i]));
+        sums[i] = _mm256_add_pd(sums[i - 1], way);
+        if (TRIES(i)) {
+            const __m256d above = _mm256_cmp_pd(slope, low, _CMP_GE_OQ);
+            const __m256d fits = _mm256_and_pd(above, _mm256_cmp_pd(slope, high, _CMP_LE_OQ));
+            __m256d thirds = _mm256_sub_pd(_mm256_sub_pd(sums[i], sums[FAR(i)]), sums[NEAR(i)]);
+            thirds = _mm256_mul_pd(thirds, _mm256_broadcast_sd(&weights[i]));
+            best = _mm256_or_pd(_mm256_and_pd(fits, thirds), _mm256_andnot_pd(fits, best));
+        }
         low = _mm256_max_pd(low, _mm256_sub_pd(slope, slack));
         high = _mm256_min_pd(high, _mm256_add_pd(slope, slack));
     }
@@ -170,11 +233,18 @@ void knurl_velocity_update(knurl_velocity *velocity, const double position[3], d
         difference(velocity, position, out);
         return;
     }
-    if (!velocity->started) {
-        forget(velocity);
+    if (velocity->method == KNURL_VELOCITY_LOWPASS) {
+        lowpass(velocity, position, out);
+        return;
     }
-    velocity->newest = (velocity->newest - 1) % RING;
-    double (*rows)[4] = &velocity->history[velocity->newest];
+    if (!velocity->started) {
+        forget(velocity, position);
+    }
+    if (++velocity->phase >= velocity->stride) { /* all rings have had their turn */
+        velocity->phase = 0;
+        velocity->newest = (velocity->newest - 1) % RING;
+    }
+    double (*rows)[4] = &velocity->history[velocity->phase][velocity->newest];
 #if AVX
     if (velocity->avx) {
         foaw_avx(velocity, rows, position, out);

@@ -19,16 +19,24 @@ static void init_even(int32_t length, double amplitude, knurl_event *event) {
     event->negative = amplitude;
 }
 
-/* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly. */
+/* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly: T = Tp + Tn leaves of
+ * it Ap = A sqrt(Tn / Tp), and An is Ap Tp / Tn (Eq. 5). */
 static void init_odd(int32_t length, double amplitude, knurl_event *event) {
-    const double period = length;
-    const double positive = 0.5 * (period + 1.0);
-    const double negative = 0.5 * (period - 1.0);
+    const double ratio = (length - 1.0) / (length + 1.0);
     event->kind = KNURL_EVENT_ODD;
     event->length = length;
     event->positive_ticks = (length + 1) / 2;
-    event->positive = amplitude * sqrt(period * negative / (positive * positive + negative * positive));
-    event->negative = amplitude * sqrt(period * positive / (negative * negative + negative * positive));
+    event->positive = amplitude * sqrt(ratio);
+    event->negative = event->positive / ratio;
+}
+
+void knurl_event_set_length(int32_t length, double amplitude, knurl_event *event) {
+    event->saturated = 0;
+    if (length % 2 == 0) {
+        init_even(length, amplitude, event);
+    } else {
+        init_odd(length, amplitude, event);
+    }
 }
 
 void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event) {
@@ -43,12 +51,7 @@ void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *eve
         event->positive = amplitude;
         event->negative = 0.0;
     } else {
-        const int32_t length = (int32_t)floor(ticks + 0.5); /* half up, as the paper rounds */
-        if (length % 2 == 0) {
-            init_even(length, amplitude, event);
-        } else {
-            init_odd(length, amplitude, event);
-        }
+        knurl_event_set_length((int32_t)floor(ticks + 0.5), amplitude, event); /* half up, as the paper rounds */
     }
 }
 

@@ -1,0 +1,64 @@
+/* What velocity estimators get wrong, and what a grating makes of it: errors at steady speeds, delay in strokes, and
+ * S2's events on a grating of 1 mm. A hand's speed wobbles by 2 % at 9 Hz; runs start at 8 places of a count, at 8
+ * speeds either side of the one that is named: at 0.055 mm counts every multiple of 5 mm/s crosses a whole number of
+ * them in 11 ms, which is where an estimator over 11 ms makes no error at all, and so for others.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_VELOCITY_H
+#define KNURL_STUDY_VELOCITY_H
+
+#include <knurl/knurl.h>
+
+#include <stddef.h>
+
+#define VELOCITY_PERIOD    0.001 /* m: of the grating */
+#define VELOCITY_PHASES    8     /* runs a cell */
+#define VELOCITY_SPREAD    0.1   /* of the speed: the runs' speeds are within it, evenly */
+#define VELOCITY_WOBBLE    0.02  /* of the speed */
+#define VELOCITY_WOBBLE_HZ 9.0
+#define VELOCITY_STROKE_HZ 2.0 /* to and fro, where delay is measured */
+
+/** One estimator of the chart. */
+typedef struct velocity_contender {
+    const char *name;
+    int32_t method;   /**< KNURL_VELOCITY_; KNURL_VELOCITY_AUTO: FOAW as published: any window of up to 15 ticks,
+                           whatever the rate, the slope from its newest to its oldest sample, no backlash */
+    double cutoff_hz; /**< LOWPASS: in place of KNURL_VELOCITY_LOWPASS_HZ */
+} velocity_contender;
+
+/** All of them, ended by a null name. */
+extern const velocity_contender velocity_contenders[];
+
+/** A contender at work. */
+typedef struct velocity_estimator {
+    const velocity_contender *contender;
+    knurl_velocity estimator;
+    double resolution, rate;
+    int64_t counts[16]; /**< as published: the newest first */
+    int seen;           /**< as published: how many of them there are */
+} velocity_estimator;
+
+/** Starts it. 0, or 1 where the library refuses. */
+int velocity_start(velocity_estimator *e, const velocity_contender *contender, double resolution, double rate);
+
+/** The velocity (m/s) at position x (m), which lies on a count. */
+double velocity_of(velocity_estimator *e, double x);
+
+/** What a tick of the library's estimator costs, three axes, ns. Negative where it is not the library's. */
+double velocity_cost(const velocity_contender *contender, double resolution, double rate);
+
+typedef struct velocity_errors {
+    double bias;         /**< m/s: mean of estimate less truth, at a steady speed */
+    double rms;          /**< m/s: of the same */
+    double delay;        /**< s: of the estimate behind the truth, in strokes to and fro of this highest speed */
+    double period_mean;  /**< |period that an event starts with / 1 mm over the true speed - 1|; NaN without events */
+    double period_worst; /**< the largest of them */
+    double drift;        /**< cycles played over cycles crossed, less 1 */
+    double events;       /**< how many started */
+} velocity_errors;
+
+/** Runs a contender at `speed` (m/s) over positions in quanta of `resolution` (m). 0, or 1 where the library refuses.
+ */
+int velocity_measure(const velocity_contender *contender, double resolution, double rate, double speed,
+                     velocity_errors *out);
+
+#endif

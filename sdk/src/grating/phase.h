@@ -1,0 +1,20 @@
+/* Phases in cycles. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_PHASE_H
+#define KNURL_SRC_PHASE_H
+
+/* Added and taken off again it rounds to a whole number, as its unit in the last place is 1. */
+#define KNURL_WHOLE 6755399441055744.0 /* 3 * 2^51 */
+
+/* floor(), which is a call where a compiler may not take SSE4.1 for granted. Exact to 2^51; beyond, where a double has
+ * no phase left, some whole number near it, and what is not finite stays so. */
+static inline double knurl_whole_cycles(double phase) {
+    const double nearest = (phase + KNURL_WHOLE) - KNURL_WHOLE;
+    return nearest > phase ? nearest - 1.0 : nearest;
+}
+
+/* Which half of its cycle a phase is in. */
+static inline int knurl_first_half(double phase) {
+    return phase - knurl_whole_cycles(phase) < 0.5;
+}
+
+#endif

@@ -1,0 +1,165 @@
+/* The catalogue of failures (samples/study/failures.md): each number against its closed form, or between bounds where
+ * there is none, and the page against what is measured. SPDX-License-Identifier: MIT */
+#include "failures.h"
+#include "metrics.h"
+#include "study.h"
+#include "support/close.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double measure(const char *id) {
+    const failure_sink nowhere = {NULL, id};
+    for (const failure *f = failures; f->id; f++) {
+        double number = NAN;
+        if (strcmp(f->id, id) == 0) {
+            assert_true(f->measure(&nowhere, &number));
+            return number;
+        }
+    }
+    fail_msg("no failure is called %s", id);
+    return NAN;
+}
+
+static void assert_between(double low, double high, double value) {
+    if (!(value >= low && value <= high)) {
+        fail_msg("expected %g to %g, found %g", low, high, value);
+    }
+}
+
+/* Three ticks a cycle: two up, one down. */
+TEST(s1_pushes) {
+    CHECK_CLOSE(measure("s1_pushes"), 1.0 / 3.0, 1e-12);
+}
+
+TEST(s1_silent) {
+    CHECK_CLOSE(measure("s1_silent"), 100.0, 1e-12);
+}
+
+TEST(s1_alias) {
+    CHECK_CLOSE(measure("s1_alias"), 1000.0 - 900.0, 0.5); /* half cycles are counted */
+}
+
+TEST(s1_diagonal) {
+    CHECK_CLOSE(measure("s1_diagonal"), 0.0, 0.0);
+}
+
+/* A tick at 100 mm/s holds 0.1 (cos a + sin a) cycles' edges of each kind: where they are independent of one another,
+ * both kinds fall into one tick with a chance of 0.2 cos a x 0.2 sin a, and take two edges of 0.2 (cos a + sin a) away:
+ * 14 % on the diagonal. Where they are not independent it is more. */
+TEST(s1_grid) {
+    assert_between(14.0, 30.0, measure("s1_grid"));
+}
+
+/* 1 / (500 /m x 1 mm/s), in whole ticks from the first at 1 mm/s. */
+TEST(s2_freezes) {
+    CHECK_CLOSE(measure("s2_freezes"), 2.0, 1e-9);
+}
+
+TEST(s2_drifts) {
+    CHECK_CLOSE(measure("s2_drifts"), 100.0 * (3.5 / 3.0 - 1.0), 0.05); /* of 3,000 ticks */
+}
+
+TEST(s2_loses_step) {
+    assert_between(100.0, 400.0, measure("s2_loses_step"));
+}
+
+TEST(s2_outlives) {
+    CHECK_CLOSE(measure("s2_outlives"), 1000.0 / 20.0 - 1.0, 1e-9);
+}
+
+/* Eq. 7 at 3 ticks: Ap = sqrt(1/2), two ticks of three. */
+TEST(grazed) {
+    CHECK_CLOSE(measure("grazed"), sqrt(0.5) * 2.0 / 3.0, 1e-12);
+}
+
+TEST(locked_pushes) {
+    CHECK_CLOSE(measure("locked_pushes"), 1.0 / 9.0, 1e-12);
+}
+
+/* 2 and 3 ticks in turn, by Eqs. 5 and 7, held; the study sums the images to 10 f_h only. */
+TEST(locked_dithers) {
+    const double turns[5] = {1.0, -1.0, sqrt(0.5), sqrt(0.5), -sqrt(2.0)};
+    study_signal signal;
+    assert_true(study_signal_of_values(turns, 5, 1000.0, &signal));
+    CHECK_CLOSE(measure("locked_dithers"), 100.0 * study_spurious(&signal, 400.0), 1.0);
+    study_signal_free(&signal);
+}
+
+/* Above what the whole numbers of ticks alone make (0.24), within what was asked for. */
+TEST(locked_quantised) {
+    assert_between(0.24, 0.5, measure("locked_quantised"));
+}
+
+/* d cycles after a turn at 3 cycles the count is at 3 + d, where 3 - d was before: the other half of a cycle. Each of
+ * the 6 edges may be a tick late. */
+TEST(locked_grid) {
+    assert_between(100.0 - 600.0 / 58.0, 100.0, measure("locked_grid"));
+}
+
+TEST(difference) {
+    CHECK_CLOSE(measure("difference"), 0.055e-3 * 1000.0 * 1000.0, 1e-6);
+}
+
+/* Thirds of 16 samples are 5 each, and their means 11 samples apart. */
+TEST(foaw_pulses) {
+    CHECK_CLOSE(measure("foaw_pulses"), 0.055 / 0.011, 1e-6);
+}
+
+static char *read_whole(const char *path) {
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    char *text = calloc(1, 65536);
+    assert_non_null(text);
+    assert_true(fread(text, 1, 65535, file) > 0);
+    (void)fclose(file);
+    return text;
+}
+
+TEST(the_page_says_what_is_measured) {
+    assert_int_equal(study_failures(KNURL_TEST_TMP "/failures"), 0);
+    char *made = read_whole(KNURL_TEST_TMP "/failures/failures.md");
+    char *page = read_whole(KNURL_TEST_SAMPLES "/study/failures.md");
+    if (strcmp(made, page) != 0) {
+        fail_msg("samples/study/failures.md is not what `knurl study failures` writes; run ./run figures");
+    }
+    free(made);
+    free(page);
+}
+
+TEST(every_failure_has_its_test) {
+    char *tests = read_whole(__FILE__);
+    for (const failure *f = failures; f->id; f++) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "TEST(%s)", f->id);
+        if (!strstr(tests, name)) {
+            fail_msg("%s has no test", f->id);
+        }
+    }
+    free(tests);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(s1_pushes),
+        cmocka_unit_test(s1_silent),
+        cmocka_unit_test(s1_alias),
+        cmocka_unit_test(s1_diagonal),
+        cmocka_unit_test(s1_grid),
+        cmocka_unit_test(s2_freezes),
+        cmocka_unit_test(s2_drifts),
+        cmocka_unit_test(s2_loses_step),
+        cmocka_unit_test(s2_outlives),
+        cmocka_unit_test(grazed),
+        cmocka_unit_test(locked_pushes),
+        cmocka_unit_test(locked_dithers),
+        cmocka_unit_test(locked_quantised),
+        cmocka_unit_test(locked_grid),
+        cmocka_unit_test(difference),
+        cmocka_unit_test(foaw_pulses),
+        cmocka_unit_test(the_page_says_what_is_measured),
+        cmocka_unit_test(every_failure_has_its_test),
+    };
+    return cmocka_run_group_tests_name("failures", tests, NULL, NULL);
+}
