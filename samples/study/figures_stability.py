@@ -128,13 +128,13 @@ def draw_methods(data, folder, amplitudes):
                 low, high = ax.get_ylim()
                 ax.plot(fine, (b + fc / fine + data["grips"][grip][1]) / (1e-3 * (0.5 + delay)), color=INK, lw=1.1)
                 ax.set_ylim(low, high)
-            ticks(ax, "x", [0.01, 0.03, 0.1, 0.3])
+            ticks(ax, "x", [0.01, 0.03, 0.1, 0.25])
             ticks(ax, "y", [0.02, 0.1, 0.5, 2] if amplitudes else [100, 300, 1000, 3000])
             ax.tick_params(labelsize=7.5, labelleft=j == 0)
             if i == 0:
                 ax.set_title(protections, fontsize=9, color=GREY, pad=3)
             if i == len(rows) - 1:
-                ax.set_xticklabels(["10", "30", "100", "300"])
+                ax.set_xticklabels(["10", "30", "100", "250"])
         row[0].set_ylabel(f"{label}, {grip}\n{'A (mm)' if amplitudes else 'K (N/m)'}", fontsize=9)
     height = figure.get_figheight()
     left = 0.95 / figure.get_figwidth()
@@ -153,7 +153,7 @@ def draw_methods(data, folder, amplitudes):
 
 def draw_stiffnesses(data, folder):
     figure, left = draw_methods(data, folder, False)
-    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, pressed with 1 N at 1 kHz; "
+    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, pressed with 1 N at 1 kHz, judged after 2.25 s; "
             "raw beside the default protections", left)
     return figure
 

@@ -53,8 +53,7 @@ TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
         lab_case c;
         lab_case_init(&c);
         c.speed = speeds[i];
-        c.reach = 0.5; /* no turn; a line is steady near its middle */
-        c.device = "preset=ideal&viscous=0.5&width=2";
+        c.device = "preset=ideal&viscous=0.5";
         c.amplitude = 0.0001;
         c.method = KNURL_S1;
         const lab_result r = run(&c);
@@ -99,6 +98,7 @@ TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
         c.method = methods[i];
         c.amplitude = 0.0002;
         c.speed = 0.1;
+        c.settle = 2.25; /* S2 has ended its first event */
         const lab_result r = run(&c);
         check_outcome(&r, LAB_VIBRATION);
         assert_true(r.asked > 1.0 && r.felt > 1.0 && r.activity < 0.5 * r.asked);
