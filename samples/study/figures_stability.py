@@ -52,8 +52,9 @@ def ticks(ax, which, values):
     (ax.set_xticks if which == "x" else ax.set_yticks)(shown, labels)
 
 
-def legend(figure, lines, left):
-    patches = [Patch(facecolor=colour, edgecolor=GREY, lw=0.4, label=ABOUT[name]) for name, colour in OUTCOMES.items()]
+def legend(figure, table, lines, left):
+    patches = [Patch(facecolor=colour, edgecolor=GREY, lw=0.4, label=ABOUT[name]) for name, colour in OUTCOMES.items()
+               if name in table["outcome"]]
     figure.legend(handles=patches, loc="lower left", bbox_to_anchor=(left, 0.0), ncol=2, frameon=False, fontsize=9,
                   labelcolor=INK, columnspacing=1.6)
     if lines:
@@ -82,7 +83,7 @@ def draw_bounds(ax, name, x, hand, friction):
 def draw_stability(data, folder):
     table = read_table(folder, data["table"])
     rows = list(dict.fromkeys(zip(table["label"], table["protections"])))
-    figure, grid = plt.subplots(len(rows), len(AXES), figsize=(12, 2.9 * len(rows) + 1.7), sharey=True)
+    figure, grid = plt.subplots(len(rows), len(AXES), figsize=(12, 2.6 * len(rows) + 1.7), sharey=True)
     hand = data["grips"][table["grip"][0]][1]
     heading(figure, "How stiff a flat wall may be", "Stiffness that a simulated Touch is pressed into with 1 N, "
             "held loosely; each cell is a run of 1.25 s, judged by its signals", 0.07)
@@ -102,7 +103,7 @@ def draw_stability(data, folder):
              Line2D([], [], color=INK, lw=1.3, ls=HELD, label=f"with the hand's {hand:g} N s/m"),
              Line2D([], [], color=INK, lw=1.3, ls=QUANTUM, label="2 fc/\N{GREEK CAPITAL LETTER DELTA}: dry friction holds "
                     "what a quantum shakes")]
-    legend(figure, lines, 0.06)
+    legend(figure, table, lines, 0.06)
     height = figure.get_figheight()
     figure.subplots_adjust(left=0.07, right=0.985, top=1 - 1.05 / height, bottom=1.12 / height, hspace=0.28, wspace=0.07)
     return figure
@@ -127,13 +128,13 @@ def draw_methods(data, folder, amplitudes):
                 low, high = ax.get_ylim()
                 ax.plot(fine, (b + fc / fine + data["grips"][grip][1]) / (1e-3 * (0.5 + delay)), color=INK, lw=1.1)
                 ax.set_ylim(low, high)
-            ticks(ax, "x", [0.01, 0.03, 0.1, 0.3])
+            ticks(ax, "x", [0.01, 0.03, 0.1, 0.25])
             ticks(ax, "y", [0.02, 0.1, 0.5, 2] if amplitudes else [100, 300, 1000, 3000])
             ax.tick_params(labelsize=7.5, labelleft=j == 0)
             if i == 0:
                 ax.set_title(protections, fontsize=9, color=GREY, pad=3)
             if i == len(rows) - 1:
-                ax.set_xticklabels(["10", "30", "100", "300"])
+                ax.set_xticklabels(["10", "30", "100", "250"])
         row[0].set_ylabel(f"{label}, {grip}\n{'A (mm)' if amplitudes else 'K (N/m)'}", fontsize=9)
     height = figure.get_figheight()
     left = 0.95 / figure.get_figwidth()
@@ -146,13 +147,13 @@ def draw_methods(data, folder, amplitudes):
     lines = [] if amplitudes else [
         Line2D([], [], color=INK, lw=1.1, label="(b + fc/v + hand's)/(T/2 + td): a device that slides"),
         Line2D([], [], color=INK, lw=1, ls=QUANTUM, label="the stiffest wall that its maker promises")]
-    legend(figure, lines, 0.04)
+    legend(figure, table, lines, 0.04)
     return figure, left
 
 
 def draw_stiffnesses(data, folder):
     figure, left = draw_methods(data, folder, False)
-    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, pressed with 1 N at 1 kHz; "
+    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, pressed with 1 N at 1 kHz, judged after 2.25 s; "
             "raw beside the default protections", left)
     return figure
 

@@ -35,7 +35,6 @@ void lab_case_init(lab_case *c) {
                                .seconds = 0.75,
                                .press = 1.0,
                                .approach = 0.05,
-                               .reach = 0.04,
                                .stiffness = 400.0,
                                .period = 0.002,
                                .method = KNURL_S2,
@@ -105,7 +104,7 @@ static knurl_stroke_desc stroke_of(const lab_case *c) {
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = c->speed > 0.0 ? KNURL_STROKE_LINE : KNURL_STROKE_REST;
     stroke.speed = c->speed;
-    stroke.reach[0] = c->reach;
+    stroke.reach[0] = 1.0; /* no run comes to the turn */
     if (c->approach > 0.0 && depth > 0.0) {
         stroke.centre[1] = fmax(0.0, way_down(depth, c->approach) - depth - HOVER);
     }
@@ -120,7 +119,7 @@ static knurl_result open_device(const lab_case *c, double rate, const char *more
     const char *first = strncmp(c->device, "preset=", 7) == 0 ? c->device : "preset=touch";
     const size_t length = strcspn(first, "&");
     (void)snprintf(uri, sizeof uri,
-                   "fake:?%.*s&tremor=0&exact=1&hand_stiffness=%.15g&hand_damping=%.15g&hand_mass=%.15g%s%s%s",
+                   "fake:?%.*s&width=4&tremor=0&exact=1&hand_stiffness=%.15g&hand_damping=%.15g&hand_mass=%.15g%s%s%s",
                    (int)length, first, grip->stiffness, grip->damping, grip->mass, first == c->device ? "" : "&",
                    first == c->device ? first + length : c->device, more);
     knurl_result result = knurl_device_open(uri, device);
@@ -145,8 +144,8 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     knurl_workspace_init(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     desc.max_surfaces = 1;
-    plane.half_extents[0] = 1.0;
-    plane.half_extents[1] = 1.0;
+    plane.half_extents[0] = 2.0;
+    plane.half_extents[1] = 2.0;
     memcpy(surface.rotation, up, sizeof up);
     material.stiffness = c->stiffness;
     material.damping = c->damping;

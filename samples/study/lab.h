@@ -24,15 +24,16 @@ const lab_grip *lab_grip_named(const char *name);
 
 /** What is run. lab_case_init() fills in the defaults. */
 typedef struct lab_case {
-    const char *device;   /**< what follows "fake:?"; default "preset=touch". The tremor is off unless it is named */
+    const char *device;   /**< what follows "fake:?"; default "preset=touch". The tremor is off and the
+                               workspace 4 m wide unless they are named */
     const lab_grip *grip; /**< default "light" */
     double rate;          /**< Hz; default 1000 */
-    double settle;        /**< s after the hand has come down, before anything is judged; default 0.25 */
+    double settle;        /**< s after the hand has come down, before anything is judged; default 0.25. S2 plays the
+                               event that it begins near rest to its end: up to 2 s on 2 mm */
     double seconds;       /**< that are judged; default 0.75 */
     double press;         /**< N that the hand presses with at rest; default 1 */
     double approach;      /**< m/s at which the hand crosses the surface; default 0.05; 0: it starts 5 mm above */
     double speed;         /**< m/s along the surface; 0 (default): on the spot */
-    double reach;         /**< m either side of the middle of a stroke; default 0.04 */
     double stiffness;     /**< K: N/m; default 400 */
     double damping;       /**< B: N s/m; default 0 */
     double amplitude;     /**< A: m; default 0: a flat wall */

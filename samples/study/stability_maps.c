@@ -11,6 +11,9 @@ const stability_method stability_methods[] = {{"flat", KNURL_METHOD_DEFAULT, 0},
                                               {NULL, 0, 0}};
 
 #define TEXTURE_A 0.0002 /* m: in the maps of stiffness */
+#define FREEZE    2.25   /* s: S2 has ended the event that it began near rest, at KNURL_S2_DEADBAND on 2 mm at worst */
+#define SPEEDS    8
+#define LEVELS    11
 
 /* The bounds' figure: a flat wall against what its theory knows. */
 static const struct {
@@ -21,6 +24,7 @@ static const struct {
     const char *device, *label;
     uint32_t unguarded;
 } plants[] = {{"preset=touch&coulomb=0", "Touch without dry friction", KNURL_UNGUARDED_ALL},
+              {"preset=touch&coulomb=0", "Touch without dry friction", 0},
               {"preset=touch", "Touch", KNURL_UNGUARDED_ALL},
               {"preset=touch", "Touch", 0}};
 
@@ -109,19 +113,19 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
     } else if (strcmp(map->name, "rate") == 0) {
         cell->x = c->rate = floor(geometric(250.0, 10000.0, column, STABILITY_COLUMNS) + 0.5);
     } else {
-        cell->x = c->speed = geometric(0.01, 0.3, column, 9);
-        cell->y = geometric(100.0, 2.0 * limits->max_stiffness, row, 12);
+        cell->x = c->speed = geometric(0.01, 0.25, column, SPEEDS);
+        c->settle = FREEZE;
+        cell->y = geometric(100.0, 2.0 * limits->max_stiffness, row, LEVELS);
     }
     (void)snprintf(device, 160, map->device, value);
     c->device = device;
     c->grip = lab_grip_named(map->grip);
     c->unguarded = map->unguarded;
-    c->reach = 0.03;
     c->method = method->method;
     c->amplitude = method->texture ? TEXTURE_A : 0.0;
     if (strcmp(map->figure, "stability_amplitudes") == 0) {
         c->stiffness = 0.5 * limits->max_stiffness;
-        cell->y = c->amplitude = geometric(2e-5, limits->max_force / c->stiffness, row, 12);
+        cell->y = c->amplitude = geometric(2e-5, limits->max_force / c->stiffness, row, LEVELS);
     } else {
         c->stiffness = cell->y;
     }
@@ -130,8 +134,8 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
 size_t stability_map_run(const stability_map *map, lab_signals *signals,
                          stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS]) {
     const int speeds = strcmp(map->name, "speed") == 0;
-    const size_t columns = speeds ? 9 : STABILITY_COLUMNS;
-    const size_t rows = speeds ? 12 : STABILITY_ROWS;
+    const size_t columns = speeds ? SPEEDS : STABILITY_COLUMNS;
+    const size_t rows = speeds ? LEVELS : STABILITY_ROWS;
     knurl_device_info limits;
     knurl_device *device;
     char uri[64];

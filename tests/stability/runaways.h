@@ -15,11 +15,11 @@ typedef struct runaway {
 
 static const runaway runaways[] = {
     {"preset=falcon", "loose", KNURL_METHOD_DEFAULT, 3000.0, 0.0, 0.2},
-    {"preset=falcon", "loose", KNURL_METHOD_DEFAULT, 3000.0, 0.0, 0.3},
-    {"preset=falcon", "light", KNURL_METHOD_DEFAULT, 3000.0, 0.0, 0.3},
-    {"preset=falcon", "loose", KNURL_S1, 3000.0, 0.0002, 0.3},
-    {"preset=falcon", "loose", KNURL_S2, 3000.0, 0.0002, 0.3},
-    {"preset=falcon", "loose", KNURL_LOCKED, 3000.0, 0.0002, 0.3},
+    {"preset=falcon", "loose", KNURL_METHOD_DEFAULT, 3000.0, 0.0, 0.25},
+    {"preset=falcon", "light", KNURL_METHOD_DEFAULT, 3000.0, 0.0, 0.25},
+    {"preset=falcon", "loose", KNURL_S1, 3000.0, 0.0002, 0.25},
+    {"preset=falcon", "loose", KNURL_S2, 3000.0, 0.0002, 0.25},
+    {"preset=falcon", "loose", KNURL_LOCKED, 3000.0, 0.0002, 0.25},
     {"preset=touch&coulomb=0", "loose", KNURL_METHOD_DEFAULT, 1020.0, 0.0, 0.0},
     {"preset=touch&coulomb=0", "loose", KNURL_S1, 1020.0, 0.0002, 0.1},
     {"preset=touch&coulomb=0", "loose", KNURL_S2, 1020.0, 0.0002, 0.1},
@@ -35,7 +35,7 @@ static inline lab_case runaway_case(const runaway *r, uint32_t unguarded) {
     c.stiffness = r->stiffness;
     c.amplitude = r->amplitude;
     c.speed = r->speed;
-    c.reach = 0.03;
+    c.settle = 2.25; /* S2 has ended its first event */
     c.unguarded = unguarded;
     return c;
 }

@@ -53,8 +53,7 @@ TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
         lab_case c;
         lab_case_init(&c);
         c.speed = speeds[i];
-        c.reach = 0.5; /* no turn; a line is steady near its middle */
-        c.device = "preset=ideal&viscous=0.5&width=2";
+        c.device = "preset=ideal&viscous=0.5";
         c.amplitude = 0.0001;
         c.method = KNURL_S1;
         const lab_result r = run(&c);
@@ -72,6 +71,25 @@ TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
     }
 }
 
+/* A force that is held over its steps of 1/4000 s would undo K/8000 of damping: more than there is. */
+TEST(the_reference_swings_as_a_spring_that_is_never_held) {
+    const double decay = 0.2 / (2.0 * 0.045);
+    const double w = sqrt(2000.0 / 0.045 - decay * decay);
+    lab_case c;
+    lab_case_init(&c);
+    c.device = "preset=ideal&viscous=0.2";
+    c.grip = lab_grip_named("none");
+    c.bilateral = 1;
+    c.approach = 0.0;
+    c.stiffness = 2000.0;
+    (void)run(&c);
+    for (size_t i = 0; i < signals.count; i++) {
+        const double t = (double)i / c.rate;
+        const double size = 0.005 * exp(-decay * t);
+        CHECK_CLOSE(signals.reference[i], size * (cos(w * t) + decay / w * sin(w * t)), 0.05 * size);
+    }
+}
+
 TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
     static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
@@ -80,6 +98,7 @@ TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
         c.method = methods[i];
         c.amplitude = 0.0002;
         c.speed = 0.1;
+        c.settle = 2.25; /* S2 has ended its first event */
         const lab_result r = run(&c);
         check_outcome(&r, LAB_VIBRATION);
         assert_true(r.asked > 1.0 && r.felt > 1.0 && r.activity < 0.5 * r.asked);
@@ -120,6 +139,7 @@ TEST(a_runaway_grows_out_of_the_motors_work) {
     const lab_result r = run(&c);
     check_outcome(&r, LAB_UNSTABLE);
     assert_true(r.bangs > 20.0 && r.unauthorised > 1e-3);
+    assert_true(r.reference_bangs < 1.0 && r.reference_swing < 1e-4); /* which has no delay */
     CHECK_CLOSE(r.force_max, 3.3, 1e-9);
 }
 
@@ -202,6 +222,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wall_below_every_bound_rests_and_gives_nothing_back),
         cmocka_unit_test(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper),
+        cmocka_unit_test(the_reference_swings_as_a_spring_that_is_never_held),
         cmocka_unit_test(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method),
         cmocka_unit_test(a_grating_that_is_too_shallow_to_be_felt_is_a_rest),
         cmocka_unit_test(a_quantised_device_without_dry_friction_buzzes_below_its_runaway),
