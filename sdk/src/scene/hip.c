@@ -26,7 +26,7 @@ static double above_zero(double given, double device) {
 }
 
 static double from_zero(double given, double device) {
-    return given >= 0.0 ? given : device;
+    return given < 0.0 ? device : given; /* NaN is refused later */
 }
 
 /* What the description says counts, then what the device says. */
