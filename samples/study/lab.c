@@ -15,12 +15,9 @@
  * damping grow steadily with the force of the grip and the mass does not (Hasser and Cutkosky 2002: abstract read); a
  * stylus in a hand at the wrist is in between (Kuchenbecker, Park and Niemeyer 2003); a firm one takes hand and forearm
  * along (Speich, Shao and Goldfarb 2005; a whole arm: 0.55 kg, 6.5 N s/m and 135 N/m in one subject, van Beek et al.
- * 2015: figure read). */
-const lab_grip lab_grips[] = {{"none", 0.0, 0.0, 0.0},
-                              {"light", 250.0, 2.0, 0.01},
-                              {"medium", 700.0, 5.0, 0.05},
-                              {"firm", 2000.0, 15.0, 0.15},
-                              {NULL, 0.0, 0.0, 0.0}};
+ * 2015: figure read). "loose" is assumed: two fingers that only just hold on. */
+const lab_grip lab_grips[] = {{"none", 0.0, 0.0, 0.0},      {"loose", 100.0, 0.5, 0.005}, {"light", 250.0, 2.0, 0.01},
+                              {"medium", 700.0, 5.0, 0.05}, {"firm", 2000.0, 15.0, 0.15}, {NULL, 0.0, 0.0, 0.0}};
 
 const lab_grip *lab_grip_named(const char *name) {
     const lab_grip *grip = lab_grips;
@@ -32,7 +29,7 @@ const lab_grip *lab_grip_named(const char *name) {
 
 void lab_case_init(lab_case *c) {
     const lab_case defaults = {.device = "preset=touch",
-                               .grip = &lab_grips[1],
+                               .grip = &lab_grips[2],
                                .rate = 1000.0,
                                .settle = 0.25,
                                .seconds = 0.75,

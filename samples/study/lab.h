@@ -16,7 +16,7 @@ typedef struct lab_grip {
     double mass;      /**< kg */
 } lab_grip;
 
-/** "none", "light", "medium", "firm", ended by a null name (lab.c says where from). */
+/** "none", "loose", "light", "medium", "firm", ended by a null name (lab.c says where from). */
 extern const lab_grip lab_grips[];
 
 /** Null: there is none of that name. */
@@ -24,23 +24,23 @@ const lab_grip *lab_grip_named(const char *name);
 
 /** What is run. lab_case_init() fills in the defaults. */
 typedef struct lab_case {
-    const char *device; /**< what follows "fake:?"; default "preset=touch". The tremor is off unless it is named */
+    const char *device;   /**< what follows "fake:?"; default "preset=touch". The tremor is off unless it is named */
     const lab_grip *grip; /**< default "light" */
-    double rate;        /**< Hz; default 1000 */
+    double rate;          /**< Hz; default 1000 */
     double settle;        /**< s after the hand has come down, before anything is judged; default 0.25 */
     double seconds;       /**< that are judged; default 0.75 */
-    double press;       /**< N that the hand presses with at rest; default 1 */
-    double approach;    /**< m/s at which the hand crosses the surface; default 0.05; 0: it starts 5 mm above */
-    double speed;       /**< m/s along the surface; 0 (default): on the spot */
-    double reach;       /**< m either side of the middle of a stroke; default 0.04 */
-    double stiffness;   /**< K: N/m; default 400 */
-    double damping;     /**< B: N s/m; default 0 */
-    double amplitude;   /**< A: m; default 0: a flat wall */
-    double period;      /**< m; default 0.002 */
-    int32_t method;     /**< KNURL_S1, ... */
-    uint32_t unguarded; /**< KNURL_UNGUARDED_; default all: raw */
-    int32_t bilateral;  /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
-    int32_t reserved;   /**< 0 */
+    double press;         /**< N that the hand presses with at rest; default 1 */
+    double approach;      /**< m/s at which the hand crosses the surface; default 0.05; 0: it starts 5 mm above */
+    double speed;         /**< m/s along the surface; 0 (default): on the spot */
+    double reach;         /**< m either side of the middle of a stroke; default 0.04 */
+    double stiffness;     /**< K: N/m; default 400 */
+    double damping;       /**< B: N s/m; default 0 */
+    double amplitude;     /**< A: m; default 0: a flat wall */
+    double period;        /**< m; default 0.002 */
+    int32_t method;       /**< KNURL_S1, ... */
+    uint32_t unguarded;   /**< KNURL_UNGUARDED_; default all: raw */
+    int32_t bilateral;    /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
+    int32_t reserved;     /**< 0 */
 } lab_case;
 
 /** What was recorded, a value a tick. Zero it first; the arrays are reused from run to run; lab_signals_free(). */
@@ -74,6 +74,7 @@ typedef struct lab_result {
     double activity_force;   /**< N rms: what acted, 20 to 500 Hz, beyond the reference */
     double activity_motion;  /**< m rms: the same of the position */
     double activity;         /**< the motion's, in detection thresholds (lab_threshold()), root of sum of squares */
+    double felt;             /**< all of the motion, in detection thresholds */
     double asked;            /**< the reference's motion, in detection thresholds */
     double bangs;            /**< swings between the force limit and no contact, while judged */
     double reference_bangs;  /**< the same of the reference */

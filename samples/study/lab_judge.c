@@ -88,11 +88,13 @@ static int activities(const lab_signals *s, double rate, lab_result *r) {
         r->activity_motion += beyond(motion, band);
         r->activity_force += beyond(force, band);
         r->activity += beyond(motion, band) / (least * least);
+        r->felt += motion[0][band] / (least * least);
         r->asked += motion[1][band] / (least * least);
     }
     r->activity_motion = sqrt(r->activity_motion);
     r->activity_force = sqrt(r->activity_force);
     r->activity = sqrt(r->activity);
+    r->felt = sqrt(r->felt);
     r->asked = sqrt(r->asked);
     return 0;
 }
@@ -155,18 +157,18 @@ void lab_energies(const lab_case *c, const lab_signals *s, lab_result *r) {
     }
 }
 
-static int decide(const lab_result *r) {
-    const double all = hypot(r->asked, r->activity);
-    const int felt = r->activity > 1.0 && all > MASKED * r->asked;
-    if (!isfinite(r->activity) || r->bangs > 2.0 * r->reference_bangs + BANGS_FEW ||
-        r->swing > 2.0 * r->reference_swing + SWING_SMALL ||
-        (felt && r->growth > GROWTH_STEADY * fmax(1.0, r->reference_growth))) {
+static int decide(const lab_case *c, const lab_result *r) {
+    const int beyond_asked = r->activity > 1.0 && hypot(r->asked, r->activity) > MASKED * r->asked;
+    const int wide = r->swing > 2.0 * r->reference_swing + SWING_SMALL;
+    const int bangs = r->bangs > 2.0 * r->reference_bangs + BANGS_FEW && r->swing > 1.5 * r->reference_swing;
+    const int grows = beyond_asked && r->growth > GROWTH_STEADY * fmax(1.0, r->reference_growth);
+    if (!isfinite(r->activity) || wide || bangs || grows) {
         return LAB_UNSTABLE;
     }
-    if (felt) {
+    if (beyond_asked) {
         return LAB_LIMIT_CYCLE;
     }
-    return all > 1.0 ? LAB_VIBRATION : LAB_REST;
+    return c->amplitude > 0.0 && r->felt > 1.0 ? LAB_VIBRATION : LAB_REST;
 }
 
 int lab_judge(const lab_case *c, const lab_signals *s, double max_force, lab_result *r) {
@@ -185,6 +187,6 @@ int lab_judge(const lab_case *c, const lab_signals *s, double max_force, lab_res
     if (activities(s, c->rate, r)) {
         return 1;
     }
-    r->outcome = decide(r);
+    r->outcome = decide(c, r);
     return 0;
 }

@@ -24,8 +24,8 @@ double stability_exact(const stability_loop *loop);
 /** N/m: where a release from 5 mm neither grows nor dies in the laboratory. Negative: with the library's message. */
 double stability_found(const stability_loop *loop, lab_signals *signals);
 
-/** N/m: where a sampled wall on a damper b gives a hand that moves it to and fro at `hz` just as much as b takes: in the
- * laboratory, by the works of motor and hand. Negative: with the library's message. */
+/** N/m: where a sampled wall on a damper b gives a hand that moves it to and fro at `hz` just as much as b takes: in
+ * the laboratory, by the works of motor and hand. Negative: with the library's message. */
 double stability_passive_found(const stability_loop *loop, double hz);
 
 /** One point of the regions of a quantised wall on a device with dry friction (Diolaiti et al. 2006): beta = b/(K T),
@@ -38,19 +38,62 @@ int stability_region_run(double beta, double sigma, lab_signals *signals, lab_re
  * LAB_REST. */
 int stability_region_expected(double beta, double sigma);
 
+/** N/m: (b + fc/v + hand's b)/(T/2 + td): dry friction of a device that slides at v acts across the way like a damper.
+ */
+double stability_sliding_bound(const knurl_device_info *device, const lab_grip *grip, double speed, double rate);
+
 /** N/m: up to where a device stays clean (no limit cycle, nothing unstable): scanned in steps of 5 %. */
 double stability_clean_found(const lab_case *c, lab_signals *signals);
 
 /** One line of the table of checks. */
 typedef struct stability_check {
     char what[96];
-    double expected, found; /**< N/m, or LAB_ outcomes */
-    double tolerance;       /**< of `found` against `expected`, a share */
+    const char *unit;       /**< "N/m", "J" or "outcome": LAB_ */
+    double expected, found; /**< by theory, by the laboratory */
+    double tolerance;       /**< of `found` against `expected`, a share of it; INFINITY: `found` is no less */
 } stability_check;
 
-#define STABILITY_CHECKS 64
+#define STABILITY_CHECKS 80
 
 /** All of them; how many, or 0 with the library's message. */
 size_t stability_checks(stability_check checks[STABILITY_CHECKS]);
+
+/** 1: found is within the tolerance of what was expected. */
+int stability_holds(const stability_check *check);
+
+/** A way to render, a row of every map of methods. To add a method, add a row. */
+typedef struct stability_method {
+    const char *name;
+    int32_t method;  /**< KNURL_ */
+    int32_t texture; /**< 0: a flat wall */
+} stability_method;
+
+extern const stability_method stability_methods[]; /**< ended by a null name */
+
+/** One map: outcomes over an axis and stiffness or amplitude, for one device in one hand. */
+typedef struct stability_map {
+    const char *figure; /**< which picture, and which pair of files, it belongs to */
+    const char *name;   /**< what varies along x: "damping", "wall damping", "delay", "rate" or "speed" */
+    const char *device; /**< as lab_case.device; "%s" in it: where damping or delay come in */
+    const char *label;  /**< for people */
+    const char *grip;
+    int32_t method; /**< of stability_methods */
+    uint32_t unguarded;
+} stability_map;
+
+typedef struct stability_cell {
+    double x, y; /**< x by the map's name: N s/m, ticks, Hz, m/s; y: N/m, or m in the figure of amplitudes */
+    lab_result result;
+} stability_cell;
+
+#define STABILITY_COLUMNS 12
+#define STABILITY_ROWS    18
+
+/** A figure's maps, one after the other; `index` counts from 0. 0: there are no more. */
+int stability_map_at(const char *figure, size_t index, stability_map *map);
+
+/** Runs a map; how many cells, or 0 with the library's message. */
+size_t stability_map_run(const stability_map *map, lab_signals *signals,
+                         stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS]);
 
 #endif

@@ -17,6 +17,7 @@ const study studies[] = {
     {"tradeoff", "cost against accuracy, each method at each rate", study_tradeoff},
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},
+    {"stability", "where walls and gratings run away or buzz: checks against theory, and maps", study_stability},
     {NULL, NULL, NULL}};
 
 int study_open(out_file *file, const char *folder, const char *name) {

@@ -26,6 +26,7 @@ int study_preferences(const char *folder); /* figure 8 and Experiment 3 */
 int study_tradeoff(const char *folder);    /* cost against accuracy */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
 int study_failures(const char *folder);    /* where methods fail; writes failures.md too */
+int study_stability(const char *folder);   /* where walls and gratings run away; prints its checks */
 
 /** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
  * why. */

@@ -1,0 +1,158 @@
+/* knurl study stability: the checks, the maps, their files. SPDX-License-Identifier: MIT */
+#include "stability.h"
+
+#include "json_out.h"
+#include "study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_MAPS 64
+#define CELLS    (STABILITY_COLUMNS * STABILITY_ROWS)
+
+static const char *const figures[] = {"stability", "stability_methods", "stability_amplitudes"};
+
+#define FIGURES (sizeof figures / sizeof *figures)
+
+/* One figure's maps, all cells of them. */
+typedef struct chart {
+    const char *figure;
+    size_t maps;
+    stability_map map[MAX_MAPS];
+    char device[MAX_MAPS][64];
+    size_t cells[MAX_MAPS];
+    stability_cell cell[MAX_MAPS][CELLS];
+    const stability_check *checks;
+    size_t check_count;
+} chart;
+
+static void write_cell(FILE *csv, const stability_map *map, const stability_cell *cell) {
+    const lab_result *r = &cell->result;
+    const double values[] = {
+        cell->x, cell->y,  r->energy, r->unauthorised, r->activity_force, r->activity_motion, r->activity,
+        r->felt, r->asked, r->bangs,  r->swing,        r->force_max,      r->guarded_ticks};
+    fprintf(csv, "%s,%s,%s,%s,%s,%s", map->name, map->label, map->grip, stability_methods[map->method].name,
+            map->unguarded ? "raw" : "protected", lab_outcome_name(r->outcome));
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        fputs(",", csv);
+        out_number(csv, values[i]);
+    }
+    fputs("\n", csv);
+}
+
+static int write_chart(FILE *csv, FILE *json, void *user) {
+    const chart *c = user;
+    fputs("map,label,grip,method,protections,outcome,x,y,energy_j,unauthorised_j,activity_n,activity_m,"
+          "activity_thresholds,felt_thresholds,asked_thresholds,bangs,swing_m,force_max_n,guarded_ticks\n",
+          csv);
+    for (size_t m = 0; m < c->maps; m++) {
+        for (size_t i = 0; i < c->cells[m]; i++) {
+            write_cell(csv, &c->map[m], &c->cell[m][i]);
+        }
+    }
+    fputs("{", json);
+    fprintf(json, "\"table\": \"%s.csv\",\n\"grips\": {", c->figure);
+    for (const lab_grip *g = lab_grips; g->name; g++) {
+        fprintf(json, "%s\"%s\": [%g, %g, %g]", g == lab_grips ? "" : ", ", g->name, g->stiffness, g->damping, g->mass);
+    }
+    fputs("},\n\"checks\": [", json);
+    for (size_t i = 0; i < c->check_count; i++) {
+        const stability_check *k = &c->checks[i];
+        fprintf(json, "%s\n{\"what\": \"%s\", \"unit\": \"%s\", \"expected\": ", i > 0 ? "," : "", k->what, k->unit);
+        study_json_number(json, k->expected);
+        fputs(", \"found\": ", json);
+        study_json_number(json, k->found);
+        fprintf(json, ", \"holds\": %d}", stability_holds(k));
+    }
+    fputs("]}\n", json);
+    return 0;
+}
+
+static void print_checks(const stability_check *checks, size_t count) {
+    printf("| check | expected | found | |\n|---|---|---|---|\n");
+    for (size_t i = 0; i < count; i++) {
+        const stability_check *k = &checks[i];
+        if (strcmp(k->unit, "outcome") == 0) {
+            printf("| %s | %s | %s | %s |\n", k->what, lab_outcome_name((int)k->expected),
+                   lab_outcome_name((int)k->found), stability_holds(k) ? "" : "DIFFERS");
+        } else {
+            printf("| %s | %s%.5g %s | %.5g", k->what, isinf(k->tolerance) ? "at least " : "", k->expected, k->unit,
+                   k->found);
+            if (!isinf(k->tolerance)) {
+                printf(" (%+.2f %%)", 100.0 * (k->found / k->expected - 1.0));
+            }
+            printf(" | %s |\n", stability_holds(k) ? "" : "DIFFERS");
+        }
+    }
+}
+
+/* What runs away below the maker's stiffness and within the motors' force. */
+static void print_runaways(const chart *c) {
+    const double limits[][2] = {{1020.0, 3000.0}, {1.0, 1.0}}; /* an amplitude's map ends where the force does */
+    const int amplitudes = strcmp(c->figure, "stability_amplitudes") == 0;
+    printf("\n%s: cells that run away or buzz within the device's own limits, of those that lie within them\n\n"
+           "| device, grip | protections | method | runs away | buzzes | of |\n|---|---|---|---|---|---|\n",
+           amplitudes ? "Amplitude against speed" : "Stiffness against speed");
+    for (size_t m = 0; m < c->maps; m++) {
+        const stability_map *map = &c->map[m];
+        int counts[4] = {0};
+        int all = 0;
+        for (size_t i = 0; i < c->cells[m]; i++) {
+            const int within = c->cell[m][i].y <= limits[amplitudes][strcmp(map->label, "Falcon") == 0] * 1.001;
+            all += within;
+            counts[c->cell[m][i].result.outcome] += within;
+        }
+        printf("| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->unguarded ? "raw" : "protected",
+               stability_methods[map->method].name, counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
+    }
+}
+
+static int run_chart(chart *c, size_t figure, lab_signals *signals) {
+    c->figure = figures[figure];
+    c->maps = 0;
+    size_t count = 0;
+    while (count < MAX_MAPS && stability_map_at(c->figure, count, &c->map[count])) {
+        (void)snprintf(c->device[count], sizeof c->device[count], "%s", c->map[count].device);
+        c->map[count].device = c->device[count];
+        count++;
+    }
+    for (size_t m = 0; m < count; m++) {
+        study_progress(c->figure, (double)m / (double)count);
+        c->cells[m] = stability_map_run(&c->map[m], signals, c->cell[m]);
+        if (c->cells[m] == 0) {
+            return 1;
+        }
+    }
+    study_progress(c->figure, 1.0);
+    c->maps = count;
+    return 0;
+}
+
+int study_stability(const char *folder) {
+    static stability_check checks[STABILITY_CHECKS];
+    lab_signals signals = {0};
+    chart *c = calloc(1, sizeof *c);
+    const size_t check_count = c ? stability_checks(checks) : 0;
+    int failed = check_count == 0;
+    if (c && !failed) {
+        print_checks(checks, check_count);
+        c->checks = checks;
+        c->check_count = check_count;
+    }
+    for (size_t figure = 0; figure < FIGURES && !failed; figure++) {
+        failed = run_chart(c, figure, &signals);
+        if (!failed && study_write(folder, figures[figure], write_chart, c)) {
+            break; /* it has said why */
+        }
+        if (!failed && figure > 0) {
+            print_runaways(c);
+        }
+    }
+    if (failed) {
+        fprintf(stderr, "knurl: study: stability: %s\n", c ? knurl_error_message() : "no memory");
+    }
+    lab_signals_free(&signals);
+    free(c);
+    return failed;
+}

@@ -1,0 +1,154 @@
+/* The laboratory's maps. SPDX-License-Identifier: MIT */
+#include "stability.h"
+
+#include <math.h>
+#include <string.h>
+
+const stability_method stability_methods[] = {{"flat", KNURL_METHOD_DEFAULT, 0},
+                                              {"S1", KNURL_S1, 1},
+                                              {"S2", KNURL_S2, 1},
+                                              {"locked", KNURL_LOCKED, 1},
+                                              {NULL, 0, 0}};
+
+#define TEXTURE_A 0.0002 /* m: in the maps of stiffness */
+
+/* The bounds' figure: a flat wall against what its theory knows. */
+static const struct {
+    const char *name, *device;
+} bounds[] = {{"damping", "&viscous=%s"}, {"wall damping", "%s"}, {"delay", "&delay=%s"}, {"rate", "%s"}};
+
+static const struct {
+    const char *device, *label;
+    uint32_t unguarded;
+} plants[] = {{"preset=touch&coulomb=0", "Touch without dry friction", KNURL_UNGUARDED_ALL},
+              {"preset=touch", "Touch", KNURL_UNGUARDED_ALL},
+              {"preset=touch", "Touch", 0}};
+
+static const char *const devices[][2] = {{"preset=touch", "Touch"}, {"preset=falcon", "Falcon"}};
+static const char *const grips[] = {"loose", "light", "firm"};
+static const uint32_t guards[] = {KNURL_UNGUARDED_ALL, 0};
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static int bounds_at(size_t index, stability_map *map) {
+    static char device[64];
+    if (index >= COUNT(bounds) * COUNT(plants)) {
+        return 0;
+    }
+    const size_t axis = index % COUNT(bounds);
+    const size_t plant = index / COUNT(bounds);
+    (void)snprintf(device, sizeof device, "%s%s", plants[plant].device, bounds[axis].device);
+    map->figure = "stability";
+    map->name = bounds[axis].name;
+    map->device = device;
+    map->label = plants[plant].label;
+    map->grip = "loose";
+    map->method = 0;
+    map->unguarded = plants[plant].unguarded;
+    return 1;
+}
+
+/* Methods that this library has; the others' rows are left out. */
+static int32_t available(size_t index) {
+    for (int32_t i = 0; stability_methods[i].name; i++) {
+        knurl_grating g = {.spatial_frequency = {1000.0, 0.0},
+                           .amplitude = 1e-4,
+                           .update_rate_hz = 1000.0,
+                           .method = stability_methods[i].method};
+        if (stability_methods[i].texture && knurl_grating_check(&g) != KNURL_OK) {
+            continue;
+        }
+        if (index-- == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+int stability_map_at(const char *figure, size_t index, stability_map *map) {
+    const int amplitudes = strcmp(figure, "stability_amplitudes") == 0;
+    memset(map, 0, sizeof *map);
+    if (strcmp(figure, "stability") == 0) {
+        return bounds_at(index, map);
+    }
+    const size_t rows = COUNT(devices) * COUNT(grips) * COUNT(guards);
+    const int32_t method = available(index / rows + (amplitudes ? 1 : 0)); /* a flat wall has no amplitude */
+    if (method < 0) {
+        return 0;
+    }
+    const size_t row = index % rows;
+    map->figure = figure;
+    map->name = "speed";
+    map->device = devices[row / (COUNT(grips) * COUNT(guards))][0];
+    map->label = devices[row / (COUNT(grips) * COUNT(guards))][1];
+    map->grip = grips[row / COUNT(guards) % COUNT(grips)];
+    map->unguarded = guards[row % COUNT(guards)];
+    map->method = method;
+    return 1;
+}
+
+static double geometric(double from, double to, size_t i, size_t count) {
+    return from * pow(to / from, (double)i / (double)(count - 1));
+}
+
+/* Sets what varies: x along the map's axis, y the stiffness or the amplitude. device: room for the URI. */
+static void place(const stability_map *map, const knurl_device_info *limits, size_t column, size_t row,
+                  char device[160], lab_case *c, stability_cell *cell) {
+    const stability_method *method = &stability_methods[map->method];
+    char value[32] = "";
+    lab_case_init(c);
+    cell->y = geometric(100.0, 10000.0, row, STABILITY_ROWS);
+    if (strcmp(map->name, "damping") == 0) {
+        cell->x = geometric(0.05, 20.0, column, STABILITY_COLUMNS);
+        (void)snprintf(value, sizeof value, "%.15g", cell->x);
+    } else if (strcmp(map->name, "wall damping") == 0) {
+        cell->x = c->damping = geometric(0.1, 20.0, column, STABILITY_COLUMNS);
+    } else if (strcmp(map->name, "delay") == 0) {
+        cell->x = (double)column;
+        (void)snprintf(value, sizeof value, "%d", (int)column);
+    } else if (strcmp(map->name, "rate") == 0) {
+        cell->x = c->rate = floor(geometric(250.0, 10000.0, column, STABILITY_COLUMNS) + 0.5);
+    } else {
+        cell->x = c->speed = geometric(0.01, 0.3, column, 9);
+        cell->y = geometric(100.0, 2.0 * limits->max_stiffness, row, 12);
+    }
+    (void)snprintf(device, 160, map->device, value);
+    c->device = device;
+    c->grip = lab_grip_named(map->grip);
+    c->unguarded = map->unguarded;
+    c->reach = 0.03;
+    c->method = method->method;
+    c->amplitude = method->texture ? TEXTURE_A : 0.0;
+    if (strcmp(map->figure, "stability_amplitudes") == 0) {
+        c->stiffness = 0.5 * limits->max_stiffness;
+        cell->y = c->amplitude = geometric(2e-5, limits->max_force / c->stiffness, row, 12);
+    } else {
+        c->stiffness = cell->y;
+    }
+}
+
+size_t stability_map_run(const stability_map *map, lab_signals *signals,
+                         stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS]) {
+    const int speeds = strcmp(map->name, "speed") == 0;
+    const size_t columns = speeds ? 9 : STABILITY_COLUMNS;
+    const size_t rows = speeds ? 12 : STABILITY_ROWS;
+    knurl_device_info limits;
+    knurl_device *device;
+    char uri[64];
+    knurl_device_info_init(&limits, sizeof limits);
+    (void)snprintf(uri, sizeof uri, "fake:?%s", strncmp(map->device, "preset=falcon", 13) == 0 ? "preset=falcon" : "");
+    if (knurl_device_open(uri, &device)) {
+        return 0;
+    }
+    (void)knurl_device_get_info(device, &limits);
+    knurl_device_close(device);
+    for (size_t i = 0; i < columns * rows; i++) {
+        char room[160];
+        lab_case c;
+        place(map, &limits, i % columns, i / columns, room, &c, &cells[i]);
+        if (lab_run(&c, signals, &cells[i].result)) {
+            return 0;
+        }
+    }
+    return columns * rows;
+}

@@ -1,0 +1,216 @@
+/* What the laboratory makes of walls and gratings: each outcome where theory puts it, and the numbers beside it.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "runaways.h"
+
+#define PI 3.141592653589793
+
+static lab_signals signals;
+
+static lab_result run(const lab_case *c) {
+    lab_result r;
+    memset(&r, 0, sizeof r);
+    if (lab_run(c, &signals, &r)) {
+        fail_msg("%s", knurl_error_message());
+    }
+    return r;
+}
+
+static void check_outcome(const lab_result *r, int expected) {
+    if (r->outcome != expected) {
+        fail_msg("%s instead of %s: activity %g, asked %g, swing %g mm, bangs %g", lab_outcome_name(r->outcome),
+                 lab_outcome_name(expected), r->activity, r->asked, 1e3 * r->swing, r->bangs);
+    }
+}
+
+static int drop_signals(void **state) {
+    (void)state;
+    lab_signals_free(&signals);
+    return 0;
+}
+
+TEST(a_wall_below_every_bound_rests_and_gives_nothing_back) {
+    for (const lab_grip *grip = lab_grip_named("loose"); grip->name; grip++) {
+        lab_case c;
+        lab_case_init(&c);
+        c.grip = grip;
+        c.stiffness = 300.0; /* the Touch alone: 333 N/m */
+        const lab_result r = run(&c);
+        check_outcome(&r, LAB_REST);
+        CHECK_SAME(r.energy, 0.0);
+        CHECK_SAME(r.unauthorised, 0.0);
+        CHECK_SAME(r.bangs, 0.0);
+        /* the hand presses with 1 N against its spring, which gives way by what the wall gives way; dry friction */
+        CHECK_CLOSE(signals.motor[signals.count - 1], 1.0 * 300.0 / (300.0 + grip->stiffness), 0.26 + 300.0 * 55e-6);
+    }
+}
+
+/* The reference is a linear device on a spring: each odd harmonic of the square wave has its closed form. */
+TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
+    static const double speeds[] = {0.1, 0.2, 0.25}; /* 50, 100, 125 Hz: whole and even ticks */
+    for (size_t i = 0; i < COUNT_OF(speeds); i++) {
+        lab_case c;
+        lab_case_init(&c);
+        c.speed = speeds[i];
+        c.reach = 0.5; /* no turn; a line is steady near its middle */
+        c.device = "preset=ideal&viscous=0.5&width=2";
+        c.amplitude = 0.0001;
+        c.method = KNURL_S1;
+        const lab_result r = run(&c);
+        double sum = 0.0;
+        for (int n = 1; n * speeds[i] / c.period < 500.0; n += 2) {
+            const double hz = n * speeds[i] / c.period;
+            const double w = 2.0 * PI * hz;
+            const double force = 4.0 / PI * c.stiffness * c.amplitude / n / sqrt(2.0);
+            const double x = force / hypot(c.stiffness + c.grip->stiffness - (0.045 + c.grip->mass) * w * w,
+                                           w * (0.5 + c.grip->damping));
+            const double band = 20.0 * pow(2.0, floor(3.0 * log2(hz / 20.0) + 0.5) / 3.0);
+            sum += pow(x / lab_threshold(band), 2.0);
+        }
+        CHECK_CLOSE(r.asked, sqrt(sum), 0.05 * sqrt(sum));
+    }
+}
+
+TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+    for (size_t i = 0; i < COUNT_OF(methods); i++) {
+        lab_case c;
+        lab_case_init(&c);
+        c.method = methods[i];
+        c.amplitude = 0.0002;
+        c.speed = 0.1;
+        const lab_result r = run(&c);
+        check_outcome(&r, LAB_VIBRATION);
+        assert_true(r.asked > 1.0 && r.felt > 1.0 && r.activity < 0.5 * r.asked);
+    }
+}
+
+TEST(a_grating_that_is_too_shallow_to_be_felt_is_a_rest) {
+    lab_case c;
+    lab_case_init(&c);
+    c.method = KNURL_S1;
+    c.amplitude = 0.00001;
+    c.speed = 0.1;
+    const lab_result r = run(&c);
+    check_outcome(&r, LAB_REST);
+}
+
+/* 9 quanta push with 0.891 N, 10 with 0.990, and the hand with 0.948 in between: without dry friction it rests nowhere.
+ * At two thirds of what would run away that is a matter of quanta. */
+TEST(a_quantised_device_without_dry_friction_buzzes_below_its_runaway) {
+    lab_case c;
+    lab_case_init(&c);
+    c.device = "preset=touch&coulomb=0";
+    c.rate = 4000.0;
+    c.grip = lab_grip_named("loose");
+    c.stiffness = 1800.0; /* the bound is 1/(1.5 T) = 2667 N/m */
+    c.settle = 2.0;
+    const lab_result r = run(&c);
+    check_outcome(&r, LAB_LIMIT_CYCLE);
+    assert_true(r.swing < 0.5e-3);
+}
+
+TEST(a_runaway_grows_out_of_the_motors_work) {
+    lab_case c;
+    lab_case_init(&c);
+    c.device = "preset=touch&coulomb=0";
+    c.grip = lab_grip_named("loose");
+    c.stiffness = 2000.0; /* three times the bound */
+    const lab_result r = run(&c);
+    check_outcome(&r, LAB_UNSTABLE);
+    assert_true(r.bangs > 20.0 && r.unauthorised > 1e-3);
+    CHECK_CLOSE(r.force_max, 3.3, 1e-9);
+}
+
+/* Stable by the same bound with the delay's ticks taken away, all else being equal. */
+TEST(a_tick_of_delay_decides) {
+    lab_case c;
+    lab_case_init(&c);
+    c.grip = lab_grip_named("loose");
+    c.stiffness = 1000.0; /* 1/(T/2) = 2000, 1/(3 T/2) = 667 N/m */
+    c.settle = 2.0;       /* 1 N s/m less K T/2 leave 5 /s */
+    c.device = "preset=touch&coulomb=0&resolution=0&delay=0";
+    lab_result r = run(&c);
+    check_outcome(&r, LAB_REST);
+    c.device = "preset=touch&coulomb=0&resolution=0&delay=1";
+    r = run(&c);
+    check_outcome(&r, LAB_UNSTABLE);
+}
+
+TEST(the_hand_crosses_the_surface_at_the_speed_that_was_asked_for) {
+    static const double speeds[] = {0.05, 0.1, 0.2};
+    for (size_t i = 0; i < COUNT_OF(speeds); i++) {
+        lab_case c;
+        lab_case_init(&c);
+        c.device = "preset=ideal&height=2";
+        c.grip = lab_grip_named("firm");
+        c.approach = speeds[i];
+        c.press = 5.0;
+        (void)run(&c);
+        size_t at = 1;
+        while (signals.height[at] > 0.0 && at + 1 < signals.count) {
+            at++;
+        }
+        const double speed = (signals.height[at - 1] - signals.height[at]) * c.rate;
+        CHECK_CLOSE(speed, speeds[i], 0.25 * speeds[i]); /* the mass lags behind the target that slows down */
+    }
+}
+
+TEST(a_run_repeats_bit_for_bit) {
+    lab_signals other;
+    lab_case c;
+    lab_result one;
+    lab_result two;
+    memset(&other, 0, sizeof other);
+    memset(&one, 0, sizeof one);
+    memset(&two, 0, sizeof two);
+    lab_case_init(&c);
+    c.speed = 0.1;
+    c.amplitude = 0.0002;
+    one = run(&c);
+    assert_int_equal(lab_run(&c, &other, &two), 0);
+    assert_memory_equal(signals.height, other.height, signals.count * sizeof *other.height);
+    assert_memory_equal(&one, &two, sizeof one);
+    lab_signals_free(&other);
+}
+
+TEST(a_device_or_method_that_is_none_is_refused_with_the_librarys_message) {
+    lab_result r;
+    lab_case c;
+    lab_case_init(&c);
+    c.device = "weight=3";
+    assert_int_equal(lab_run(&c, &signals, &r), 1);
+    check_message("weight");
+    lab_case_init(&c);
+    c.amplitude = 0.001;
+    c.method = 77;
+    assert_int_equal(lab_run(&c, &signals, &r), 1);
+}
+
+TEST(what_runs_away_raw_within_the_devices_own_limits_does_so) {
+    for (size_t i = 0; i < COUNT_OF(runaways); i++) {
+        const lab_case c = runaway_case(&runaways[i], KNURL_UNGUARDED_ALL);
+        const lab_result r = run(&c);
+        if (r.outcome != LAB_UNSTABLE) {
+            fail_msg("row %u: %s", (unsigned)i, lab_outcome_name(r.outcome));
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_wall_below_every_bound_rests_and_gives_nothing_back),
+        cmocka_unit_test(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper),
+        cmocka_unit_test(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method),
+        cmocka_unit_test(a_grating_that_is_too_shallow_to_be_felt_is_a_rest),
+        cmocka_unit_test(a_quantised_device_without_dry_friction_buzzes_below_its_runaway),
+        cmocka_unit_test(a_runaway_grows_out_of_the_motors_work),
+        cmocka_unit_test(a_tick_of_delay_decides),
+        cmocka_unit_test(the_hand_crosses_the_surface_at_the_speed_that_was_asked_for),
+        cmocka_unit_test(a_run_repeats_bit_for_bit),
+        cmocka_unit_test(a_device_or_method_that_is_none_is_refused_with_the_librarys_message),
+        cmocka_unit_test(what_runs_away_raw_within_the_devices_own_limits_does_so),
+    };
+    return cmocka_run_group_tests(tests, NULL, drop_signals);
+}
