@@ -80,17 +80,16 @@ static void check_texture(const inspection *on, double stiffness) {
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     const inspection on = {&hip->guard.bounds, m, surface->name, check};
-    double amplitude;
-    double stiffness;
+    knurl_guard_wall wall;
     memset(check, 0, sizeof *check);
-    knurl_guard_clamp(&hip->guard, m, &stiffness, &amplitude);
+    knurl_guard_clamp(&hip->guard, m, 0.0, &wall);
     check->stiffness = m->stiffness * on.bounds->scale;
     check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);
     check->amplitude = m->amplitude;
-    check->amplitude_limit = knurl_bounds_amplitude(on.bounds, stiffness, m->method);
+    check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
     check_wall(&on);
     if (!surface->record->is_smooth) {
-        check_texture(&on, stiffness);
+        check_texture(&on, wall.stiffness);
     }
 }
 

@@ -20,7 +20,8 @@ typedef struct knurl_hip_facts {
     double max_force;
     double continuous_force;
     double heat_time;
-    double viscous; /* negative: not known */
+    double viscous;
+    double coulomb;
     double delay;
     double max_stiffness;
 } knurl_hip_facts;
@@ -64,12 +65,41 @@ double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int3
 /* From the lowest trough to the highest crest of a method, in amplitudes (paper, "Peaks"). */
 double knurl_swing(int32_t method) KNURL_NONBLOCKING;
 
+/* A wall at one tick, from what was asked for to what is felt. Scene units. */
+typedef struct knurl_guard_wall {
+    double z;         /* m: as it is */
+    double felt;      /* m: as it is felt */
+    double stiffness; /* N/m, as felt */
+    double amplitude; /* m, as felt */
+    double damping;   /* N s/m */
+} knurl_guard_wall;
+
 /* Of one contact. */
 typedef struct knurl_guard_contact {
-    double felt;   /* m: depth that was felt at the latest tick, 0 without contact */
-    double height; /* m: H at the latest tick */
-    double z;      /* m: of the latest tick; of use while in contact */
+    double depth;   /* m: that the ramp has come to at the latest tick, 0 without contact */
+    double height;  /* m: H at the latest tick */
+    double z;       /* m: of the latest tick */
+    int32_t pushed; /* 1: the HIP was in the wall at the latest tick */
 } knurl_guard_contact;
+
+/* The account of energy that walls gave out on their own, and what came of it. J, scene. */
+typedef struct knurl_passivity {
+    double given;     /* leaking away */
+    double asked;     /* what textures asked for, leaking away */
+    double kept;      /* of both, a tick */
+    double budget;    /* of `given` beyond `asked` */
+    double lag;       /* ticks from a position to the middle of the force that it makes */
+    double loss;      /* N/m: what friction and hand take, as a stiffness times lag */
+    double dry;       /* N: likewise, dry */
+    double longest;   /* m: of a tick's way that counts */
+    double moved2;    /* m^2: the HIP's way in this tick */
+    double soft;      /* 0 to 1: as soft as is passive */
+    double softening; /* of the way there, a tick */
+    double off;       /* ticks since the HIP was last in a wall */
+    double off_most;  /* after so many walls are hard again */
+    int32_t on;       /* 0: left out */
+    int32_t alarmed;  /* 1: the budget was exceeded */
+} knurl_passivity;
 
 /* Of one HIP. */
 typedef struct knurl_guard {
@@ -79,27 +109,38 @@ typedef struct knurl_guard {
     double step;     /* N: of that tick's textures */
     double left;     /* m: depth felt where the HIP slid off a surface, for the one that it is handed to */
     int32_t clamp;   /* 1: within bounds */
-    knurl_bounds bounds;
+    knurl_passivity passivity;
     knurl_heat heat;
+    knurl_bounds bounds;
 } knurl_guard;
 
 /* Sets the protections up, cold. facts: complete. */
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
 
-/* The z that is felt: as it is outside; inside no deeper than the ramp has come. */
-double knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, double z,
-                         uint32_t *flags) KNURL_NONBLOCKING;
+/* A tick begins that takes the HIP from one place to another. */
+void knurl_guard_begin(knurl_guard *guard, const double from[3], const double to[3]) KNURL_NONBLOCKING;
+
+/* A contact begins: handed over from another surface, or not. */
+void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) KNURL_NONBLOCKING;
 
 /* There is no contact (any more). */
 void knurl_guard_leave(knurl_guard_contact *contact) KNURL_NONBLOCKING;
 
-/* The texture is at a height (m) on a wall of some stiffness (N/m): its own step is let through. */
-void knurl_guard_step(knurl_guard *guard, knurl_guard_contact *contact, double stiffness,
-                      double height) KNURL_NONBLOCKING;
+/* The wall of a material; stiffness and amplitude within bounds where that was asked for. */
+void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
+                       knurl_guard_wall *wall) KNURL_NONBLOCKING;
 
-/* Stiffness and amplitude as felt. */
-void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double *stiffness,
-                       double *amplitude) KNURL_NONBLOCKING;
+/* The depth that is felt grows as a ramp; outside nothing is touched. */
+void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                       uint32_t *flags) KNURL_NONBLOCKING;
+
+/* Keeps the account, and has the wall felt softer once the budget is exceeded, its texture as it was. */
+void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                        uint32_t *flags) KNURL_NONBLOCKING;
+
+/* The texture is at a height (m): its own step is let through, and what energy it asks for. */
+void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                         double height) KNURL_NONBLOCKING;
 
 /* The force that is sent, in place: within slew_rate of the latest but for the textures' steps and what falls, within
  * what the motors can do now. Returns its length, N; NaN or infinite where the force was. */

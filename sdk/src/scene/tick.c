@@ -31,13 +31,11 @@ typedef struct touch {
     knurl_pose moved;       /* used while it moves */
     const knurl_pose *pose; /* of the shape's frame, now */
     knurl_contact contact;
-    double z;         /* m: the contact's, as felt */
-    double stiffness; /* N/m and m: as felt */
-    double amplitude;
-    double force[3];    /* scene, N */
-    double proxy[3];    /* scene, m */
-    double normal[3];   /* scene */
-    double velocity[2]; /* of the HIP over the surface, in the surface's frame */
+    knurl_guard_wall wall; /* as felt */
+    double force[3];       /* scene, N */
+    double proxy[3];       /* scene, m */
+    double normal[3];      /* scene */
+    double velocity[2];    /* of the HIP over the surface, in the surface's frame */
     knurl_grating_output grating;
 } touch;
 
@@ -82,7 +80,8 @@ static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near
 static void drag(const touch *t, knurl_near *near, double tangential[3]) {
     const knurl_contact *contact = &t->contact;
     const double friction = t->record->material.friction;
-    const double hold = t->z < 0.0 ? -friction * t->z : 0.0; /* m: the spring's length that friction can hold */
+    const double hold =
+        t->wall.felt < 0.0 ? -friction * t->wall.felt : 0.0; /* m: the spring's length that friction can hold */
     double stretch[3] = {0.0, 0.0, 0.0};
     if (near->in_contact && hold > 0.0) {
         vec3_sub(near->anchor, contact->proxy, stretch);
@@ -93,7 +92,7 @@ static void drag(const touch *t, knurl_near *near, double tangential[3]) {
         }
     }
     vec3_madd(contact->proxy, 1.0, stretch, near->anchor);
-    vec3_scale(t->stiffness, stretch, tangential);
+    vec3_scale(t->wall.stiffness, stretch, tangential);
 }
 
 /* The velocity of the HIP over the surface, in the shape's frame. */
@@ -118,7 +117,7 @@ static void play(const knurl_hip *hip, const double over[3], const double coordi
         return;
     }
     const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
-                                   t->record->is_smooth ? 0.0 : t->amplitude,
+                                   t->record->is_smooth ? 0.0 : t->wall.amplitude,
                                    hip->rate,
                                    m->method,
                                    0,
@@ -149,8 +148,8 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     play(hip, over, coordinates, near, t);
     const double height = t->grating.height;
     double size = 0.0;
-    if (t->z < height) { /* Eq. 9, with the wall's damping; never a pull */
-        size = t->stiffness * (height - t->z) - m->damping * vec3_dot(over, contact->normal);
+    if (t->wall.felt < height) { /* Eq. 9, with the wall's damping; never a pull */
+        size = t->wall.stiffness * (height - t->wall.felt) - t->wall.damping * vec3_dot(over, contact->normal);
         size = size > 0.0 ? size : 0.0;
     }
     vec3_scale(size, t->normal, t->force);
@@ -239,7 +238,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     if (!held && near->in_contact) {
         vec3_copy(near->proxy, hip->left_proxy);
         vec3_copy(near->normal, hip->left_normal);
-        hip->guard.left = near->guard.felt;
+        hip->guard.left = near->guard.depth;
         hand_over(hip, out->hip, over);
         hip->left_time = over->given ? hip->time : -1.0;
     } else if (!held && over->given && query.has_previous) {
@@ -253,14 +252,15 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
             return;
         }
         memset(&near->grating, 0, sizeof near->grating);
-        near->guard.felt = fmax(near->guard.felt, over->given ? hip->guard.left : 0.0);
+        knurl_guard_meet(&hip->guard, &near->guard, over->given);
     }
     if (held) {
         const int64_t events = near->grating.event_count;
-        t.z = knurl_guard_enter(&hip->guard, &near->guard, t.contact.z, &out->flags);
-        knurl_guard_clamp(&hip->guard, &t.record->material, &t.stiffness, &t.amplitude);
+        knurl_guard_clamp(&hip->guard, &t.record->material, t.contact.z, &t.wall);
+        knurl_guard_enter(&hip->guard, &near->guard, &t.wall, &out->flags);
+        knurl_guard_soften(&hip->guard, &near->guard, &t.wall, &out->flags);
         render(hip, out->hip_velocity, near, &t);
-        knurl_guard_step(&hip->guard, &near->guard, t.stiffness, t.grating.height);
+        knurl_guard_texture(&hip->guard, &near->guard, &t.wall, t.grating.height);
         hip->counts.events += (uint64_t)(near->grating.event_count - events);
         add_touch(&t, out);
         vec3_copy(t.proxy, near->proxy);
@@ -439,6 +439,7 @@ static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_out
 
 /* From a HIP that has been read to the force; returns its length, N. */
 static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
+    knurl_guard_begin(&hip->guard, hip->previous, out->hip);
     touch_all(scene, world, hip, out);
     const double length = limit_force(hip, out);
     if (out->flags & KNURL_TICK_NOT_FINITE) {
