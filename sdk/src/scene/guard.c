@@ -113,9 +113,10 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
 }
 
 /* Lets the account leak, raises the alarm, and ends it. */
-static void keep_account(knurl_passivity *p) {
-    if (p->given > p->budget + p->asked) {
+void knurl_guard_keep_account(knurl_passivity *p) {
+    if (!p->alarmed && p->given > p->budget + p->asked) {
         p->alarmed = 1;
+        p->off = 0.0;
     }
     p->given *= p->kept;
     p->asked *= p->kept;
@@ -127,106 +128,69 @@ static void keep_account(knurl_passivity *p) {
             p->alarmed = 0;
         }
     }
-}
-
-void knurl_guard_begin(knurl_guard *guard, const double from[3], const double to[3]) {
-    double way[3];
-    vec3_sub(to, from, way);
-    guard->passivity.moved2 = vec3_dot(way, way);
-    keep_account(&guard->passivity);
-}
-
-void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) {
-    if (handed_over && contact->depth < guard->left) {
-        contact->depth = guard->left;
-    }
-    contact->pushed = 0;
-}
-
-void knurl_guard_leave(knurl_guard_contact *contact) {
-    contact->depth = contact->height = 0.0;
-    contact->pushed = 0;
-}
-
-void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
-                       knurl_guard_wall *wall) {
-    wall->z = wall->felt = z;
-    wall->stiffness = material->stiffness;
-    wall->amplitude = material->amplitude;
-    wall->damping = material->damping;
-    if (guard->clamp) {
-        const double most = knurl_bounds_stiffness(&guard->bounds, material->damping) / guard->bounds.scale;
-        wall->stiffness = wall->stiffness < most ? wall->stiffness : most;
-        const double highest = knurl_bounds_amplitude(&guard->bounds, wall->stiffness, material->method);
-        wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
+    if (!p->alarmed && p->given + p->asked < 1e-6 * p->budget) { /* long before it is denormal */
+        p->given = p->asked = 0.0;
+        p->busy = 0;
     }
 }
 
-void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
-                       uint32_t *flags) {
-    const double most = contact->depth + guard->entry;
-    if (-wall->felt > most) {
-        *flags |= KNURL_TICK_ENTRY;
-        wall->felt = -most;
-    }
-    contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
+void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material, knurl_guard_wall *wall) {
+    const double most = knurl_bounds_stiffness(bounds, material->damping) / bounds->scale;
+    wall->stiffness = wall->stiffness < most ? wall->stiffness : most;
+    const double highest = knurl_bounds_amplitude(bounds, wall->stiffness, material->method);
+    wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
 }
 
 /* A spring that is sampled and held lags `lag` ticks behind: over a tick's way it gives K lag way^2 more than a spring
  * would, and friction takes (b/T) way^2 and its dry part's share of the way. Where the first is less nothing runs away
- * (Colgate and Schenkel 1997, as a balance of energy). */
-static void account(knurl_passivity *p, const knurl_guard_contact *contact, const knurl_guard_wall *wall) {
-    const double excess = wall->stiffness * p->lag - p->loss; /* a wall's damping comes late too: it may not help */
+ * (Colgate and Schenkel 1997, as a balance of energy). A wall's own damping comes late too: it may not help. */
+static void account(knurl_passivity *p, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                    const double moved[3]) {
     double way = fabs(wall->z - contact->z);
-    if (!contact->pushed || way == 0.0 || (excess <= 0.0 && p->given == 0.0)) {
+    if (!contact->pushed || way == 0.0) {
         return;
     }
     way = way < p->longest ? way : p->longest;
-    const double dry = p->dry > 0.0 ? p->dry / sqrt(p->moved2) : 0.0;
-    p->given += (excess - dry) * way * way;
-    p->given = p->given > 0.0 ? p->given : 0.0;
+    const double dry = p->dry > 0.0 ? p->dry / fmax(vec3_length(moved), way) : 0.0;
+    const double given = p->given + (wall->stiffness * p->lag - p->loss - dry) * way * way;
+    p->given = given > 0.0 ? given : 0.0;
+    p->busy |= p->given > 0.0;
 }
 
-void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall, uint32_t *flags) {
-    knurl_passivity *p = &guard->passivity;
-    if (!p->on) {
-        return;
-    }
-    account(p, contact, wall);
-    contact->z = wall->z;
-    contact->pushed = wall->felt < 0.0;
-    if (p->alarmed && contact->pushed) {
+void knurl_guard_watch(knurl_passivity *p, const knurl_guard_contact *contact, knurl_guard_wall *wall,
+                       const double way[3], uint32_t *flags) {
+    account(p, contact, wall, way);
+    if (p->alarmed && wall->felt < 0.0) {
         const double most = SOFT_SHARE * p->loss / p->lag;
         p->off = 0.0;
         wall->damping *= 1.0 - p->soft;
         if (wall->stiffness > most) {
             wall->felt *= 1.0 - p->soft * (1.0 - most / wall->stiffness);
-            *flags |= KNURL_TICK_PASSIVITY;
         }
+        *flags |= KNURL_TICK_PASSIVITY;
     }
 }
 
-void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                         double height) {
-    if (height != contact->height) {
-        const double before = contact->height > wall->z ? contact->height - wall->z : 0.0;
-        const double after = height > wall->z ? height - wall->z : 0.0;
-        const double asked = guard->passivity.asked + 0.5 * wall->stiffness * (after * after - before * before);
-        guard->passivity.asked = asked > 0.0 ? asked : 0.0;
-        guard->step += wall->stiffness * fabs(height - contact->height);
-        contact->height = height;
-    }
+void knurl_guard_ask(knurl_passivity *p, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                     double height) {
+    const double before = contact->height > wall->z ? contact->height - wall->z : 0.0;
+    const double after = height > wall->z ? height - wall->z : 0.0;
+    const double asked = p->asked + 0.5 * wall->stiffness * (after * after - before * before);
+    p->asked = asked > 0.0 ? asked : 0.0;
 }
 
 /* What falls is free: measured is from the nearest point on the way from no force to the latest one. */
 static void limit_slew(const knurl_guard *guard, double force[3], uint32_t *flags) {
-    const double latest2 = vec3_dot(guard->force, guard->force);
-    const double along = vec3_dot(force, guard->force);
-    const double kept = along <= 0.0 ? 0.0 : along < latest2 ? along / latest2 : 1.0;
     const double most = guard->slew + guard->step;
     double from[3];
     double change[3];
-    vec3_scale(kept, guard->force, from);
+    vec3_sub(force, guard->force, change);
+    if (vec3_dot(change, change) <= most * most) {
+        return;
+    }
+    const double latest2 = vec3_dot(guard->force, guard->force);
+    const double along = vec3_dot(force, guard->force);
+    vec3_scale(along <= 0.0 ? 0.0 : along < latest2 ? along / latest2 : 1.0, guard->force, from);
     vec3_sub(force, from, change);
     const double change2 = vec3_dot(change, change);
     if (change2 > most * most) {
@@ -255,6 +219,5 @@ double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
 void knurl_guard_let_go(knurl_guard *guard) {
     guard->force[0] = guard->force[1] = guard->force[2] = 0.0;
     guard->step = guard->left = 0.0;
-    guard->passivity.given = guard->passivity.asked = 0.0; /* an alarm goes on */
     knurl_heat_add(&guard->heat, 0.0);
 }

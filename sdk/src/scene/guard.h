@@ -92,13 +92,13 @@ typedef struct knurl_passivity {
     double loss;      /* N/m: what friction and hand take, as a stiffness times lag */
     double dry;       /* N: likewise, dry */
     double longest;   /* m: of a tick's way that counts */
-    double moved2;    /* m^2: the HIP's way in this tick */
     double soft;      /* 0 to 1: as soft as is passive */
     double softening; /* of the way there, a tick */
     double off;       /* ticks since the HIP was last in a wall */
     double off_most;  /* after so many walls are hard again */
     int32_t on;       /* 0: left out */
     int32_t alarmed;  /* 1: the budget was exceeded */
+    int32_t busy;     /* 1: there is something in the account, or an alarm */
 } knurl_passivity;
 
 /* Of one HIP. */
@@ -117,30 +117,82 @@ typedef struct knurl_guard {
 /* Sets the protections up, cold. facts: complete. */
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
 
-/* A tick begins that takes the HIP from one place to another. */
-void knurl_guard_begin(knurl_guard *guard, const double from[3], const double to[3]) KNURL_NONBLOCKING;
+/* What the functions below leave to guard.c, because it is rare. */
+void knurl_guard_keep_account(knurl_passivity *passivity) KNURL_NONBLOCKING;
+void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material,
+                            knurl_guard_wall *wall) KNURL_NONBLOCKING;
+void knurl_guard_watch(knurl_passivity *passivity, const knurl_guard_contact *contact, knurl_guard_wall *wall,
+                       const double way[3], uint32_t *flags) KNURL_NONBLOCKING;
+void knurl_guard_ask(knurl_passivity *passivity, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                     double height) KNURL_NONBLOCKING;
+
+/* A tick begins. */
+static inline void knurl_guard_begin(knurl_guard *guard) {
+    if (guard->passivity.busy) {
+        knurl_guard_keep_account(&guard->passivity);
+    }
+}
 
 /* A contact begins: handed over from another surface, or not. */
-void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) KNURL_NONBLOCKING;
+static inline void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) {
+    contact->depth = handed_over && contact->depth < guard->left ? guard->left : contact->depth;
+    contact->pushed = 0;
+}
 
 /* There is no contact (any more). */
-void knurl_guard_leave(knurl_guard_contact *contact) KNURL_NONBLOCKING;
+static inline void knurl_guard_leave(knurl_guard_contact *contact) {
+    contact->depth = contact->height = 0.0;
+    contact->pushed = 0;
+}
 
 /* The wall of a material; stiffness and amplitude within bounds where that was asked for. */
-void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
-                       knurl_guard_wall *wall) KNURL_NONBLOCKING;
+static inline void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
+                                     knurl_guard_wall *wall) {
+    wall->z = wall->felt = z;
+    wall->stiffness = material->stiffness;
+    wall->amplitude = material->amplitude;
+    wall->damping = material->damping;
+    if (guard->clamp) {
+        knurl_guard_limit_wall(&guard->bounds, material, wall);
+    }
+}
 
 /* The depth that is felt grows as a ramp; outside nothing is touched. */
-void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
-                       uint32_t *flags) KNURL_NONBLOCKING;
+static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                                     uint32_t *flags) {
+    const double most = contact->depth + guard->entry;
+    if (-wall->felt > most) {
+        *flags |= KNURL_TICK_ENTRY;
+        wall->felt = -most;
+    }
+    contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
+}
 
-/* Keeps the account, and has the wall felt softer once the budget is exceeded, its texture as it was. */
-void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
-                        uint32_t *flags) KNURL_NONBLOCKING;
+/* Keeps the account, and has the wall felt softer once the budget is exceeded, its texture as it was; from, to: the
+ * HIP's way in this tick, scene. A wall that friction keeps passive is left alone while the account is empty. */
+static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                                      const double from[3], const double to[3], uint32_t *flags) {
+    knurl_passivity *p = &guard->passivity;
+    const double excess = wall->stiffness * p->lag - p->loss;
+    double way[3];
+    vec3_sub(to, from, way);
+    const int gives = (excess > 0.0) & (excess * excess * vec3_dot(way, way) > p->dry * p->dry);
+    if (p->on & (gives | p->busy)) {
+        knurl_guard_watch(p, contact, wall, way, flags);
+    }
+    contact->z = wall->z;
+    contact->pushed = wall->felt < 0.0;
+}
 
 /* The texture is at a height (m): its own step is let through, and what energy it asks for. */
-void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                         double height) KNURL_NONBLOCKING;
+static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                                       double height) {
+    guard->step += wall->stiffness * fabs(height - contact->height);
+    if (guard->passivity.busy) {
+        knurl_guard_ask(&guard->passivity, contact, wall, height);
+    }
+    contact->height = height;
+}
 
 /* The force that is sent, in place: within slew_rate of the latest but for the textures' steps and what falls, within
  * what the motors can do now. Returns its length, N; NaN or infinite where the force was. */

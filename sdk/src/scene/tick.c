@@ -258,7 +258,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
         const int64_t events = near->grating.event_count;
         knurl_guard_clamp(&hip->guard, &t.record->material, t.contact.z, &t.wall);
         knurl_guard_enter(&hip->guard, &near->guard, &t.wall, &out->flags);
-        knurl_guard_soften(&hip->guard, &near->guard, &t.wall, &out->flags);
+        knurl_guard_soften(&hip->guard, &near->guard, &t.wall, hip->previous, out->hip, &out->flags);
         render(hip, out->hip_velocity, near, &t);
         knurl_guard_texture(&hip->guard, &near->guard, &t.wall, t.grating.height);
         hip->counts.events += (uint64_t)(near->grating.event_count - events);
@@ -439,7 +439,7 @@ static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_out
 
 /* From a HIP that has been read to the force; returns its length, N. */
 static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
-    knurl_guard_begin(&hip->guard, hip->previous, out->hip);
+    knurl_guard_begin(&hip->guard);
     touch_all(scene, world, hip, out);
     const double length = limit_force(hip, out);
     if (out->flags & KNURL_TICK_NOT_FINITE) {
