@@ -165,7 +165,10 @@ void knurl_guard_watch(knurl_passivity *p, const knurl_guard_contact *contact, k
         p->off = 0.0;
         wall->damping *= 1.0 - p->soft;
         if (wall->stiffness > most) {
-            wall->felt *= 1.0 - p->soft * (1.0 - most / wall->stiffness);
+            wall->stiffness +=
+                p->soft *
+                (most -
+                 wall->stiffness); /* and its texture weaker: on a soft wall its full steps would throw the hand */
         }
         *flags |= KNURL_TICK_PASSIVITY;
     }

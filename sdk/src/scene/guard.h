@@ -168,7 +168,7 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_conta
     contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
 }
 
-/* Keeps the account, and has the wall felt softer once the budget is exceeded, its texture as it was; from, to: the
+/* Keeps the account, and has the wall felt softer once the budget is exceeded; from, to: the
  * HIP's way in this tick, scene. A wall that friction keeps passive is left alone while the account is empty. */
 static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
                                       const double from[3], const double to[3], uint32_t *flags) {
