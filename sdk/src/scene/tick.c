@@ -418,17 +418,23 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     out->flags = KNURL_TICK_NOT_FINITE;
 }
 
+static void count_rare(uint32_t flags, knurl_hip_counts *c) {
+    c->force_limits += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
+    c->frequency_saturations += (flags & KNURL_TICK_FREQUENCY) != 0;
+    c->not_finite += (flags & KNURL_TICK_NOT_FINITE) != 0;
+    c->entries += (flags & KNURL_TICK_ENTRY) != 0;
+    c->slews += (flags & KNURL_TICK_SLEW) != 0;
+    c->heats += (flags & KNURL_TICK_HEAT) != 0;
+    c->passivities += (flags & KNURL_TICK_PASSIVITY) != 0;
+}
+
 static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_output *out) {
     knurl_hip_counts *c = &hip->counts;
     c->ticks++;
     c->contact_ticks += (out->flags & KNURL_TICK_CONTACT) != 0;
-    c->force_limits += (out->flags & KNURL_TICK_FORCE_LIMIT) != 0;
-    c->frequency_saturations += (out->flags & KNURL_TICK_FREQUENCY) != 0;
-    c->not_finite += (out->flags & KNURL_TICK_NOT_FINITE) != 0;
-    c->entries += (out->flags & KNURL_TICK_ENTRY) != 0;
-    c->slews += (out->flags & KNURL_TICK_SLEW) != 0;
-    c->heats += (out->flags & KNURL_TICK_HEAT) != 0;
-    c->passivities += (out->flags & KNURL_TICK_PASSIVITY) != 0;
+    if (out->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+        count_rare(out->flags, c);
+    }
     c->heat = hip->guard.heat.theta;
     c->force_max = force > c->force_max ? force : c->force_max;
     knurl_seqlock_begin(&hip->published.sequence);
