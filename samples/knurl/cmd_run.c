@@ -11,7 +11,7 @@
 typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out;
     double seconds, rate;
-    int fast, full_model, pretty;
+    int fast, full_model, clamp, pretty;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -43,6 +43,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+        {"--clamp", TOOL_FLAG, &o->clamp, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
     o->seconds = NAN;
@@ -121,8 +122,38 @@ static int open_device(run *r) {
     return code;
 }
 
+/* --clamp: beside what the HIP has been given already, a workspace that was moved. */
+static knurl_result clamp(knurl_scene *scene) {
+    knurl_hip_desc desc;
+    knurl_workspace workspace;
+    knurl_hip_desc_init(&desc, sizeof desc);
+    knurl_result result = knurl_scene_get_workspace(scene, 0, &workspace);
+    desc.workspace = &workspace;
+    desc.clamp = 1;
+    return result ? result : knurl_scene_configure_hip(scene, 0, &desc);
+}
+
+/* A line for each limit of the device that a surface exceeds; after the loop has told the scene what its device is. */
+static void warn(const run *r) {
+    for (uint32_t i = 0; i < knurl_scene_surface_count(r->scene); i++) {
+        knurl_surface_check check;
+        knurl_surface_check_init(&check, sizeof check);
+        if (knurl_scene_check_surface(r->scene, 0, knurl_scene_surface_at(r->scene, i), &check)) {
+            continue;
+        }
+        for (char *line = check.message, *end; *line; line = end) {
+            end = line + strcspn(line, "\n");
+            fprintf(stderr, "knurl: warning: %.*s\n", (int)(end - line), line);
+            end += *end == '\n';
+        }
+    }
+}
+
 static int make_loop(run *r) {
     knurl_loop_desc desc;
+    if (r->options.clamp && clamp(r->scene)) {
+        return tool_library_error(TOOL_FAILURE, "run: --clamp");
+    }
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = r->device;
     desc.scene = r->scene;
@@ -136,7 +167,11 @@ static int make_loop(run *r) {
         desc.tick_callback = recorder_take;
         desc.user = &r->recorder;
     }
-    return knurl_loop_create(&desc, &r->loop) ? tool_library_error(TOOL_FAILURE, "run") : TOOL_OK;
+    if (knurl_loop_create(&desc, &r->loop)) {
+        return tool_library_error(TOOL_FAILURE, "run");
+    }
+    warn(r);
+    return TOOL_OK;
 }
 
 static void show_progress(const run *r, uint64_t ticks) {
@@ -204,6 +239,11 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "saturations", (double)counts.force_limits);
     json_number(&json, "frequency_saturations", (double)counts.frequency_saturations);
     json_number(&json, "not_finite", (double)counts.not_finite);
+    json_number(&json, "entries", (double)counts.entries);
+    json_number(&json, "slews", (double)counts.slews);
+    json_number(&json, "heats", (double)counts.heats);
+    json_number(&json, "passivities", (double)counts.passivities);
+    json_number(&json, "heat", counts.heat);
     json_number(&json, "force_max_n", counts.force_max);
     print_percentiles(&json, "tick_ns", &stats->tick_ns, 1.0);
     print_percentiles(&json, "jitter_us", &stats->jitter_ns, 1000.0);

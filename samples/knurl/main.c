@@ -21,6 +21,7 @@ static const char help[] =
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"
     "      --out CSV                       what was felt, a row a tick\n"
     "      --full-model                    without the reductions: to compare what is felt\n"
+    "      --clamp                         walls and textures within what the device can do\n"
     "      --pretty                        JSON over several lines\n"
     "  knurl signal --method T1|T2|T3 --period-ms P --amplitude A --rate HZ --ticks N\n"
     "                                      a temporal vibration (CSV: tick,value)\n"

@@ -56,6 +56,7 @@ static knurl_result reset_hip(knurl_scene *scene) {
     knurl_hip_desc_init(&d, sizeof d);
     d.update_rate_hz = HALF_CYCLES_RATE;
     d.resolution = 0.0;
+    d.unguarded = KNURL_UNGUARDED_ALL; /* strokes begin pressed in */
     d.workspace = &workspace;
     return knurl_scene_configure_hip(scene, 0, &d);
 }

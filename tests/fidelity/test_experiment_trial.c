@@ -65,6 +65,8 @@ static void close_it(knurl_device *device) {
 
 static void get_info(const knurl_device *device, knurl_device_info *info) {
     info->max_force = device->max_force;
+    info->continuous_force = (double)INFINITY; /* schedules go as printed: its motors stay cool */
+    info->heat_time = 1.0;
 }
 
 static knurl_result start(knurl_device *device, double rate) {

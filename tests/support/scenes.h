@@ -66,7 +66,8 @@ static inline knurl_scene *empty_scene(uint32_t hips) {
     return scene;
 }
 
-/** A HIP for hand-computed numbers: device axes are the scene's, no quantisation, hardly a force limit. */
+/** A HIP for hand-computed numbers: device axes are the scene's, no quantisation, hardly a force limit, and no
+ * protections: tests put it into walls without a way there. */
 static inline void configure_plainly(knurl_scene *scene, uint32_t hip) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
@@ -74,6 +75,7 @@ static inline void configure_plainly(knurl_scene *scene, uint32_t hip) {
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.resolution = 0.0;
     desc.max_force = 1e6;
+    desc.unguarded = KNURL_UNGUARDED_ALL;
     desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, hip, &desc), KNURL_OK);
 }

@@ -208,6 +208,11 @@ static knurl_scene *make_scene(const struct stroked *what) {
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.velocity_method = KNURL_VELOCITY_FOAW;
     hip.workspace = &workspace;
+    hip.coulomb = hip.viscous = 0.0; /* every protection has work to do: loose walls, warm motors, limits */
+    hip.delay = 4.0;
+    hip.heat_time = 0.5;
+    hip.continuous_force = 0.2;
+    hip.clamp = what->method == KNURL_S1;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     return scene;
@@ -265,6 +270,7 @@ static void check_stroke(const knurl_scene *scene, const struct stroked *what, c
     assert_int_equal(counts.ticks, TICKS);
     assert_in_range(counts.contact_ticks, TICKS / 5, TICKS * 4 / 5);
     assert_int_equal(counts.not_finite, TICKS / 1000);
+    assert_true(counts.heats + counts.entries + counts.slews + counts.passivities > 0);
     assert_true((counts.events > 100) == (what->method == KNURL_S2));
     assert_true(s->handovers >= what->handovers);
     if (what->friction > 0.0) {

@@ -71,6 +71,7 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.max_force = 1e3;
+    hip.unguarded = KNURL_UNGUARDED_ALL; /* it is 2 mm in at its first tick */
     hip.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     (void)add_surface(scene, &parts);

@@ -292,6 +292,28 @@ static void pause_ms(long ms) {
     (void)nanosleep(&time, NULL);
 }
 
+/* 5000 N/m is beyond (0.5 + 2 N s/m)/1.5 ms and the 1020 N/m of a Touch: a line each. A demo's plate is within both. */
+TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
+    static const char tag[] = "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.00002,"
+                              "\"stiffness\":5000,\"axis\":[1,0,0]}}";
+    double forces[2] = {0.0, 0.0};
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.1");
+    assert_null(strstr(p.err, "warning"));
+    process_free(&p);
+    for (int clamped = 0; clamped < 2; clamped++) {
+        p = RUN_TOOL("run", write_plate("plate.gltf", tag), "--fast", "--seconds", "1", "--stroke", "press",
+                     clamped ? "--clamp" : "--fast");
+        assert_int_equal(p.exit_code, 0);
+        const char *first =
+            strstr(p.err, "knurl: warning: surface 'plate': stiffness 5000 N/m is 3 times the 1667 N/m");
+        assert_non_null(first);
+        assert_non_null(strstr(first, "knurl: warning: surface 'plate': stiffness 5000 N/m is 4.9 times the 1020 N/m"));
+        forces[clamped] = json_number_of(p.out, "force_max_n");
+        process_free(&p);
+    }
+    assert_true(forces[1] < 0.9 * forces[0]); /* the hand's spring gives way to either */
+}
+
 /* A real-time run of a minute, as soon as it records. */
 static process start_long_run(void) {
     const char *const arguments[] = {KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out",
@@ -340,6 +362,7 @@ int main(void) {
         cmocka_unit_test(the_summary_is_one_line_of_json_with_every_key_of_the_contract),
         cmocka_unit_test(fast_twice_gives_the_same_bytes_and_another_seed_others),
         cmocka_unit_test(the_full_model_feels_the_same),
+        cmocka_unit_test(what_a_device_cannot_do_is_warned_of_and_clamped_on_request),
         cmocka_unit_test(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe),
         cmocka_unit_test(rate_seconds_surface_and_method_are_obeyed),
         cmocka_unit_test(a_stroke_lies_1_mm_below_the_surface_along_its_x),

@@ -14,6 +14,12 @@ static inline void knurl_store_double(double *to, double value) {
     __atomic_store(to, &copy, __ATOMIC_RELAXED);
 }
 
+static inline double knurl_load_double(const double *from) {
+    double copy;
+    __atomic_load(from, &copy, __ATOMIC_RELAXED);
+    return copy;
+}
+
 static inline void knurl_store_float(float *to, float value) {
     float copy = value;
     __atomic_store(to, &copy, __ATOMIC_RELAXED);

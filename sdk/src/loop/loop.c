@@ -41,13 +41,21 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
         loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
     }
     const double length = vec3_length(loop->force); /* ramps go from and to what the motors can play */
-    if (!(length <= loop->max_force)) {
-        const double share = isfinite(length) ? loop->max_force / length : 0.0;
+    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
+    if (!(length <= most)) {
+        const double share = isfinite(length) ? most / length : 0.0;
+        if (most < loop->max_force && share > 0.0) {
+            knurl_count_up(&loop->heats);
+        }
         for (int axis = 0; axis < 3; axis++) {
             loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
             output->device_force[axis] *= share;
             output->force[axis] *= share;
         }
+    }
+    if (!loop->desc.scene) {
+        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
+        knurl_store_double(&loop->theta, loop->heat.theta);
     }
 }
 
@@ -202,14 +210,24 @@ void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, stats, size);
 }
 
-static knurl_result adopt(const knurl_loop_desc *d, double *max_force) {
+/* What the device is. A driver that tells no heat_time tells nothing of friction and heat at all. */
+static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     const knurl_result result = knurl_device_get_info(d->device, &info);
-    *max_force = info.max_force;
-    return result || !d->scene
-               ? result
-               : knurl_scene_adopt_device(d->scene, d->hip, d->update_rate_hz, info.resolution, info.max_force);
+    *facts = knurl_touch;
+    facts->rate = d->update_rate_hz;
+    facts->resolution = info.resolution;
+    facts->max_force = info.max_force;
+    facts->delay = info.delay;
+    if (info.heat_time > 0.0) {
+        facts->continuous_force = info.continuous_force;
+        facts->heat_time = info.heat_time;
+        facts->viscous = info.viscous;
+        facts->coulomb = info.coulomb;
+        facts->max_stiffness = info.max_stiffness;
+    }
+    return result || !d->scene ? result : knurl_scene_adopt_device(d->scene, d->hip, facts);
 }
 
 knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
@@ -218,8 +236,8 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     knurl_loop_desc_init(&d, sizeof d);
     knurl_result result = knurl_desc_read("knurl_loop_desc", desc, &d, sizeof d);
     result = result ? result : check(&d);
-    double max_force = 0.0;
-    result = result ? result : adopt(&d, &max_force);
+    knurl_hip_facts facts;
+    result = result ? result : adopt(&d, &facts);
     result = result ? result : knurl_device_start(d.device, d.update_rate_hz);
     if (result) {
         return result;
@@ -231,7 +249,8 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
-    made->max_force = max_force;
+    made->max_force = facts.max_force;
+    knurl_heat_init(&made->heat, &facts);
     knurl_device_release_halt(d.device);
     *loop = made;
     return KNURL_OK;
@@ -336,5 +355,7 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.memory_locked = loop->scene_locked && knurl_load_relaxed(&loop->stack_locked);
     made.tick_ns = percentiles_of(&loop->tick_ns);
     made.jitter_ns = percentiles_of(&loop->jitter_ns);
+    made.heats = knurl_load_relaxed(&loop->heats);
+    made.heat = knurl_load_double(&loop->theta);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

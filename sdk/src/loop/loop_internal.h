@@ -4,6 +4,7 @@
 
 #include "base/histogram.h"
 #include "base/system.h"
+#include "scene/guard.h"
 
 #include <knurl/loop.h>
 
@@ -30,6 +31,7 @@ struct knurl_loop {
     double force[3];  /* the latest, device axes, N */
     double gain;      /* 0..1 on the force: climbs back after the watchdog let go */
     double max_force; /* N: the device's */
+    knurl_heat heat;  /* of the motors that a callback drives; a scene's HIP keeps its own */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -39,6 +41,8 @@ struct knurl_loop {
     uint64_t beats; /* ticks and steps of the ramp: what the watchdog looks at */
     uint64_t overruns;
     uint64_t watchdogs;
+    uint64_t heats;
+    double theta; /* heat's */
     uint32_t realtime;
     uint32_t scene_locked; /* the scene's and the loop's own memory */
     uint32_t stack_locked;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
-    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .delay = -1.0};
+    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .coulomb = -1.0, .delay = -1.0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -19,33 +19,84 @@ static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     return KNURL_OK;
 }
 
-/* Under the lock: editing threads look at the HIPs' times. Sets a HIP up anew; `rate`, `resolution` and `max_force`
- * stand for what the description leaves open. */
-static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, double rate, double resolution,
-                           double max_force) {
+const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 10.0, 0.5, 0.26, 1.0, 1020.0};
+
+static double above_zero(double given, double device) {
+    return given > 0.0 ? given : device;
+}
+
+static double from_zero(double given, double device) {
+    return given < 0.0 ? device : given; /* NaN is refused later */
+}
+
+/* What the description says counts, then what the device says. */
+static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device) {
+    const knurl_hip_facts made = {d->update_rate_hz != 0.0 ? d->update_rate_hz : device->rate,
+                                  from_zero(d->resolution, device->resolution),
+                                  d->max_force != 0.0 ? d->max_force : device->max_force,
+                                  above_zero(d->continuous_force, device->continuous_force),
+                                  above_zero(d->heat_time, device->heat_time),
+                                  from_zero(d->viscous, device->viscous),
+                                  from_zero(d->coulomb, device->coulomb),
+                                  from_zero(d->delay, device->delay),
+                                  above_zero(d->max_stiffness, device->max_stiffness)};
+    return made;
+}
+
+static knurl_result check_protections(const knurl_hip_desc *d) {
+    const struct {
+        const char *name, *unit;
+        double value, least, most;
+    } numbers[] = {{"continuous_force", "N", d->continuous_force, 0.0, HUGE_VAL},
+                   {"heat_time", "s", d->heat_time, 0.0, 1e9},
+                   {"viscous", "N s/m", d->viscous, -HUGE_VAL, 1e9},
+                   {"coulomb", "N", d->coulomb, -HUGE_VAL, 1e9},
+                   {"delay", "ticks", d->delay, -HUGE_VAL, 16.0},
+                   {"max_stiffness", "N/m", d->max_stiffness, 0.0, HUGE_VAL},
+                   {"slew_rate", "N/s", d->slew_rate, 0.0, HUGE_VAL}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        if (!(numbers[i].value >= numbers[i].least && numbers[i].value <= numbers[i].most)) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_hip_desc.%s: expected %g to %g %s, found %g",
+                              numbers[i].name, numbers[i].least, numbers[i].most, numbers[i].unit, numbers[i].value);
+        }
+    }
+    if (d->unguarded > KNURL_UNGUARDED_ALL || d->clamp > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_hip_desc: expected unguarded of KNURL_UNGUARDED_ bits and clamp 0 or 1, found %#x, %u",
+                          (unsigned)d->unguarded, (unsigned)d->clamp);
+    }
+    return KNURL_OK;
+}
+
+static knurl_result check_facts(const knurl_hip_facts *facts) {
+    if (!(facts->rate >= KNURL_UPDATE_RATE_MIN && facts->rate <= KNURL_UPDATE_RATE_MAX)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
+                          KNURL_UPDATE_RATE_MAX, facts->rate);
+    }
+    if (!(facts->max_force > 0.0 && isfinite(facts->max_force))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g",
+                          facts->max_force);
+    }
+    return KNURL_OK;
+}
+
+/* Under the lock: editing threads look at the HIPs' times. Sets a HIP up anew; `device` stands for what the description
+ * leaves open. */
+static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device) {
     knurl_hip made;
+    const knurl_hip_facts facts = settle(d, device);
     memset(&made, 0, sizeof made);
     made.given = *d;
     made.given.workspace = NULL; /* the caller's; kept by value below */
-    made.rate = d->update_rate_hz != 0.0 ? d->update_rate_hz : rate;
-    made.max_force = d->max_force != 0.0 ? d->max_force : max_force;
-    if (!(made.rate >= KNURL_UPDATE_RATE_MIN && made.rate <= KNURL_UPDATE_RATE_MAX)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
-                          KNURL_UPDATE_RATE_MAX, made.rate);
-    }
-    if (!(made.max_force > 0.0 && isfinite(made.max_force))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g",
-                          made.max_force);
-    }
-    knurl_result result = d->workspace ? knurl_workspace_check(d->workspace) : KNURL_OK;
-    result = result ? result
-                    : knurl_velocity_init(d->velocity_method, d->resolution < 0.0 ? resolution : d->resolution,
-                                          made.rate, &made.velocity);
+    made.rate = facts.rate;
+    knurl_result result = check_protections(d);
+    result = result ? result : check_facts(&facts);
+    result = result || !d->workspace ? result : knurl_workspace_check(d->workspace);
+    result = result ? result : knurl_velocity_init(d->velocity_method, facts.resolution, facts.rate, &made.velocity);
     if (result) {
         return result;
     }
     made.period = 1.0 / made.rate;
-    made.quantum = d->resolution < 0.0 ? resolution : d->resolution;
     made.time = knurl_scene_time(scene); /* the scene's goes on */
     made.calm = made.left_time = -1.0;
     made.centred = d->workspace == NULL;
@@ -55,7 +106,8 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     } else if (scene->committed) {
         knurl_scene_centre(scene, made.workspace.origin);
     }
-    made.quantum *= 1.7320508075688772 * made.workspace.scale;
+    made.quantum = 1.7320508075688772 * facts.resolution * made.workspace.scale;
+    knurl_guard_init(&made.guard, d, &facts, made.workspace.scale);
     for (int i = 0; i < 9; i++) {
         made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
@@ -70,14 +122,13 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
         knurl_scene_lock(scene);
-        result = set_up(scene, &scene->hips[hip], &d, 1000.0, 0.055e-3, 3.3); /* the Touch */
+        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch);
         knurl_scene_unlock(scene);
     }
     return result;
 }
 
-knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double update_rate_hz, double resolution,
-                                      double max_force) {
+knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts) {
     knurl_result result = check_hip(scene, hip);
     if (result) {
         return result;
@@ -85,14 +136,14 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double u
     knurl_hip *h = &scene->hips[hip];
     knurl_hip_desc d = h->given;
     const knurl_workspace workspace = h->workspace;
-    if (d.update_rate_hz != 0.0 && d.update_rate_hz != update_rate_hz) {
+    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
-                          (unsigned)hip, d.update_rate_hz, update_rate_hz);
+                          (unsigned)hip, d.update_rate_hz, facts->rate);
     }
     d.workspace = h->centred ? NULL : &workspace;
     knurl_scene_lock(scene);
-    result = set_up(scene, h, &d, update_rate_hz, resolution, max_force);
+    result = set_up(scene, h, &d, facts);
     knurl_scene_unlock(scene);
     return result;
 }

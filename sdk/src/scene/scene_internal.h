@@ -8,6 +8,7 @@
 #include "base/seqlock.h"
 #include "base/system.h"
 #include "contact/plane.h"
+#include "scene/guard.h"
 #include "scene/pose.h"
 
 #include <knurl/scene.h>
@@ -80,6 +81,7 @@ typedef struct knurl_near {
     double previous[3]; /* the HIP at the last tick, shape's frame */
     knurl_contact_state contact;
     knurl_grating_state grating;
+    knurl_guard_contact guard;
     double proxy[3]; /* of the latest contact, scene axes */
     double normal[3];
     float box[6];     /* scene axes; outside it there is nothing to ask */
@@ -100,7 +102,6 @@ typedef struct knurl_hip {
     double previous[3]; /* HIP position at the last tick, scene */
     double rate;
     double period;
-    double max_force;
     double quantum; /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
     int32_t has_previous;
     int32_t is_turned;  /* 0: the workspace's rotation is 1, and is left out */
@@ -117,6 +118,7 @@ typedef struct knurl_hip {
     double left_time; /* s: when it slid off a surface; before 0: it did not, or another holds it */
     double left_proxy[3];
     double left_normal[3];
+    knurl_guard guard;
     knurl_hip_counts counts;
     knurl_near near[KNURL_MAX_NEAR];
     KNURL_SEQLOCK(knurl_snapshot) published;
@@ -229,10 +231,12 @@ int knurl_surface_has_coordinates(const knurl_surface_data *surface);
 
 /* --- HIPs --- */
 
+/* The Touch at 1 kHz: what a HIP's description and its device leave open. */
+extern const knurl_hip_facts knurl_touch;
+
 /* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did.
  * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
-knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, double update_rate_hz, double resolution,
-                                      double max_force);
+knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);

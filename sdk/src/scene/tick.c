@@ -31,10 +31,11 @@ typedef struct touch {
     knurl_pose moved;       /* used while it moves */
     const knurl_pose *pose; /* of the shape's frame, now */
     knurl_contact contact;
-    double force[3];    /* scene, N */
-    double proxy[3];    /* scene, m */
-    double normal[3];   /* scene */
-    double velocity[2]; /* of the HIP over the surface, in the surface's frame */
+    knurl_guard_wall wall; /* as felt */
+    double force[3];       /* scene, N */
+    double proxy[3];       /* scene, m */
+    double normal[3];      /* scene */
+    double velocity[2];    /* of the HIP over the surface, in the surface's frame */
     knurl_grating_output grating;
 } touch;
 
@@ -76,9 +77,11 @@ static void place_hip(knurl_hip *hip, const double position[3], knurl_near *near
 
 /* Friction: the HIP drags an anchor along the surface by a spring of the material's stiffness, and the anchor slips
  * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
-static void drag(const knurl_material_desc *m, const knurl_contact *contact, knurl_near *near, double tangential[3]) {
+static void drag(const touch *t, knurl_near *near, double tangential[3]) {
+    const knurl_contact *contact = &t->contact;
+    const double friction = t->record->material.friction;
     const double hold =
-        contact->z < 0.0 ? -m->friction * contact->z : 0.0; /* m: the spring's length that friction can hold */
+        t->wall.felt < 0.0 ? -friction * t->wall.felt : 0.0; /* m: the spring's length that friction can hold */
     double stretch[3] = {0.0, 0.0, 0.0};
     if (near->in_contact && hold > 0.0) {
         vec3_sub(near->anchor, contact->proxy, stretch);
@@ -89,7 +92,7 @@ static void drag(const knurl_material_desc *m, const knurl_contact *contact, knu
         }
     }
     vec3_madd(contact->proxy, 1.0, stretch, near->anchor);
-    vec3_scale(m->stiffness, stretch, tangential);
+    vec3_scale(t->wall.stiffness, stretch, tangential);
 }
 
 /* The velocity of the HIP over the surface, in the shape's frame. */
@@ -114,7 +117,7 @@ static void play(const knurl_hip *hip, const double over[3], const double coordi
         return;
     }
     const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
-                                   t->record->is_smooth ? 0.0 : m->amplitude,
+                                   t->record->is_smooth ? 0.0 : t->wall.amplitude,
                                    hip->rate,
                                    m->method,
                                    0,
@@ -145,15 +148,15 @@ static void render(const knurl_hip *hip, const double velocity[3], knurl_near *n
     play(hip, over, coordinates, near, t);
     const double height = t->grating.height;
     double size = 0.0;
-    if (contact->z < height) { /* Eq. 9, with the wall's damping; never a pull */
-        size = m->stiffness * (height - contact->z) - m->damping * vec3_dot(over, contact->normal);
+    if (t->wall.felt < height) { /* Eq. 9, with the wall's damping; never a pull */
+        size = t->wall.stiffness * (height - t->wall.felt) - t->wall.damping * vec3_dot(over, contact->normal);
         size = size > 0.0 ? size : 0.0;
     }
     vec3_scale(size, t->normal, t->force);
     if (m->friction > 0.0) {
         double tangential[3];
         double turned[3];
-        drag(m, contact, near, tangential);
+        drag(t, near, tangential);
         knurl_pose_turn_to_parent(t->pose, tangential, turned);
         vec3_madd(t->force, 1.0, turned, t->force);
     }
@@ -218,6 +221,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     if (!t.surface || (near->in_contact && near->generation != t.surface->generation)) {
         near->in_contact = near->asked = 0; /* it was taken out; another may be in its place */
         memset(&near->contact, 0, sizeof near->contact);
+        knurl_guard_leave(&near->guard);
         if (!t.surface) {
             return;
         }
@@ -234,6 +238,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     if (!held && near->in_contact) {
         vec3_copy(near->proxy, hip->left_proxy);
         vec3_copy(near->normal, hip->left_normal);
+        hip->guard.left = near->guard.depth;
         hand_over(hip, out->hip, over);
         hip->left_time = over->given ? hip->time : -1.0;
     } else if (!held && over->given && query.has_previous) {
@@ -247,14 +252,21 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
             return;
         }
         memset(&near->grating, 0, sizeof near->grating);
+        knurl_guard_meet(&hip->guard, &near->guard, over->given);
     }
     if (held) {
         const int64_t events = near->grating.event_count;
+        knurl_guard_clamp(&hip->guard, &t.record->material, t.contact.z, &t.wall);
+        knurl_guard_enter(&hip->guard, &near->guard, &t.wall, &out->flags);
+        knurl_guard_soften(&hip->guard, &near->guard, &t.wall, hip->previous, out->hip, &out->flags);
         render(hip, out->hip_velocity, near, &t);
+        knurl_guard_texture(&hip->guard, &near->guard, &t.wall, t.grating.height);
         hip->counts.events += (uint64_t)(near->grating.event_count - events);
         add_touch(&t, out);
         vec3_copy(t.proxy, near->proxy);
         vec3_copy(t.normal, near->normal);
+    } else {
+        knurl_guard_leave(&near->guard);
     }
     near->in_contact = (uint32_t)held;
 }
@@ -383,13 +395,8 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
 }
 
 /* Bounded and finite, whatever came before. Returns the force's length, N. */
-static double limit_force(const knurl_hip *hip, knurl_tick_output *out) {
-    double length = vec3_length(out->force);
-    if (length > hip->max_force) {
-        vec3_scale(hip->max_force / length, out->force, out->force);
-        out->flags |= KNURL_TICK_FORCE_LIMIT;
-        length = vec3_length(out->force);
-    }
+static double limit_force(knurl_hip *hip, knurl_tick_output *out) {
+    const double length = knurl_guard_force(&hip->guard, out->force, &out->flags);
     if (!isfinite(length)) {
         out->flags |= KNURL_TICK_NOT_FINITE;
     }
@@ -405,18 +412,30 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     hip->has_previous = 0;
     hip->calm = hip->left_time = -1.0;
     hip->depth = 0.0;
+    knurl_guard_let_go(&hip->guard);
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
     out->flags = KNURL_TICK_NOT_FINITE;
+}
+
+static void count_rare(uint32_t flags, knurl_hip_counts *c) {
+    c->force_limits += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
+    c->frequency_saturations += (flags & KNURL_TICK_FREQUENCY) != 0;
+    c->not_finite += (flags & KNURL_TICK_NOT_FINITE) != 0;
+    c->entries += (flags & KNURL_TICK_ENTRY) != 0;
+    c->slews += (flags & KNURL_TICK_SLEW) != 0;
+    c->heats += (flags & KNURL_TICK_HEAT) != 0;
+    c->passivities += (flags & KNURL_TICK_PASSIVITY) != 0;
 }
 
 static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_output *out) {
     knurl_hip_counts *c = &hip->counts;
     c->ticks++;
     c->contact_ticks += (out->flags & KNURL_TICK_CONTACT) != 0;
-    c->force_limits += (out->flags & KNURL_TICK_FORCE_LIMIT) != 0;
-    c->frequency_saturations += (out->flags & KNURL_TICK_FREQUENCY) != 0;
-    c->not_finite += (out->flags & KNURL_TICK_NOT_FINITE) != 0;
+    if (out->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+        count_rare(out->flags, c);
+    }
+    c->heat = hip->guard.heat.theta;
     c->force_max = force > c->force_max ? force : c->force_max;
     knurl_seqlock_begin(&hip->published.sequence);
     knurl_seqlock_put(hip->published.words, out, sizeof *out);
@@ -426,6 +445,7 @@ static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_out
 
 /* From a HIP that has been read to the force; returns its length, N. */
 static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
+    knurl_guard_begin(&hip->guard);
     touch_all(scene, world, hip, out);
     const double length = limit_force(hip, out);
     if (out->flags & KNURL_TICK_NOT_FINITE) {

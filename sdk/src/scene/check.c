@@ -1,0 +1,110 @@
+/* Surfaces against what a device can do, before anybody feels them. SPDX-License-Identifier: MIT */
+#include "scene/scene_internal.h"
+
+#include "base/base.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What is checked, and where the sentences go. */
+typedef struct inspection {
+    const knurl_bounds *bounds;
+    const knurl_material_desc *material;
+    const char *name;
+    knurl_surface_check *check;
+} inspection;
+
+void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
+    const knurl_surface_check defaults = {0};
+    knurl_desc_write(&defaults, sizeof defaults, check, size);
+}
+
+/* A line for a limit that is exceeded: what, by how much, what to do. More than fits is cut off. */
+static void say(const inspection *on, uint32_t limit, const char *sentence) {
+    const size_t length = strlen(on->check->message);
+    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%.40s': %s",
+                   length > 0 ? "\n" : "", on->name, sentence);
+    on->check->exceeded |= limit;
+}
+
+static void check_wall(const inspection *on) {
+    char sentence[256];
+    const double k = on->check->stiffness;
+    const double stable = knurl_bounds_stability(on->bounds, on->material->damping);
+    if (k > stable) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
+                       "friction; lower it, run faster, or clamp",
+                       k, k / stable, stable);
+        say(on, KNURL_LIMIT_STABILITY, sentence);
+    }
+    if (k > on->bounds->max_stiffness) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for; lower it, or clamp",
+                       k, k / on->bounds->max_stiffness, on->bounds->max_stiffness);
+        say(on, KNURL_LIMIT_STIFFNESS, sentence);
+    }
+}
+
+static void check_texture(const inspection *on, double stiffness) {
+    char sentence[256];
+    const double rms = stiffness * on->material->amplitude;
+    const double swing = rms * knurl_swing(on->material->method);
+    const double *fs = on->material->spatial_frequency;
+    const double period = 1.0 / fmax(fs[0], fs[1]);
+    if (swing > on->bounds->max_force) {
+        (void)snprintf(
+            sentence, sizeof sentence,
+            "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N; lower it to %.3g m, "
+            "or clamp",
+            on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force,
+            on->check->amplitude_limit);
+        say(on, KNURL_LIMIT_AMPLITUDE, sentence);
+    }
+    if (rms > on->bounds->continuous_force) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold; lower it to "
+                       "%.3g m, or clamp",
+                       on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force,
+                       on->check->amplitude_limit);
+        say(on, KNURL_LIMIT_HEAT, sentence);
+    }
+    if (period < 2.0 * on->bounds->quantum) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "ridges %.3g m apart are finer than the %.3g m of two position steps; lower spatial_frequency",
+                       period, 2.0 * on->bounds->quantum);
+        say(on, KNURL_LIMIT_PERIOD, sentence);
+    }
+}
+
+static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
+    const knurl_material_desc *m = &surface->record->material;
+    const inspection on = {&hip->guard.bounds, m, surface->name, check};
+    knurl_guard_wall wall;
+    memset(check, 0, sizeof *check);
+    knurl_guard_clamp(&hip->guard, m, 0.0, &wall);
+    check->stiffness = m->stiffness * on.bounds->scale;
+    check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);
+    check->amplitude = m->amplitude;
+    check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
+    check_wall(&on);
+    if (!surface->record->is_smooth) {
+        check_texture(&on, wall.stiffness);
+    }
+}
+
+knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface surface,
+                                       knurl_surface_check *check) {
+    knurl_surface_check made;
+    if (hip >= scene->hip_count) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
+                          (unsigned)scene->hip_count, (unsigned)hip);
+    }
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = knurl_scene_get(scene, surface);
+    if (data) {
+        inspect(&scene->hips[hip], data, &made);
+    }
+    knurl_scene_unlock(scene);
+    return data ? knurl_desc_return("knurl_surface_check", &made, sizeof made, check) : KNURL_ERROR_STALE_ID;
+}

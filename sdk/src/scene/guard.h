@@ -1,0 +1,204 @@
+/* The protections of a HIP: what a tick calls to keep a hand, and a device's motors, from what a scene may ask for.
+ * Pure computation, a few words of state. Units are the scene's, so that a tick need not convert.
+ * SPDX-License-Identifier: MIT
+ */
+#ifndef KNURL_SRC_GUARD_H
+#define KNURL_SRC_GUARD_H
+
+#include "base/vec3.h"
+
+#include <knurl/scene.h>
+
+/* N s/m: the friction that the lightest hand adds to its device's, for nobody feels a device that he does not hold.
+ * A finger tip alone has some N s/m, and more the harder it holds (Hajian and Howe 1997; Hasser and Cutkosky 2002). */
+#define KNURL_LIGHTEST_HAND 2.0
+
+/* What a device can do, as far as its HIP's protections care. SI, device frame. */
+typedef struct knurl_hip_facts {
+    double rate;
+    double resolution;
+    double max_force;
+    double continuous_force;
+    double heat_time;
+    double viscous;
+    double coulomb;
+    double delay;
+    double max_stiffness;
+} knurl_hip_facts;
+
+/* How warm motors are that are driven with a force: theta' = ((F/continuous)^2 - theta)/time. */
+typedef struct knurl_heat {
+    double theta;     /* 0 cold to 1: as warm as the continuous force makes them in the long run */
+    double share;     /* of the way to where the force takes theta, a tick */
+    double per_force; /* 1/continuous^2 */
+    double continuous;
+    double excess; /* (max_force/continuous)^2 - 1; 0: there is no limit but max_force */
+    double max_force;
+} knurl_heat;
+
+void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts);
+
+/* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
+double knurl_heat_limit(const knurl_heat *heat) KNURL_NONBLOCKING;
+
+/* What was played for a tick, N^2. */
+void knurl_heat_add(knurl_heat *heat, double force2) KNURL_NONBLOCKING;
+
+/* What a wall and its texture may be on a device. */
+typedef struct knurl_bounds {
+    double scale;
+    double friction; /* N s/m, of device and lightest hand */
+    double lag;      /* s: half a period and the delay */
+    double max_stiffness;
+    double max_force;
+    double continuous_force;
+    double quantum; /* m, scene */
+} knurl_bounds;
+
+/* N/m, felt: the bounds of a wall of some damping (N s/m, scene): (b + B)/(T/2 + delay) and the maker's. */
+double knurl_bounds_stability(const knurl_bounds *bounds, double damping) KNURL_NONBLOCKING;
+double knurl_bounds_stiffness(const knurl_bounds *bounds, double damping) KNURL_NONBLOCKING;
+
+/* m: the largest amplitude at a stiffness (N/m, scene): its swing within max_force, its rms within the continuous. */
+double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int32_t method) KNURL_NONBLOCKING;
+
+/* From the lowest trough to the highest crest of a method, in amplitudes (paper, "Peaks"). */
+double knurl_swing(int32_t method) KNURL_NONBLOCKING;
+
+/* A wall at one tick, from what was asked for to what is felt. Scene units. */
+typedef struct knurl_guard_wall {
+    double z;         /* m: as it is */
+    double felt;      /* m: as it is felt */
+    double stiffness; /* N/m, as felt */
+    double amplitude; /* m, as felt */
+    double damping;   /* N s/m */
+} knurl_guard_wall;
+
+/* Of one contact. */
+typedef struct knurl_guard_contact {
+    double depth;   /* m: that the ramp has come to at the latest tick, 0 without contact */
+    double height;  /* m: H at the latest tick */
+    double z;       /* m: of the latest tick */
+    int32_t pushed; /* 1: the HIP was in the wall at the latest tick */
+} knurl_guard_contact;
+
+/* The account of energy that walls gave out on their own, and what came of it. J, scene. */
+typedef struct knurl_passivity {
+    double given;     /* leaking away */
+    double asked;     /* what textures asked for, leaking away */
+    double kept;      /* of both, a tick */
+    double budget;    /* of `given` beyond `asked` */
+    double lag;       /* ticks from a position to the middle of the force that it makes */
+    double loss;      /* N/m: what friction and hand take, as a stiffness times lag */
+    double dry;       /* N: likewise, dry */
+    double longest;   /* m: of a tick's way that counts */
+    double soft;      /* 0 to 1: as soft as is passive */
+    double softening; /* of the way there, a tick */
+    double off;       /* ticks since the HIP was last in a wall */
+    double off_most;  /* after so many walls are hard again */
+    int32_t on;       /* 0: left out */
+    int32_t alarmed;  /* 1: the budget was exceeded */
+    int32_t busy;     /* 1: there is something in the account, or an alarm */
+} knurl_passivity;
+
+/* Of one HIP. */
+typedef struct knurl_guard {
+    double force[3]; /* N, scene: as sent at the latest tick */
+    double entry;    /* m that the felt depth may grow in a tick */
+    double slew;     /* N that the force may grow or turn in a tick */
+    double step;     /* N: of that tick's textures */
+    double left;     /* m: depth felt where the HIP slid off a surface, for the one that it is handed to */
+    int32_t clamp;   /* 1: within bounds */
+    knurl_passivity passivity;
+    knurl_heat heat;
+    knurl_bounds bounds;
+} knurl_guard;
+
+/* Sets the protections up, cold. facts: complete. */
+void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
+
+/* What the functions below leave to guard.c, because it is rare. */
+void knurl_guard_keep_account(knurl_passivity *passivity) KNURL_NONBLOCKING;
+void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material,
+                            knurl_guard_wall *wall) KNURL_NONBLOCKING;
+void knurl_guard_watch(knurl_passivity *passivity, const knurl_guard_contact *contact, knurl_guard_wall *wall,
+                       const double way[3], uint32_t *flags) KNURL_NONBLOCKING;
+void knurl_guard_ask(knurl_passivity *passivity, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                     double height) KNURL_NONBLOCKING;
+
+/* A tick begins. */
+static inline void knurl_guard_begin(knurl_guard *guard) {
+    if (guard->passivity.busy) {
+        knurl_guard_keep_account(&guard->passivity);
+    }
+}
+
+/* A contact begins: handed over from another surface, or not. */
+static inline void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) {
+    contact->depth = handed_over && contact->depth < guard->left ? guard->left : contact->depth;
+    contact->pushed = 0;
+}
+
+/* There is no contact (any more). */
+static inline void knurl_guard_leave(knurl_guard_contact *contact) {
+    contact->depth = contact->height = 0.0;
+    contact->pushed = 0;
+}
+
+/* The wall of a material; stiffness and amplitude within bounds where that was asked for. */
+static inline void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
+                                     knurl_guard_wall *wall) {
+    wall->z = wall->felt = z;
+    wall->stiffness = material->stiffness;
+    wall->amplitude = material->amplitude;
+    wall->damping = material->damping;
+    if (guard->clamp) {
+        knurl_guard_limit_wall(&guard->bounds, material, wall);
+    }
+}
+
+/* The depth that is felt grows as a ramp; outside nothing is touched. */
+static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                                     uint32_t *flags) {
+    const double most = contact->depth + guard->entry;
+    if (-wall->felt > most) {
+        *flags |= KNURL_TICK_ENTRY;
+        wall->felt = -most;
+    }
+    contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
+}
+
+/* Keeps the account, and has the wall felt softer once the budget is exceeded; from, to: the
+ * HIP's way in this tick, scene. A wall that friction keeps passive is left alone while the account is empty. */
+static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
+                                      const double from[3], const double to[3], uint32_t *flags) {
+    knurl_passivity *p = &guard->passivity;
+    const double excess = wall->stiffness * p->lag - p->loss;
+    double way[3];
+    vec3_sub(to, from, way);
+    const int gives = (excess > 0.0) & (excess * excess * vec3_dot(way, way) > p->dry * p->dry);
+    if (p->on & (gives | p->busy)) {
+        knurl_guard_watch(p, contact, wall, way, flags);
+    }
+    contact->z = wall->z;
+    contact->pushed = wall->felt < 0.0;
+}
+
+/* The texture is at a height (m): its own step is let through, and what energy it asks for. */
+static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
+                                       double height) {
+    guard->step += wall->stiffness * fabs(height - contact->height);
+    if (guard->passivity.busy) {
+        knurl_guard_ask(&guard->passivity, contact, wall, height);
+    }
+    contact->height = height;
+}
+
+/* The force that is sent, in place: within slew_rate of the latest but for the textures' steps and what falls, within
+ * what the motors can do now. Returns its length, N; NaN or infinite where the force was. */
+double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
+
+/* After a tick that is not to be trusted: no force was sent. The motors are as warm as they are. */
+void knurl_guard_let_go(knurl_guard *guard) KNURL_NONBLOCKING;
+
+#endif

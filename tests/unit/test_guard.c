@@ -1,0 +1,298 @@
+/* The protections of a HIP in its ticks: what they keep from a hand, and what they let through to the bit.
+ * SPDX-License-Identifier: MIT */
+#include "support/rig.h"
+#include "support/scenes.h"
+
+#define K     700.0
+#define TICKS 600
+
+/* HIP 0 with every protection but those of `unguarded`, device axes the scene's, no quantum. */
+static knurl_hip_desc guarded(uint32_t unguarded) {
+    static knurl_workspace workspace;
+    knurl_hip_desc hip;
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.resolution = 0.0;
+    hip.unguarded = unguarded;
+    hip.workspace = &workspace;
+    return hip;
+}
+
+static knurl_scene *scene_with(surface_parts *parts, const knurl_hip_desc *hip) {
+    knurl_scene *scene = empty_scene(1);
+    (void)add_surface(scene, parts);
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, hip), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    return scene;
+}
+
+static surface_parts wall(double stiffness) {
+    surface_parts parts = surface_plane();
+    parts.material.stiffness = stiffness;
+    return parts;
+}
+
+static knurl_hip_counts counts_of(const knurl_scene *scene) {
+    knurl_hip_counts counts;
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    return counts;
+}
+
+/* 0.5 m/s is 0.5 mm a tick at 1 kHz: 9 mm take 18 of them. 100 N/m: 50 N/s, which no slew limit minds. */
+TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
+    surface_parts parts = wall(100.0);
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 1; tick <= 30; tick++) {
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.009);
+        CHECK_CLOSE(out.force[2], 100.0 * fmin(0.009, 0.0005 * tick), 1e-12);
+        CHECK_CLOSE(out.depth, 0.009, 1e-15); /* what is told is as it is */
+        assert_int_equal((out.flags & KNURL_TICK_ENTRY) != 0, tick < 18);
+        assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
+    }
+    assert_true(counts_of(scene).entries == 17);
+    knurl_scene_destroy(scene);
+}
+
+TEST(friction_comes_in_with_the_depth_that_is_felt) {
+    surface_parts parts = wall(100.0);
+    parts.material.friction = 0.5;
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 0; tick < 30; tick++) {
+        const knurl_tick_output out = tick_at(scene, 0.001 * tick, 0.0, -0.009); /* it slips, or the spring is short */
+        assert_true(fabs(out.force[0]) <= 0.5 * out.force[2] + 1e-12);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* A wall that jumps 6 mm up under a HIP that is 1 mm in. */
+TEST(a_wall_that_jumps_comes_in_as_a_ramp) {
+    static const double up[3] = {0.0, 0.0, 0.006};
+    static const double straight[4] = {0.0, 0.0, 0.0, 1.0};
+    surface_parts parts = wall(100.0);
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 0; tick < 10; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.001 - 0.0002 * (tick + 1));
+    }
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).force[2], 0.1, 1e-12);
+    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_surface_at(scene, 0), up, straight, 0.0), KNURL_OK);
+    for (int tick = 1; tick <= 20; tick++) {
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
+        CHECK_CLOSE(out.force[2], 100.0 * fmin(0.007, 0.001 + 0.0005 * tick), 1e-12);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* 10,000 N/m: 5 N a tick by the ramp alone; 3.3 N within 5 ms is 0.66 N a tick. */
+TEST(a_force_grows_no_faster_than_the_slew_rate) {
+    static const double rates[] = {0.0, 200.0};
+    for (size_t i = 0; i < COUNT_OF(rates); i++) {
+        surface_parts parts = wall(10000.0);
+        knurl_hip_desc hip = guarded(0);
+        const double step = 0.001 * (rates[i] > 0.0 ? rates[i] : 3.3 / 0.005);
+        hip.slew_rate = rates[i];
+        knurl_scene *scene = scene_with(&parts, &hip);
+        for (int tick = 1; tick <= 30; tick++) {
+            const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
+            CHECK_CLOSE(out.force[2], fmin(3.3, step * tick), 1e-12);
+        }
+        assert_true(counts_of(scene).slews > 0);
+        knurl_scene_destroy(scene);
+    }
+}
+
+TEST(after_lift_off_the_force_is_zero_at_once) {
+    surface_parts parts = wall(K);
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 0; tick < 40; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, -0.004);
+    }
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.004).force[2], 2.8, 1e-12);
+    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.001);
+    CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
+    assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
+    knurl_scene_destroy(scene);
+}
+
+/* The same strokes with and without protections: 2.5, 3 and 5 ticks a cycle at the largest amplitude that keeps within
+ * max_force, pressed in at 0.1 m/s, lifted, tapped. */
+TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+    static const double speeds[] = {0.4, 1.0 / 3.0, 0.2, 0.05, 0.01}; /* m/s; 1000 cycles/m */
+    for (size_t m = 0; m < COUNT_OF(methods); m++) {
+        for (size_t v = 0; v < COUNT_OF(speeds); v++) {
+            knurl_scene *scenes[2];
+            for (uint32_t i = 0; i < 2; i++) {
+                surface_parts parts = wall(K);
+                knurl_hip_desc hip = guarded(i ? KNURL_UNGUARDED_ALL : 0);
+                hip.continuous_force = (double)INFINITY;
+                set_grating(&parts, methods[m], 1000.0, 0.0, 3.3 / (2.8745 * K));
+                scenes[i] = scene_with(&parts, &hip);
+            }
+            for (int tick = 0; tick < TICKS; tick++) {
+                const int p = tick % 150; /* a tap: 0.1 m/s down, 0.2 m/s up */
+                const double down = p < 100 ? fmin(0.003, 1e-4 * p - 0.004) : 0.003 - 2e-4 * (p - 100);
+                const double x = -0.04 + fmod(0.001 * speeds[v] * tick, 0.08);
+                const knurl_tick_output a = tick_at(scenes[0], x, 0.0, -down);
+                const knurl_tick_output b = tick_at(scenes[1], x, 0.0, -down);
+                assert_memory_equal(a.force, b.force, sizeof a.force);
+                assert_memory_equal(a.device_force, b.device_force, sizeof a.force);
+                assert_int_equal(a.flags, b.flags);
+            }
+            knurl_scene_destroy(scenes[0]);
+            knurl_scene_destroy(scenes[1]);
+        }
+    }
+}
+
+/* theta' = ((F/Fc)^2 - theta)/tau: theta is (F/Fc)^2 (1 - exp(-t/tau)) while F is held, and the limit has not come down
+ * before theta is 0.9. Then at most continuous_force in the long run, and theta never above 1. */
+TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
+    surface_parts parts = wall(1000.0);
+    const double held = 2.0;
+    const double tau = 2.0;
+    knurl_hip_desc hip = guarded(KNURL_UNGUARDED_ENTRY | KNURL_UNGUARDED_SLEW);
+    hip.heat_time = tau;
+    hip.continuous_force = 0.88;
+    knurl_scene *scene = scene_with(&parts, &hip);
+    const double ratio2 = held * held / (0.88 * 0.88);
+    const double warm = -tau * log(1.0 - 0.9 / ratio2); /* s */
+    double last = held;
+    double sum2 = 0.0;
+    for (int tick = 1; tick <= 30000; tick++) {
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.002);
+        const knurl_hip_counts counts = counts_of(scene);
+        assert_true(counts.heat <= 1.0);
+        if (tick < 1000.0 * warm - 1.0) {
+            CHECK_CLOSE(out.force[2], held, 1e-12);
+            CHECK_CLOSE(counts.heat, ratio2 * (1.0 - exp(-0.001 * tick / tau)), 1e-9);
+            assert_int_equal(out.flags & KNURL_TICK_HEAT, 0);
+        }
+        assert_true(out.force[2] <= last + 1e-12 && out.force[2] >= last - 0.1); /* smoothly down */
+        last = out.force[2];
+        sum2 += tick > 20000 ? last * last : 0.0;
+    }
+    CHECK_CLOSE(sqrt(sum2 / 10000.0), 0.88, 0.005);
+    assert_true(last >= 0.88 && counts_of(scene).heats > 20000);
+    for (int tick = 0; tick < 10000; tick++) { /* five time constants off the wall */
+        (void)tick_at(scene, 0.0, 0.0, 0.01);
+    }
+    CHECK_CLOSE(counts_of(scene).heat, exp(-5.0), 1e-3);
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.002).force[2], held, 1e-12);
+    knurl_scene_destroy(scene);
+}
+
+TEST(an_endless_continuous_force_is_no_limit) {
+    surface_parts parts = wall(1000.0);
+    knurl_hip_desc hip = guarded(KNURL_UNGUARDED_ENTRY | KNURL_UNGUARDED_SLEW);
+    hip.continuous_force = (double)INFINITY;
+    hip.heat_time = 0.1;
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 0; tick < 3000; tick++) {
+        CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.003).force[2], 3.0, 1e-12);
+    }
+    knurl_scene_destroy(scene);
+}
+
+static rig r;
+
+/* A rig's device tells nothing of heat: the Touch's 0.88 N and 10 s. 2 N: theta 0.9 after 1.9 s. */
+TEST(a_callback_warms_the_same_motors) {
+    const double ratio2 = 2.0 * 2.0 / (0.88 * 0.88);
+    rig_init(&r);
+    r.force[1] = 2.0;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 1500), KNURL_OK);
+    CHECK_CLOSE(rig_stats(&r).heat, ratio2 * (1.0 - exp(-0.15)), 1e-9);
+    assert_true(rig_stats(&r).heats == 0);
+    CHECK_CLOSE(r.written[1499][1], 2.0, 1e-12);
+    assert_int_equal(knurl_loop_step(r.loop, 60000), KNURL_OK);
+    assert_true(rig_stats(&r).heat <= 1.0 && rig_stats(&r).heats > 50000);
+    CHECK_CLOSE(r.written[(61500 - 1) % RIG_ROOM][1], 0.88, 0.01);
+    rig_destroy(&r);
+}
+
+TEST(nothing_that_is_not_a_number_gets_past_the_protections) {
+    surface_parts parts = wall(K);
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    static const double wrong[] = {(double)NAN, (double)INFINITY};
+    for (int tick = 0; tick < 60; tick++) {
+        const int bad = tick % 10 == 9;
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, bad ? wrong[tick / 10 % 2] : -0.001);
+        assert_true(isfinite(out.force[2]) && isfinite(counts_of(scene).heat));
+        if (bad) {
+            CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
+            assert_true((out.flags & KNURL_TICK_NOT_FINITE) != 0);
+        } else if (tick % 10 == 0) {
+            CHECK_CLOSE(out.force[2], K * 0.0005, 1e-12); /* again from nothing, as a ramp */
+        }
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(configuring_a_hip_cools_it_and_begins_anew) {
+    surface_parts parts = wall(K);
+    knurl_hip_desc hip = guarded(0);
+    hip.heat_time = 0.1;
+    knurl_scene *scene = scene_with(&parts, &hip);
+    for (int tick = 0; tick < 1000; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, -0.004);
+    }
+    assert_true(counts_of(scene).heat > 0.9);
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.004).force[2], K * 0.0005, 1e-12);
+    assert_true(counts_of(scene).heat < 0.01);
+    knurl_scene_destroy(scene);
+}
+
+TEST(protections_that_are_no_numbers_are_refused) {
+    knurl_scene *scene = empty_scene(1);
+    const knurl_hip_desc good = guarded(0);
+    const struct {
+        size_t offset;
+        double value;
+    } wrong[] = {{offsetof(knurl_hip_desc, continuous_force), -1.0},
+                 {offsetof(knurl_hip_desc, continuous_force), (double)NAN},
+                 {offsetof(knurl_hip_desc, heat_time), -1.0},
+                 {offsetof(knurl_hip_desc, heat_time), (double)INFINITY},
+                 {offsetof(knurl_hip_desc, viscous), (double)NAN},
+                 {offsetof(knurl_hip_desc, coulomb), (double)INFINITY},
+                 {offsetof(knurl_hip_desc, delay), 16.5},
+                 {offsetof(knurl_hip_desc, max_stiffness), -1.0},
+                 {offsetof(knurl_hip_desc, slew_rate), -1.0},
+                 {offsetof(knurl_hip_desc, slew_rate), (double)NAN}};
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        knurl_hip_desc bad = good;
+        memcpy((char *)&bad + wrong[i].offset, &wrong[i].value, sizeof wrong[i].value);
+        assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
+    }
+    knurl_hip_desc bad = good;
+    bad.unguarded = KNURL_UNGUARDED_ALL + 1;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
+    bad = good;
+    bad.clamp = 2;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
+    knurl_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_first_tick_pressed_in_comes_in_as_a_ramp),
+        cmocka_unit_test(friction_comes_in_with_the_depth_that_is_felt),
+        cmocka_unit_test(a_wall_that_jumps_comes_in_as_a_ramp),
+        cmocka_unit_test(a_force_grows_no_faster_than_the_slew_rate),
+        cmocka_unit_test(after_lift_off_the_force_is_zero_at_once),
+        cmocka_unit_test(square_waves_at_full_amplitude_pass_every_limit_to_the_bit),
+        cmocka_unit_test(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more),
+        cmocka_unit_test(an_endless_continuous_force_is_no_limit),
+        cmocka_unit_test(a_callback_warms_the_same_motors),
+        cmocka_unit_test(nothing_that_is_not_a_number_gets_past_the_protections),
+        cmocka_unit_test(configuring_a_hip_cools_it_and_begins_anew),
+        cmocka_unit_test(protections_that_are_no_numbers_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
