@@ -81,6 +81,7 @@ static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     hip.resolution = session->info.resolution;
     hip.max_force = session->info.max_force;
     hip.workspace = &workspace;
+    hip.unguarded = KNURL_UNGUARDED_ALL; /* S1 and S2 as printed, saturation and all */
     return knurl_scene_configure_hip(scene, 0, &hip);
 }
 

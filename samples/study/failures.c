@@ -59,8 +59,28 @@ const failure failures[] = {
      "A tick sees one count more or less: a quantum times f_h.", "f_t jumps by %.0f Hz at a steady 100 Hz",
      "0.055 mm x 1 kHz x 1000/m", "FOAW (the default where the resolution is known)", "ms", failure_difference},
     {"foaw_pulses", "velocity", "slow motion comes in bursts", "A count comes more rarely than the window is long.",
-     "%.2f mm/s at a steady 1 mm/s", "a quantum in the 11 ms between the thirds of FOAW's window", "a finer encoder; locked goes by the position there", "ms",
-     failure_foaw_pulses},
+     "%.2f mm/s at a steady 1 mm/s", "a quantum in the 11 ms between the thirds of FOAW's window",
+     "a finer encoder; locked goes by the position there", "ms", failure_foaw_pulses},
+    {"wall_runaway", "wall", "shakes itself loose",
+     "A sampled wall gives out more than was put in; beyond what device and hand take, that grows.",
+     "%.1f mm of swing: a Touch without dry friction, held loosely, 1020 N/m", "K above (b + B)/(T/2 + td)",
+     "the default protections: they soften it (KNURL_TICK_PASSIVITY); knurl_scene_check_surface() warns before", "ms",
+     failure_wall_runaway},
+    {"wall_delay", "wall", "bears less for every tick of delay", "A force that comes later is held longer.",
+     "a tick of delay costs a factor of %.1f", "(T/2 + td)/(T/2)",
+     "a faster loop; a device that answers in the same tick", "ticks of delay", failure_wall_delay},
+    {"wall_quantised", "wall", "buzzes between two counts",
+     "Where the force that would hold lies between those of two counts, and dry friction holds neither.",
+     "%.0f um to and fro, though it is passive", "a limit cycle for fc/(K quantum) below 1/2",
+     "a finer encoder, a softer wall", "ms", failure_wall_quantised},
+    {"force_limit", "wall", "is clipped by its motors",
+     "A texture that asks for more than max_force loses its crests, and with them its balance.",
+     "%.2f N less than meant, in the paper's Experiment 3 as printed (0.7 N/mm, 2.7 mm)", "(2 K A - 3.3 N)/2",
+     "K A below half of max_force; knurl_scene_check_surface() warns, clamp keeps to it", "ms", failure_force_limit},
+    {"heat", "wall", "tires its motors", "What motors can do for a while they cannot do for long.",
+     "after %.1f s of 2 N a Touch comes down to its 0.88 N",
+     "-tau ln(1 - theta (Fc/F)^2), theta = 0.97, where the limit has come down to 2 N; tau = 60 s is assumed",
+     "press less; KNURL_TICK_HEAT says when it is so", "s", failure_heat},
     {0}};
 
 void failure_point(const failure_sink *sink, const char *series, double t, double value) {
@@ -148,7 +168,7 @@ int study_failures(const char *folder) {
         failed = study_open(&files[i], folder, names[i]);
     }
     if (!failed && write_all(files[0].stream, files[1].stream, files[2].stream)) {
-        fprintf(stderr, "knurl: study: failures: no memory\n");
+        fprintf(stderr, "knurl: study: failures: no memory, or %s\n", knurl_error_message());
         failed = 1;
     }
     for (int i = 0; i < 3; i++) {

@@ -107,6 +107,32 @@ TEST(foaw_pulses) {
     CHECK_CLOSE(measure("foaw_pulses"), 0.055 / 0.011, 1e-6);
 }
 
+/* Bangs through millimetres, within what 1 N of press against a loose hand can do. */
+TEST(wall_runaway) {
+    assert_between(1.0, 10.0, measure("wall_runaway"));
+}
+
+TEST(wall_delay) {
+    CHECK_CLOSE(measure("wall_delay"), 1.5 / 0.5, 0.02 * 3.0);
+}
+
+/* Of a quantum of 55 um: some of it, and not several. */
+TEST(wall_quantised) {
+    assert_between(5.0, 110.0, measure("wall_quantised"));
+}
+
+TEST(force_limit) {
+    CHECK_CLOSE(measure("force_limit"), 0.5 * (2.0 * 700.0 * 0.0027 - 3.3), 1e-12);
+}
+
+/* theta' = ((F/Fc)^2 - theta)/tau; from 0.9 on the limit's square comes down in a line, from 3.3 N to 0.88 N at 1. The
+ * press comes in over 0.2 s. */
+TEST(heat) {
+    const double asked = 2.0 * 2.0 / (0.88 * 0.88);
+    const double theta = 1.0 - 0.1 * (asked - 1.0) / (3.3 * 3.3 / (0.88 * 0.88) - 1.0);
+    CHECK_CLOSE(measure("heat"), -60.0 * log(1.0 - theta / asked) + 0.1, 0.15);
+}
+
 static char *read_whole(const char *path) {
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -158,6 +184,11 @@ int main(void) {
         cmocka_unit_test(locked_grid),
         cmocka_unit_test(difference),
         cmocka_unit_test(foaw_pulses),
+        cmocka_unit_test(wall_runaway),
+        cmocka_unit_test(wall_delay),
+        cmocka_unit_test(wall_quantised),
+        cmocka_unit_test(force_limit),
+        cmocka_unit_test(heat),
         cmocka_unit_test(the_page_says_what_is_measured),
         cmocka_unit_test(every_failure_has_its_test),
     };

@@ -81,7 +81,6 @@ static int compare(size_t device, const char *grip, int32_t method, double speed
     c.stiffness = stiffness;
     c.amplitude = method == KNURL_METHOD_DEFAULT ? 0.0 : 0.0002;
     c.speed = speed;
-    c.reach = 0.03;
     if (run(&c, &others).outcome > LAB_VIBRATION) {
         return 0;
     }

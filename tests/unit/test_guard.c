@@ -199,19 +199,30 @@ TEST(an_endless_continuous_force_is_no_limit) {
 
 static rig r;
 
-/* A rig's device tells nothing of heat: the Touch's 0.88 N and 10 s. 2 N: theta 0.9 after 1.9 s. */
+/* A rig's device tells nothing of heat: the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
 TEST(a_callback_warms_the_same_motors) {
     const double ratio2 = 2.0 * 2.0 / (0.88 * 0.88);
     rig_init(&r);
     r.force[1] = 2.0;
     rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 1500), KNURL_OK);
+    assert_int_equal(knurl_loop_step(r.loop, 9000), KNURL_OK);
     CHECK_CLOSE(rig_stats(&r).heat, ratio2 * (1.0 - exp(-0.15)), 1e-9);
     assert_true(rig_stats(&r).heats == 0);
-    CHECK_CLOSE(r.written[1499][1], 2.0, 1e-12);
+    CHECK_CLOSE(r.written[(9000 - 1) % RIG_ROOM][1], 2.0, 1e-12);
+    assert_int_equal(knurl_loop_step(r.loop, 360000), KNURL_OK);
+    assert_true(rig_stats(&r).heat <= 1.0 && rig_stats(&r).heats > 300000);
+    CHECK_CLOSE(r.written[(369000 - 1) % RIG_ROOM][1], 0.88, 0.01);
+    rig_destroy(&r);
+}
+
+TEST(a_callback_may_leave_the_heat_to_its_device) {
+    rig_init(&r);
+    r.force[1] = 2.0;
+    r.desc.unguarded = KNURL_UNGUARDED_HEAT;
+    rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 60000), KNURL_OK);
-    assert_true(rig_stats(&r).heat <= 1.0 && rig_stats(&r).heats > 50000);
-    CHECK_CLOSE(r.written[(61500 - 1) % RIG_ROOM][1], 0.88, 0.01);
+    assert_true(rig_stats(&r).heats == 0);
+    CHECK_CLOSE(r.written[(60000 - 1) % RIG_ROOM][1], 2.0, 1e-12);
     rig_destroy(&r);
 }
 
@@ -290,6 +301,7 @@ int main(void) {
         cmocka_unit_test(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more),
         cmocka_unit_test(an_endless_continuous_force_is_no_limit),
         cmocka_unit_test(a_callback_warms_the_same_motors),
+        cmocka_unit_test(a_callback_may_leave_the_heat_to_its_device),
         cmocka_unit_test(nothing_that_is_not_a_number_gets_past_the_protections),
         cmocka_unit_test(configuring_a_hip_cools_it_and_begins_anew),
         cmocka_unit_test(protections_that_are_no_numbers_are_refused),

@@ -39,6 +39,9 @@ typedef struct knurl_loop_desc {
     double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
     double watchdog_s;        /**< s without a tick after which the motors are let go; default 0.05; 0: never */
     const knurl_clock *clock; /**< copied; null: the system's */
+    uint32_t unguarded; /**< with a force callback: KNURL_UNGUARDED_HEAT leaves the device's continuous_force out of
+                             account; default 0 */
+    uint32_t reserved;  /**< 0 */
 } knurl_loop_desc;
 
 /** Nanoseconds, by percentile. */

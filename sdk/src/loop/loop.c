@@ -194,6 +194,12 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "and %g",
                           d->ramp_s, d->watchdog_s);
     }
+    if (d->unguarded & ~(uint32_t)KNURL_UNGUARDED_HEAT) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_loop_desc.unguarded: expected 0 or KNURL_UNGUARDED_HEAT (a scene's HIP has its own), "
+                          "found %#x",
+                          (unsigned)d->unguarded);
+    }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.clock: expected both functions, found null");
     }
@@ -250,6 +256,9 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
     made->max_force = facts.max_force;
+    if (d.unguarded & KNURL_UNGUARDED_HEAT) {
+        facts.continuous_force = HUGE_VAL;
+    }
     knurl_heat_init(&made->heat, &facts);
     knurl_device_release_halt(d.device);
     *loop = made;

@@ -19,7 +19,7 @@ static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     return KNURL_OK;
 }
 
-const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 10.0, 0.5, 0.26, 1.0, 1020.0};
+const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 0.26, 1.0, 1020.0};
 
 static double above_zero(double given, double device) {
     return given > 0.0 ? given : device;

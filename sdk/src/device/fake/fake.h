@@ -19,7 +19,7 @@
     X(resolution, 0.000055, 0.0, 0.01, "m", "position quantum, 0 for none")                                            \
     X(max_force, 3.3, 0.001, 1000.0, "N", "what the motors can do")                                                    \
     X(continuous_force, 0.88, 0.0, 1000.0, "N", "what they can do for ever, 0 for max_force")                          \
-    X(heat_time, 10, 0.001, 1e6, "s", "time constant with which they warm up")                                         \
+    X(heat_time, 60, 0.001, 1e6, "s", "time constant with which they warm up")                                         \
     X(max_stiffness, 1020, 0.0, 1e9, "N/m", "the stiffest wall that is promised, 0 for no promise")                    \
     X(delay, 1, 0.0, 16.0, "ticks", "from a force written to a force felt, a whole number")                            \
     X(width, 0.160, 0.001, 10.0, "m", "workspace along x")                                                             \
@@ -35,7 +35,8 @@
  * touch: 0.055 mm and 3.3 N as in the paper; 160 x 120 x 70 mm, 45 g, 0.26 N, 0.88 N continuous and 1.26, 2.31, 1.02
  * N/mm (x, y, z; the least counts) as on the Phantom Omni's data sheet, as it is quoted. Its viscous friction is not
  * published: 0.5 N s/m is what a passive 400 N/m wall at 1 kHz with a tick of delay needs. Its heat_time is assumed:
- * what the windings of small DC motors take.
+ * windings of small DC motors take some 10 s, their housings some minutes; with 60 s it plays 3.3 N for 4 s and 2 N for
+ * 11 s before it gives way.
  *
  * falcon: 8.9 N (2 lbf) at the peak, over 400 dpi (0.06 mm), 4 inches cubed as in Novint's brochure, as it is quoted;
  * 3000 N/m as CHAI3D has it. Mass, frictions, continuous force (a third of the peak), heat_time and delay (a transfer
