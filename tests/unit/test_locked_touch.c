@@ -162,13 +162,14 @@ static void configure_counted(knurl_scene *scene) {
 }
 
 /* At rest near an edge of a surface that is moved in tenths of a count, one count to and fro on some axes. Edges lie
- * across `along`. */
-static void check_flicker(surface_parts *parts, const double along[3], const double normal[3], uint32_t axes) {
+ * across `along`, where the surface's coordinate grows by `steep` a metre. */
+static void check_flicker(surface_parts *parts, const double along[3], const double normal[3], double steep,
+                          uint32_t axes) {
     uint64_t seed = 10;
     for (int place = 0; place < 60; place++) {
         knurl_scene *scene = empty_scene(1);
         for (int i = 0; i < 3; i++) {
-            parts->desc.position[i] = along[i] * (0.25 / FS + COUNT * (place / 10.0 - 3.0));
+            parts->desc.position[i] = along[i] * (0.25 / (FS * steep) + COUNT * (place / 10.0 - 3.0));
         }
         (void)add_surface(scene, parts);
         assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
@@ -201,10 +202,10 @@ TEST(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it) {
     shape curved = curved_sheet();
     surface_parts plane = grating_on(NULL, KNURL_LOCKED);
     surface_parts mesh = grating_on(&curved, KNURL_LOCKED);
-    check_flicker(&plane, x, up, 1);
-    check_flicker(&plane, x, up, 7);
-    check_flicker(&mesh, x, up, 1);
-    check_flicker(&mesh, x, up, 7);
+    check_flicker(&plane, x, up, 1.0, 1);
+    check_flicker(&plane, x, up, 1.0, 7);
+    check_flicker(&mesh, x, up, 1.0, 1);
+    check_flicker(&mesh, x, up, 1.0, 7);
     shape_free(&curved);
 }
 
@@ -226,8 +227,26 @@ TEST(at_rest_on_an_edge_of_a_turned_plane_as_well) {
     plane.desc.rotation[1] = (rotation[2] - rotation[6]) / (4.0 * w);
     plane.desc.rotation[2] = (rotation[3] - rotation[1]) / (4.0 * w);
     plane.desc.rotation[3] = w;
-    check_flicker(&plane, x, normal, 1);
-    check_flicker(&plane, x, normal, 7);
+    check_flicker(&plane, x, normal, 1.0, 1);
+    check_flicker(&plane, x, normal, 1.0, 7);
+}
+
+/* The middle fifth of the sheet has uvs three times as dense, so that the mean of |dP/du| is 0.8 + 0.2/3, and what is
+ * scaled to it grows there by 2.6 a metre. */
+TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
+    static const double half[2] = {0.05, 0.05};
+    static const double x[3] = {1.0, 0.0, 0.0};
+    static const double up[3] = {0.0, 0.0, 1.0};
+    shape s = shape_sheet(50, 4, half, dome);
+    for (uint32_t v = 0; v < s.vertex_count; v++) {
+        const float at = s.positions[3 * v];
+        s.uvs[2 * v] = at + 2.0f * fmaxf(-0.01f, fminf(0.01f, at));
+        s.uvs[2 * v + 1] = s.positions[3 * v + 1];
+    }
+    surface_parts dense = grating_on(&s, KNURL_LOCKED);
+    check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 1);
+    check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 7);
+    shape_free(&s);
 }
 
 /* 1 mm/s over 20 ridges and back in whole counts, on a plane and on a mesh. */
@@ -329,6 +348,7 @@ int main(void) {
         cmocka_unit_test(a_change_of_material_waits_for_the_events_end),
         cmocka_unit_test(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it),
         cmocka_unit_test(at_rest_on_an_edge_of_a_turned_plane_as_well),
+        cmocka_unit_test(at_rest_on_an_edge_of_dense_uvs_as_well),
         cmocka_unit_test(slowly_from_an_encoder_each_edge_toggles_once),
         cmocka_unit_test(on_a_mesh_with_tangents_alone_the_way_is_counted),
         cmocka_unit_test(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with),

@@ -50,10 +50,10 @@ int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query,
 void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3],
                       double coordinates[2]) KNURL_NONBLOCKING;
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s). 0 and untouched where the uvs have
- * no area. Allowed in a tick. */
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
-                     double rates[2]) KNURL_NONBLOCKING;
+/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre
+ * along the surface. 0 and untouched where the uvs have no area. Allowed in a tick. */
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                     double *steepest) KNURL_NONBLOCKING;
 
 /* The nearest point of the mesh within `radius` of p; 0 where there is none. Fills in proxy, weights and triangle. */
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,

@@ -83,8 +83,17 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
+/* The square of a gradient's length times twice the area: of what grows by c1 and c2 along the edges. */
+static double steepness2(double c1, double c2, const uv_edges *e) {
+    double along[3];
+    vec3_scale(c1, e->edge2, along);
+    vec3_madd(along, -c2, e->edge1, along);
+    return vec3_dot(along, along);
+}
+
 /* The velocity in the triangle's plane, in its edges: v = a edge1 + b edge2. */
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2]) {
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                     double *steepest) {
     uv_edges e;
     double across[3];
     double turned[3];
@@ -100,6 +109,9 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
     const double facing = vec3_dot(across, contact->normal) * e.det;
     rates[0] = (a * e.u1 + b * e.u2) * mesh->uv_scale[0];
     rates[1] = (a * e.v1 + b * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
+    const double u = steepness2(e.u1, e.u2, &e) * mesh->uv_scale[0] * mesh->uv_scale[0];
+    const double v = steepness2(e.v1, e.v2, &e) * mesh->uv_scale[1] * mesh->uv_scale[1];
+    *steepest = sqrt((u > v ? u : v) / area2);
     return 1;
 }
 

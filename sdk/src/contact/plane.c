@@ -105,9 +105,14 @@ void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, d
 }
 
 void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
-                       double rates[2]) {
+                       double rates[2], double *steepest) {
+    double most = 0.0;
     for (int i = 0; i < 2; i++) {
-        rates[i] = plane->map[i][0] * velocity[0] + plane->map[i][1] * velocity[1];
+        const double *map = plane->map[i];
+        const double steepness2 = map[0] * map[0] + map[1] * map[1];
+        rates[i] = map[0] * velocity[0] + map[1] * velocity[1];
+        most = steepness2 > most ? steepness2 : most;
     }
     rates[1] *= contact->normal[2];
+    *steepest = most == 1.0 ? 1.0 : sqrt(most);
 }

@@ -73,8 +73,9 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
 void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3],
                        double coordinates[2]) KNURL_NONBLOCKING;
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s). Allowed in a tick. */
+/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
+ * Allowed in a tick. */
 void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
-                       double rates[2]) KNURL_NONBLOCKING;
+                       double rates[2], double *steepest) KNURL_NONBLOCKING;
 
 #endif

@@ -221,10 +221,10 @@ uint32_t knurl_world_find(const knurl_world *world, const knurl_view *view, uint
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
                          double x[3], double y[3], double coordinates[2]) KNURL_NONBLOCKING;
 
-/* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame). 0,
- * and untouched, where there are no coordinates. */
+/* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame), and
+ * by how much at most in a metre along the surface. 0, and untouched, where there are no coordinates. */
 int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
-                        const double velocity[3], double rates[2]) KNURL_NONBLOCKING;
+                        const double velocity[3], double rates[2], double *steepest) KNURL_NONBLOCKING;
 
 /* 1: it has uvs or an axis, or is a plane, so that there is a place on the grating to go by. */
 int knurl_surface_has_coordinates(const knurl_surface_data *surface);

@@ -52,13 +52,13 @@ int knurl_surface_has_coordinates(const knurl_surface_data *surface) {
 
 /* Before the orientation turns them. 0: where there are no coordinates. */
 static int find_rates(const knurl_surface_data *surface, const knurl_contact *contact, const double velocity[3],
-                      double rates[2]) {
+                      double rates[2], double *steepest) {
     if (!surface->mesh) {
-        knurl_plane_rates(surface->plane, contact, velocity, rates);
+        knurl_plane_rates(surface->plane, contact, velocity, rates, steepest);
         return surface->plane->has_coordinates;
     }
     if (!surface->has_axis) {
-        return knurl_mesh_rates(surface->mesh, contact, velocity, rates);
+        return knurl_mesh_rates(surface->mesh, contact, velocity, rates, steepest);
     }
     double x[3];
     double y[3];
@@ -67,13 +67,14 @@ static int find_rates(const knurl_surface_data *surface, const knurl_contact *co
     vec3_cross(contact->normal, x, y);
     rates[0] = vec3_dot(velocity, surface->axis);
     rates[1] = vec3_dot(velocity, y);
+    *steepest = 1.0;
     return 1;
 }
 
 int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
-                        const double velocity[3], double rates[2]) {
+                        const double velocity[3], double rates[2], double *steepest) {
     double straight[2];
-    if (!find_rates(surface, contact, velocity, straight)) {
+    if (!find_rates(surface, contact, velocity, straight, steepest)) {
         return 0;
     }
     rates[0] = record->turn[0] * straight[0] + record->turn[1] * straight[1];

@@ -116,17 +116,19 @@ static void play(const knurl_hip *hip, const double over[3], const double coordi
         t->grating = none;
         return;
     }
+    double velocity[2] = {t->velocity[0], t->velocity[1]};
+    double steepest = 1.0;
+    if (m->method == KNURL_LOCKED &&
+        !knurl_surface_rates(t->surface, t->record, &t->contact, over, velocity, &steepest)) {
+        coordinates = NULL; /* it counts the way */
+    }
     const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
                                    t->record->is_smooth ? 0.0 : t->wall.amplitude,
                                    hip->rate,
                                    m->method,
                                    0,
-                                   hip->quantum,
+                                   hip->quantum * steepest,
                                    0.0};
-    double velocity[2] = {t->velocity[0], t->velocity[1]};
-    if (m->method == KNURL_LOCKED && !knurl_surface_rates(t->surface, t->record, &t->contact, over, velocity)) {
-        coordinates = NULL; /* it counts the way */
-    }
     knurl_grating_step(&grating, &near->grating, coordinates, velocity, &t->grating);
 }
 
