@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* ms: the parts of runs that are drawn. */
-#define DRAWN 120.0
+#define DRAWN 600.0
 
 static void draw_depths(const failure_sink *sink, const char *series, const lab_case *c, const lab_signals *signals) {
     const size_t ticks = (size_t)(DRAWN / 1e3 * c->rate);

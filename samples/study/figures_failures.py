@@ -13,6 +13,7 @@ from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading
 
 COLUMNS = 4
 COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d"}
+SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay"}  # what is not held from tick to tick
 
 
 def read_traces(folder, table):
@@ -53,9 +54,12 @@ def draw_trace(ax, row, traces):
         elif len(traces) == 1:
             ax.plot(t, values, color=colour, lw=1.1, label=name)
         elif name == list(traces)[-1]:
-            ax.plot(t, values, color=INK if "height" in traces else colour, lw=1.1, drawstyle="steps-post", label=name)
+            held = "default" if row["id"] in SMOOTH else "steps-post"
+            ax.plot(t, values, color=INK if "height" in traces else colour, lw=1.1, drawstyle=held, label=name,
+                    marker="o" if len(t) < 10 else None, ms=3.5)
         else:
-            ax.plot(t, values, color=next(others), lw=1, ls=(0, (3, 2)), label=name)
+            held = "default" if row["id"] in SMOOTH else "steps-post"
+            ax.plot(t, values, color=next(others), lw=1, ls=(0, (3, 2)), drawstyle=held, label=name)
     ax.axhline(0, color=RULE, lw=0.7, zorder=0)
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.24 * (high - low))  # the legend's
