@@ -17,7 +17,7 @@ static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
 int study_contender_at(size_t index, study_contender *contender) {
     for (const study_method *m = study_methods; m->name; m++) {
         const size_t positions = m->spatial ? 2 : 1;
-        const size_t velocities = m->uses_velocity ? 3 : 1;
+        const size_t velocities = m->uses_velocity ? STUDY_VELOCITIES : 1;
         const size_t variants = positions * velocities;
         const size_t count = variants * sizeof rates / sizeof *rates;
         if (index < count) {
@@ -33,7 +33,7 @@ int study_contender_at(size_t index, study_contender *contender) {
 }
 
 void study_contender_name(const study_contender *c, char *name, size_t size) {
-    static const char *const velocities[] = {"ideal velocity", "first difference", "FOAW"};
+    static const char *const velocities[] = {"ideal velocity", "first difference", "low pass", "FOAW"};
     const char *velocity = c->method->uses_velocity ? velocities[c->velocity] : "position";
     const char *positions = c->resolution > 0.0 ? "0.055 mm" : "ideal positions";
     (void)snprintf(name, size, "%s %g Hz", c->method->name, c->update_rate_hz);
@@ -55,9 +55,10 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
     r->grating.update_rate_hz = contender->update_rate_hz;
     r->grating.method = contender->method->id;
     r->grating.resolution = contender->resolution;
-    const int32_t estimator = contender->velocity == STUDY_FOAW ? KNURL_VELOCITY_FOAW : KNURL_VELOCITY_DIFFERENCE;
+    static const int32_t estimators[] = {KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_LOWPASS,
+                                         KNURL_VELOCITY_FOAW};
     return knurl_grating_check(&r->grating) ||
-           knurl_velocity_init(estimator, RESOLUTION, contender->update_rate_hz, &r->estimator);
+           knurl_velocity_init(estimators[contender->velocity], RESOLUTION, contender->update_rate_hz, &r->estimator);
 }
 
 /* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
@@ -74,10 +75,13 @@ double study_rendering_tick(study_rendering *r) {
     if (!r->contender.method->spatial) {
         return knurl_wave_value(&r->wave, tick);
     }
-    const double x = r->speed * (double)tick / r->contender.update_rate_hz;
+    return study_rendering_tick_at(r, r->speed * (double)tick / r->contender.update_rate_hz, r->speed);
+}
+
+double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     const double quantum = r->contender.resolution;
     const double position[3] = {quantum > 0.0 ? floor(x / quantum + 0.5) * quantum : x, 0.0, 0.0};
-    double velocity[3] = {r->speed, 0.0, 0.0};
+    double velocity[3] = {speed, 0.0, 0.0};
     knurl_grating_output output;
     if (r->contender.method->uses_velocity && r->contender.velocity != STUDY_IDEAL) {
         knurl_velocity_update(&r->estimator, position, velocity);

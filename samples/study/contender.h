@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 /** How a spatial method gets its velocity. */
-enum { STUDY_IDEAL = 0, STUDY_DIFFERENCE = 1, STUDY_FOAW = 2 };
+enum { STUDY_IDEAL = 0, STUDY_DIFFERENCE = 1, STUDY_LOWPASS = 2, STUDY_FOAW = 3, STUDY_VELOCITIES = 4 };
 
 typedef struct study_method {
     const char *name;
@@ -24,7 +24,7 @@ extern const study_method study_methods[];
 typedef struct study_contender {
     const study_method *method;
     double update_rate_hz;
-    int velocity;      /**< STUDY_IDEAL, _DIFFERENCE or _FOAW */
+    int velocity;      /**< STUDY_IDEAL to _FOAW */
     double resolution; /**< of the positions, m; 0: ideal */
 } study_contender;
 
@@ -52,5 +52,8 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
 
 /** The height of the next tick. This is what is timed. */
 double study_rendering_tick(study_rendering *r);
+
+/** The same at a place (m) and speed (m/s) of the caller's: for spatial methods. */
+double study_rendering_tick_at(study_rendering *r, double x, double speed);
 
 #endif

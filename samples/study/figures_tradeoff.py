@@ -12,13 +12,14 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from style import GREY, INK, METHODS
 
 OTHERS = ["#3a3a3a"]  # methods that style.py has no colour for yet
-MARKERS = {"none": "o", "ideal": "D", "difference": "v", "foaw": "s"}
+MARKERS = {"none": "o", "ideal": "D", "difference": "v", "lowpass": "^", "foaw": "s"}
 SIZES = {1000.0: 26, 2000.0: 48, 5000.0: 80, 10000.0: 125}
 FLOOR = 1e-4  # what is smaller, and 0, is drawn here
 PANELS = [("net_worst", "net force, worst (A)", "pushes where it should only vibrate"),
           ("frequency_error", "frequency error, mean", "dominant line against what the motion asks for"),
           ("spurious", "spurious energy, mean", "outside the dominant line and its odd harmonics"),
-          ("drift", "drift, mean", "cycles played against ridges crossed (spatial methods)")]
+          ("drift", "drift, mean", "cycles played against ridges crossed (spatial methods)"),
+          ("strokes", "drift in strokes", "the same, from rest to 250 Hz and back once a second")]
 
 
 def read(folder, table):
@@ -75,7 +76,8 @@ def legend(figure, rows, colours):
     methods = [Line2D([], [], marker="o", ls="", color=colours[m], label=m) for m in colours
                if any(row["method"] == m for row in rows)]
     shapes = [Line2D([], [], marker=MARKERS[v], ls="", color=GREY, label=label) for v, label in
-              (("ideal", "velocity given"), ("difference", "first difference"), ("foaw", "FOAW"),
+              (("ideal", "velocity given"), ("difference", "first difference"),
+               ("lowpass", "low pass, 20 Hz"), ("foaw", "FOAW"),
                ("none", "needs no velocity"))]
     fills = [Line2D([], [], marker="o", ls="", color=GREY, markerfacecolor="white", label="ideal positions"),
              Line2D([], [], marker="o", ls="", color=GREY, label="from 0.055 mm, or no positions")]
@@ -84,28 +86,29 @@ def legend(figure, rows, colours):
     fronts = [Line2D([], [], color=INK, lw=1.1, label="Pareto front, from 0.055 mm"),
               Line2D([], [], color=GREY, lw=1.1, ls=":", label="Pareto front, temporal")]
     blank = Line2D([], [], ls="", label=" ")
-    columns = [methods, rates, shapes, fills + fronts]
+    columns = [methods + [blank] + rates, shapes + [blank] + fills + [blank] + fronts]
     height = max(len(column) for column in columns)
     handles = [handle for column in columns for handle in column + [blank] * (height - len(column))]
-    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.065, 0.005), ncol=len(columns), frameon=False,
-                  fontsize=8.5, labelcolor=INK, handletextpad=0.4, columnspacing=3)
+    figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.70, 0.40), ncol=len(columns), frameon=False,
+                  fontsize=9, labelcolor=INK, handletextpad=0.4, columnspacing=3)
 
 
 def draw_tradeoff(data, folder):
     rows = read(folder, data["table"])
     later = [m for m in dict.fromkeys(row["method"] for row in rows) if m not in METHODS]
     colours = {**METHODS, **dict(zip(later, OTHERS))}
-    figure, grid = plt.subplots(2, 2, figsize=(10, 8.6), sharex=True)
+    figure, grid = plt.subplots(2, 3, figsize=(14, 8.6))
     for axes, (key, title, about) in zip(grid.flat, PANELS):
         draw_panel(axes, rows, colours, key, title, about)
-    for axes in grid[1]:
+    grid[1, 2].axis("off")
+    for axes in grid.flat[2:5]:
         axes.set_xlabel("µs of one core for a second of rendering", color=INK)
-    figure.suptitle("What each method costs, and what it buys", x=0.075, ha="left", fontsize=15, weight="bold",
+    figure.suptitle("What each method costs, and what it buys", x=0.05, ha="left", fontsize=15, weight="bold",
                     color=INK)
-    figure.text(0.075, 0.925, f"steady scans of a 1 mm grating, {data['from_hz']:g} to {data['to_hz']:g} Hz · "
+    figure.text(0.05, 0.925, f"steady scans of a 1 mm grating, {data['from_hz']:g} to {data['to_hz']:g} Hz · "
                 f"{data['machine']} · empty tick {data['empty_tick_ns']:.1f} ns taken off", color=GREY, fontsize=9)
     legend(figure, rows, colours)
-    figure.subplots_adjust(left=0.075, right=0.98, top=0.845, bottom=0.185, hspace=0.3, wspace=0.2)
+    figure.subplots_adjust(left=0.05, right=0.985, top=0.845, bottom=0.075, hspace=0.32, wspace=0.2)
     return figure
 
 

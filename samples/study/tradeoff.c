@@ -11,6 +11,7 @@
 
 /* Temporal frequencies: whole ones from 20 to 480 Hz, below f_h/2 at 1 kHz, and those of the paper's experiments: odd
  * periods from 3 to 23 ms, and 2.5 ms, where the methods differ most. */
+#define PI          3.141592653589793
 #define WHOLE       28
 #define EXPERIMENT  12
 #define FREQUENCIES (WHOLE + EXPERIMENT)
@@ -24,6 +25,7 @@ typedef struct accuracy {
     double spurious;        /* share of power outside the dominant line and its odd harmonics */
     double drift;           /* |played / crossed cycles - 1|; NaN for temporal methods */
     double dropout;         /* share of crossed cycles never played; NaN for temporal methods */
+    double strokes;         /* drift in strokes, not a mean over frequencies; NaN for temporal methods */
 } accuracy;
 
 static double frequency_at(size_t i) {
@@ -94,6 +96,25 @@ static int measure_one(const study_contender *c, double frequency, accuracy *sum
     return found;
 }
 
+/* |played / crossed cycles - 1| over 4 s of strokes, v = vmax |sin(pi t)| up to 250 Hz. Half a cycle of 637 is 0.08 %.
+ */
+static double measure_strokes(const study_contender *c) {
+    const double seconds = 4.0;
+    const double fastest = 250.0;
+    study_rendering r;
+    if (!c->method->spatial || study_rendering_start(&r, c, fastest)) {
+        return NAN;
+    }
+    const size_t ticks = (size_t)(seconds * c->update_rate_hz);
+    for (size_t k = 0; k < ticks; k++) {
+        const double t = (double)k / c->update_rate_hz;
+        const double into = t - floor(t);
+        const double x = r.speed / PI * (2.0 * floor(t) + 1.0 - cos(PI * into));
+        (void)study_rendering_tick_at(&r, x, r.speed * sin(PI * into));
+    }
+    return fabs(r.cycles_played / (fastest / PI * 2.0 * seconds) - 1.0);
+}
+
 static int measure(const study_contender *c, accuracy *mean) {
     double *const parts[] = {&mean->net,      &mean->frequency_error, &mean->beyond_jnd,
                              &mean->spurious, &mean->drift,           &mean->dropout};
@@ -106,11 +127,12 @@ static int measure(const study_contender *c, accuracy *mean) {
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         *parts[i] /= FREQUENCIES;
     }
+    mean->strokes = measure_strokes(c);
     return 1;
 }
 
 static void print_text(FILE *f, const study_contender *c) {
-    static const char *const velocities[] = {"ideal", "difference", "foaw"};
+    static const char *const velocities[] = {"ideal", "difference", "lowpass", "foaw"};
     fprintf(f, "%s,%g,%s,%s", c->method->name, c->update_rate_hz,
             c->method->uses_velocity ? velocities[c->velocity] : "none",
             !c->method->spatial   ? "none"
@@ -123,7 +145,7 @@ static void print_row(FILE *f, const study_contender *c, const study_cost *cost,
     const double cells[] = {cost->ns_median,    cost->ns_p99,  cost->ns_median * c->update_rate_hz,
                             instructions,       a->net,        a->net_worst,
                             a->frequency_error, a->beyond_jnd, a->spurious,
-                            a->drift,           a->dropout};
+                            a->drift,           a->dropout,    a->strokes};
     print_text(f, c);
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
         fputc(',', f);
@@ -140,7 +162,7 @@ static int print_rows(FILE *f) {
     }
     fputs(
         "method,rate_hz,velocity,positions,ns_tick,ns_tick_p99,ns_second,instructions_tick,net,net_worst,frequency_error,beyond_jnd,"
-        "spurious,drift,dropout\n",
+        "spurious,drift,dropout,strokes\n",
         f);
     for (size_t i = 0; study_contender_at(i, &c); i++) {
         accuracy mean;
