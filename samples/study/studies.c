@@ -18,6 +18,7 @@ const study studies[] = {
     {"velocity", "what each velocity estimator gets wrong, and how late it is", study_velocity},
     {"locked", "the method locked: in step with the surface at every speed and in strokes", study_locked},
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
+    {"transitions", "what becomes of an event when hand, surface or material change in it", study_transitions},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},
     {"stability", "where walls and gratings run away or buzz: checks against theory, and maps", study_stability},
     {NULL, NULL, NULL}};

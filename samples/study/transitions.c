@@ -1,0 +1,195 @@
+/* What becomes of an event when the hand turns, stops or lifts, or when surface or material change under it: by whole
+ * ticks of a scene, at 200 Hz, begun in each tick of an event. SPDX-License-Identifier: MIT */
+#include "json_out.h"
+#include "study.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FS        1000.0 /* cycles/m */
+#define AMPLITUDE 1e-4   /* m */
+#define STIFFNESS 700.0  /* N/m */
+#define DEPTH     0.001  /* m: below every trough */
+#define SPEED     0.2    /* m/s: 5 ticks a cycle */
+#define EDGE      0.02   /* m: where the other surface begins */
+#define BEFORE    100    /* ticks; and up to 9 more, so that it happens anywhere in an event */
+#define PHASES    10
+#define AFTER     45 /* ticks: before it comes to the other surface by itself */
+#define QUANTUM   0.055e-3
+
+enum { REVERSAL, STOP, LIFT_OFF, OTHER_SURFACE, OTHER_MATERIAL, FLICKER, TRANSITIONS };
+
+static const char *const names[TRANSITIONS] = {
+    "reversal", "stop", "lift-off for 5 ticks", "another surface", "another material", "rest on an edge, flickering"};
+
+typedef struct outcome {
+    double settled; /* ms until the height is what it stays: 0 (S2), the position's (locked) */
+    double step;    /* the largest change of height in a tick in contact, A */
+    double left;    /* the largest sum of an event that was played to its end, A ticks */
+    double force;   /* N: of the first tick after lift-off */
+} outcome;
+
+/* Where the HIP is at a tick: the event it is in begins at x = 0.75 of a cycle, and so on. */
+static void place(int transition, int tick, int happens, double *x, double *z, double *speed) {
+    const double step = SPEED / 1000.0;
+    *speed = SPEED;
+    *z = -DEPTH;
+    *x = EDGE + step * (tick - happens) - (transition == OTHER_SURFACE ? 0.5 * step : 0.5 * EDGE);
+    if (tick < happens) {
+        return;
+    }
+    if (transition == REVERSAL) {
+        *speed = -SPEED;
+        *x -= 2.0 * step * (tick - happens);
+    } else if (transition == STOP) {
+        *speed = 0.0;
+        *x -= step * (tick - happens);
+    } else if (transition == LIFT_OFF && tick < happens + 5) {
+        *z = 0.005;
+    } else if (transition == FLICKER) { /* a quantum either side of the edge at EDGE/2 + 1/4 cycle */
+        *speed = 0.0;
+        *x = 0.5 * EDGE + 0.25 / FS + QUANTUM * (tick % 2 ? 0.5 : -0.5);
+    }
+}
+
+static knurl_result build(int32_t method, double fs_right, knurl_scene **scene, knurl_surface *left) {
+    knurl_result result = knurl_scene_create(NULL, scene);
+    for (int i = 0; i < 2 && !result; i++) {
+        knurl_plane_desc plane;
+        knurl_surface_desc desc;
+        knurl_material_desc material;
+        knurl_surface surface;
+        knurl_plane_desc_init(&plane, sizeof plane);
+        knurl_surface_desc_init(&desc, sizeof desc);
+        knurl_material_desc_init(&material, sizeof material);
+        plane.half_extents[0] = plane.half_extents[1] = 0.05;
+        material.method = method;
+        material.amplitude = AMPLITUDE;
+        material.stiffness = STIFFNESS;
+        material.spatial_frequency[0] = i == 0 ? FS : fs_right;
+        desc.plane = &plane;
+        desc.material = &material;
+        desc.position[0] = EDGE + (i == 0 ? -0.05 : 0.05);
+        desc.axis[0] = 1.0;
+        result = knurl_scene_add_surface(*scene, &desc, &surface);
+        *left = i == 0 ? surface : *left;
+    }
+    result = result ? result : knurl_scene_commit(*scene);
+    knurl_hip_desc hip;
+    knurl_workspace workspace;
+    knurl_hip_desc_init(&hip, sizeof hip);
+    knurl_workspace_init(&workspace);
+    hip.workspace = &workspace;
+    return result ? result : knurl_scene_configure_hip(*scene, 0, &hip);
+}
+
+static knurl_result change_material(knurl_scene *scene, knurl_surface surface, int32_t method) {
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
+    material.method = method;
+    material.amplitude = 0.6 * AMPLITUDE;
+    material.stiffness = STIFFNESS;
+    material.spatial_frequency[0] = 0.7 * FS;
+    return knurl_scene_set_material(scene, surface, &material);
+}
+
+/* What is kept from tick to tick. */
+typedef struct watch {
+    double height, sum;
+    int64_t event;
+    uint32_t contacts;
+    knurl_surface surface; /* who leaves one has lifted off it */
+} watch;
+
+static void judge(const knurl_tick_output *out, int since, watch *w, outcome *o) {
+    if (out->contacts && w->contacts) {
+        o->step = fmax(o->step, fabs(out->height - w->height) / AMPLITUDE);
+        if (out->surface == w->surface && out->event != w->event && w->event != KNURL_NO_EVENT) {
+            o->left = fmax(o->left, fabs(w->sum) / AMPLITUDE);
+        }
+    }
+    w->sum = out->event == w->event && out->contacts ? w->sum + out->height : out->height;
+    if (since == 0 && !out->contacts) {
+        o->force = sqrt(out->force[0] * out->force[0] + out->force[1] * out->force[1] + out->force[2] * out->force[2]);
+    }
+    if (since > 0 && out->height != w->height) {
+        o->settled = fmax(o->settled, since);
+    }
+    w->height = out->height;
+    w->event = out->event;
+    w->contacts = out->contacts;
+    w->surface = out->surface;
+}
+
+/* One method, one transition, begun in one tick of an event; the worst of several go into one outcome. */
+static knurl_result run(int32_t method, int transition, int phase, FILE *csv, outcome *o) {
+    knurl_scene *scene = NULL;
+    knurl_surface left = 0;
+    const int happens = BEFORE + phase;
+    watch w = {0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+    knurl_result result = build(method, 0.5 * FS, &scene, &left);
+    for (int tick = 0; tick < happens + AFTER && !result; tick++) {
+        knurl_tick_input input;
+        knurl_tick_output out;
+        memset(&input, 0, sizeof input);
+        place(transition, tick, happens, &input.position[0], &input.position[2], &input.velocity[0]);
+        input.has_velocity = 1;
+        result = transition == OTHER_MATERIAL && tick == happens ? change_material(scene, left, method) : KNURL_OK;
+        result = result ? result : knurl_scene_tick(scene, 0, &input, &out);
+        judge(&out, tick - happens, &w, o);
+        if (phase == 3 && tick >= happens - 20 && tick < happens + 40) {
+            fprintf(csv, "%s,\"%s\",%d,", knurl_method_name(method), names[transition], tick - happens);
+            out_number(csv, out.contacts ? out.height / AMPLITUDE : 0.0);
+            fputc('\n', csv);
+        }
+    }
+    knurl_scene_destroy(scene);
+    return result;
+}
+
+static void print_row(FILE *json, int32_t method, int transition, const outcome *o, int last) {
+    const int rests = transition == STOP || transition == FLICKER;
+    printf("| %s | %s |", names[transition], knurl_method_name(method));
+    if (rests) {
+        printf(" %g ms", o->settled);
+    }
+    printf(" | %.3f A | %.0e |", o->step, o->left);
+    if (transition == LIFT_OFF) {
+        printf(" %g N", o->force);
+    }
+    printf(" |\n");
+    fputs("{\n", json);
+    study_json_text(json, "transition", names[transition], ",");
+    study_json_text(json, "method", knurl_method_name(method), ",");
+    study_json_member(json, "settled_ms", rests ? o->settled : NAN, ",");
+    study_json_member(json, "largest_step", o->step, ",");
+    study_json_member(json, "left", o->left, ",");
+    study_json_member(json, "force", transition == LIFT_OFF ? o->force : NAN, "");
+    fputs(last ? "}\n" : "},\n", json);
+}
+
+static int write_all(FILE *csv, FILE *json, void *user) {
+    static const int32_t methods[] = {KNURL_S2, KNURL_LOCKED};
+    (void)user;
+    fputs("method,transition,tick,height\n", csv);
+    fputs("{\"study\": \"transitions\", \"table\": \"transitions.csv\", \"rows\": [\n", json);
+    printf(
+        "| what happens in an event | method | the height rests after | largest step | left of events played to their end (A ticks) | force after |\n"
+        "|---|---|---|---|---|---|\n");
+    for (int i = 0; i < 2 * TRANSITIONS; i++) {
+        outcome o = {0.0, 0.0, 0.0, 0.0};
+        for (int phase = 0; phase < PHASES; phase++) {
+            if (run(methods[i % 2], i / 2, phase, csv, &o)) {
+                fprintf(stderr, "knurl: study: transitions: %s\n", knurl_error_message());
+                return 1;
+            }
+        }
+        print_row(json, methods[i % 2], i / 2, &o, i + 1 == 2 * TRANSITIONS);
+    }
+    fputs("]}\n", json);
+    return 0;
+}
+
+int study_transitions(const char *folder) {
+    return study_write(folder, "transitions", write_all, NULL);
+}
