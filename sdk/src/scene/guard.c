@@ -21,9 +21,10 @@
 #define ROW     4      /* swings: as many may be the arrival of a hand */
 #define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
 
-/* Of a swing: what a texture may move in it and not have made it; or it crosses 0 so often that it is much faster. */
+/* A texture has not made a swing of which it moves no more than this share; nor one in and out again in which it
+ * crosses 0 so often: twice is its own pace, four times the bounce of every other ridge. */
 #define TEXTURE_SHARE 0.25
-#define TEXTURE_FAST  3
+#define TEXTURE_FAST  5
 
 /* What an alarm does: how much of the passive stiffness it leaves, how fast (s; a millisecond would be felt as a blow),
  * and how long a HIP must be off all walls for them to be hard again (s): a hand that bounces is not off. */
@@ -129,7 +130,7 @@ static void end_row(knurl_passivity *p) {
 /* The depth has turned: a swing is over. */
 static void turn(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
-    const int asked = p->moved > TEXTURE_SHARE * swing && p->crossings < TEXTURE_FAST;
+    const int asked = p->moved > TEXTURE_SHARE * swing && p->crossings + p->crossed < TEXTURE_FAST;
     if (asked || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
         end_row(p);
     } else {
@@ -144,6 +145,7 @@ static void turn(knurl_passivity *p) {
     p->farthest = p->depth;
     p->outwards = !p->outwards;
     p->before = p->ticks;
+    p->crossed = p->crossings;
     p->ticks = p->crossings = 0;
     p->moved = 0.0;
 }

@@ -90,7 +90,8 @@ typedef struct knurl_passivity {
     double largest;    /* m: of the row's swings, forgetting */
     double squares;    /* m^2: of the row's swings */
     double moved;      /* m: by how much H changed since the depth last turned, */
-    int32_t crossings; /* and how often it crossed 0 */
+    int32_t crossings; /* and how often it crossed 0, */
+    int32_t crossed;   /* and from the turn before that to it */
     int32_t row;       /* swings, each as large as those before it */
     int32_t ticks;     /* since the depth last turned, */
     int32_t before;    /* and from the turn before that to it */
