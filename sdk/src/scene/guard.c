@@ -21,10 +21,10 @@
 #define ROW     4      /* swings: as many may be the arrival of a hand */
 #define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
 
-/* A texture has not made a swing of which it moves no more than this share; nor one in and out again in which it
- * crosses 0 so often: twice is its own pace, four times the bounce of every other ridge. */
+/* A texture has not made a swing of which it moves no more than this share; nor one in which it crosses 0 more often
+ * than it would if the HIP bounced off every other ridge: twice, or four times in and out again. */
 #define TEXTURE_SHARE 0.25
-#define TEXTURE_FAST  5
+#define TEXTURE_SLOW  2
 
 /* What an alarm does: how much of the passive stiffness it leaves, how fast (s; a millisecond would be felt as a blow),
  * and how long a HIP must be off all walls for them to be hard again (s): a hand that bounces is not off. */
@@ -130,7 +130,8 @@ static void end_row(knurl_passivity *p) {
 /* The depth has turned: a swing is over. */
 static void turn(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
-    const int asked = p->moved > TEXTURE_SHARE * swing && p->crossings + p->crossed < TEXTURE_FAST;
+    const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
+    const int asked = slow && p->moved > TEXTURE_SHARE * swing;
     if (asked || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
         end_row(p);
     } else {
