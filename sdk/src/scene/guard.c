@@ -137,7 +137,10 @@ static void turn(knurl_passivity *p) {
     } else {
         const double largest = FORGETS * p->largest;
         p->largest = swing > largest ? swing : largest;
-        p->squares *= swing < AGAIN * p->largest ? 0.5 : 1.0;
+        if (swing < AGAIN * p->largest) { /* begins anew, but for what may have been chance */
+            p->squares *= 0.5;
+            p->row = 0;
+        }
         p->squares += swing * swing;
         p->alarmed = ++p->row >= ROW && p->squares > ENOUGH * p->unit * p->unit;
         p->off = 0.0;
