@@ -127,7 +127,8 @@ static void end_row(knurl_passivity *p) {
     p->row = 0;
 }
 
-/* The depth has turned: a swing is over. */
+/* The depth has turned: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
+ * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
 static void turn(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
     const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
@@ -165,12 +166,15 @@ static void follow_depth(knurl_passivity *p) {
     } else if (p->ticks > p->longest) { /* rests, or is off */
         end_row(p);
         p->ticks = (int32_t)p->longest;
+        p->crossings = 0;
+        p->moved = 0.0;
         p->busy = p->depth > 0.0;
     }
 }
 
 void knurl_guard_follow(knurl_passivity *p) {
     if (p->alarmed) {
+        p->crossings = 0;
         p->soft += p->softening * (1.0 - p->soft);
         p->off += 1.0;
         if (p->off > p->off_most) {

@@ -178,8 +178,10 @@ static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *
                                        double height) {
     const double step = fabs(height - contact->height);
     guard->step += wall->stiffness * step;
-    guard->passivity.moved += step;
-    guard->passivity.crossings += (height > 0.0) != (contact->height > 0.0);
+    if (guard->passivity.busy) {
+        guard->passivity.moved += step;
+        guard->passivity.crossings += (height > 0.0) != (contact->height > 0.0);
+    }
     contact->height = height;
 }
 
