@@ -3,6 +3,8 @@
 #include "support/rig.h"
 #include "support/scenes.h"
 
+#include "scene/scene_internal.h"
+
 #define K     700.0
 #define TICKS 600
 
@@ -260,6 +262,83 @@ TEST(configuring_a_hip_cools_it_and_begins_anew) {
     knurl_scene_destroy(scene);
 }
 
+/* A HIP swings between 0 and `swing` (m) deep in a wall that could run away, `hz` times a second, each swing `keeps` of
+ * the one before. Returns the tick at which the controller first acts, or -1. */
+static int swing_in(knurl_scene *scene, double swing, double hz, double keeps) {
+    int first = -1;
+    for (int tick = 0; tick < 2000; tick++) {
+        const double depth =
+            0.5 * swing * pow(keeps, 0.002 * hz * tick) * (1.0 - cos(6.28318530717958648 * hz * 0.001 * tick));
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -depth);
+        first = first < 0 && (out.flags & KNURL_TICK_PASSIVITY) ? tick : first;
+    }
+    return first;
+}
+
+/* 4 swings of 2.5 mm at 20 Hz are over after 100 ms, 17 of 1.2 mm after 425 ms. A hand taps at less than 8 Hz; what
+ * dies by a tenth each time, or is small, is no runaway; a wall within (b + 0.5 N s/m)/1.5 ms = 667 N/m is passive. */
+TEST(swings_that_go_on_are_stopped_and_nothing_else) {
+    const struct {
+        double stiffness, swing, hz, keeps;
+        int after, before; /* ticks; 0: never */
+    } rows[] = {{1020.0, 0.003, 20.0, 1.0, 75, 150},   {1020.0, 0.0012, 20.0, 1.0, 375, 475},
+                {1020.0, 0.0012, 40.0, 1.0, 188, 238}, {1020.0, 0.003, 7.0, 1.0, 0, 0},
+                {1020.0, 0.003, 20.0, 0.9, 0, 0},      {1020.0, 0.0006, 20.0, 1.0, 0, 0},
+                {660.0, 0.003, 20.0, 1.0, 0, 0}};
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        surface_parts parts = wall(rows[i].stiffness);
+        const knurl_hip_desc hip = guarded(0);
+        knurl_scene *scene = scene_with(&parts, &hip);
+        const int first = swing_in(scene, rows[i].swing, rows[i].hz, rows[i].keeps);
+        if (rows[i].before) {
+            assert_in_range(first, rows[i].after, rows[i].before);
+        } else {
+            assert_int_equal(first, -1);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+/* Off all walls for half a second, and they are hard again. */
+TEST(walls_are_hard_again_once_the_hip_has_been_off_them) {
+    surface_parts parts = wall(1020.0);
+    const knurl_hip_desc hip = guarded(0);
+    knurl_scene *scene = scene_with(&parts, &hip);
+    assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
+    for (int round = 0; round < 2; round++) {
+        for (int tick = 0; tick < (round ? 520 : 480); tick++) {
+            (void)tick_at(scene, 0.0, 0.0, 0.001);
+        }
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0004);
+        assert_int_equal((out.flags & KNURL_TICK_PASSIVITY) != 0, round == 0);
+        if (round == 1) {
+            CHECK_CLOSE(out.force[2], 1020.0 * 0.0004, 1e-12);
+        } else {
+            assert_true(out.force[2] < 667.0 * 0.0004);
+        }
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(configuring_a_hip_or_giving_it_a_device_ends_an_alarm) {
+    for (int adopts = 0; adopts < 2; adopts++) {
+        surface_parts parts = wall(1020.0);
+        const knurl_hip_desc hip = guarded(0);
+        knurl_scene *scene = scene_with(&parts, &hip);
+        assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
+        (void)tick_at(scene, 0.0, 0.0, -0.0004);
+        assert_true(tick_at(scene, 0.0, 0.0, -0.0004).flags & KNURL_TICK_PASSIVITY);
+        assert_int_equal(adopts ? knurl_scene_adopt_device(scene, 0, &knurl_touch)
+                                : knurl_scene_configure_hip(scene, 0, &hip),
+                         KNURL_OK);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0004);
+        CHECK_CLOSE(out.force[2], 1020.0 * 0.0004, 1e-12);
+        assert_int_equal(out.flags & KNURL_TICK_PASSIVITY, 0);
+        assert_int_equal(counts_of(scene).passivities, 0);
+        knurl_scene_destroy(scene);
+    }
+}
+
 TEST(protections_that_are_no_numbers_are_refused) {
     knurl_scene *scene = empty_scene(1);
     const knurl_hip_desc good = guarded(0);
@@ -304,6 +383,9 @@ int main(void) {
         cmocka_unit_test(a_callback_may_leave_the_heat_to_its_device),
         cmocka_unit_test(nothing_that_is_not_a_number_gets_past_the_protections),
         cmocka_unit_test(configuring_a_hip_cools_it_and_begins_anew),
+        cmocka_unit_test(swings_that_go_on_are_stopped_and_nothing_else),
+        cmocka_unit_test(walls_are_hard_again_once_the_hip_has_been_off_them),
+        cmocka_unit_test(configuring_a_hip_or_giving_it_a_device_ends_an_alarm),
         cmocka_unit_test(protections_that_are_no_numbers_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

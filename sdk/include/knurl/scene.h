@@ -60,7 +60,7 @@ enum {
     KNURL_UNGUARDED_ENTRY = 1,     /**< the depth that is felt may jump, not only grow at KNURL_ENTRY_SPEED */
     KNURL_UNGUARDED_SLEW = 2,      /**< the force may jump by more than the texture's step and slew_rate */
     KNURL_UNGUARDED_HEAT = 4,      /**< continuous_force is not respected */
-    KNURL_UNGUARDED_PASSIVITY = 8, /**< walls may give out more energy than was put into them */
+    KNURL_UNGUARDED_PASSIVITY = 8, /**< walls may give out more energy than was put into them, and run away */
     KNURL_UNGUARDED_ALL = 15
 };
 
@@ -85,8 +85,8 @@ typedef struct knurl_hip_desc {
     double viscous;          /**< N s/m: the device's viscous friction, for knurl_scene_check_surface() and the
                                   passivity controller; negative (default): as the loop's device says, without one the
                                   Touch's */
-    double coulomb;          /**< N: the device's dry friction, for the passivity controller; negative (default): as the
-                                  loop's device says, without one the Touch's */
+    double coulomb;          /**< N: the device's dry friction; no protection counts on it, for it hardly damps a hand
+                                  that slides; negative (default): as the loop's device says, without one the Touch's */
     double delay;            /**< ticks from a force written to a force felt, 0 to 16; negative (default): as the
                                   loop's device says, without one 1 */
     double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
@@ -156,7 +156,7 @@ enum {
     KNURL_TICK_ENTRY = 32,         /**< a wall came in as a ramp */
     KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
     KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
-    KNURL_TICK_PASSIVITY = 256     /**< the force was made smaller because the wall gave out energy */
+    KNURL_TICK_PASSIVITY = 256     /**< the wall was softened because the HIP kept bouncing in it, unasked */
 };
 
 /** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */

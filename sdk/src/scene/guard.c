@@ -7,20 +7,30 @@
  * % of the way and takes it back over the last tenth, in which a hand can let go of what it presses. */
 #define WARM 0.9
 
-/* The passivity controller's, tuned in the stability laboratory: over its maps, within the limits that the devices'
- * makers promise, what was calm came to at most 1.55 mJ in an account that leaks away in a quarter of a second, and
- * what ran away to at least 1.7 mJ (tests/stability/test_protections.c). With 0.1 s the two overlap. */
-#define LEAK_TIME 0.25   /* s */
-#define BUDGET    1.6e-3 /* J */
+/* The passivity controller's. What a runaway is: the HIP swings in and out of a wall, faster than hands do, time after
+ * time as far as before, and no texture moves it so. An account of the energy that a sampled wall gives cannot tell:
+ * near the limit what it gives is what friction and hand take, whose parts nobody knows. Tuned in the stability
+ * laboratory on flat walls and gratings within the limits of the presets touch and falcon (5700 cells: the study's maps
+ * and a finer grid, 132 of them runaways of 12 to 25 Hz). A row's squares came to 24 mm^2 in every flat wall that ran
+ * away, and in none of 860 that did not, where 12 would have done. */
+#define TURN    0.2e-3 /* m: what the depth comes back by is a turn: four quanta */
+#define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by 0.84 mm and more, arrivals soon by less */
+#define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
+#define FORGETS 0.985  /* of the largest swing, a swing: what was large on arrival and keeps dying has no row */
+#define AGAIN   0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
+#define ROW     4      /* swings: as many may be the arrival of a hand */
+#define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
+
+/* A texture has not made a swing of which it moves no more than this share; nor one in which it crosses 0 more often
+ * than it would if the HIP bounced off every other ridge: twice, or four times in and out again. */
+#define TEXTURE_SHARE 0.25
+#define TEXTURE_SLOW  2
 
 /* What an alarm does: how much of the passive stiffness it leaves, how fast (s; a millisecond would be felt as a blow),
  * and how long a HIP must be off all walls for them to be hard again (s): a hand that bounces is not off. */
 #define SOFT_SHARE     0.8
 #define SOFTENING_TIME 0.02
 #define OFF_TIME       0.5
-
-/* m/s: what of a tick's way counts at most. A position that jumps is no vibration. */
-#define SPEED_MOST 0.5
 
 /* N s/m: the hand that the controller counts on: it hardly holds. Less than KNURL_LIGHTEST_HAND: a check at load must
  * not cry wolf, and a controller must not overlook one. */
@@ -78,14 +88,14 @@ double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int3
     return peak < steady ? peak : steady;
 }
 
-static void start_account(knurl_passivity *p, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
-    p->on = !(desc->unguarded & KNURL_UNGUARDED_PASSIVITY);
-    p->kept = exp(-1.0 / (facts->rate * LEAK_TIME));
-    p->budget = BUDGET * scale; /* energies count scene metres */
-    p->lag = 0.5 + facts->delay;
-    p->loss = (facts->viscous + LOOSE_HAND) / scale * facts->rate;
-    p->dry = facts->coulomb;
-    p->longest = SPEED_MOST * scale / facts->rate;
+/* Below `safe` nothing runs away: b and the hand take what a spring gives that lags behind (Colgate and Schenkel
+ * 1997). Dry friction helps a hand that is still, and hardly one that slides: it is not counted on. */
+static void start_watch(knurl_passivity *p, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
+    p->safe = desc->unguarded & KNURL_UNGUARDED_PASSIVITY
+                  ? HUGE_VAL
+                  : (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale);
+    p->unit = scale;
+    p->longest = PERIOD * facts->rate;
     p->softening = 1.0 / (1.0 + SOFTENING_TIME * facts->rate);
     p->off_most = OFF_TIME * facts->rate;
 }
@@ -98,7 +108,7 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
         cool.continuous_force = HUGE_VAL;
     }
     knurl_heat_init(&guard->heat, &cool);
-    start_account(&guard->passivity, desc, facts, scale);
+    start_watch(&guard->passivity, desc, facts, scale);
     const double slew = desc->slew_rate > 0.0 ? desc->slew_rate : facts->max_force / SLEW_TIME;
     guard->entry = desc->unguarded & KNURL_UNGUARDED_ENTRY ? HUGE_VAL : KNURL_ENTRY_SPEED * scale * period;
     guard->slew = desc->unguarded & KNURL_UNGUARDED_SLEW ? HUGE_VAL : slew * period;
@@ -112,26 +122,70 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
     guard->bounds.quantum = facts->resolution * scale;
 }
 
-/* Lets the account leak, raises the alarm, and ends it. */
-void knurl_guard_keep_account(knurl_passivity *p) {
-    if (!p->alarmed && p->given > p->budget + p->asked) {
-        p->alarmed = 1;
+static void end_row(knurl_passivity *p) {
+    p->largest = p->squares = 0.0;
+    p->row = 0;
+}
+
+/* The depth has turned: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
+ * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
+static void turn(knurl_passivity *p) {
+    const double swing = fabs(p->farthest - p->extreme);
+    const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
+    const int asked = slow && p->moved > TEXTURE_SHARE * swing;
+    if (asked || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
+        end_row(p);
+    } else {
+        const double largest = FORGETS * p->largest;
+        p->largest = swing > largest ? swing : largest;
+        if (swing < AGAIN * p->largest) { /* begins anew, but for what may have been chance */
+            p->squares *= 0.5;
+            p->row = 0;
+        }
+        p->squares += swing * swing;
+        p->alarmed = ++p->row >= ROW && p->squares > ENOUGH * p->unit * p->unit;
         p->off = 0.0;
     }
-    p->given *= p->kept;
-    p->asked *= p->kept;
+    p->extreme = p->farthest;
+    p->farthest = p->depth;
+    p->outwards = !p->outwards;
+    p->before = p->ticks;
+    p->crossed = p->crossings;
+    p->ticks = p->crossings = 0;
+    p->moved = 0.0;
+}
+
+/* From a tick to the next one without an alarm. */
+static void follow_depth(knurl_passivity *p) {
+    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    p->ticks++;
+    if (beyond > 0.0) {
+        p->farthest = p->depth;
+    } else if (-beyond > TURN * p->unit) {
+        turn(p);
+    } else if (p->ticks > p->longest) { /* rests, or is off */
+        end_row(p);
+        p->ticks = (int32_t)p->longest;
+        p->crossings = 0;
+        p->moved = 0.0;
+        p->busy = p->depth > 0.0;
+    }
+}
+
+void knurl_guard_follow(knurl_passivity *p) {
     if (p->alarmed) {
+        p->crossings = 0;
         p->soft += p->softening * (1.0 - p->soft);
         p->off += 1.0;
         if (p->off > p->off_most) {
-            p->given = p->asked = p->soft = 0.0;
+            end_row(p);
+            p->soft = 0.0;
             p->alarmed = 0;
         }
+    } else {
+        follow_depth(p);
     }
-    if (!p->alarmed && p->given + p->asked < 1e-6 * p->budget) { /* long before it is denormal */
-        p->given = p->asked = 0.0;
-        p->busy = 0;
-    }
+    p->depth = 0.0;
 }
 
 void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material, knurl_guard_wall *wall) {
@@ -141,45 +195,19 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_des
     wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
 }
 
-/* A spring that is sampled and held lags `lag` ticks behind: over a tick's way it gives K lag way^2 more than a spring
- * would, and friction takes (b/T) way^2 and its dry part's share of the way. Where the first is less nothing runs away
- * (Colgate and Schenkel 1997, as a balance of energy). A wall's own damping comes late too: it may not help. */
-static void account(knurl_passivity *p, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                    const double moved[3]) {
-    double way = fabs(wall->z - contact->z);
-    if (!contact->pushed || way == 0.0) {
-        return;
-    }
-    way = way < p->longest ? way : p->longest;
-    const double dry = p->dry > 0.0 ? p->dry / fmax(vec3_length(moved), way) : 0.0;
-    const double given = p->given + (wall->stiffness * p->lag - p->loss - dry) * way * way;
-    p->given = given > 0.0 ? given : 0.0;
-    p->busy |= p->given > 0.0;
-}
-
-void knurl_guard_watch(knurl_passivity *p, const knurl_guard_contact *contact, knurl_guard_wall *wall,
-                       const double way[3], uint32_t *flags) {
-    account(p, contact, wall, way);
-    if (p->alarmed && wall->felt < 0.0) {
-        const double most = SOFT_SHARE * p->loss / p->lag;
+void knurl_guard_watch(knurl_passivity *p, knurl_guard_wall *wall, uint32_t *flags) {
+    const double depth = -wall->felt;
+    p->depth = depth > p->depth ? depth : p->depth;
+    p->busy = 1;
+    if (p->alarmed && depth > 0.0) {
+        const double most = SOFT_SHARE * p->safe;
         p->off = 0.0;
         wall->damping *= 1.0 - p->soft;
-        if (wall->stiffness > most) {
-            wall->stiffness +=
-                p->soft *
-                (most -
-                 wall->stiffness); /* and its texture weaker: on a soft wall its full steps would throw the hand */
+        if (wall->stiffness > most) { /* and its texture weaker: its full steps would throw a hand off a soft wall */
+            wall->stiffness += p->soft * (most - wall->stiffness);
         }
         *flags |= KNURL_TICK_PASSIVITY;
     }
-}
-
-void knurl_guard_ask(knurl_passivity *p, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                     double height) {
-    const double before = contact->height > wall->z ? contact->height - wall->z : 0.0;
-    const double after = height > wall->z ? height - wall->z : 0.0;
-    const double asked = p->asked + 0.5 * wall->stiffness * (after * after - before * before);
-    p->asked = asked > 0.0 ? asked : 0.0;
 }
 
 /* What falls is free: measured is from the nearest point on the way from no force to the latest one. */

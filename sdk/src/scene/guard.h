@@ -67,7 +67,6 @@ double knurl_swing(int32_t method) KNURL_NONBLOCKING;
 
 /* A wall at one tick, from what was asked for to what is felt. Scene units. */
 typedef struct knurl_guard_wall {
-    double z;         /* m: as it is */
     double felt;      /* m: as it is felt */
     double stiffness; /* N/m, as felt */
     double amplitude; /* m, as felt */
@@ -76,29 +75,33 @@ typedef struct knurl_guard_wall {
 
 /* Of one contact. */
 typedef struct knurl_guard_contact {
-    double depth;   /* m: that the ramp has come to at the latest tick, 0 without contact */
-    double height;  /* m: H at the latest tick */
-    double z;       /* m: of the latest tick */
-    int32_t pushed; /* 1: the HIP was in the wall at the latest tick */
+    double depth;  /* m: that the ramp has come to at the latest tick, 0 without contact */
+    double height; /* m: H at the latest tick */
 } knurl_guard_contact;
 
-/* The account of energy that walls gave out on their own, and what came of it. J, scene. */
+/* The passivity controller: the HIP's swings in walls that could run away, and what came of them. Scene units. */
 typedef struct knurl_passivity {
-    double given;     /* leaking away */
-    double asked;     /* what textures asked for, leaking away */
-    double kept;      /* of both, a tick */
-    double budget;    /* of `given` beyond `asked` */
-    double lag;       /* ticks from a position to the middle of the force that it makes */
-    double loss;      /* N/m: what friction and hand take, as a stiffness times lag */
-    double dry;       /* N: likewise, dry */
-    double longest;   /* m: of a tick's way that counts */
+    double safe;       /* N/m: a wall of no more cannot run away, and is not watched; infinite: left out */
+    double unit;       /* m, scene: a device's metre */
+    double longest;    /* ticks of a swing in and out again that no hand makes */
+    double depth;      /* m: of the deepest wall in this tick, as felt; 0 outside */
+    double extreme;    /* m: where the depth last turned */
+    double farthest;   /* m: from there on, the way that it is heading */
+    double largest;    /* m: of the row's swings, forgetting */
+    double squares;    /* m^2: of the row's swings */
+    double moved;      /* m: by how much H changed since the depth last turned, */
+    int32_t crossings; /* and how often it crossed 0, */
+    int32_t crossed;   /* and from the turn before that to it */
+    int32_t row;       /* swings, each as large as those before it */
+    int32_t ticks;     /* since the depth last turned, */
+    int32_t before;    /* and from the turn before that to it */
+    int32_t outwards;  /* 1: heading out */
+    int32_t busy;      /* 1: there is a depth to follow, or an alarm */
+    int32_t alarmed;
     double soft;      /* 0 to 1: as soft as is passive */
     double softening; /* of the way there, a tick */
     double off;       /* ticks since the HIP was last in a wall */
     double off_most;  /* after so many walls are hard again */
-    int32_t on;       /* 0: left out */
-    int32_t alarmed;  /* 1: the budget was exceeded */
-    int32_t busy;     /* 1: there is something in the account, or an alarm */
 } knurl_passivity;
 
 /* Of one HIP. */
@@ -118,37 +121,32 @@ typedef struct knurl_guard {
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
 
 /* What the functions below leave to guard.c, because it is rare. */
-void knurl_guard_keep_account(knurl_passivity *passivity) KNURL_NONBLOCKING;
+void knurl_guard_follow(knurl_passivity *passivity) KNURL_NONBLOCKING;
 void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material,
                             knurl_guard_wall *wall) KNURL_NONBLOCKING;
-void knurl_guard_watch(knurl_passivity *passivity, const knurl_guard_contact *contact, knurl_guard_wall *wall,
-                       const double way[3], uint32_t *flags) KNURL_NONBLOCKING;
-void knurl_guard_ask(knurl_passivity *passivity, const knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                     double height) KNURL_NONBLOCKING;
+void knurl_guard_watch(knurl_passivity *passivity, knurl_guard_wall *wall, uint32_t *flags) KNURL_NONBLOCKING;
 
 /* A tick begins. */
 static inline void knurl_guard_begin(knurl_guard *guard) {
     if (guard->passivity.busy) {
-        knurl_guard_keep_account(&guard->passivity);
+        knurl_guard_follow(&guard->passivity);
     }
 }
 
 /* A contact begins: handed over from another surface, or not. */
 static inline void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) {
     contact->depth = handed_over && contact->depth < guard->left ? guard->left : contact->depth;
-    contact->pushed = 0;
 }
 
 /* There is no contact (any more). */
 static inline void knurl_guard_leave(knurl_guard_contact *contact) {
     contact->depth = contact->height = 0.0;
-    contact->pushed = 0;
 }
 
 /* The wall of a material; stiffness and amplitude within bounds where that was asked for. */
 static inline void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
                                      knurl_guard_wall *wall) {
-    wall->z = wall->felt = z;
+    wall->felt = z;
     wall->stiffness = material->stiffness;
     wall->amplitude = material->amplitude;
     wall->damping = material->damping;
@@ -168,28 +166,21 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_conta
     contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
 }
 
-/* Keeps the account, and has the wall felt softer once the budget is exceeded; from, to: the
- * HIP's way in this tick, scene. A wall that friction keeps passive is left alone while the account is empty. */
-static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
-                                      const double from[3], const double to[3], uint32_t *flags) {
-    knurl_passivity *p = &guard->passivity;
-    const double excess = wall->stiffness * p->lag - p->loss;
-    double way[3];
-    vec3_sub(to, from, way);
-    const int gives = (excess > 0.0) & (excess * excess * vec3_dot(way, way) > p->dry * p->dry);
-    if (p->on & (gives | p->busy)) {
-        knurl_guard_watch(p, contact, wall, way, flags);
+/* Watches a wall that could run away, and has it felt softer once it has. */
+static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_wall *wall, uint32_t *flags) {
+    if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
+        knurl_guard_watch(&guard->passivity, wall, flags);
     }
-    contact->z = wall->z;
-    contact->pushed = wall->felt < 0.0;
 }
 
-/* The texture is at a height (m): its own step is let through, and what energy it asks for. */
+/* The texture is at a height (m): its own step is let through, and what it moves of a hand is no shaking. */
 static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
                                        double height) {
-    guard->step += wall->stiffness * fabs(height - contact->height);
+    const double step = fabs(height - contact->height);
+    guard->step += wall->stiffness * step;
     if (guard->passivity.busy) {
-        knurl_guard_ask(&guard->passivity, contact, wall, height);
+        guard->passivity.moved += step;
+        guard->passivity.crossings += (height > 0.0) != (contact->height > 0.0);
     }
     contact->height = height;
 }

@@ -260,7 +260,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
         const int64_t events = near->grating.event_count;
         knurl_guard_clamp(&hip->guard, &t.record->material, t.contact.z, &t.wall);
         knurl_guard_enter(&hip->guard, &near->guard, &t.wall, &out->flags);
-        knurl_guard_soften(&hip->guard, &near->guard, &t.wall, hip->previous, out->hip, &out->flags);
+        knurl_guard_soften(&hip->guard, &t.wall, &out->flags);
         render(hip, out->hip_velocity, near, &t);
         knurl_guard_texture(&hip->guard, &near->guard, &t.wall, t.grating.height);
         hip->counts.events += (uint64_t)(near->grating.event_count - events);
