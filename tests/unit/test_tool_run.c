@@ -308,6 +308,8 @@ TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
             strstr(p.err, "knurl: warning: surface 'plate': stiffness 5000 N/m is 3 times the 1667 N/m");
         assert_non_null(first);
         assert_non_null(strstr(first, "knurl: warning: surface 'plate': stiffness 5000 N/m is 4.9 times the 1020 N/m"));
+        assert_int_equal(strstr(first, "lower it") != NULL, !clamped);
+        assert_int_equal(strstr(first, "it is felt at its limit") != NULL, clamped);
         forces[clamped] = json_number_of(p.out, "force_max_n");
         process_free(&p);
     }

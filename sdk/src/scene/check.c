@@ -12,6 +12,7 @@ typedef struct inspection {
     const knurl_material_desc *material;
     const char *name;
     knurl_surface_check *check;
+    int32_t clamped; /* 1: the limits are kept to */
 } inspection;
 
 void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
@@ -19,11 +20,13 @@ void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, check, size);
 }
 
-/* A line for a limit that is exceeded: what, by how much, what to do. More than fits is cut off. */
-static void say(const inspection *on, uint32_t limit, const char *sentence) {
+/* A line for a limit that is exceeded: what, by how much, and what to do where it is not kept to anyway. More than fits
+ * is cut off. */
+static void say(const inspection *on, uint32_t limit, const char *sentence, const char *advice) {
     const size_t length = strlen(on->check->message);
-    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%.40s': %s",
-                   length > 0 ? "\n" : "", on->name, sentence);
+    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%.40s': %s; %s",
+                   length > 0 ? "\n" : "", on->name, sentence,
+                   on->clamped && limit != KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
     on->check->exceeded |= limit;
 }
 
@@ -34,15 +37,15 @@ static void check_wall(const inspection *on) {
     if (k > stable) {
         (void)snprintf(sentence, sizeof sentence,
                        "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
-                       "friction; lower it, run faster, or clamp",
+                       "friction",
                        k, k / stable, stable);
-        say(on, KNURL_LIMIT_STABILITY, sentence);
+        say(on, KNURL_LIMIT_STABILITY, sentence, "lower it, run faster, or clamp");
     }
     if (k > on->bounds->max_stiffness) {
         (void)snprintf(sentence, sizeof sentence,
-                       "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for; lower it, or clamp",
-                       k, k / on->bounds->max_stiffness, on->bounds->max_stiffness);
-        say(on, KNURL_LIMIT_STIFFNESS, sentence);
+                       "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for", k,
+                       k / on->bounds->max_stiffness, on->bounds->max_stiffness);
+        say(on, KNURL_LIMIT_STIFFNESS, sentence, "lower it, or clamp");
     }
 }
 
@@ -52,34 +55,30 @@ static void check_texture(const inspection *on, double stiffness) {
     const double swing = rms * knurl_swing(on->material->method);
     const double *fs = on->material->spatial_frequency;
     const double period = 1.0 / fmax(fs[0], fs[1]);
+    char advice[64];
+    (void)snprintf(advice, sizeof advice, "lower it to %.3g m, or clamp", on->check->amplitude_limit);
     if (swing > on->bounds->max_force) {
-        (void)snprintf(
-            sentence, sizeof sentence,
-            "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N; lower it to %.3g m, "
-            "or clamp",
-            on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force,
-            on->check->amplitude_limit);
-        say(on, KNURL_LIMIT_AMPLITUDE, sentence);
+        (void)snprintf(sentence, sizeof sentence,
+                       "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N",
+                       on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force);
+        say(on, KNURL_LIMIT_AMPLITUDE, sentence, advice);
     }
     if (rms > on->bounds->continuous_force) {
         (void)snprintf(sentence, sizeof sentence,
-                       "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold; lower it to "
-                       "%.3g m, or clamp",
-                       on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force,
-                       on->check->amplitude_limit);
-        say(on, KNURL_LIMIT_HEAT, sentence);
+                       "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold",
+                       on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force);
+        say(on, KNURL_LIMIT_HEAT, sentence, advice);
     }
     if (period < 2.0 * on->bounds->quantum) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "ridges %.3g m apart are finer than the %.3g m of two position steps; lower spatial_frequency",
+        (void)snprintf(sentence, sizeof sentence, "ridges %.3g m apart are finer than the %.3g m of two position steps",
                        period, 2.0 * on->bounds->quantum);
-        say(on, KNURL_LIMIT_PERIOD, sentence);
+        say(on, KNURL_LIMIT_PERIOD, sentence, "lower spatial_frequency");
     }
 }
 
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
-    const inspection on = {&hip->guard.bounds, m, surface->name, check};
+    const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
     knurl_guard_wall wall;
     memset(check, 0, sizeof *check);
     knurl_guard_clamp(&hip->guard, m, 0.0, &wall);
