@@ -86,7 +86,7 @@ def draw_stability(data, folder):
     figure, grid = plt.subplots(len(rows), len(AXES), figsize=(12, 2.6 * len(rows) + 1.7), sharey=True)
     hand = data["grips"][table["grip"][0]][1]
     heading(figure, "How stiff a flat wall may be", "Stiffness that a simulated Touch is pressed into with 1 N, "
-            "held loosely; each cell is a run of 1.25 s, judged by its signals", 0.07)
+            "held loosely; each cell is judged by its signals after 2.5 s", 0.07)
     for i, (row, (label, protections)) in enumerate(zip(grid, rows)):
         for ax, name in zip(row, AXES):
             x, _ = draw_map(ax, table, (table["label"] == label) & (table["protections"] == protections)

@@ -11,9 +11,11 @@ const stability_method stability_methods[] = {{"flat", KNURL_METHOD_DEFAULT, 0},
                                               {NULL, 0, 0}};
 
 #define TEXTURE_A 0.0002 /* m: in the maps of stiffness */
-#define FREEZE    2.25   /* s: S2 has ended the event that it began near rest, at KNURL_S2_DEADBAND on 2 mm at worst */
-#define SPEEDS    8
-#define LEVELS    11
+#define FREEZE                                                                                                         \
+    2.25 /* s: S2 has ended the event that it began near rest, at KNURL_S2_DEADBAND on 2 mm at worst; and              \
+            what a protection has stopped has died away */
+#define SPEEDS 8
+#define LEVELS 11
 
 /* The bounds' figure: a flat wall against what its theory knows. */
 static const struct {
@@ -101,6 +103,7 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
     const stability_method *method = &stability_methods[map->method];
     char value[32] = "";
     lab_case_init(c);
+    c->settle = FREEZE;
     cell->y = geometric(100.0, 10000.0, row, STABILITY_ROWS);
     if (strcmp(map->name, "damping") == 0) {
         cell->x = geometric(0.05, 20.0, column, STABILITY_COLUMNS);
@@ -114,7 +117,6 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
         cell->x = c->rate = floor(geometric(250.0, 10000.0, column, STABILITY_COLUMNS) + 0.5);
     } else {
         cell->x = c->speed = geometric(0.01, 0.25, column, SPEEDS);
-        c->settle = FREEZE;
         cell->y = geometric(100.0, 2.0 * limits->max_stiffness, row, LEVELS);
     }
     (void)snprintf(device, 160, map->device, value);

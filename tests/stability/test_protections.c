@@ -167,13 +167,13 @@ TEST(calm_walls_and_textures_are_left_alone_to_the_bit) {
         const size_t grip = i / COUNT_OF(devices) % COUNT_OF(grips);
         const size_t method = i / (COUNT_OF(devices) * COUNT_OF(grips)) % COUNT_OF(methods);
         const size_t speed = i / (COUNT_OF(devices) * COUNT_OF(grips) * COUNT_OF(methods));
-        for (int row = 0; row < 4; row++) {
-            const double stiffness = 100.0 * pow(most[device] / 100.0, row / 3.0);
+        for (int row = 0; row < 3; row++) {
+            const double stiffness = 100.0 * pow(most[device] / 100.0, row / 2.0);
             calm += compare(device, grips[grip], methods[method], speeds[speed], stiffness);
         }
     }
-    print_message("%d of 512 cases are calm, and left alone\n", calm);
-    assert_true(calm > 400);
+    print_message("%d of 384 cases are calm, and left alone\n", calm);
+    assert_true(calm > 300);
 }
 
 /* Runs raw and with the controller: the same forces. */
