@@ -163,7 +163,6 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     hip.continuous_force = info->continuous_force;
     hip.heat_time = info->heat_time;
     hip.viscous = info->viscous;
-    hip.coulomb = info->coulomb;
     hip.delay = info->delay;
     hip.max_stiffness = info->max_stiffness;
     hip.unguarded = c->unguarded;

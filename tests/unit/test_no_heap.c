@@ -208,7 +208,7 @@ static knurl_scene *make_scene(const struct stroked *what) {
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.velocity_method = KNURL_VELOCITY_FOAW;
     hip.workspace = &workspace;
-    hip.coulomb = hip.viscous = 0.0; /* every protection has work to do: loose walls, warm motors, limits */
+    hip.viscous = 0.0; /* every protection has work to do: loose walls, warm motors, limits */
     hip.delay = 4.0;
     hip.heat_time = 0.5;
     hip.continuous_force = 0.2;

@@ -85,8 +85,6 @@ typedef struct knurl_hip_desc {
     double viscous;          /**< N s/m: the device's viscous friction, for knurl_scene_check_surface() and the
                                   passivity controller; negative (default): as the loop's device says, without one the
                                   Touch's */
-    double coulomb;          /**< N: the device's dry friction; no protection counts on it, for it hardly damps a hand
-                                  that slides; negative (default): as the loop's device says, without one the Touch's */
     double delay;            /**< ticks from a force written to a force felt, 0 to 16; negative (default): as the
                                   loop's device says, without one 1 */
     double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's

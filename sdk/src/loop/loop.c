@@ -230,7 +230,6 @@ static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
         facts->continuous_force = info.continuous_force;
         facts->heat_time = info.heat_time;
         facts->viscous = info.viscous;
-        facts->coulomb = info.coulomb;
         facts->max_stiffness = info.max_stiffness;
     }
     return result || !d->scene ? result : knurl_scene_adopt_device(d->scene, d->hip, facts);

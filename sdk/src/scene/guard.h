@@ -21,7 +21,6 @@ typedef struct knurl_hip_facts {
     double continuous_force;
     double heat_time;
     double viscous;
-    double coulomb;
     double delay;
     double max_stiffness;
 } knurl_hip_facts;

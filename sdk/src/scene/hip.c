@@ -7,7 +7,7 @@
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
-    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .coulomb = -1.0, .delay = -1.0};
+    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .delay = -1.0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -19,7 +19,7 @@ static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     return KNURL_OK;
 }
 
-const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 0.26, 1.0, 1020.0};
+const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 1.0, 1020.0};
 
 static double above_zero(double given, double device) {
     return given > 0.0 ? given : device;
@@ -37,7 +37,6 @@ static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *de
                                   above_zero(d->continuous_force, device->continuous_force),
                                   above_zero(d->heat_time, device->heat_time),
                                   from_zero(d->viscous, device->viscous),
-                                  from_zero(d->coulomb, device->coulomb),
                                   from_zero(d->delay, device->delay),
                                   above_zero(d->max_stiffness, device->max_stiffness)};
     return made;
@@ -50,7 +49,6 @@ static knurl_result check_protections(const knurl_hip_desc *d) {
     } numbers[] = {{"continuous_force", "N", d->continuous_force, 0.0, HUGE_VAL},
                    {"heat_time", "s", d->heat_time, 0.0, 1e9},
                    {"viscous", "N s/m", d->viscous, -HUGE_VAL, 1e9},
-                   {"coulomb", "N", d->coulomb, -HUGE_VAL, 1e9},
                    {"delay", "ticks", d->delay, -HUGE_VAL, 16.0},
                    {"max_stiffness", "N/m", d->max_stiffness, 0.0, HUGE_VAL},
                    {"slew_rate", "N/s", d->slew_rate, 0.0, HUGE_VAL}};
