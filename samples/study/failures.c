@@ -1,5 +1,6 @@
 /* The catalogue's rows, its traces and its page. SPDX-License-Identifier: MIT */
 #include "failures.h"
+#include "gratings.h"
 #include "json_out.h"
 #include "study.h"
 
@@ -50,7 +51,7 @@ const failure failures[] = {
     {"locked_quantised", "locked", "wavers with a coarse encoder",
      "The speed lags by FOAW's window while the hand sets off, and the position is off by half a quantum.",
      "%.2f cycle at most, 0.5 mm ridges from 0.055 mm positions, twice a second to 480 Hz", "measured; at most 0.5",
-     "ridges of 1 mm or more, or a finer encoder: 0.24 with exact positions", "ms", failure_locked_quantised},
+     "ridges of 1 mm or more, or a finer encoder: 0.24 with exact positions", "mm a ridge", failure_locked_quantised},
     {"locked_grid", "locked", "forgets a grid's ridges at a turn", "Eq. 12 counts the way, not the place.",
      "%.0f %% of the places are low that were high, and high that were low, where the turn lies on an edge",
      "0 to 100 %, by where the turn lies", "ridges one way, where the phase comes from the position", "mm",
@@ -108,6 +109,13 @@ void failure_draw_cycles(const failure_sink *sink, const study_scan *scan, size_
         failure_point(sink, "cycles crossed", (double)k / scan->update_rate_hz, scan->crossed[k]);
         failure_point(sink, "cycles played", (double)k / scan->update_rate_hz, scan->played[k]);
     }
+}
+
+int failure_across(int32_t method, double f, size_t ticks, study_scan *scan) {
+    static const double start[2] = {FAILURE_START, 0.0};
+    const knurl_grating grating = gratings_make(method, 1000.0, 0.0);
+    const double velocity[2] = {f / 1000.0, 0.0};
+    return gratings_scan_line(&grating, start, velocity, ticks, scan);
 }
 
 static void write_page_row(FILE *page, const failure *f, double number) {

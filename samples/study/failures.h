@@ -37,6 +37,13 @@ void failure_point(const failure_sink *sink, const char *series, double t, doubl
  * NaN where there is no such thing. t: ms. */
 void failure_draw_heights(const failure_sink *sink, const study_scan *scan, double cycle, size_t ticks);
 
+/** Where failure_across() begins: m along x, and cycles from a ridge's rising edge (Eq. 11). */
+#define FAILURE_START 0.000137
+#define FAILURE_CYCLE 0.387
+
+/** A straight scan across ridges of 1 mm at temporal frequency f (Hz), 1 kHz. 1, or 0: no memory. */
+int failure_across(int32_t method, double f, size_t ticks, study_scan *scan);
+
 /** Draws cycles played and crossed, every `step`-th tick. t: s. */
 void failure_draw_cycles(const failure_sink *sink, const study_scan *scan, size_t step);
 

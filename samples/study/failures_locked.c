@@ -1,31 +1,21 @@
 /* Where `locked` and the velocities that it is given fail. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
+#include "locked.h"
 
 #include <math.h>
 #include <string.h>
 
-#define PI         3.141592653589793
 #define RESOLUTION 0.055e-3 /* m: the Touch's */
-
-/* m along x, and cycles from a ridge's rising edge (Eq. 11) on ridges of 1 mm. */
-static const double start[2] = {0.000137, 0.0};
-#define CYCLE 0.387
-
-static int across(int32_t method, double f, size_t ticks, study_scan *scan) {
-    const knurl_grating grating = gratings_make(method, 1000.0, 0.0);
-    const double velocity[2] = {f / 1000.0, 0.0};
-    return gratings_scan_line(&grating, start, velocity, ticks, scan);
-}
 
 /* Nine ticks a cycle, just below the crossover: five up and four down, as S1 has them. */
 int failure_locked_pushes(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_LOCKED, 1000.0 / 9.0, 900, &scan)) {
+    if (!failure_across(KNURL_LOCKED, 1000.0 / 9.0, 900, &scan)) {
         return 0;
     }
     *number = fabs(study_scan_net(&scan, 1.0, 2.0));
-    failure_draw_heights(sink, &scan, CYCLE, 45);
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 45);
     study_scan_free(&scan);
     return 1;
 }
@@ -33,11 +23,11 @@ int failure_locked_pushes(const failure_sink *sink, double *number) {
 /* 2 and 3 ticks alternate where 2.5 are meant. */
 int failure_locked_dithers(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_LOCKED, 400.0, 2000, &scan)) {
+    if (!failure_across(KNURL_LOCKED, 400.0, 2000, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_spurious(&scan, 400.0, 0.02);
-    failure_draw_heights(sink, &scan, CYCLE, 30);
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 30);
     study_scan_free(&scan);
     return 1;
 }
@@ -46,38 +36,23 @@ static double quantise(double x) {
     return floor(x / RESOLUTION + 0.5) * RESOLUTION;
 }
 
-/* Strokes of v = vmax |sin(2 pi t)| up to 480 Hz over ridges of 0.5 mm, from a Touch's encoder and FOAW. Phase error:
- * cycles played, to the tick within an event, less cycles crossed; outside events the position's own quantum. */
+/* Strokes of v = vmax |sin(2 pi t)| up to 480 Hz, from a Touch's encoder and FOAW, as in the study `locked`. The number
+ * is that of ridges of 0.5 mm; drawn are others too, and what exact positions would give. */
 int failure_locked_quantised(const failure_sink *sink, double *number) {
-    enum { TICKS = 1000 };
-    const double fs = 2000.0;
-    const double vmax = 480.0 / fs;
-    knurl_grating grating = gratings_make(KNURL_LOCKED, fs, 0.0);
-    grating.resolution = RESOLUTION;
-    *number = 0.0;
-    for (int phase = 0; phase < 8; phase++) {
-        knurl_grating_state state;
-        knurl_velocity estimator;
-        memset(&state, 0, sizeof state);
-        if (knurl_velocity_init(KNURL_VELOCITY_FOAW, RESOLUTION, GRATINGS_RATE, &estimator)) {
-            return 0;
-        }
-        for (size_t k = 0; k < TICKS; k++) {
-            const double turn = 2.0 * (double)k / GRATINGS_RATE;
-            const double x =
-                0.0000137 * phase + vmax / (2.0 * PI) * (2.0 * floor(turn) + 1.0 - cos(PI * (turn - floor(turn))));
-            const double position[3] = {quantise(x), 0.0, 0.0};
-            double velocity[3];
-            knurl_grating_output out;
-            knurl_velocity_update(&estimator, position, velocity);
-            knurl_grating_step(&grating, &state, position, velocity, &out);
-            const double in_event = (double)(state.next_tick - 1) / (state.event.length > 0 ? state.event.length : 1);
-            const double played = out.event == KNURL_NO_EVENT ? state.phase : state.played - 1.0 + in_event;
-            const double error = played - (fs * x + 0.25);
-            *number = fmax(*number, fabs(error));
-            if (phase == 0) {
-                failure_point(sink, "cycles played less crossed", (double)k, error);
+    static const double periods[] = {0.5e-3, 0.7e-3, 1e-3, 1.5e-3, 2e-3, 3e-3};
+    for (int quantised = 0; quantised < 2; quantised++) {
+        for (size_t i = 0; i < sizeof periods / sizeof *periods; i++) {
+            const locked_scan scan = {.method = KNURL_LOCKED,
+                                      .rate = GRATINGS_RATE,
+                                      .period = periods[i],
+                                      .quantum = quantised ? RESOLUTION : 0.0,
+                                      .per_second = 2.0};
+            locked_found found;
+            if (!locked_scan_worst(&scan, 480.0, 8, 0, &found)) {
+                return 0;
             }
+            *number = i == 0 ? found.step.error : *number;
+            failure_point(sink, quantised ? "0.055 mm counts, cycles" : "exact", 1e3 * periods[i], found.step.error);
         }
     }
     return 1;

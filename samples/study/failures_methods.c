@@ -7,46 +7,35 @@
 
 #define PI 3.141592653589793
 
-/* m along x, and cycles from a ridge's rising edge (Eq. 11) on ridges of 1 mm. */
-static const double start[2] = {0.000137, 0.0};
-#define CYCLE 0.387
-
-/* A straight scan across ridges of 1 mm at temporal frequency f. */
-static int across(int32_t method, double f, size_t ticks, study_scan *scan) {
-    const knurl_grating grating = gratings_make(method, 1000.0, 0.0);
-    const double velocity[2] = {f / 1000.0, 0.0};
-    return gratings_scan_line(&grating, start, velocity, ticks, scan);
-}
-
 int failure_s1_pushes(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_S1, 1000.0 / 3.0, 300, &scan)) {
+    if (!failure_across(KNURL_S1, 1000.0 / 3.0, 300, &scan)) {
         return 0;
     }
     *number = fabs(study_scan_net(&scan, 1.0, 2.0));
-    failure_draw_heights(sink, &scan, CYCLE, 24);
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 24);
     study_scan_free(&scan);
     return 1;
 }
 
 int failure_s1_silent(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_S1, 1000.0, 300, &scan)) {
+    if (!failure_across(KNURL_S1, 1000.0, 300, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_dropout(&scan);
-    failure_draw_heights(sink, &scan, CYCLE, 12);
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 12);
     study_scan_free(&scan);
     return 1;
 }
 
 int failure_s1_alias(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_S1, 900.0, 1000, &scan)) {
+    if (!failure_across(KNURL_S1, 900.0, 1000, &scan)) {
         return 0;
     }
     *number = scan.played[scan.ticks]; /* cycles in a second */
-    failure_draw_heights(sink, &scan, CYCLE, 24);
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 24);
     study_scan_free(&scan);
     return 1;
 }
@@ -68,6 +57,7 @@ int failure_s1_diagonal(const failure_sink *sink, double *number) {
 
 /* Two edges in one tick are none. */
 int failure_s1_grid(const failure_sink *sink, double *number) {
+    static const double start[2] = {FAILURE_START, 0.0};
     const knurl_grating grating = gratings_make(KNURL_S1, 1000.0, 1000.0);
     *number = 0.0;
     for (int degrees = 1; degrees < 90; degrees++) {
@@ -119,7 +109,7 @@ int failure_s2_freezes(const failure_sink *sink, double *number) {
 
 int failure_s2_drifts(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_S2, 1000.0 / (3.5 * (1.0 - 1e-9)), 3000, &scan)) {
+    if (!failure_across(KNURL_S2, 1000.0 / (3.5 * (1.0 - 1e-9)), 3000, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_drift(&scan);
@@ -176,7 +166,7 @@ int failure_s2_outlives(const failure_sink *sink, double *number) {
 /* Eq. 9 cuts the troughs off: at no depth only the crests are left. */
 int failure_grazed(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!across(KNURL_S2, 1000.0 / 3.0, 300, &scan)) {
+    if (!failure_across(KNURL_S2, 1000.0 / 3.0, 300, &scan)) {
         return 0;
     }
     *number = study_scan_net(&scan, 1.0, 0.0);

@@ -11,7 +11,7 @@
 #define SPEEDS     231 /* 20 to 480 Hz */
 #define CROSSOVERS 14  /* 40 to 300 Hz */
 #define RATES      4
-#define STARTS     10
+#define STARTS     48
 
 static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
 static const double quanta[] = {0.0, TOUCH, FINE};

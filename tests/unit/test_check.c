@@ -168,6 +168,23 @@ TEST(checks_of_nothing_are_refused) {
     knurl_scene_destroy(scene);
 }
 
+/* A long name and every limit at once: five lines, the last one to its end. */
+TEST(every_limit_at_once_has_its_whole_sentence) {
+    setting s = plain();
+    int lines = 1;
+    s.parts.desc.name = "a surface that was given a very long name indeed";
+    s.parts.material.stiffness = 123456.0;
+    set_grating(&s.parts, KNURL_S2, 123456.0, 0.0, 0.012345);
+    const knurl_surface_check check = check_of(&s);
+    const char *end = "lower spatial_frequency";
+    assert_int_equal(check.exceeded, 31);
+    for (const char *at = strchr(check.message, '\n'); at; at = strchr(at + 1, '\n')) {
+        lines++;
+    }
+    assert_int_equal(lines, 5);
+    assert_string_equal(check.message + strlen(check.message) - strlen(end), end);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_surface_within_its_limits_has_nothing_to_be_warned_of),
@@ -178,6 +195,7 @@ int main(void) {
         cmocka_unit_test(ridges_finer_than_two_position_steps_are_told),
         cmocka_unit_test(clamp_keeps_walls_and_textures_within_their_limits),
         cmocka_unit_test(checks_of_nothing_are_refused),
+        cmocka_unit_test(every_limit_at_once_has_its_whole_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

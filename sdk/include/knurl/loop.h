@@ -69,9 +69,9 @@ typedef struct knurl_loop_stats {
     uint32_t memory_locked;    /**< 1: the scene and the loop's stack are locked into RAM */
     knurl_percentiles tick_ns; /**< the scene's tick or the force callback alone; within 3 % */
     knurl_percentiles jitter_ns; /**< wake-up after the deadline; within 3 % */
-    uint64_t
-        heats;   /**< with a force callback: ticks shortened to what warm motors can hold; a scene's HIP has counts */
-    double heat; /**< likewise: 0 cold to 1: as warm as the device's continuous_force makes it in the long run */
+    uint64_t heats;              /**< force callback: ticks shortened to what warm motors can hold (a scene's HIP has
+                                      counts of its own) */
+    double heat;                 /**< force callback: 0 cold to 1: as warm as continuous_force makes them for ever */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */

@@ -287,9 +287,10 @@ typedef struct knurl_surface_check {
     double stiffness_limit; /**< N/m: the least of its bounds */
     double amplitude;       /**< m */
     double amplitude_limit; /**< m: at the stiffness that is felt */
-    char message[512];      /**< a sentence for each limit: which, by how much, what to do; "" where none is exceeded */
+    char message[1024];     /**< a sentence for each limit: which, by how much, what to do; "" where none is exceeded */
 } knurl_surface_check;
 
+/** Fills in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_surface_check_init(knurl_surface_check *check, uint32_t size);
 
 /** Holds a surface's stiffness and amplitude against what the HIP's device can do: to be asked at load, before anybody
