@@ -44,8 +44,9 @@ static int cmd_devices(int argc, char **argv) {
     if (tool_parse(argc, argv, options, 2, NULL) != TOOL_OK) {
         return TOOL_USAGE;
     }
-    knurl_device_listing listings[8];
-    const uint32_t count = knurl_device_list(listings, 8);
+    static knurl_device_listing listings[32];
+    const uint32_t known = knurl_device_list(listings, 32);
+    const uint32_t count = known < 32 ? known : 32;
     if (!json) {
         for (uint32_t i = 0; i < count; i++) {
             printf("%-8s %s%s%s\n", listings[i].uri, listings[i].name, listings[i].reason[0] ? ": " : "",

@@ -90,8 +90,8 @@ static knurl_result write_it(knurl_device *device, const double force[3]) {
     return KNURL_OK;
 }
 
-static const knurl_driver bench_driver = {"bench",  "a test bench", "",      NULL,    close_it,
-                                          get_info, start,          read_it, write_it};
+static const knurl_driver bench_driver = {
+    .uri = "bench", .close = close_it, .get_info = get_info, .start = start, .read = read_it, .write = write_it};
 static bench device;
 
 static exp_session begin(int32_t experiment, int32_t answers) {

@@ -81,8 +81,14 @@ static inline knurl_result rig_write(knurl_device *device, const double force[3]
     return KNURL_OK;
 }
 
-static const knurl_driver rig_driver = {"rig",        "a test bench",   "",       NULL,     rig_close,
-                                        rig_get_info, rig_start_device, rig_read, rig_write};
+static const knurl_driver rig_driver = {
+    .uri = "rig",
+    .close = rig_close,
+    .get_info = rig_get_info,
+    .start = rig_start_device,
+    .read = rig_read,
+    .write = rig_write,
+};
 
 static inline int64_t rig_now(void *user) {
     return rig_of(user)->now;

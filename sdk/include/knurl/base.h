@@ -56,7 +56,8 @@ extern "C" {
     X(KNURL_ERROR_FORMAT, -8, "a file does not hold what its format demands")                                          \
     X(KNURL_ERROR_UNKNOWN, -9, "a name is not known")                                                                  \
     X(KNURL_ERROR_DEVICE_LOST, -10, "the device no longer answers")                                                    \
-    X(KNURL_ERROR_SYSTEM, -11, "the operating system refused")
+    X(KNURL_ERROR_SYSTEM, -11, "the operating system refused")                                                         \
+    X(KNURL_ERROR_DEVICE_NOT_READY, -12, "the device gives no position that can be trusted")
 
 enum {
 #define KNURL_RESULT_ENUMERATOR(name, value, text) name = (value),

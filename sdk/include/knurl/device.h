@@ -1,5 +1,5 @@
-/* Knurl: force-feedback devices behind one interface. This version has the fake one: a simulated Touch in a simulated
- * hand, for people with no device on the desk.
+/* Knurl: force-feedback devices behind one interface: 3D Systems Touch, Novint Falcon, raw HID devices, a caller's own,
+ * and a fake one, a simulated Touch in a simulated hand, for people with no device on the desk.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_DEVICE_H
 #define KNURL_DEVICE_H
@@ -28,6 +28,8 @@ typedef struct knurl_device_info {
     double viscous;          /**< N s/m: the device's own viscous friction */
     double coulomb;          /**< N: the device's own dry friction */
     double max_stiffness;    /**< N/m: the stiffest wall that its maker promises; INFINITY: nothing is promised */
+    double max_damping;      /**< N s/m: the strongest damper that its maker promises; INFINITY: nothing is promised */
+    double native_rate;      /**< Hz at which it brings positions by itself; 0: at whatever rate it is read */
 } knurl_device_info;
 
 /** One reading. Device frame: x right, y up, z towards the user. */
@@ -37,12 +39,79 @@ typedef struct knurl_device_sample {
     uint32_t reserved;  /**< 0 */
 } knurl_device_sample;
 
-/** One kind of device in a listing. */
+/** One device that is connected, or one kind of device of which none is. */
 typedef struct knurl_device_listing {
-    const char *uri;    /**< what to open it with; static */
-    const char *name;   /**< for people; static */
-    const char *reason; /**< why it cannot be used, or "" where it can; static */
+    char uri[256];     /**< what to open it with */
+    char name[128];    /**< for people */
+    char reason[1024]; /**< why it cannot be used and what helps, or "" where it can */
 } knurl_device_listing;
+
+/** Every fault with its number, its name and its sentence: the one table that codes and texts come from. `value` is an
+ * event's. */
+#define KNURL_FAULTS(X)                                                                                                \
+    X(KNURL_FAULT_LOST, 1, "lost", "the device is gone: unplugged or switched off")                                    \
+    X(KNURL_FAULT_SILENT, 2, "silent", "no position came for too long (value: s)")                                     \
+    X(KNURL_FAULT_CORRUPT, 3, "corrupt", "what came was not a whole message and was thrown away (value: bytes)")       \
+    X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number")                                          \
+    X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move (value: m)")                      \
+    X(KNURL_FAULT_LATE, 6, "late", "the newest force was too old to be played on (value: s)")                          \
+    X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; told once for a row of them (value: s, of the first)")      \
+    X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still (value: s)")                                 \
+    X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life (value: s)")                               \
+    X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force (value: its own code)")                        \
+    X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing")           \
+    X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp")                               \
+    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again")
+
+enum {
+#define KNURL_FAULT_ENUMERATOR(code, value, name, text) code = (value),
+    KNURL_FAULTS(KNURL_FAULT_ENUMERATOR)
+#undef KNURL_FAULT_ENUMERATOR
+};
+
+/** Something that went wrong, or was well again. */
+typedef struct knurl_device_event {
+    int64_t time_ns;   /**< when it was seen, on the system's monotonic clock */
+    double value;      /**< what KNURL_FAULTS says of its code, else 0 */
+    int32_t code;      /**< KNURL_FAULT_ */
+    uint32_t reserved; /**< 0 */
+} knurl_device_event;
+
+/** How a device does. An output: set struct_size with knurl_device_status_init() first. */
+typedef struct knurl_device_status {
+    uint32_t struct_size;
+    uint32_t lost;          /**< 1: gone, until it is opened again */
+    uint32_t halted;        /**< 1: the motors were let go and nothing has taken them up again */
+    uint32_t reserved;      /**< 0 */
+    uint64_t exchanges;     /**< positions that an I/O thread brought; 0 where there is no such thread */
+    uint64_t bad_bytes;     /**< thrown away because they made no message */
+    uint64_t events;        /**< reported so far, see knurl_device_next_event() */
+    double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
+    double exchange_ns_p99; /**< the same, 99th percentile */
+} knurl_device_status;
+
+/** A caller's own device, so that one that was built at home needs no change of Knurl. All are called with `user`. */
+typedef struct knurl_device_functions {
+    uint32_t struct_size; /**< set by knurl_device_functions_init() */
+    uint32_t blocking;    /**< 1: read and write may wait; they are called on a thread of their own, in turn, and the
+                             haptic    thread gets the newest position and leaves the newest force. Default 0 */
+    void *user;
+    /** What the device is; `info` comes with defaults that promise nothing. Required: max_force > 0. [any thread] */
+    void (*get_info)(void *user, knurl_device_info *info);
+    /** Prepares for being read so often; or null. [game thread] */
+    knurl_result (*start)(void *user, double update_rate_hz);
+    /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time) or
+     * KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5 ms] */
+    knurl_result (*read)(void *user, knurl_device_sample *sample);
+    /** Plays a force, finite and at most max_force. Required. KNURL_OK or KNURL_ERROR_DEVICE_LOST.
+     * [as read; also once at the end, on the thread that closes] */
+    knurl_result (*write)(void *user, const double force[3]);
+    /** Tries to find a lost device again: KNURL_OK or KNURL_ERROR_DEVICE_LOST; or null: it cannot be. [a thread of the
+     * loop, while nothing is read or written] */
+    knurl_result (*reopen)(void *user);
+    /** The last call; or null. [game thread] */
+    void (*close)(void *user);
+} knurl_device_functions;
 
 /** The fake device's strokes: how its hand's target moves over the stroke frame. */
 enum {
@@ -69,33 +138,64 @@ typedef struct knurl_stroke_desc {
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_device_info_init(knurl_device_info *info, uint32_t size);
+KNURL_API void knurl_device_status_init(knurl_device_status *status, uint32_t size);
+KNURL_API void knurl_device_functions_init(knurl_device_functions *functions, uint32_t size);
 KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
-/** Opens a device by URI: "fake", or "fake:?key=value&..." with any of the keys that knurl_fake_keys() lists; a later
- * key counts over an earlier one, and `preset` sets all of them anew.
- * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (touch, falcon and
- * rawhid: their drivers are not in this version), KNURL_ERROR_MEMORY. [game thread] */
+/** Opens a device by URI; "name:" alone is "name".
+ *   fake                        fake:?key=value&..., any of the keys that knurl_fake_keys() lists; a later key counts
+ * over an earlier one, and `preset` sets all of them anew touch                       the Touch that is called the
+ * default; touch:NAME by the name that its set-up program gave it; ?library=PATH: where libHD is, before the
+ * environment variable KNURL_HD_LIBRARY and the usual places falcon                      the first one;
+ * falcon:?firmware=PATH: the image to load where the device has none, before the environment variable
+ * KNURL_FALCON_FIRMWARE rawhid                      the first one that is known; rawhid:VID:PID (hexadecimal) which
+ * one; ?geometry=PATH: a file that says how it is built (README, "Devices") Errors: KNURL_ERROR_UNKNOWN (device),
+ * KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no such driver, or a library that it
+ * needs cannot be loaded), KNURL_ERROR_DEVICE_LOST (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it
+ * is there but may not be used: permissions), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file),
+ * KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
+
+/** Makes a device of a caller's functions. Its positions are checked as any device's: what is not finite, or moves
+ * faster than 10 m/s, is a fault. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY, KNURL_ERROR_SYSTEM (no thread).
+ * [game thread] */
+KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device);
 
 /** Lets go of the motors and closes; null is allowed. No loop may use the device. [game thread] */
 KNURL_API void knurl_device_close(knurl_device *device);
 
-/** The kinds of device: fills at most `capacity` listings, returns how many there are. [any thread] */
+/** What is connected, and for kinds of which nothing is, why and what helps: fills at most `capacity` listings, returns
+ * how many there are. Looks at the machine's USB devices: some milliseconds. [game thread] */
 KNURL_API uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity);
 
 /** What the device is. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info);
 
+/** How the device does. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+KNURL_API knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_status *status);
+
+/** The next event, oldest first: 1, or 0 where there is none. The device keeps the latest 64; whoever comes too late
+ * misses the older ones (knurl_device_status.events counts all). [one thread, any] */
+KNURL_API uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event);
+
+/** A fault's name ("lost") and its sentence; static, never null, also for codes this version does not know.
+ * [any thread] */
+KNURL_API const char *knurl_fault_name(int32_t code);
+KNURL_API const char *knurl_fault_string(int32_t code);
+
 /** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew.
- * Errors: KNURL_ERROR_ARGUMENT (rate). [game thread] */
+ * Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep). [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
-/** Reads the newest sample; the fake device's simulated time moves on by one period.
- * Errors: KNURL_ERROR_DEVICE_LOST. No heap, lock or message. [haptic thread] */
+/** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls
+ * the loop, and only there can it be read and written. Errors: KNURL_ERROR_DEVICE_LOST; KNURL_ERROR_DEVICE_NOT_READY:
+ * there is no position to be trusted now, and the motors are let go (halted); why is an event; KNURL_ERROR_STATE. No
+ * heap, lock, wait or message. [haptic thread] */
 KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample);
 
 /** Writes the force (device axes, N). A force that is not finite is written as 0; longer than max_force is shortened.
- * Errors: KNURL_ERROR_DEVICE_LOST. No heap, lock or message. [haptic thread] */
+ * A device with an I/O thread plays it until the next one, 10 ms at most.
+ * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or message. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 
 /** Lets go of the motors at once, whatever the haptic thread does; what it writes afterwards counts again only after
@@ -107,6 +207,13 @@ KNURL_API void knurl_device_release_halt(knurl_device *device);
 
 /** 1 while halted. [any thread] */
 KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
+
+/** Opt-in: when the process crashes or is told to end (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGHUP,
+ * SIGINT), all open devices are told to let go, up to 20 ms are waited until they have, and the signal goes on to
+ * whatever handled it before. What cannot be caught (SIGKILL, power) is left to the device itself. A runtime that uses
+ * these signals for its own ends (mono: null references) installs its handlers after this call, or does without. Twice
+ * is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
+KNURL_API knurl_result knurl_device_let_go_on_crash(void);
 
 /** The keys of a fake URI, their units, defaults and meaning, a line each; static. [any thread] */
 KNURL_API const char *knurl_fake_keys(void);

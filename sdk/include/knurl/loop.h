@@ -41,7 +41,9 @@ typedef struct knurl_loop_desc {
     const knurl_clock *clock; /**< copied; null: the system's */
     uint32_t unguarded; /**< with a force callback: KNURL_UNGUARDED_HEAT leaves the device's continuous_force out of
                              account; default 0 */
-    uint32_t reserved;  /**< 0 */
+    uint32_t reconnect; /**< 1: a lost device is looked for again, four times a second; default 0: the loop ends */
+    double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force goes to zero by the ramp, until the
+                             next one; 0 (default): nobody has to call it */
 } knurl_loop_desc;
 
 /** Nanoseconds, by percentile. */
@@ -72,6 +74,9 @@ typedef struct knurl_loop_stats {
     uint64_t heats;              /**< force callback: ticks shortened to what warm motors can hold (a scene's HIP has
                                       counts of its own) */
     double heat;                 /**< force callback: 0 cold to 1: as warm as continuous_force makes them for ever */
+    uint64_t absences; /**< beats without a tick, because the device was lost or gave no position to be trusted */
+    uint32_t absent;   /**< 1: such was the latest beat */
+    uint32_t reserved; /**< 0 */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -99,6 +104,9 @@ KNURL_API void knurl_loop_request_stop(knurl_loop *loop);
 
 /** Asks for the end and waits for it; from a callback it only asks. Twice is fine. [any thread] */
 KNURL_API void knurl_loop_stop(knurl_loop *loop);
+
+/** A sign of life from the game; see heartbeat_s. [any thread] */
+KNURL_API void knurl_loop_heartbeat(knurl_loop *loop);
 
 /** Waits up to `seconds` for the end; 1 if the loop is not running (any more), else 0. [any thread but the haptic] */
 KNURL_API uint32_t knurl_loop_wait(knurl_loop *loop, double seconds);

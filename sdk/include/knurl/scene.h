@@ -141,7 +141,7 @@ typedef struct knurl_tick_input {
     double position[3];    /**< device frame, m */
     double velocity[3];    /**< device frame, m/s; used where has_velocity is 1 */
     uint32_t has_velocity; /**< 0: the HIP's own estimator gives the velocity */
-    uint32_t reserved;     /**< 0 */
+    uint32_t absent; /**< 1: there is no position: nothing is felt, contacts are let go, the next tick is a first one */
 } knurl_tick_input;
 
 /** Bits of knurl_tick_output.flags. */
@@ -154,7 +154,8 @@ enum {
     KNURL_TICK_ENTRY = 32,         /**< a wall came in as a ramp */
     KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
     KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
-    KNURL_TICK_PASSIVITY = 256     /**< the wall was softened because the HIP kept bouncing in it, unasked */
+    KNURL_TICK_PASSIVITY = 256,    /**< the wall was softened because the HIP kept bouncing in it, unasked */
+    KNURL_TICK_ABSENT = 512        /**< there was no position, as the input said */
 };
 
 /** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */

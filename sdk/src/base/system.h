@@ -1,5 +1,5 @@
-/* What Knurl asks of the operating system: time, threads, locked memory. One implementation a system.
- * SPDX-License-Identifier: MIT */
+/* What Knurl asks of the operating system: time, threads, locked memory, crashes, libraries. One implementation a
+ * system. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SYSTEM_H
 #define KNURL_SRC_SYSTEM_H
 
@@ -32,6 +32,18 @@ void knurl_system_mutex_init(knurl_mutex *mutex);
 void knurl_system_mutex_destroy(knurl_mutex *mutex);
 void knurl_system_mutex_lock(knurl_mutex *mutex);
 void knurl_system_mutex_unlock(knurl_mutex *mutex);
+
+/* Has `let_go` called when a signal ends the process, before whatever handled the signal until now; 0 when the system
+ * refuses. `let_go` may use the clock, naps and atomics. Later calls change nothing. */
+int knurl_system_on_crash(void (*let_go)(void));
+
+/* Libraries that are loaded at run time. Null: `why` says what the system says. */
+typedef struct knurl_library knurl_library;
+knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size);
+void knurl_system_unload_library(knurl_library *library);
+
+/* Copies a function's address to *function, a pointer to a function pointer; 0 where there is none of that name. */
+int knurl_system_find_function(knurl_library *library, const char *name, void *function);
 
 /* Moves the calling thread to the real-time scheduler; 0 where that is not permitted. */
 int knurl_system_make_realtime(void);

@@ -1,11 +1,13 @@
-/* POSIX: time, threads, locked memory. SPDX-License-Identifier: MIT */
+/* POSIX: time, threads, locked memory, libraries. SPDX-License-Identifier: MIT */
 #include "base/system.h"
 
 #include "base/base.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -121,4 +123,25 @@ int knurl_system_lock_stack(uintptr_t *start) {
     }
     *start = (uintptr_t)pages;
     return mlock(pages, sizeof pages) == 0;
+}
+
+knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!library) {
+        const char *told = dlerror();
+        (void)snprintf(why, why_size, "%s", told ? told : "no reason given");
+    }
+    return library;
+}
+
+void knurl_system_unload_library(knurl_library *library) {
+    (void)dlclose(library);
+}
+
+int knurl_system_find_function(knurl_library *library, const char *name, void *function) {
+    void *found = dlsym((void *)library, name);
+    if (found) {
+        memcpy(function, &found, sizeof found); /* POSIX: the two kinds of pointers are alike; C99 has no cast */
+    }
+    return found != NULL;
 }

@@ -1,40 +1,44 @@
-/* One interface for all devices: finds the driver, guards the force. SPDX-License-Identifier: MIT */
+/* One interface for all devices: finds the driver, guards positions and forces. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
 
 #include "base/atomic.h"
 #include "base/base.h"
 #include "base/vec3.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
-/* The drivers that this version does not have are listed with the reason, so that nobody looks for a cable. */
-static const knurl_driver touch = {
-    "touch", "3D Systems Touch", "its driver (OpenHaptics, loaded at run time) is not in this version", 0, 0, 0, 0, 0,
-    0};
-static const knurl_driver falcon = {
-    "falcon", "Novint Falcon", "its driver (libusb) is not in this version", 0, 0, 0, 0, 0, 0};
-static const knurl_driver rawhid = {
-    "rawhid", "raw HID device", "its driver (hidapi) is not in this version", 0, 0, 0, 0, 0, 0};
-static const knurl_driver *const drivers[] = {&knurl_fake_driver, &touch, &falcon, &rawhid};
+static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_driver, &knurl_falcon_driver,
+                                              &knurl_rawhid_driver};
 
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
+
+/* How far a position may be off after however short a gap, s at the greatest speed: devices that bring positions at
+ * 1 kHz move in steps when they are read faster. */
+#define LEAST_GAP 0.002
 
 void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
     const knurl_device_info defaults = {0};
     knurl_desc_write(&defaults, sizeof defaults, info, size);
 }
 
+void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
+    const knurl_device_status defaults = {0};
+    knurl_desc_write(&defaults, sizeof defaults, status, size);
+}
+
 knurl_result knurl_device_open(const char *uri, knurl_device **device) {
     const size_t length = uri ? strcspn(uri, ":") : 0;
     for (size_t i = 0; uri && i < DRIVER_COUNT; i++) {
         const knurl_driver *driver = drivers[i];
-        if (strlen(driver->uri) != length || strncmp(driver->uri, uri, length) != 0) {
-            continue;
+        if (strlen(driver->uri) == length && strncmp(driver->uri, uri, length) == 0) {
+            const knurl_result result = driver->open(uri[length] == ':' ? uri + length + 1 : "", device);
+            if (!result) {
+                knurl_device_register(*device);
+            }
+            return result;
         }
-        if (driver->reason[0]) {
-            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device '%s': %s", uri, driver->reason);
-        }
-        return driver->open(uri[length] == ':' ? uri + length + 1 : "", device);
     }
     return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'",
                       uri ? uri : "(null)");
@@ -42,17 +46,29 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
 
 void knurl_device_close(knurl_device *device) {
     if (device) {
+        knurl_device_unregister(device);
         device->driver->close(device);
     }
 }
 
-uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
-    for (uint32_t i = 0; i < DRIVER_COUNT && i < capacity; i++) {
-        listings[i].uri = drivers[i]->uri;
-        listings[i].name = drivers[i]->name;
-        listings[i].reason = drivers[i]->reason;
+void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...) {
+    if (listings->count++ < listings->capacity) {
+        knurl_device_listing *listing = &listings->to[listings->count - 1];
+        va_list arguments;
+        (void)snprintf(listing->uri, sizeof listing->uri, "%s", uri);
+        (void)snprintf(listing->name, sizeof listing->name, "%s", name);
+        va_start(arguments, reason);
+        (void)vsnprintf(listing->reason, sizeof listing->reason, reason, arguments);
+        va_end(arguments);
     }
-    return (uint32_t)DRIVER_COUNT;
+}
+
+uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
+    knurl_listings found = {listings, capacity, 0};
+    for (uint32_t i = 0; i < DRIVER_COUNT; i++) {
+        drivers[i]->list(&found);
+    }
+    return found.count;
 }
 
 knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {
@@ -62,28 +78,115 @@ knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info
     return knurl_desc_return("knurl_device_info", &made, sizeof made, info);
 }
 
+knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_status *status) {
+    knurl_device_status made;
+    knurl_device_status_init(&made, sizeof made);
+    made.lost = knurl_load_acquire(&device->lost);
+    made.halted = knurl_device_is_halted(device);
+    made.events = knurl_load_acquire(&device->events.head);
+    if (device->driver->get_status) {
+        device->driver->get_status(device, &made);
+    }
+    return knurl_desc_return("knurl_device_status", &made, sizeof made, status);
+}
+
+uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event) {
+    return knurl_events_next(&device->events, event);
+}
+
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
-    return device->driver->start(device, update_rate_hz);
+    const knurl_result result = device->driver->start(device, update_rate_hz);
+    if (!result) {
+        device->period = 1.0 / update_rate_hz;
+        memset(&device->check, 0, sizeof device->check);
+    }
+    return result;
+}
+
+/* KNURL_OK where a hand may have moved the device there. */
+static knurl_result check_position(knurl_device *device, const double position[3]) {
+    knurl_position_check *check = &device->check;
+    if (!vec3_finite(position)) {
+        if (!check->not_finite) {
+            knurl_events_report(&device->events, KNURL_FAULT_NOT_FINITE, 0.0);
+        }
+        check->not_finite = 1;
+        check->settle = KNURL_SETTLE_TIME;
+        return KNURL_ERROR_DEVICE_NOT_READY;
+    }
+    check->not_finite = 0;
+    if (check->has_last && device->max_speed > 0.0) {
+        double moved[3];
+        vec3_sub(position, check->last, moved);
+        const double distance = vec3_length(moved);
+        if (!(distance <= device->max_speed * fmax(check->gap, LEAST_GAP))) {
+            if (check->settle <= 0.0) {
+                knurl_events_report(&device->events, KNURL_FAULT_JUMP, distance);
+            }
+            check->settle = KNURL_SETTLE_TIME;
+        }
+    }
+    vec3_copy(position, check->last);
+    check->has_last = 1;
+    check->gap = 0.0;
+    if (check->settle > 0.0) { /* a jump may be for good: where it then stays is believed */
+        check->settle -= device->period;
+        return KNURL_ERROR_DEVICE_NOT_READY;
+    }
+    return KNURL_OK;
 }
 
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
-    return device->driver->read(device, sample);
+    if (knurl_load_acquire(&device->lost)) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    knurl_device_sample found;
+    knurl_result result = device->driver->read(device, &found);
+    device->check.gap += device->period;
+    result = result ? result : check_position(device, found.position);
+    if (!result) {
+        *sample = found;
+        return KNURL_OK;
+    }
+    if (result != KNURL_ERROR_STATE) {
+        knurl_device_halt(device);
+    }
+    if (result == KNURL_ERROR_DEVICE_LOST) {
+        if (!device->is_linked) { /* an I/O thread has told already */
+            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+        }
+        knurl_store_release(&device->lost, 1u);
+    }
+    return result;
 }
 
 knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
+    if (knurl_load_acquire(&device->lost)) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
     double safe[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(force);
-    if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
+    if (isfinite(length) && !knurl_load_acquire(&device->halted) && !knurl_device_ends()) {
         vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
     }
-    return device->driver->write(device, safe);
+    const knurl_result result = device->driver->write(device, safe);
+    if (!device->is_linked) {
+        knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
+    }
+    if (result == KNURL_ERROR_DEVICE_LOST) {
+        if (!device->is_linked) {
+            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+        }
+        knurl_store_release(&device->lost, 1u);
+    }
+    return result;
 }
 
 void knurl_device_halt(knurl_device *device) {
-    /* The fake device's motors obey the flag by themselves; a driver with an I/O thread has that thread write zero. */
+    /* The fake device's motors obey the flag by themselves; an I/O thread writes zero within its next exchange. */
     knurl_store_release(&device->halted, 1u);
 }
 
@@ -93,4 +196,17 @@ void knurl_device_release_halt(knurl_device *device) {
 
 uint32_t knurl_device_is_halted(const knurl_device *device) {
     return knurl_load_acquire(&device->halted);
+}
+
+knurl_result knurl_device_reopen(knurl_device *device) {
+    if (!device->driver->reopen) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    const knurl_result result = device->driver->reopen(device);
+    if (!result) {
+        memset(&device->check, 0, sizeof device->check);
+        knurl_events_report(&device->events, KNURL_FAULT_RECONNECTED, 0.0);
+        knurl_store_release(&device->lost, 0u);
+    }
+    return result;
 }

@@ -2,29 +2,86 @@
 #ifndef KNURL_SRC_DRIVER_H
 #define KNURL_SRC_DRIVER_H
 
-#include <knurl/device.h>
+#include "device/events.h"
+
+/* Where listings go: counts all, keeps what there is room for. */
+typedef struct knurl_listings {
+    knurl_device_listing *to;
+    uint32_t capacity;
+    uint32_t count;
+} knurl_listings;
+
+/* One more; `reason` is printf's, "" for a device that can be opened. */
+void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...)
+    KNURL_PRINTF(4, 5);
 
 typedef struct knurl_driver {
-    const char *uri;    /* what a URI begins with, up to a ':' */
-    const char *name;   /* for people */
-    const char *reason; /* why it cannot be opened, or "" */
-    /* options: what follows "uri:", or "". Errors: as knurl_device_open(). */
+    const char *uri; /* what a URI begins with, up to a ':' */
+    /* What is connected; at least one entry, with a reason where nothing is. [game thread] */
+    void (*list)(knurl_listings *listings);
+    /* options: what follows "uri:", or "". Makes a zeroed knurl_device with driver and max_force set, ready to be
+     * started. Errors: as knurl_device_open(). */
     knurl_result (*open)(const char *options, knurl_device **device);
+    /* The motors have been let go of, or are now. */
     void (*close)(knurl_device *device);
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
+    /* Null where there is nothing to tell beyond what every device tells. */
+    void (*get_status)(const knurl_device *device, knurl_device_status *status);
     knurl_result (*start)(knurl_device *device, double update_rate_hz);
+    /* KNURL_OK, KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_DEVICE_NOT_READY (the driver has reported why) */
     knurl_result (*read)(knurl_device *device, knurl_device_sample *sample);
     knurl_result (*write)(knurl_device *device, const double force[3]);
+    /* Looks for a lost device again; null: it cannot be had back. Called while nobody reads or writes. */
+    knurl_result (*reopen)(knurl_device *device);
+    /* A driver that owns the servo thread: from there it calls `tick` once a period of the started rate, until that
+     * returns 0, and never afterwards; read and write work inside of it. When the device gets lost, `tick` is called
+     * once more, then not before reopen() succeeds. Null: the loop has a thread of its own. */
+    knurl_result (*serve)(knurl_device *device, uint32_t (*tick)(void *argument), void *argument);
 } knurl_driver;
 
-/* First member of every driver's own struct. */
+/* Positions are held against the last one. */
+typedef struct knurl_position_check {
+    double last[3]; /* m */
+    double gap;     /* s since then */
+    double settle;  /* s for which positions still have to stay believable */
+    uint32_t has_last;
+    uint32_t not_finite; /* 1: reported */
+} knurl_position_check;
+
+/* First member of every driver's own struct; zeroed but for driver and max_force. */
 struct knurl_device {
     const knurl_driver *driver;
-    double max_force;  /* N */
-    uint32_t halted;   /* atomic */
-    uint32_t reserved; /* 0 */
+    double max_force;   /* N */
+    double max_speed;   /* m/s: faster than any hand; 0: positions may jump (the fake device plays traces) */
+    double period;      /* s, of the latest start */
+    uint32_t is_linked; /* 1: an I/O thread writes, see link.h */
+    knurl_position_check check;
+    knurl_events events;
+    /* atomics */
+    uint32_t halted;
+    uint32_t lost;  /* nobody but reopen() may call the driver any more */
+    uint32_t quiet; /* 1: the latest force that went out was 0 */
 };
 
+/* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
+#define KNURL_HAND_SPEED 10.0
+
+/* How long positions must be believable again after one was not, s. */
+#define KNURL_SETTLE_TIME 0.02
+
+/* Looks for a lost device again. KNURL_OK: it is there. [not the haptic thread, while nobody reads or writes] */
+knurl_result knurl_device_reopen(knurl_device *device);
+
+/* 1: the process is about to end, and no force may go out any more (crash.c). [any thread] */
+uint32_t knurl_device_ends(void);
+
+/* Open devices, for crash.c. [game thread] */
+void knurl_device_register(knurl_device *device);
+void knurl_device_unregister(knurl_device *device);
+
 extern const knurl_driver knurl_fake_driver;
+extern const knurl_driver knurl_touch_driver;
+extern const knurl_driver knurl_falcon_driver;
+extern const knurl_driver knurl_rawhid_driver;
 
 #endif

@@ -1,15 +1,17 @@
-/* The loop: device -> tick -> device, in real time on a thread of its own or step by step. Read run_tick() first.
- * SPDX-License-Identifier: MIT */
+/* The loop from outside: create, start, step, stop, statistics, and what keeps watch beside the haptic thread. What
+ * happens in a beat is in beat.c. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"
 #include "base/base.h"
-#include "base/vec3.h"
 #include "scene/scene_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* How often a lost device is looked for. */
+#define RECONNECT_NS 250000000
 
 /* A tick needs some kilobytes; callbacks get the rest. */
 #define STACK_BYTES ((size_t)256 * 1024)
@@ -28,147 +30,52 @@ static int is_running(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
 }
 
-/* The force of this tick, in device axes, from the scene or from the caller. */
-static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
-    if (loop->desc.scene) {
-        knurl_tick_input input;
-        memset(&input, 0, sizeof input);
-        memcpy(input.position, sample->position, sizeof input.position);
-        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
-        memcpy(loop->force, output->device_force, sizeof loop->force);
-    } else {
-        memset(loop->force, 0, sizeof loop->force);
-        loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
-    }
-    const double length = vec3_length(loop->force); /* ramps go from and to what the motors can play */
-    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
-    if (!(length <= most)) {
-        const double share = isfinite(length) ? most / length : 0.0;
-        if (most < loop->max_force && share > 0.0) {
-            knurl_count_up(&loop->heats);
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
-            output->device_force[axis] *= share;
-            output->force[axis] *= share;
-        }
-    }
-    if (!loop->desc.scene) {
-        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
-        knurl_store_double(&loop->theta, loop->heat.theta);
+/* Beside the haptic thread: lets go of the motors when no beat came for too long (a device may hold its last force for
+ * ever), and looks for a device that got lost. */
+typedef struct keeper {
+    uint64_t seen;   /* beats */
+    int64_t seen_at; /* ns, when there was a new one */
+    int64_t tried_at;
+} keeper;
+
+static void watch(knurl_loop *loop, keeper *k, int64_t now) {
+    const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
+    const uint64_t beats = knurl_load_relaxed(&loop->beats);
+    knurl_device *device = loop->desc.device;
+    if (beats != k->seen || knurl_load_acquire(&device->lost)) {
+        k->seen = beats;
+        k->seen_at = now;
+    } else if (limit > 0 && now - k->seen_at > limit && is_running(loop) && !knurl_device_is_halted(device)) {
+        knurl_device_halt(device);
+        knurl_events_report(&device->events, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
+        knurl_count_up(&loop->watchdogs);
     }
 }
 
-/* After the watchdog let go of the motors, the force climbs back over the ramp. */
-static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
-    if (knurl_device_is_halted(loop->desc.device)) {
-        knurl_device_release_halt(loop->desc.device);
-        loop->gain = 0.0;
+static void look_for_device(knurl_loop *loop, keeper *k, int64_t now) {
+    if (!loop->desc.reconnect || !knurl_load_acquire(&loop->desc.device->lost)) {
+        return;
     }
-    for (int axis = 0; axis < 3 && loop->gain < 1.0; axis++) {
-        loop->force[axis] *= loop->gain;
-        output->device_force[axis] *= loop->gain;
-        output->force[axis] *= loop->gain;
+    if (knurl_loop_at_end(loop) && loop->desc.device->driver->serve) {
+        knurl_loop_end(loop, KNURL_LOOP_DONE); /* nobody calls the tick of a device that is away */
+    } else if (now - k->tried_at > RECONNECT_NS) {
+        (void)knurl_device_reopen(loop->desc.device);
+        k->tried_at = knurl_system_now_ns();
     }
-    loop->gain = fmin(1.0, loop->gain + 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz));
 }
 
-/* One tick. Returns 0 when the device is lost. */
-static int run_tick(knurl_loop *loop) {
-    knurl_device_sample sample;
-    knurl_tick_output output;
-    if (knurl_device_read(loop->desc.device, &sample)) {
-        return 0;
-    }
-    memset(&output, 0, sizeof output);
-    const int64_t before = loop->clock.now_ns(loop->clock.user);
-    make_force(loop, &sample, &output);
-    knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
-    apply_gain(loop, &output);
-    if (loop->desc.scene && loop->desc.tick_callback) {
-        loop->desc.tick_callback(&output, loop->desc.user);
-    }
-    knurl_count_up(&loop->ticks);
-    knurl_count_up(&loop->beats);
-    return knurl_device_write(loop->desc.device, loop->force) == KNURL_OK;
-}
-
-static int at_end(const knurl_loop *loop) {
-    return knurl_load_acquire(&loop->stop_requested) ||
-           (loop->desc.tick_limit > 0 && loop->ticks >= loop->desc.tick_limit);
-}
-
-/* From the latest force down to none. The device is still read: it may need that to write. */
-static void ramp_down(knurl_loop *loop, int paced) {
-    const uint64_t steps = (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
-    for (uint64_t i = 1; i <= steps; i++) {
-        const double gain = 1.0 - (double)i / (double)steps;
-        const double force[3] = {gain * loop->force[0], gain * loop->force[1], gain * loop->force[2]};
-        knurl_device_sample sample;
-        int overrun;
-        if (paced) {
-            (void)knurl_pace_wait(&loop->pace, &overrun);
-        }
-        if (knurl_device_read(loop->desc.device, &sample) || knurl_device_write(loop->desc.device, force)) {
-            break;
-        }
-        knurl_count_up(&loop->beats);
-    }
-    knurl_device_halt(loop->desc.device);
-}
-
-static void end(knurl_loop *loop, int32_t state, int paced) {
-    if (state == KNURL_LOOP_DONE) {
-        ramp_down(loop, paced);
-    } else {
-        knurl_device_halt(loop->desc.device); /* what does not answer cannot be ramped down */
-    }
-    knurl_store_release(&loop->state, state);
-}
-
-static void haptic_thread(void *argument) {
-    knurl_loop *loop = argument;
-    int32_t state = KNURL_LOOP_DONE;
-    uintptr_t stack = 0;
-    knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
-    knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
-    knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
-    knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
-    while (!at_end(loop)) {
-        int overrun;
-        knurl_histogram_add(&loop->jitter_ns, knurl_pace_wait(&loop->pace, &overrun));
-        if (overrun) {
-            knurl_count_up(&loop->overruns);
-        }
-        if (!run_tick(loop)) {
-            state = KNURL_LOOP_LOST;
-            break;
-        }
-    }
-    end(loop, state, 1);
-    knurl_system_unlock_stack(stack);
-}
-
-/* Lets go of the motors when no tick has been done for too long: a device holds its last force for ever. */
-static void watchdog_thread(void *argument) {
+static void keeper_thread(void *argument) {
     knurl_loop *loop = argument;
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
-    const int64_t nap = limit > 80000000 ? 20000000
-                        : limit < 400000 ? 100000
-                                         : limit / 4; /* nobody waits long for it */
-    int64_t seen_at = knurl_system_now_ns();
-    uint64_t seen = 0;
+    const int64_t nap = limit > 80000000 || limit == 0 ? 20000000
+                        : limit < 400000               ? 100000
+                                                       : limit / 4; /* nobody waits long for it */
+    keeper k = {0, knurl_system_now_ns(), 0};
     while (is_running(loop)) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
-        const uint64_t beats = knurl_load_relaxed(&loop->beats);
         const int64_t now = knurl_system_now_ns();
-        if (beats != seen) {
-            seen = beats;
-            seen_at = now;
-        } else if (now - seen_at > limit && is_running(loop) && !knurl_device_is_halted(loop->desc.device)) {
-            knurl_device_halt(loop->desc.device);
-            knurl_count_up(&loop->watchdogs);
-        }
+        watch(loop, &k, now);
+        look_for_device(loop, &k, now);
     }
 }
 
@@ -199,6 +106,11 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "knurl_loop_desc.unguarded: expected 0 or KNURL_UNGUARDED_HEAT (a scene's HIP has its own), "
                           "found %#x",
                           (unsigned)d->unguarded);
+    }
+    if (!(d->heartbeat_s >= 0.0 && d->heartbeat_s <= 3600.0) || d->reconnect > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_loop_desc: expected heartbeat_s 0 to 3600 s and reconnect 0 or 1, found %g and %u",
+                          d->heartbeat_s, (unsigned)d->reconnect);
     }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.clock: expected both functions, found null");
@@ -254,6 +166,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
+    made->game_lives = 1;
     made->max_force = facts.max_force;
     if (d.unguarded & KNURL_UNGUARDED_HEAT) {
         facts.continuous_force = HUGE_VAL;
@@ -264,6 +177,16 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     return KNURL_OK;
 }
 
+/* The haptic thread: the device's own, or one of ours. */
+static knurl_result start_haptics(knurl_loop *loop) {
+    knurl_device *device = loop->desc.device;
+    if (device->driver->serve) {
+        return device->driver->serve(device, knurl_loop_serve, loop);
+    }
+    loop->thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, STACK_BYTES);
+    return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
+}
+
 knurl_result knurl_loop_start(knurl_loop *loop) {
     if (knurl_load_acquire(&loop->state) != KNURL_LOOP_IDLE) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: expected one that never ran, found one that runs or has run");
@@ -272,14 +195,15 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     loop->scene_locked = (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked);
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
-    loop->thread = knurl_system_start_thread(haptic_thread, loop, STACK_BYTES);
-    if (!loop->thread) {
+    const knurl_result result = start_haptics(loop);
+    if (result) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
-        return knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
+        return result;
     }
-    if (loop->desc.watchdog_s > 0.0 && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
-        loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
-        if (!loop->watchdog) {
+    const int needs_keeper = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect;
+    if (needs_keeper && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
+        loop->keeper = knurl_system_start_thread(keeper_thread, loop, STACK_BYTES);
+        if (!loop->keeper) {
             knurl_loop_stop(loop);
             return knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused a thread for the watchdog");
         }
@@ -287,27 +211,46 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     return KNURL_OK;
 }
 
+/* The ramp at the end, here and now. */
+static void finish_stepping(knurl_loop *loop) {
+    knurl_loop_request_stop(loop);
+    while (knurl_loop_beat(loop)) {}
+    knurl_loop_end(loop, KNURL_LOOP_DONE);
+}
+
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
-    if (loop->thread) {
+    knurl_device *device = loop->desc.device;
+    if (knurl_load_acquire(&loop->threaded)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: it has a haptic thread and cannot be stepped");
+    }
+    if (device->driver->serve || device->is_linked) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED, "loop: device '%s' runs in real time only and cannot be stepped",
+                          device->driver->uri);
     }
     if (loop->state == KNURL_LOOP_IDLE) {
         knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     }
-    for (uint64_t i = 0; i < ticks && is_running(loop) && !at_end(loop); i++) {
-        if (!run_tick(loop)) {
-            end(loop, KNURL_LOOP_LOST, 0);
+    for (uint64_t i = 0; i < ticks && is_running(loop) && !knurl_loop_at_end(loop); i++) {
+        if (loop->desc.reconnect && device->lost) {
+            (void)knurl_device_reopen(device);
+        }
+        if (!knurl_loop_beat(loop)) {
+            knurl_loop_end(loop, KNURL_LOOP_LOST);
         }
     }
-    if (is_running(loop) && at_end(loop)) {
-        end(loop, KNURL_LOOP_DONE, 0);
+    if (is_running(loop) && knurl_loop_at_end(loop)) {
+        finish_stepping(loop);
     }
     return KNURL_OK;
 }
 
 void knurl_loop_request_stop(knurl_loop *loop) {
     knurl_store_release(&loop->stop_requested, 1u);
+}
+
+void knurl_loop_heartbeat(knurl_loop *loop) {
+    (void)__atomic_fetch_add(&loop->signs, 1, __ATOMIC_RELAXED);
 }
 
 void knurl_loop_stop(knurl_loop *loop) {
@@ -332,14 +275,16 @@ void knurl_loop_destroy(knurl_loop *loop) {
     if (!loop) {
         return;
     }
-    if (loop->thread) {
+    if (knurl_load_acquire(&loop->threaded)) {
         knurl_loop_stop(loop);
-        knurl_system_join_thread(loop->thread);
+        if (loop->thread) {
+            knurl_system_join_thread(loop->thread);
+        }
     } else if (is_running(loop)) {
-        end(loop, KNURL_LOOP_DONE, 0);
+        finish_stepping(loop);
     }
-    if (loop->watchdog) {
-        knurl_system_join_thread(loop->watchdog);
+    if (loop->keeper) {
+        knurl_system_join_thread(loop->keeper);
     }
     knurl_system_unlock_memory(loop, sizeof *loop);
     free(loop);
@@ -365,5 +310,7 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.jitter_ns = percentiles_of(&loop->jitter_ns);
     made.heats = knurl_load_relaxed(&loop->heats);
     made.heat = knurl_load_double(&loop->theta);
+    made.absences = knurl_load_relaxed(&loop->absences);
+    made.absent = knurl_load_relaxed(&loop->absent);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

@@ -4,6 +4,7 @@
 
 #include "base/histogram.h"
 #include "base/system.h"
+#include "device/driver.h"
 #include "scene/guard.h"
 
 #include <knurl/loop.h>
@@ -26,12 +27,19 @@ struct knurl_loop {
     knurl_loop_desc desc;
     knurl_clock clock;
     knurl_thread *thread;
-    knurl_thread *watchdog;
+    knurl_thread *keeper; /* the watchdog, and who looks for a lost device */
     knurl_pace pace;
-    double force[3];  /* the latest, device axes, N */
-    double gain;      /* 0..1 on the force: climbs back after the watchdog let go */
-    double max_force; /* N: the device's */
-    knurl_heat heat;  /* of the motors that a callback drives; a scene's HIP keeps its own */
+    double force[3];    /* the latest, device axes, N */
+    double gain;        /* 0..1 on the force: climbs back after the watchdog let go */
+    double max_force;   /* N: the device's */
+    knurl_heat heat;    /* of the motors that a callback drives; a scene's HIP keeps its own */
+    uint64_t ramp_step; /* done, of the ramp at the end */
+    int was_overrun;
+    int is_lost;       /* for good */
+    int64_t served_at; /* ns: the latest call by a device that owns the servo thread; 0: none */
+    uint64_t signs_seen;
+    uint64_t since_sign; /* ticks */
+    int game_lives;
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -42,7 +50,10 @@ struct knurl_loop {
     uint64_t overruns;
     uint64_t watchdogs;
     uint64_t heats;
-    double theta; /* heat's */
+    double theta;   /* heat's */
+    uint64_t signs; /* of life, from the game */
+    uint64_t absences;
+    uint32_t absent;
     uint32_t realtime;
     uint32_t scene_locked; /* the scene's and the loop's own memory */
     uint32_t stack_locked;
@@ -50,5 +61,18 @@ struct knurl_loop {
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
 };
+
+/* beat.c */
+int knurl_loop_at_end(const knurl_loop *loop);
+
+/* One beat: a tick, a beat without a position, or at the end a step of the ramp. Returns 0 after the last. */
+int knurl_loop_beat(knurl_loop *loop);
+
+/* Lets go of the motors for good. The last that is done with a loop by its haptic thread. */
+void knurl_loop_end(knurl_loop *loop, int32_t state);
+
+/* The haptic thread where the device has none, and what a device calls that has one. `argument`: the loop. */
+void knurl_loop_haptic_thread(void *argument);
+uint32_t knurl_loop_serve(void *argument);
 
 #endif

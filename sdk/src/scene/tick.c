@@ -377,7 +377,7 @@ static void feel_nothing(knurl_tick_output *out) {
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     double velocity[3];
-    if (!is_finite(input->position)) { /* never into the estimator */
+    if (input->absent || !is_finite(input->position)) { /* never into the estimator */
         return 0;
     }
     if (input->has_velocity) {
@@ -406,7 +406,7 @@ static double limit_force(knurl_hip *hip, knurl_tick_output *out) {
 }
 
 /* Nothing of this tick is to be trusted: no force, no contact, a first tick next. */
-static void let_go(knurl_hip *hip, knurl_tick_output *out) {
+static void let_go(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
     const uint64_t tick = out->tick;
     memset(out, 0, sizeof *out);
     knurl_velocity_reset(&hip->velocity);
@@ -417,7 +417,7 @@ static void let_go(knurl_hip *hip, knurl_tick_output *out) {
     knurl_guard_let_go(&hip->guard);
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
-    out->flags = KNURL_TICK_NOT_FINITE;
+    out->flags = why;
 }
 
 static void count_rare(uint32_t flags, knurl_hip_counts *c) {
@@ -451,7 +451,7 @@ static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip
     touch_all(scene, world, hip, out);
     const double length = limit_force(hip, out);
     if (out->flags & KNURL_TICK_NOT_FINITE) {
-        let_go(hip, out);
+        let_go(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;
     }
     out->flags |= out->contacts > 0 ? KNURL_TICK_CONTACT : 0;
@@ -483,7 +483,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
     if (read_hip(hip, input, output)) {
         force = feel(scene, world, hip, output);
     } else {
-        let_go(hip, output);
+        let_go(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
     }
     knurl_store_release(&hip->pinned, 0);
     count_and_publish(hip, force, output);

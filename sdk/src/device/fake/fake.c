@@ -71,6 +71,7 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
     info->viscous = s->viscous;
     info->coulomb = s->coulomb;
     info->max_stiffness = s->max_stiffness > 0.0 ? s->max_stiffness : INFINITY;
+    info->max_damping = INFINITY;
 }
 
 static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
@@ -224,6 +225,17 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     return KNURL_OK;
 }
 
+static void fake_list(knurl_listings *listings) {
+    knurl_listings_add(listings, "fake", "a simulated Touch in a simulated hand", "%s", "");
+}
+
 const knurl_driver knurl_fake_driver = {
-    "fake",    "a simulated Touch in a simulated hand", "", fake_open, fake_close, fake_info, fake_start, fake_read,
-    fake_write};
+    .uri = "fake",
+    .list = fake_list,
+    .open = fake_open,
+    .close = fake_close,
+    .get_info = fake_info,
+    .start = fake_start,
+    .read = fake_read,
+    .write = fake_write,
+};

@@ -1,0 +1,157 @@
+/* A device that is a caller's functions. SPDX-License-Identifier: MIT */
+#include "base/base.h"
+#include "device/link.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct custom {
+    knurl_device base;
+    knurl_device_functions functions;
+    knurl_link link; /* where they block */
+} custom;
+
+static custom *of(knurl_device *device) {
+    return (custom *)(void *)device; /* its first member */
+}
+
+static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+    const knurl_device_functions *f = &of(device)->functions;
+    knurl_result result = f->write(f->user, force);
+    result = result ? result : f->read(f->user, sample);
+    return result == KNURL_OK                  ? KNURL_LINK_POSITION
+           : result == KNURL_ERROR_DEVICE_LOST ? KNURL_LINK_LOST
+                                               : KNURL_LINK_NOTHING;
+}
+
+/* Before its owner has said anything: nothing is promised, nothing is limited. */
+static void ask_info(const knurl_device_functions *f, knurl_device_info *info) {
+    info->continuous_force = info->max_stiffness = info->max_damping = INFINITY;
+    info->heat_time = 60.0;
+    f->get_info(f->user, info);
+    info->name[sizeof info->name - 1] = '\0';
+    info->native_rate = f->blocking && !(info->native_rate > 0.0) ? 1000.0 : info->native_rate;
+}
+
+/* How often the I/O thread asks. */
+static double rate_of(const custom *c) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    ask_info(&c->functions, &info);
+    return info.native_rate >= 1.0 && info.native_rate <= 100000.0 ? info.native_rate : 1000.0;
+}
+
+static void custom_close(knurl_device *device) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    custom *c = of(device);
+    if (c->functions.blocking) {
+        knurl_link_close(&c->link);
+    } else if (!device->lost) {
+        (void)c->functions.write(c->functions.user, none);
+    }
+    if (c->functions.close) {
+        c->functions.close(c->functions.user);
+    }
+    free(c);
+}
+
+static void custom_info(const knurl_device *device, knurl_device_info *info) {
+    ask_info(&((const custom *)(const void *)device)->functions, info);
+}
+
+static void custom_status(const knurl_device *device, knurl_device_status *status) {
+    knurl_link_get_status(&((const custom *)(const void *)device)->link, status);
+}
+
+static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
+    const knurl_device_functions *f = &of(device)->functions;
+    const knurl_result result = f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
+    if (!result && f->blocking) {
+        knurl_link_start(&of(device)->link, update_rate_hz);
+    }
+    return result;
+}
+
+static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
+    const knurl_device_functions *f = &of(device)->functions;
+    return f->blocking ? knurl_link_read(&of(device)->link, sample) : f->read(f->user, sample);
+}
+
+static knurl_result custom_write(knurl_device *device, const double force[3]) {
+    const knurl_device_functions *f = &of(device)->functions;
+    return f->blocking ? knurl_link_write(&of(device)->link, force) : f->write(f->user, force);
+}
+
+static knurl_result custom_reopen(knurl_device *device) {
+    custom *c = of(device);
+    if (!c->functions.reopen) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    if (c->functions.blocking) {
+        knurl_link_close(&c->link); /* its thread has ended by itself */
+    }
+    const knurl_result result = c->functions.reopen(c->functions.user);
+    return result || !c->functions.blocking ? result : knurl_link_open(&c->link, device, exchange, rate_of(c));
+}
+
+static const knurl_driver custom_driver = {
+    .uri = "custom",
+    .close = custom_close,
+    .get_info = custom_info,
+    .get_status = custom_status,
+    .start = custom_start,
+    .read = custom_read,
+    .write = custom_write,
+    .reopen = custom_reopen,
+};
+
+void knurl_device_functions_init(knurl_device_functions *functions, uint32_t size) {
+    const knurl_device_functions defaults = {0};
+    knurl_desc_write(&defaults, sizeof defaults, functions, size);
+}
+
+static knurl_result check(const knurl_device_functions *f, knurl_device_info *info) {
+    if (!f->get_info || !f->read || !f->write) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_device_functions: expected get_info, read and write, found no %s",
+                          !f->get_info ? "get_info"
+                          : !f->read   ? "read"
+                                       : "write");
+    }
+    knurl_device_info_init(info, sizeof *info);
+    ask_info(f, info);
+    if (!(info->max_force > 0.0 && isfinite(info->max_force))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_device_functions.get_info: expected max_force above 0 N, found %g N", info->max_force);
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device) {
+    knurl_device_functions f;
+    knurl_device_info info;
+    knurl_device_functions_init(&f, sizeof f);
+    knurl_result result = knurl_desc_read("knurl_device_functions", functions, &f, sizeof f);
+    result = result ? result : check(&f, &info);
+    if (result) {
+        return result;
+    }
+    custom *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device: could not get %u bytes", (unsigned)sizeof *made);
+    }
+    made->base.driver = &custom_driver;
+    made->base.max_force = info.max_force;
+    made->base.max_speed = KNURL_HAND_SPEED;
+    made->functions = f;
+    result = f.blocking ? knurl_link_open(&made->link, &made->base, exchange, rate_of(made)) : KNURL_OK;
+    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    if (result) {
+        knurl_link_close(&made->link);
+        free(made);
+        return result;
+    }
+    knurl_device_register(&made->base);
+    *device = &made->base;
+    return KNURL_OK;
+}

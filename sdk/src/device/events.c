@@ -1,0 +1,74 @@
+/* The ring of events, and the names of faults. SPDX-License-Identifier: MIT */
+#include "device/events.h"
+
+#include "base/atomic.h"
+#include "base/system.h"
+
+void knurl_events_report(knurl_events *events, int32_t code, double value) {
+    const uint64_t number = __atomic_fetch_add(&events->head, 1, __ATOMIC_RELAXED);
+    const size_t at = number % KNURL_EVENT_ROOM;
+    knurl_store_release(&events->slots[at].sequence, 2 * number + 1);
+    __atomic_store_n(&events->slots[at].time_ns, knurl_system_now_ns(), __ATOMIC_RELEASE);
+    __atomic_store(&events->slots[at].value, &value, __ATOMIC_RELEASE);
+    __atomic_store_n(&events->slots[at].code, code, __ATOMIC_RELEASE);
+    knurl_store_release(&events->slots[at].sequence, 2 * number + 2);
+}
+
+/* Reads number `next`; 0 where its slot has been taken by a later one, or is being written. */
+static int read_slot(knurl_events *events, knurl_device_event *event) {
+    const size_t at = events->next % KNURL_EVENT_ROOM;
+    const uint64_t whole = 2 * events->next + 2;
+    if (knurl_load_acquire(&events->slots[at].sequence) != whole) {
+        return 0;
+    }
+    event->time_ns = knurl_load_acquire(&events->slots[at].time_ns);
+    __atomic_load(&events->slots[at].value, &event->value, __ATOMIC_ACQUIRE);
+    event->code = knurl_load_acquire(&events->slots[at].code);
+    event->reserved = 0;
+    return knurl_load_relaxed(&events->slots[at].sequence) == whole;
+}
+
+uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
+    knurl_device_event found;
+    const uint64_t head = knurl_load_acquire(&events->head);
+    if (head - events->next > KNURL_EVENT_ROOM) {
+        events->next = head - KNURL_EVENT_ROOM;
+    }
+    while (events->next < head) { /* 64 at most */
+        const size_t at = events->next % KNURL_EVENT_ROOM;
+        if (read_slot(events, &found)) {
+            events->next++;
+            *event = found;
+            return 1;
+        }
+        if (knurl_load_acquire(&events->slots[at].sequence) < 2 * events->next + 2) {
+            return 0; /* on its way: next time */
+        }
+        events->next++; /* overwritten */
+    }
+    return 0;
+}
+
+const char *knurl_fault_name(int32_t code) {
+    switch (code) {
+#define KNURL_FAULT_CASE(constant, value, name, text)                                                                  \
+    case constant:                                                                                                     \
+        return name;
+        KNURL_FAULTS(KNURL_FAULT_CASE)
+#undef KNURL_FAULT_CASE
+    default:
+        return "unknown";
+    }
+}
+
+const char *knurl_fault_string(int32_t code) {
+    switch (code) {
+#define KNURL_FAULT_CASE(constant, value, name, text)                                                                  \
+    case constant:                                                                                                     \
+        return text;
+        KNURL_FAULTS(KNURL_FAULT_CASE)
+#undef KNURL_FAULT_CASE
+    default:
+        return "a fault that this version does not know";
+    }
+}

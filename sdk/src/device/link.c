@@ -1,0 +1,164 @@
+/* The I/O thread: force out, position in, again and again. Read turn() first. SPDX-License-Identifier: MIT */
+#include "device/link.h"
+
+#include "base/atomic.h"
+#include "base/vec3.h"
+
+#include <string.h>
+
+#define STACK_BYTES ((size_t)256 * 1024)
+
+static int64_t patience_ns(void) {
+    return (int64_t)(KNURL_LINK_PATIENCE * 1e9);
+}
+
+/* The force to be sent now: the newest, unless the motors are to be let go or it is too old. */
+static void choose_force(knurl_link *link, int64_t now, double force[3]) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    knurl_device *device = link->device;
+    (void)knurl_mailbox_take(&link->orders);
+    const double *newest = link->forces[link->orders.front].force;
+    const int64_t age = now - link->forces[link->orders.front].time_ns;
+    const int is_late = vec3_dot(newest, newest) > 0.0 && age > patience_ns();
+    if (is_late && !link->is_late && !knurl_load_acquire(&device->halted)) {
+        knurl_store_release(&device->halted, 1u); /* whoever writes again comes back by a ramp */
+        knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
+    }
+    link->is_late = (uint32_t)is_late;
+    const int let_go = is_late || knurl_load_acquire(&device->halted) || knurl_device_ends();
+    vec3_copy(let_go ? none : newest, force);
+}
+
+static void publish(knurl_link *link, const knurl_device_sample *sample) {
+    link->samples[link->positions.back] = *sample;
+    knurl_mailbox_post(&link->positions);
+    knurl_count_up(&link->exchanges);
+}
+
+/* What the outcome of an exchange means for the hand on the device. */
+static void judge(knurl_link *link, int outcome, int64_t now) {
+    knurl_device *device = link->device;
+    if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION) {
+        link->heard_at = now;
+        link->is_silent = 0;
+    }
+    const int64_t silence = now - link->heard_at;
+    if (silence > patience_ns() && !link->is_silent && outcome != KNURL_LINK_LOST) {
+        link->is_silent = 1;
+        knurl_store_release(&device->halted, 1u);
+        knurl_events_report(&device->events, KNURL_FAULT_SILENT, 1e-9 * (double)silence);
+    }
+    if (outcome == KNURL_LINK_LOST || (double)silence > 1e9 * KNURL_LINK_GIVE_UP) {
+        knurl_store_release(&device->halted, 1u);
+        knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+        knurl_store_release(&link->lost, 1u);
+    }
+}
+
+/* One exchange. Returns 0 when there will be no further one. */
+static int turn(knurl_link *link) {
+    double force[3];
+    knurl_device_sample sample;
+    memset(&sample, 0, sizeof sample);
+    const int64_t before = knurl_system_now_ns();
+    choose_force(link, before, force);
+    const int outcome = link->exchange(link->device, force, &sample);
+    const int64_t now = knurl_system_now_ns();
+    if (outcome == KNURL_LINK_POSITION) {
+        knurl_histogram_add(&link->durations, now - before);
+        publish(link, &sample);
+    }
+    knurl_store_release(&link->device->quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
+    knurl_count_up(&link->turns);
+    judge(link, outcome, now);
+    return !knurl_load_relaxed(&link->lost);
+}
+
+static void io_thread(void *argument) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    knurl_link *link = argument;
+    knurl_device_sample ignored;
+    const int64_t period = (int64_t)(1e9 / link->native_rate);
+    int64_t next = knurl_system_now_ns();
+    (void)knurl_system_make_realtime();
+    link->heard_at = next;
+    while (!knurl_load_acquire(&link->stop)) {
+        if (!turn(link)) {
+            return;
+        }
+        const int64_t now = knurl_system_now_ns();
+        next = next + period > now ? next + period : now; /* transfers that take longer set the rhythm */
+        knurl_system_sleep_until_ns(next);
+    }
+    (void)link->exchange(link->device, none, &ignored); /* twice: the first may answer for an earlier one */
+    (void)link->exchange(link->device, none, &ignored);
+    knurl_store_release(&link->device->quiet, 1u);
+}
+
+knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_exchange exchange, double native_rate) {
+    link->device = device;
+    link->exchange = exchange;
+    link->native_rate = native_rate;
+    device->is_linked = 1;
+    knurl_mailbox_init(&link->positions);
+    knurl_mailbox_init(&link->orders);
+    memset(link->forces, 0, sizeof link->forces);
+    link->has_sample = link->is_silent = link->is_late = 0;
+    link->stale = link->watched = 0;
+    link->turns = 0;
+    knurl_store_release(&link->stop, 0u);
+    knurl_store_release(&link->lost, 0u);
+    knurl_link_start(link, device->period > 0.0 ? 1.0 / device->period : 1000.0);
+    link->thread = knurl_system_start_thread(io_thread, link, STACK_BYTES);
+    return link->thread ? KNURL_OK
+                        : knurl_fail(KNURL_ERROR_SYSTEM, "device: the system refused a thread for transfers");
+}
+
+void knurl_link_close(knurl_link *link) {
+    if (link->thread) {
+        knurl_store_release(&link->stop, 1u);
+        knurl_system_join_thread(link->thread);
+        link->thread = NULL;
+    }
+}
+
+void knurl_link_start(knurl_link *link, double update_rate_hz) {
+    const double slower = update_rate_hz < link->native_rate ? update_rate_hz : link->native_rate;
+    const double period = 1.0 / slower; /* either may be what new positions wait for */
+    link->patience = (uint64_t)((KNURL_LINK_PATIENCE + 2.0 * period) * update_rate_hz);
+}
+
+knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
+    if (knurl_load_acquire(&link->lost)) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    if (knurl_mailbox_take(&link->positions)) {
+        link->has_sample = 1;
+        link->stale = 0;
+        link->watched = knurl_load_relaxed(&link->turns);
+    } else if (++link->stale == link->patience && knurl_load_relaxed(&link->turns) == link->watched) {
+        /* the I/O thread itself hangs, so that nobody else tells; motors go on until the device's own watchdog acts */
+        knurl_events_report(&link->device->events, KNURL_FAULT_SILENT, (double)link->stale * link->device->period);
+    }
+    if (!link->has_sample || link->stale >= link->patience) {
+        return KNURL_ERROR_DEVICE_NOT_READY;
+    }
+    *sample = link->samples[link->positions.front];
+    return KNURL_OK;
+}
+
+knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
+    if (knurl_load_acquire(&link->lost)) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    vec3_copy(force, link->forces[link->orders.back].force);
+    link->forces[link->orders.back].time_ns = knurl_system_now_ns();
+    knurl_mailbox_post(&link->orders);
+    return KNURL_OK;
+}
+
+void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
+    status->exchanges = knurl_load_relaxed(&link->exchanges);
+    status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
+    status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);
+}

@@ -1,0 +1,20 @@
+/* What follows "driver:" in a device's URI: a name, then "?key=value&key=value". SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_URI_H
+#define KNURL_SRC_URI_H
+
+#include <knurl/base.h>
+
+#define KNURL_URI_ROOM 512
+
+/* One key that a driver knows, and where its value goes (KNURL_URI_ROOM bytes; "" where the URI does not name it). */
+typedef struct knurl_uri_key {
+    const char *key;
+    char *value;
+} knurl_uri_key;
+
+/* Splits `options` into a name (KNURL_URI_ROOM bytes, may be "") and values; values are taken as they are.
+ * Errors: KNURL_ERROR_ARGUMENT (an unknown key, no '=', too long), naming the device and the keys that are known. */
+knurl_result knurl_uri_parse(const char *driver, const char *options, char *name, const knurl_uri_key *keys,
+                             size_t key_count);
+
+#endif

@@ -1,0 +1,222 @@
+/* A beat of the loop: device -> tick -> device. Read run_tick() first. SPDX-License-Identifier: MIT */
+#include "loop/loop_internal.h"
+
+#include "base/atomic.h"
+#include "base/vec3.h"
+#include "scene/scene_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static void report(knurl_loop *loop, int32_t code, double value) {
+    knurl_events_report(&loop->desc.device->events, code, value);
+}
+
+/* The force of this tick, in device axes, from the scene or from the caller. */
+static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
+    if (loop->desc.scene) {
+        knurl_tick_input input;
+        memset(&input, 0, sizeof input);
+        memcpy(input.position, sample->position, sizeof input.position);
+        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
+        memcpy(loop->force, output->device_force, sizeof loop->force);
+    } else {
+        memset(loop->force, 0, sizeof loop->force);
+        loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
+    }
+    const double length = vec3_length(loop->force); /* ramps go from and to what the motors can play */
+    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
+    if (!(length <= most)) {
+        const double share = isfinite(length) ? most / length : 0.0;
+        if (most < loop->max_force && share > 0.0) {
+            knurl_count_up(&loop->heats);
+        }
+        for (int axis = 0; axis < 3; axis++) {
+            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
+            output->device_force[axis] *= share;
+            output->force[axis] *= share;
+        }
+    }
+    if (!loop->desc.scene) {
+        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
+        knurl_store_double(&loop->theta, loop->heat.theta);
+    }
+}
+
+/* 1 while the game gives signs of life, or need not. */
+static int game_lives(knurl_loop *loop) {
+    if (loop->desc.heartbeat_s == 0.0) {
+        return 1;
+    }
+    const uint64_t signs = knurl_load_relaxed(&loop->signs);
+    loop->since_sign = signs == loop->signs_seen ? loop->since_sign + 1 : 0;
+    loop->signs_seen = signs;
+    const double silence = (double)loop->since_sign / loop->desc.update_rate_hz;
+    const int lives = silence <= loop->desc.heartbeat_s;
+    if (loop->game_lives != lives) {
+        report(loop, lives ? KNURL_FAULT_RESUMED : KNURL_FAULT_HEARTBEAT, lives ? 0.0 : silence);
+    }
+    loop->game_lives = lives;
+    return lives;
+}
+
+/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it. */
+static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
+    if (knurl_device_is_halted(loop->desc.device)) {
+        knurl_device_release_halt(loop->desc.device);
+        loop->gain = 0.0;
+        if (loop->ticks > 0) {
+            report(loop, KNURL_FAULT_RESUMED, 0.0);
+        }
+    }
+    const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
+    const int lives = game_lives(loop);
+    if (!lives) {
+        loop->gain = fmax(0.0, loop->gain - step);
+    }
+    for (int axis = 0; axis < 3 && loop->gain < 1.0; axis++) {
+        loop->force[axis] *= loop->gain;
+        output->device_force[axis] *= loop->gain;
+        output->force[axis] *= loop->gain;
+    }
+    if (lives) {
+        loop->gain = fmin(1.0, loop->gain + step);
+    }
+}
+
+/* A beat without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
+ */
+static int be_absent(knurl_loop *loop, knurl_result why) {
+    knurl_count_up(&loop->absences);
+    knurl_count_up(&loop->beats);
+    knurl_store_relaxed(&loop->absent, 1u);
+    memset(loop->force, 0, sizeof loop->force);
+    loop->gain = 0.0;
+    if (loop->desc.scene) {
+        knurl_tick_input input;
+        knurl_tick_output output;
+        memset(&input, 0, sizeof input);
+        input.absent = 1;
+        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, &output);
+    }
+    if (why == KNURL_ERROR_DEVICE_NOT_READY) {
+        (void)knurl_device_write(loop->desc.device, loop->force); /* let go of by now; this is for drivers without a
+                                                                      thread that would see to it */
+        return 1;
+    }
+    loop->is_lost = why != KNURL_ERROR_DEVICE_LOST || !loop->desc.reconnect;
+    return !loop->is_lost;
+}
+
+/* One tick. Returns 0 when the device is lost. */
+static int run_tick(knurl_loop *loop) {
+    knurl_device_sample sample;
+    knurl_tick_output output;
+    knurl_result result = knurl_device_read(loop->desc.device, &sample);
+    if (result) {
+        return be_absent(loop, result);
+    }
+    memset(&output, 0, sizeof output);
+    const int64_t before = loop->clock.now_ns(loop->clock.user);
+    make_force(loop, &sample, &output);
+    knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
+    apply_gain(loop, &output);
+    if (loop->desc.scene && loop->desc.tick_callback) {
+        loop->desc.tick_callback(&output, loop->desc.user);
+    }
+    knurl_store_relaxed(&loop->absent, 0u);
+    knurl_count_up(&loop->ticks);
+    knurl_count_up(&loop->beats);
+    result = knurl_device_write(loop->desc.device, loop->force);
+    return result == KNURL_OK || be_absent(loop, result);
+}
+
+int knurl_loop_at_end(const knurl_loop *loop) {
+    return knurl_load_acquire(&loop->stop_requested) ||
+           (loop->desc.tick_limit > 0 && loop->ticks >= loop->desc.tick_limit);
+}
+
+static uint64_t ramp_steps(const knurl_loop *loop) {
+    return (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
+}
+
+/* From the latest force down to none. The device is still read: it may need that to write. Returns 0 after the last. */
+static int ramp_down(knurl_loop *loop) {
+    const uint64_t steps = ramp_steps(loop);
+    if (loop->ramp_step >= steps) {
+        return 0;
+    }
+    const double gain = 1.0 - (double)++loop->ramp_step / (double)steps;
+    const double force[3] = {gain * loop->force[0], gain * loop->force[1], gain * loop->force[2]};
+    knurl_device_sample sample;
+    if (knurl_device_read(loop->desc.device, &sample) || knurl_device_write(loop->desc.device, force)) {
+        loop->ramp_step = steps; /* what does not answer cannot be ramped down */
+    }
+    knurl_count_up(&loop->beats);
+    return loop->ramp_step < steps;
+}
+
+int knurl_loop_beat(knurl_loop *loop) {
+    return knurl_loop_at_end(loop) ? ramp_down(loop) : run_tick(loop);
+}
+
+void knurl_loop_end(knurl_loop *loop, int32_t state) {
+    knurl_device_halt(loop->desc.device);
+    knurl_store_release(&loop->state, state);
+}
+
+/* A beat that came `late` ns after its deadline; the ramp at the end is not counted. */
+static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
+    if (knurl_loop_at_end(loop)) {
+        return;
+    }
+    knurl_histogram_add(&loop->jitter_ns, late);
+    if (overrun) {
+        knurl_count_up(&loop->overruns);
+        if (!loop->was_overrun) {
+            report(loop, KNURL_FAULT_OVERRUN, 1e-9 * (double)late);
+        }
+    }
+    loop->was_overrun = overrun;
+}
+
+static int32_t state_at_end(const knurl_loop *loop) {
+    return loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE;
+}
+
+void knurl_loop_haptic_thread(void *argument) {
+    knurl_loop *loop = argument;
+    uintptr_t stack = 0;
+    int overrun;
+    knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
+    knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
+    knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
+    knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
+    while (!knurl_loop_at_end(loop) || ramp_steps(loop) > loop->ramp_step) {
+        const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
+        note_lateness(loop, late, overrun);
+        if (!knurl_loop_beat(loop)) {
+            break;
+        }
+    }
+    knurl_loop_end(loop, state_at_end(loop));
+    knurl_system_unlock_stack(stack);
+}
+
+uint32_t knurl_loop_serve(void *argument) {
+    knurl_loop *loop = argument;
+    const double period = 1e9 / loop->desc.update_rate_hz;
+    const int64_t now = loop->clock.now_ns(loop->clock.user);
+    if (loop->served_at == 0) {
+        knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
+    } else {
+        const double late = fmax(0.0, (double)(now - loop->served_at) - period);
+        note_lateness(loop, (int64_t)late, late > 0.5 * period);
+    }
+    loop->served_at = now;
+    if (knurl_loop_beat(loop)) {
+        return 1;
+    }
+    knurl_loop_end(loop, state_at_end(loop)); /* the loop may be gone now */
+    return 0;
+}
