@@ -129,7 +129,7 @@ static knurl_result check(const knurl_device_functions *f, knurl_device_info *in
 
 knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device) {
     knurl_device_functions f;
-    knurl_device_info info;
+    knurl_device_info info = {0};
     knurl_device_functions_init(&f, sizeof f);
     knurl_result result = knurl_desc_read("knurl_device_functions", functions, &f, sizeof f);
     result = result ? result : check(&f, &info);
