@@ -1,4 +1,5 @@
 /* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
+#include "faults.h"
 #include "recorder.h"
 #include "stroke.h"
 #include "tool.h"
@@ -11,7 +12,7 @@
 typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out;
     double seconds, rate;
-    int fast, full_model, clamp, pretty;
+    int fast, full_model, clamp, reconnect, pretty;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -22,6 +23,7 @@ typedef struct run {
     knurl_device *device;
     knurl_loop *loop;
     recorder recorder;
+    faults faults;
     uint64_t ticks; /* wanted */
 } run;
 
@@ -44,6 +46,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
         {"--clamp", TOOL_FLAG, &o->clamp, 0, 0, ""},
+        {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
     o->seconds = NAN;
@@ -99,19 +102,31 @@ static int load(run *r) {
     return TOOL_OK;
 }
 
+/* A fake device gets its hand or its trace; at a real one, somebody sits. */
+static int lay(run *r, knurl_surface surface, double *last_t) {
+    const run_options *o = &r->options;
+    if (o->device && strncmp(o->device, "fake", 4) != 0) {
+        const char *fakes = o->fast ? "--fast" : o->stroke ? "--stroke" : o->trace ? "--trace" : NULL;
+        return fakes ? tool_error(TOOL_USAGE, "run: only the fake device takes %s, found --device %s", fakes, o->device)
+                     : stroke_place(r->scene, r->device, surface);
+    }
+    return o->trace ? stroke_play(r->scene, r->device, o->trace, last_t)
+                    : stroke_lay(r->scene, r->device, surface, o->stroke_id);
+}
+
 static int open_device(run *r) {
     const run_options *o = &r->options;
     const knurl_result result = knurl_device_open(o->device ? o->device : "fake", &r->device);
     if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
-        return tool_library_error(result == KNURL_ERROR_UNSUPPORTED ? TOOL_FAILURE : TOOL_USAGE, "run: --device");
+        const int is_usage = result == KNURL_ERROR_UNKNOWN || result == KNURL_ERROR_ARGUMENT;
+        return tool_library_error(is_usage ? TOOL_USAGE : TOOL_FAILURE, "run: --device");
     }
     knurl_surface surface = knurl_scene_surface_at(r->scene, 0);
     if (o->surface && knurl_scene_find_surface(r->scene, o->surface, &surface)) {
         return tool_library_error(TOOL_FAILURE, o->path);
     }
     double last_t = 0.0;
-    const int code = o->trace ? stroke_play(r->scene, r->device, o->trace, &last_t)
-                              : stroke_lay(r->scene, r->device, surface, o->stroke_id);
+    const int code = lay(r, surface, &last_t);
     if (!isnan(o->seconds)) {
         r->ticks = (uint64_t)fmax(1.0, floor(o->seconds * o->rate + 0.5));
     } else if (o->trace) {
@@ -159,6 +174,7 @@ static int make_loop(run *r) {
     desc.scene = r->scene;
     desc.update_rate_hz = r->options.rate;
     desc.tick_limit = r->ticks;
+    desc.reconnect = (uint32_t)r->options.reconnect;
     if (r->options.out) {
         const int code = recorder_open(&r->recorder, r->options.out, r->scene, r->options.rate);
         if (code != TOOL_OK) {
@@ -185,7 +201,20 @@ static void show_progress(const run *r, uint64_t ticks) {
     }
 }
 
-/* Until the loop is done: drains the recorder, shows progress on a terminal, obeys Ctrl-C. */
+/* Nobody has to watch a run that waits for a device for ever. */
+#define GIVE_UP_S 30.0
+
+static int waits_too_long(const knurl_loop_stats *stats, double rate) {
+    static uint64_t ticks;
+    static uint64_t absences;
+    if (!stats->absent || stats->ticks != ticks) {
+        ticks = stats->ticks;
+        absences = stats->absences;
+    }
+    return (double)(stats->absences - absences) > GIVE_UP_S * rate;
+}
+
+/* Until the loop is done: drains the recorder, shows faults and, on a terminal, progress, obeys Ctrl-C. */
 static void play(run *r) {
     const int terminal = isatty(STDERR_FILENO);
     knurl_loop_stats stats;
@@ -199,11 +228,12 @@ static void play(run *r) {
         if (r->recorder.rows) {
             recorder_drain(&r->recorder);
         }
+        faults_show(&r->faults, r->device);
         (void)knurl_loop_get_stats(r->loop, &stats);
         if (terminal) {
             show_progress(r, stats.ticks);
         }
-        if (interrupted) {
+        if (interrupted || waits_too_long(&stats, r->options.rate)) {
             knurl_loop_request_stop(r->loop);
         }
     } while (stats.state == KNURL_LOOP_RUNNING);
@@ -236,6 +266,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "events", (double)counts.events);
     json_number(&json, "overruns", (double)stats->overruns);
     json_number(&json, "watchdogs", (double)stats->watchdogs);
+    json_number(&json, "absences", (double)stats->absences);
     json_number(&json, "saturations", (double)counts.force_limits);
     json_number(&json, "frequency_saturations", (double)counts.frequency_saturations);
     json_number(&json, "not_finite", (double)counts.not_finite);
@@ -245,6 +276,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "passivities", (double)counts.passivities);
     json_number(&json, "heat", counts.heat);
     json_number(&json, "force_max_n", counts.force_max);
+    faults_print(&r->faults, &json);
     print_percentiles(&json, "tick_ns", &stats->tick_ns, 1.0);
     print_percentiles(&json, "jitter_us", &stats->jitter_ns, 1000.0);
     json_close(&json, '}');
@@ -262,6 +294,7 @@ static int perform(run *r) {
     if (!r->options.fast && knurl_loop_start(r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
+    faults_start(&r->faults);
     play(r);
     knurl_loop_stats_init(&stats, sizeof stats);
     (void)knurl_loop_get_stats(r->loop, &stats);
@@ -269,6 +302,10 @@ static int perform(run *r) {
         fputs("knurl: note: real-time scheduling is not permitted here (see ulimit -r); timing may suffer\n", stderr);
     }
     code = recorder_close(&r->recorder, 1);
+    if (stats.state != KNURL_LOOP_LOST && stats.absent && stats.ticks < r->ticks && !interrupted) {
+        code = tool_error(TOOL_FAILURE, "run: no position for %g s, after %llu ticks", GIVE_UP_S,
+                          (unsigned long long)stats.ticks);
+    }
     if (stats.state == KNURL_LOOP_LOST) {
         code = tool_error(TOOL_FAILURE, "run: the device was lost after %llu ticks", (unsigned long long)stats.ticks);
     }
@@ -282,6 +319,7 @@ int cmd_run(int argc, char **argv) {
     int code = read_options(argc, argv, &r.options);
     if (code == TOOL_OK) {
         struct sigaction action;
+        (void)knurl_device_let_go_on_crash(); /* before the handlers below, which end a run by the ramp */
         memset(&action, 0, sizeof action);
         action.sa_handler = on_signal;
         (void)sigaction(SIGINT, &action, NULL);

@@ -10,11 +10,13 @@ static const char help[] =
     "\n"
     "  knurl inspect FILE [--pretty]       what a file's tagged surfaces come to: models, bytes, why (JSON)\n"
     "      --full-model                    without the reductions: flat meshes stay meshes\n"
-    "  knurl run FILE [options]            load, stroke, tick; a summary (JSON)\n"
-    "      --device URI                    fake (default), fake:?key=value&...; see 'knurl devices'\n"
+    "  knurl run FILE [options]            load, feel or stroke, tick; a summary (JSON)\n"
+    "      --device URI                    fake (default), touch, falcon, rawhid; see 'knurl devices'\n"
+    "      --reconnect                     look for a device that got lost, instead of ending\n"
     "      --surface NAME                  which surface to stroke (default: the first)\n"
-    "      --stroke NAME                   line (default), sweep, circle, press or rest, 1 mm below the surface\n"
-    "      --trace CSV                     instead: play HIP positions t,x,y,z (s, m) without a hand\n"
+    "      --stroke NAME                   of the fake device's hand, 1 mm below the surface: line (default), sweep,\n"
+    "                                      circle, press or rest\n"
+    "      --trace CSV                     the fake device plays HIP positions t,x,y,z (s, m) without a hand\n"
     "      --seconds S                     default 5, or the trace's length\n"
     "      --rate HZ                       update rate, 100 to 10000; default 1000\n"
     "      --method S1|S2|locked           for all surfaces, instead of their own\n"
@@ -32,42 +34,10 @@ static const char help[] =
     "  knurl study NAME --out DIR          a figure or chart as CSV and JSON; plot.py draws it\n"
     "  knurl bench [--json] [--case NAME] [--ticks N]\n"
     "                                      what a tick takes on this machine, warm and paced (about half a minute)\n"
-    "  knurl devices [--json]              the kinds of device, and the fake one's settings\n"
+    "  knurl devices [--json]              what is connected, what is not and why, and the fake device's settings\n"
     "  knurl --version\n"
     "\n"
     "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device.\n";
-
-static int cmd_devices(int argc, char **argv) {
-    int json = 0;
-    int pretty = 0;
-    const tool_option options[] = {{"--json", TOOL_FLAG, &json, 0, 0, ""}, {"--pretty", TOOL_FLAG, &pretty, 0, 0, ""}};
-    if (tool_parse(argc, argv, options, 2, NULL) != TOOL_OK) {
-        return TOOL_USAGE;
-    }
-    static knurl_device_listing listings[32];
-    const uint32_t known = knurl_device_list(listings, 32);
-    const uint32_t count = known < 32 ? known : 32;
-    if (!json) {
-        for (uint32_t i = 0; i < count; i++) {
-            printf("%-8s %s%s%s\n", listings[i].uri, listings[i].name, listings[i].reason[0] ? ": " : "",
-                   listings[i].reason);
-        }
-        printf("\nfake:?key=value&key=value takes\n%s", knurl_fake_keys());
-        return TOOL_OK;
-    }
-    tool_json out = {pretty, 0, 1};
-    json_open(&out, NULL, '[');
-    for (uint32_t i = 0; i < count; i++) {
-        json_open(&out, NULL, '{');
-        json_string(&out, "uri", listings[i].uri);
-        json_string(&out, "name", listings[i].name);
-        json_string(&out, "unusable", listings[i].reason);
-        json_close(&out, '}');
-    }
-    json_close(&out, ']');
-    json_end(&out);
-    return TOOL_OK;
-}
 
 static const struct {
     const char *name;

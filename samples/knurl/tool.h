@@ -89,5 +89,6 @@ int cmd_metrics(int argc, char **argv);
 int cmd_scan(int argc, char **argv);
 int cmd_study(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
+int cmd_devices(int argc, char **argv);
 
 #endif

@@ -280,11 +280,33 @@ TEST(a_lost_device_is_a_failure_whose_csv_is_whole) {
     process p = RUN_TOOL("run", plate, "--fast", "--device", "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
     assert_int_equal(p.signal, 0);
     assert_int_equal(p.exit_code, 1);
-    assert_int_equal(lines_in(p.err), 1);
-    assert_non_null(strstr(p.err, "lost"));
+    assert_int_equal(lines_in(p.err), 2); /* what happened when, and how the run ended */
+    assert_non_null(strstr(p.err, "knurl: note: "));
+    assert_non_null(strstr(p.err, "knurl: run: the device was lost after 100 ticks"));
+    assert_non_null(strstr(p.out, "\"faults\": {\"lost\": 1}"));
     free(read_run(tool_path("out.csv"), 100));
     check_no_leftovers();
     process_free(&p);
+}
+
+TEST(a_lost_device_may_be_looked_for) {
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--reconnect", "--device", "fake:?lose_at=0.1",
+                         "--out", tool_path("out.csv"));
+    assert_int_equal(p.exit_code, 0);
+    assert_non_null(strstr(p.out, "\"ticks\": 1000,"));
+    assert_non_null(strstr(p.out, "\"lost\": 1, \"resumed\": 1, \"reconnected\": 1"));
+    free(read_run(tool_path("out.csv"), 1000));
+    process_free(&p);
+}
+
+TEST(a_real_device_takes_no_strokes_traces_or_haste) {
+    static const char *const more[][2] = {{"--stroke", "line"}, {"--trace", "x.csv"}, {"--fast", "--clamp"}};
+    for (size_t i = 0; i < COUNT_OF(more); i++) { /* refused before it is looked for a device */
+        process p = RUN_TOOL("run", plate, "--device", "touch", more[i][0], more[i][1]);
+        assert_int_equal(p.exit_code, 2);
+        assert_non_null(strstr(p.err, more[i][0]));
+        process_free(&p);
+    }
 }
 
 static void pause_ms(long ms) {
@@ -371,6 +393,8 @@ int main(void) {
         cmocka_unit_test(an_output_is_replaced_only_by_a_whole_one),
         cmocka_unit_test(an_output_may_be_a_device),
         cmocka_unit_test(a_lost_device_is_a_failure_whose_csv_is_whole),
+        cmocka_unit_test(a_lost_device_may_be_looked_for),
+        cmocka_unit_test(a_real_device_takes_no_strokes_traces_or_haste),
         cmocka_unit_test(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv),
         cmocka_unit_test(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing),
     };

@@ -98,6 +98,10 @@ knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
+    if (knurl_load_acquire(&device->lost) && knurl_device_reopen(device)) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and is not to be found",
+                          device->driver->uri);
+    }
     const knurl_result result = device->driver->start(device, update_rate_hz);
     if (!result) {
         device->period = 1.0 / update_rate_hz;
@@ -139,6 +143,19 @@ static knurl_result check_position(knurl_device *device, const double position[3
     return KNURL_OK;
 }
 
+/* A reading or a writing that failed: let go of the motors, until somebody takes them up again. */
+static void note_failure(knurl_device *device, knurl_result result) {
+    if (result != KNURL_ERROR_STATE) {
+        knurl_device_halt(device);
+    }
+    if (result == KNURL_ERROR_DEVICE_LOST) {
+        if (!device->is_linked) { /* an I/O thread has told already */
+            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+        }
+        knurl_store_release(&device->lost, 1u);
+    }
+}
+
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
@@ -151,15 +168,7 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
         *sample = found;
         return KNURL_OK;
     }
-    if (result != KNURL_ERROR_STATE) {
-        knurl_device_halt(device);
-    }
-    if (result == KNURL_ERROR_DEVICE_LOST) {
-        if (!device->is_linked) { /* an I/O thread has told already */
-            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-        }
-        knurl_store_release(&device->lost, 1u);
-    }
+    note_failure(device, result);
     return result;
 }
 
@@ -176,11 +185,8 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     if (!device->is_linked) {
         knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
     }
-    if (result == KNURL_ERROR_DEVICE_LOST) {
-        if (!device->is_linked) {
-            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-        }
-        knurl_store_release(&device->lost, 1u);
+    if (result) {
+        note_failure(device, result);
     }
     return result;
 }

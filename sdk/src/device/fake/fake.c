@@ -18,6 +18,7 @@ typedef struct fake {
     uint64_t trace_at; /* the row whose interval the time is in */
     double dt;
     uint64_t ticks; /* read since the start */
+    int found;      /* 1: plugged in again since the start */
     knurl_plant plant;
     knurl_hand hand;
     double target[3];
@@ -84,6 +85,7 @@ static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     const double still[3] = {0.0, 0.0, 0.0};
     f->dt = 1.0 / update_rate_hz;
     f->ticks = 0;
+    f->found = 0;
     f->trace_at = 0;
     knurl_hand_init(&f->hand, &f->stroke, s->tremor, (uint64_t)s->seed);
     knurl_hand_target(&f->hand, 0.0, f->dt, f->target);
@@ -130,7 +132,7 @@ static void move_hand(fake *f, double t, double position[3]) {
 static knurl_result fake_read(knurl_device *device, knurl_device_sample *sample) {
     fake *f = of(device);
     const double t = (double)f->ticks * f->dt;
-    if (f->settings.lose_at > 0.0 && t >= f->settings.lose_at) {
+    if (f->settings.lose_at > 0.0 && !f->found && t >= f->settings.lose_at) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     memset(sample, 0, sizeof *sample);
@@ -145,7 +147,7 @@ static knurl_result fake_read(knurl_device *device, knurl_device_sample *sample)
 
 static knurl_result fake_write(knurl_device *device, const double force[3]) {
     fake *f = of(device);
-    if (f->settings.lose_at > 0.0 && (double)f->ticks * f->dt >= f->settings.lose_at) {
+    if (f->settings.lose_at > 0.0 && !f->found && (double)f->ticks * f->dt >= f->settings.lose_at) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     knurl_plant_write(&f->plant, force);
@@ -225,6 +227,12 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     return KNURL_OK;
 }
 
+/* Whoever looks for it finds the cable plugged in again. */
+static knurl_result fake_reopen(knurl_device *device) {
+    of(device)->found = 1;
+    return KNURL_OK;
+}
+
 static void fake_list(knurl_listings *listings) {
     knurl_listings_add(listings, "fake", "a simulated Touch in a simulated hand", "%s", "");
 }
@@ -238,4 +246,5 @@ const knurl_driver knurl_fake_driver = {
     .start = fake_start,
     .read = fake_read,
     .write = fake_write,
+    .reopen = fake_reopen,
 };

@@ -1,0 +1,38 @@
+/* Faults for people and for the summary. SPDX-License-Identifier: MIT */
+#include "faults.h"
+
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+void faults_start(faults *f) {
+    struct timespec now;
+    memset(f, 0, sizeof *f);
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    f->start_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+void faults_show(faults *f, knurl_device *device) {
+    knurl_device_event event;
+    while (knurl_device_next_event(device, &event)) {
+        if (event.code >= 0 && event.code < FAULT_CODES) {
+            f->counts[event.code]++;
+        }
+        if (event.code != KNURL_FAULT_OVERRUN) {
+            fprintf(stderr, "%sknurl: note: after %.3f s: %s: %s", isatty(STDERR_FILENO) ? "\r\033[K" : "",
+                    1e-9 * (double)(event.time_ns - f->start_ns), knurl_fault_name(event.code),
+                    knurl_fault_string(event.code));
+            fprintf(stderr, event.value != 0.0 ? ", %g\n" : "\n", event.value);
+        }
+    }
+}
+
+void faults_print(const faults *f, tool_json *json) {
+    json_open(json, "faults", '{');
+    for (int32_t code = 0; code < FAULT_CODES; code++) {
+        if (f->counts[code] > 0) {
+            json_number(json, knurl_fault_name(code), (double)f->counts[code]);
+        }
+    }
+    json_close(json, '}');
+}
