@@ -299,16 +299,6 @@ TEST(a_lost_device_may_be_looked_for) {
     process_free(&p);
 }
 
-TEST(a_real_device_takes_no_strokes_traces_or_haste) {
-    static const char *const more[][2] = {{"--stroke", "line"}, {"--trace", "x.csv"}, {"--fast", "--clamp"}};
-    for (size_t i = 0; i < COUNT_OF(more); i++) { /* refused before it is looked for a device */
-        process p = RUN_TOOL("run", plate, "--device", "touch", more[i][0], more[i][1]);
-        assert_int_equal(p.exit_code, 2);
-        assert_non_null(strstr(p.err, more[i][0]));
-        process_free(&p);
-    }
-}
-
 static void pause_ms(long ms) {
     const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
     (void)nanosleep(&time, NULL);
@@ -394,7 +384,6 @@ int main(void) {
         cmocka_unit_test(an_output_may_be_a_device),
         cmocka_unit_test(a_lost_device_is_a_failure_whose_csv_is_whole),
         cmocka_unit_test(a_lost_device_may_be_looked_for),
-        cmocka_unit_test(a_real_device_takes_no_strokes_traces_or_haste),
         cmocka_unit_test(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv),
         cmocka_unit_test(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing),
     };
