@@ -122,13 +122,16 @@ static simulated *current(void) {
 
 /* --- devices --- */
 
-/* What STUB_... can be had by the environment: "KNURL_STUB_HD=absent" or "fail_at=500", for programs. */
+/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in). */
 static void read_environment(simulated *d) {
+    static int failed;
     const char *wish = getenv("KNURL_STUB_HD");
     if (wish && strcmp(wish, "absent") == 0) {
         d->settings[STUB_ABSENT] = 1.0;
-    } else if (wish && strncmp(wish, "fail_at=", 8) == 0 && d->settings[STUB_FAIL_AT] == 0.0) {
-        d->settings[STUB_FAIL_AT] = strtod(wish + 8, NULL);
+    } else if (wish && strncmp(wish, "fail_at=", 8) == 0) {
+        d->settings[STUB_FAIL_AT] = failed ? 0.0 : strtod(wish + 8, NULL);
+        d->settings[STUB_ABSENT] = 0.0;
+        failed = 1;
     }
 }
 
