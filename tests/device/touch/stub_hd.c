@@ -1,7 +1,8 @@
 /* A libHD of our own: a scheduler thread, three devices (each a plant in a hand), errors and faults on command, and a
  * count of every call that the API's reference does not allow. Where HD leaves something open it takes what is worst
- * for a driver: a force is held until the next frame's, a device that is unscheduled may still be in its callback, and
- * errors go on one stack for all. SPDX-License-Identifier: MIT */
+ * for a driver: a force is held until the next frame's, even of a device that is disabled, a device that is unscheduled
+ * may still be in its callback, errors go on one stack and the current device is one for all threads.
+ * SPDX-License-Identifier: MIT */
 #include "stub_hd.h"
 
 #include "device/fake/hand.h"
@@ -50,12 +51,19 @@ static struct {
         unsigned long number;
     } list[LIST];
     unsigned long last_number;
+    hd_callback asked; /* by hdScheduleSynchronous() */
+    void *asked_user;
+    pthread_cond_t answered;
     pthread_t thread;
     int runs;
     int stops;
     double rate;
     uint64_t random;
-} hd = {.mutex = PTHREAD_MUTEX_INITIALIZER, .current = NONE, .rate = 1000.0, .random = 88172645463325252u};
+} hd = {.mutex = PTHREAD_MUTEX_INITIALIZER,
+        .answered = PTHREAD_COND_INITIALIZER,
+        .current = NONE,
+        .rate = 1000.0,
+        .random = 88172645463325252u};
 
 /* Prototypes, as the vendor's header would have them. */
 #define PROTOTYPE(field, symbol, result, arguments) EXPORT result HD_CALL symbol arguments;
@@ -217,14 +225,12 @@ hd_device HD_CALL hdInitDevice(const char *name) {
 }
 
 void HD_CALL hdDisableDevice(hd_device device) {
-    static const double none[3] = {0.0, 0.0, 0.0};
     lock();
     simulated *d = used(device);
     if (d) {
         if (d->in_frame) {
             misuse(0x0102);
         }
-        tell_motors(d, none);
         d->answers[STUB_INITIALISED] = 0.0;
         hd.current = hd.current == (int)device ? NONE : hd.current;
     }
@@ -262,11 +268,18 @@ static void make_errors(simulated *d, int index) {
     }
 }
 
+hd_device HD_CALL hdGetCurrentDevice(void) {
+    lock();
+    const hd_device device = hd.current == NONE ? HD_NO_DEVICE : (hd_device)hd.current;
+    unlock();
+    return device;
+}
+
 void HD_CALL hdBeginFrame(hd_device device) {
     lock();
     simulated *d = used(device);
     if (d) {
-        if (d->in_frame || hd.current != (int)device) {
+        if (d->in_frame) {
             misuse(0x0402);
         }
         d->in_frame = 1;
@@ -280,7 +293,7 @@ void HD_CALL hdEndFrame(hd_device device) {
     lock();
     simulated *d = used(device);
     if (d) {
-        if (!d->in_frame || hd.current != (int)device) {
+        if (!d->in_frame) {
             misuse(0x0401);
         }
         d->in_frame = 0;
@@ -453,7 +466,16 @@ void HD_CALL hdUpdateCalibration(hd_enum style) {
 static void turn(void) {
     lock();
     hd.errors_taken = 0;
+    const hd_callback asked = hd.asked;
+    void *asked_user = hd.asked_user;
     unlock();
+    if (asked) {
+        (void)asked(asked_user);
+        lock();
+        hd.asked = NULL;
+        (void)pthread_cond_broadcast(&hd.answered);
+        unlock();
+    }
     for (int i = 0; i < LIST; i++) {
         lock();
         const hd_callback callback = hd.list[i].callback;
@@ -553,6 +575,30 @@ hd_scheduler_code HD_CALL hdScheduleAsynchronous(hd_callback callback, void *use
     }
     unlock();
     return number;
+}
+
+/* Turns by hand come one after the other anyway. */
+void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned short priority) {
+    (void)priority;
+    lock();
+    const int by_hand = hd.settings[STUB_BY_HAND] > 0.0;
+    if (!hd.runs) {
+        misuse(0x0102);
+    }
+    while (hd.runs && !by_hand && hd.asked) { /* one at a time */
+        (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+    }
+    if (hd.runs && !by_hand) {
+        hd.asked = callback;
+        hd.asked_user = user;
+        while (hd.asked == callback && hd.runs) {
+            (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+        }
+        unlock();
+    } else {
+        unlock();
+        (void)callback(user);
+    }
 }
 
 void HD_CALL hdUnschedule(hd_scheduler_code what) {

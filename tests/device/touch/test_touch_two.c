@@ -119,11 +119,15 @@ TEST(three_can_be_open) {
     }
 }
 
-/* In real time, opened and closed while the other runs: for ThreadSanitizer, too. */
+/* In real time, opened and closed while the other runs: for ThreadSanitizer, too. HD has one current device. */
 TEST(one_comes_and_goes_while_the_other_runs) {
     hand left;
     stub.set(0, STUB_BY_HAND, 0.0);
+    stub.set(STUB_RIGHT, STUB_JUMP, 0.05); /* so that whose position it is can be told */
     start(&left, "touch:Left Device", 1.0);
+    for (int turn = 0; turn < 300; turn++) {
+        knurl_device_close(stub_open("touch:Right Device"));
+    }
     for (int turn = 0; turn < 5; turn++) {
         hand right;
         start(&right, "touch:Right Device", 0.5);
@@ -131,6 +135,7 @@ TEST(one_comes_and_goes_while_the_other_runs) {
             knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
         }
         assert_true(__atomic_load_n(&right.push.ticks, __ATOMIC_RELAXED) >= 20);
+        CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD_MOST), 0.5, 1e-12); /* its force output was switched on */
         knurl_loop_stop(right.loop);
         assert_int_equal(stub_loop_state(right.loop), KNURL_LOOP_DONE);
         knurl_loop_destroy(right.loop);
@@ -139,6 +144,7 @@ TEST(one_comes_and_goes_while_the_other_runs) {
         assert_int_equal(stub_loop_state(left.loop), KNURL_LOOP_RUNNING);
     }
     knurl_loop_destroy(left.loop);
+    assert_int_equal(stub_events(left.device, KNURL_FAULT_JUMP, NULL), 0);
     knurl_device_close(left.device);
 }
 

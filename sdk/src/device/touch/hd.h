@@ -57,6 +57,7 @@ enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
     X(init, hdInitDevice, hd_device, (const char *name))                                                               \
     X(disable_device, hdDisableDevice, void, (hd_device device))                                                       \
     X(make_current, hdMakeCurrentDevice, void, (hd_device device))                                                     \
+    X(current, hdGetCurrentDevice, hd_device, (void))                                                                  \
     X(begin_frame, hdBeginFrame, void, (hd_device device))                                                             \
     X(end_frame, hdEndFrame, void, (hd_device device))                                                                 \
     X(enable, hdEnable, void, (hd_enum what))                                                                          \
@@ -74,44 +75,43 @@ enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
     X(set_rate, hdSetSchedulerRate, void, (unsigned long rate))                                                        \
     X(schedule, hdScheduleAsynchronous, hd_scheduler_code,                                                             \
       (hd_callback callback, void *user, unsigned short priority))                                                     \
+    X(call_in_turn, hdScheduleSynchronous, void, (hd_callback callback, void *user, unsigned short priority))          \
     X(unschedule, hdUnschedule, void, (hd_scheduler_code what))
 
 typedef struct hd_api {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a list of parameters cannot stand in any */
 #define HD_FIELD(field, symbol, result, arguments) result(HD_CALL *field) arguments;
     HD_FUNCTIONS(HD_FIELD)
 #undef HD_FIELD
 } hd_api;
 
-/* Every error: code, sentence, what helps. */
+/* Every error: code, and what is wrong; what helps. */
 #define HD_ERRORS(X)                                                                                                   \
-    X(0x0100, "HD knows no such parameter", "another version of OpenHaptics may know it")                              \
-    X(0x0101, "HD allows no such value", "")                                                                           \
-    X(0x0102, "HD does not allow this now", "")                                                                        \
-    X(0x0103, "HD has no such parameter of this type", "another version of OpenHaptics may have it")                   \
-    X(0x0104, "HD knows no such device any more", "open it again")                                                     \
-    X(0x0200, "its motors are too warm", "let it rest for some minutes")                                               \
-    X(0x0201, "the force is greater than it can play", "play weaker forces")                                           \
-    X(0x0202, "the force rises faster than it allows", "play softer surfaces")                                         \
-    X(0x0203, "it moves faster than it allows", "hold it more firmly, or let it cool down where its motors are warm")  \
-    X(0x0204, "it could not play the force", "see that the arm is free, and unplug its power for a moment")            \
-    X(0x0300, "it reports a fault of its own",                                                                         \
-      "unplug its power and its cable for a moment, then run Touch_Diagnostic")                                        \
-    X(0x0301, "it is in use already", "close the other program (or the other part of this one) that has opened it")    \
-    X(0x0302, "it does not answer",                                                                                    \
-      "see that its cable and its power are plugged in, then run its set-up program (Touch Setup; Linux: "             \
-      "Touch_AdvancedConfig), which must find it")                                                                     \
-    X(0x0303, "it cannot be reached the way that its set-up says",                                                     \
-      "run its set-up program again (Touch Setup; "                                                                    \
-      "Linux: Touch_AdvancedConfig); GTDD_HOME must name the folder that holds its configuration")                     \
-    X(0x0304, "the system gave HD no timer for its scheduler", "see that no other program runs one")                   \
-    X(0x0400, "a frame was begun where none may be", "")                                                               \
-    X(0x0401, "a frame was ended where none was begun", "")                                                            \
-    X(0x0402, "a frame was begun twice", "")                                                                           \
-    X(0x0500, "HD's scheduler has no such priority", "")                                                               \
-    X(0x0501, "HD's scheduler is full", "end other uses of it")                                                        \
-    X(0x0600, "HD found no valid licence", "install the OpenHaptics edition that goes with the device's driver")
+    X(0x0100, "HD knows no such parameter; another version of OpenHaptics may know it")                                \
+    X(0x0101, "HD allows no such value")                                                                               \
+    X(0x0102, "HD does not allow this now")                                                                            \
+    X(0x0103, "HD has no such parameter of this type; another version of OpenHaptics may have it")                     \
+    X(0x0104, "HD knows no such device any more; open it again")                                                       \
+    X(0x0200, "its motors are too warm; let it rest for some minutes")                                                 \
+    X(0x0201, "the force is greater than it can play; play weaker forces")                                             \
+    X(0x0202, "the force rises faster than it allows; play softer surfaces")                                           \
+    X(0x0203, "it moves faster than it allows; hold it more firmly, or let it cool down where its motors are warm")    \
+    X(0x0204, "it could not play the force; see that the arm is free, and unplug its power for a moment")              \
+    X(0x0300, "it reports a fault of its own; unplug power and cable for a moment, then run Touch_Diagnostic")         \
+    X(0x0301, "it is in use already; close the other program (or the other part of this one) that has opened it")      \
+    X(0x0302, "it does not answer; see that its cable and its power are plugged in, then run its set-up program "      \
+              "(Touch Setup; Linux: Touch_AdvancedConfig), which must find it")                                        \
+    X(0x0303, "it cannot be reached the way that its set-up says; run its set-up program again (Touch Setup; Linux: "  \
+              "Touch_AdvancedConfig), and see that GTDD_HOME names the folder of its configuration")                   \
+    X(0x0304, "the system gave HD no timer for its scheduler; see that no other program runs one")                     \
+    X(0x0400, "a frame was begun where none may be")                                                                   \
+    X(0x0401, "a frame was ended where none was begun")                                                                \
+    X(0x0402, "a frame was begun twice")                                                                               \
+    X(0x0500, "HD's scheduler has no such priority")                                                                   \
+    X(0x0501, "HD's scheduler is full; end other uses of it")                                                          \
+    X(0x0600, "HD found no valid licence; install the OpenHaptics edition that goes with the device's driver")
 
-/* "what is wrong; what helps"; static, never null, also for codes that are none. */
+/* The sentence; static, never null, also for codes that are none. */
 const char *hd_error_sentence(uint32_t code);
 
 /* 1: with this error the device is gone until it is initialised again. */

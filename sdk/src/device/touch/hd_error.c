@@ -7,7 +7,7 @@ static const struct {
     uint32_t code;
     const char *sentence;
 } table[] = {
-#define HD_ERROR_ROW(code, what, help) {code, sizeof(help) > 1 ? what "; " help : what},
+#define HD_ERROR_ROW(code, sentence) {(code), (sentence)},
     HD_ERRORS(HD_ERROR_ROW)
 #undef HD_ERROR_ROW
 };

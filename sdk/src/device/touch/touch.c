@@ -133,15 +133,45 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
     return handle;
 }
 
+/* Calls that are about the current device: in a turn of the scheduler's where it runs for others, whose frames would
+ * else make theirs the current one in between. */
+static void in_turn(touch *t, hd_callback calls) {
+    if (scheduler.users > 0) {
+        t->hd->call_in_turn(calls, t, HD_PRIORITY_MOST);
+    } else {
+        (void)calls(t);
+    }
+}
+
+static uint32_t HD_CALL prepare(void *user) {
+    touch *t = user;
+    t->hd->make_current(t->handle);
+    (void)touch_take_errors(t->hd, NULL);
+    t->hd->enable(HD_FORCE_OUTPUT);
+    t->trouble = touch_take_errors(t->hd, NULL);
+    if (!t->title[0]) { /* once: others may be reading it later */
+        touch_ask_info(t);
+    }
+    t->style = t->hd->calibration_style();
+    (void)touch_take_errors(t->hd, NULL); /* of what this version of HD does not tell */
+    return HD_DONE;
+}
+
+static uint32_t HD_CALL switch_off(void *user) {
+    touch *t = user;
+    t->hd->make_current(t->handle);
+    t->hd->disable(HD_FORCE_OUTPUT);
+    (void)touch_take_errors(t->hd, NULL); /* it may be away */
+    return HD_DONE;
+}
+
 /* Finds the device and has it ready to play forces. Errors as knurl_device_open(). */
 static knurl_result connect(touch *t) {
     uint32_t code = 0;
     t->handle = initialise(t->hd, t->name, &code);
     if (t->handle != HD_NO_DEVICE) {
-        t->hd->make_current(t->handle);
-        (void)touch_take_errors(t->hd, NULL);
-        t->hd->enable(HD_FORCE_OUTPUT);
-        code = touch_take_errors(t->hd, NULL);
+        in_turn(t, prepare);
+        code = t->trouble;
         if (!code) {
             return KNURL_OK;
         }
@@ -154,17 +184,15 @@ static knurl_result connect(touch *t) {
                       hd_error_sentence(code), unreachable ? udev_help : "");
 }
 
-/* Gives HD its device back; whatever comes late finds nothing. */
+/* Gives HD its device back. */
 static void disconnect(touch *t) {
+    leave_scheduler(t);
     if (t->handle != HD_NO_DEVICE) {
-        t->hd->make_current(t->handle);
-        t->hd->disable(HD_FORCE_OUTPUT);
-        leave_scheduler(t);
+        in_turn(t, switch_off);
         t->hd->disable_device(t->handle);
-        (void)touch_take_errors(t->hd, t->slot);
+        (void)touch_take_errors(t->hd, NULL);
         t->handle = HD_NO_DEVICE;
     }
-    leave_scheduler(t);
     if (t->slot) {
         knurl_store_release(&t->slot->key, 0u);
     }
@@ -201,9 +229,6 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
         free(made);
         return result;
     }
-    touch_ask_info(made);
-    made->style = hd->calibration_style();
-    (void)touch_take_errors(hd, NULL); /* of what this version of HD does not tell */
     take_slot(made);
     made->base.driver = &knurl_touch_driver;
     made->base.max_force = made->info.max_force;
@@ -336,8 +361,6 @@ static void list_default(knurl_listings *listings) {
     if (connect(&t)) {
         knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
     } else {
-        touch_ask_info(&t);
-        (void)touch_take_errors(t.hd, NULL);
         disconnect(&t);
         knurl_listings_add(listings, "touch", t.title, "%s", "");
     }

@@ -30,6 +30,7 @@ struct touch {
     char title[128];           /* for people: model and versions */
     knurl_device_info info;
     hd_enum style;            /* of calibration */
+    uint32_t trouble;         /* the error that getting it ready brought, 0: none */
     uint32_t uses_scheduler;  /* 1: counted among its users */
     hd_scheduler_code task;   /* what it is scheduled as */
     uint32_t (*tick)(void *); /* null: it returned 0, or there is none */

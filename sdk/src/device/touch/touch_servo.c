@@ -61,12 +61,19 @@ static void keep_calibration(touch *t) {
     t->uncalibrated = state != HD_CALIBRATED;
 }
 
-/* What HD does not fill in, because it fails, is not a number. */
+/* What HD does not fill in, because it fails, is not a number. Initialising a device makes it the current one, on
+ * whatever thread: then what was read was perhaps that one's, and is read again. */
 static void read_frame(touch *t) {
     double position[3] = {NAN, NAN, NAN};
     int32_t buttons = 0;
-    t->hd->get_doubles(HD_POSITION, position);
-    t->hd->get_integers(HD_BUTTONS, &buttons);
+    for (int attempt = 0; attempt < 2; attempt++) {
+        t->hd->get_doubles(HD_POSITION, position);
+        t->hd->get_integers(HD_BUTTONS, &buttons);
+        if (t->hd->current() == t->handle) {
+            break;
+        }
+        t->hd->make_current(t->handle);
+    }
     memset(&t->sample, 0, sizeof t->sample);
     vec3_scale(1e-3, position, t->sample.position);
     t->sample.buttons = (uint32_t)buttons;
@@ -90,6 +97,7 @@ static void play(touch *t, int more) {
     if (more && isfinite(length) && !t->pause && !knurl_device_is_halted(&t->base) && !knurl_device_ends()) {
         vec3_scale(length > t->base.max_force ? t->base.max_force / length : 1.0, t->force, force);
     }
+    t->hd->make_current(t->handle); /* the tick took its time */
     t->hd->set_doubles(HD_FORCE, force);
     t->hd->end_frame(t->handle);
     knurl_store_release(&t->base.quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
