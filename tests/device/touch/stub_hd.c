@@ -242,7 +242,21 @@ void HD_CALL hdMakeCurrentDevice(hd_device device) {
     if (used(device)) {
         hd.current = (int)device;
     }
+    const int dawdles = hd.settings[STUB_DAWDLES] > 0.0 && hd.runs && !pthread_equal(pthread_self(), hd.thread);
     unlock();
+    if (dawdles) {
+        const struct timespec nap = {0, 5000000};
+        (void)nanosleep(&nap, NULL);
+    }
+}
+
+static void drift(void) {
+    for (int i = 0; i < STUB_DEVICES && hd.settings[STUB_DRIFTS] > 0.0; i++) {
+        if (i != hd.current && hd.devices[i].answers[STUB_INITIALISED] > 0.0) {
+            hd.current = i;
+            break;
+        }
+    }
 }
 
 /* What a frame brings by itself. */
@@ -284,6 +298,7 @@ void HD_CALL hdBeginFrame(hd_device device) {
         }
         d->in_frame = 1;
         memset(d->force, 0, sizeof d->force);
+        drift();
     }
     unlock();
 }
@@ -419,6 +434,7 @@ hd_error HD_CALL hdGetError(void) {
     hd_error error = {0, 0, HD_NO_DEVICE};
     lock();
     hd.errors_taken++;
+    drift();
     if (hd.error_count > 0) {
         error = hd.errors[hd.error_count - 1];
         hd.error_count -= !hd.endless;

@@ -25,6 +25,9 @@ enum {
     STUB_INIT_ERROR,    /* an error code that initialising brings */
     STUB_REFUSED_RATE,  /* library: Hz that the scheduler refuses */
     STUB_STALL,         /* library: 1: the scheduler stops calling */
+    STUB_DRIFTS,        /* library: 1: in frames, the current device becomes another, as if another thread had changed
+                           it */
+    STUB_DAWDLES,       /* library: 1: threads but the scheduler's take their time after hdMakeCurrentDevice() */
     STUB_BY_HAND,       /* library: 1: turns come from stub_turn() alone */
     STUB_SETTINGS
 };
