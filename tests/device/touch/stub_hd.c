@@ -261,8 +261,9 @@ static void drift(void) {
 
 /* What a frame brings by itself. */
 static void make_errors(simulated *d, int index) {
-    if (d->settings[STUB_FAIL_AT] > 0.0 && --d->settings[STUB_FAIL_AT] == 0.0) {
-        d->settings[STUB_ABSENT] = 1.0;
+    if (d->settings[STUB_FAIL_AT] > 0.0) {
+        d->settings[STUB_FAIL_AT]--;
+        d->settings[STUB_ABSENT] = d->settings[STUB_FAIL_AT] == 0.0;
     }
     if (d->settings[STUB_ABSENT] > 0.0) {
         push(0x0302, index);

@@ -155,6 +155,19 @@ TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ra
     end(&b);
 }
 
+TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out) {
+    bench b;
+    start(&b, 1.0);
+    assert_int_equal(b.device->quiet, 1);
+    stub.turn(2);
+    assert_int_equal(b.device->quiet, 0);
+    knurl_device_halt(b.device);
+    assert_int_equal(b.device->quiet, 0);
+    stub.turn(1);
+    assert_int_equal(b.device->quiet, 1);
+    end(&b);
+}
+
 /* --- a servo thread's own ticks --- */
 
 typedef struct ticker {
@@ -290,6 +303,7 @@ int main(void) {
         BENCH_TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame),
         BENCH_TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan),
         BENCH_TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp),
+        BENCH_TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out),
         BENCH_TEST(a_tick_is_never_called_again_after_it_returned_0),
         BENCH_TEST(a_tick_that_writes_nothing_leaves_no_force),
         BENCH_TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out),

@@ -26,7 +26,10 @@ static void check_refused_uri(const char *uri, knurl_result code, const char *co
 
 static void write_bytes(const char *path, const void *bytes, size_t size) {
     FILE *file = fopen(path, "wb");
-    assert_non_null(file);
+    if (!file) {
+        fail_msg("%s cannot be written", path);
+        return;
+    }
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
 }
@@ -65,7 +68,10 @@ TEST(a_library_for_other_machines_and_a_file_that_is_none_are_told) {
     static const char *const none[] = {"invalid ELF header"};
     unsigned char bytes[4096];
     FILE *file = fopen(KNURL_TEST_STUB, "rb");
-    assert_non_null(file);
+    if (!file) {
+        fail_msg("%s cannot be read", KNURL_TEST_STUB);
+        return;
+    }
     assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
     assert_int_equal(fclose(file), 0);
     bytes[4] = 1; /* EI_CLASS: 32 bits */
@@ -97,6 +103,23 @@ TEST(a_device_that_cannot_be_opened_leaves_no_library_behind) {
     static const char *const words[] = {"Nobody's Device", "0x0302", "70-knurl.rules", "Touch_AdvancedConfig"};
     assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
     check_refused_uri("touch:Nobody's Device", KNURL_ERROR_DEVICE_LOST, words, COUNT_OF(words));
+    assert_false(is_loaded(KNURL_TEST_STUB));
+}
+
+static int refuses_memory;
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuses_memory ? NULL : __real_calloc(count, size);
+}
+
+TEST(without_memory_nothing_is_opened_and_nothing_left_behind) {
+    static const char *const words[] = {"touch", "bytes"};
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    refuses_memory = 1;
+    check_refused_uri("touch", KNURL_ERROR_MEMORY, words, COUNT_OF(words));
+    refuses_memory = 0;
     assert_false(is_loaded(KNURL_TEST_STUB));
 }
 
@@ -153,6 +176,7 @@ int main(void) {
         cmocka_unit_test(a_library_for_other_machines_and_a_file_that_is_none_are_told),
         cmocka_unit_test(two_devices_share_the_library_and_the_last_one_unloads_it),
         cmocka_unit_test(a_device_that_cannot_be_opened_leaves_no_library_behind),
+        cmocka_unit_test(without_memory_nothing_is_opened_and_nothing_left_behind),
         cmocka_unit_test(a_uri_with_a_key_that_is_none_is_refused),
         cmocka_unit_test(the_listing_says_why_there_is_none_or_what_there_is),
         cmocka_unit_test(a_device_that_this_program_has_open_is_listed_as_in_use),

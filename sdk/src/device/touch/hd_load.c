@@ -74,7 +74,7 @@ static int try_path(const char *path, attempts *tried) {
     return 1;
 }
 
-knurl_result hd_acquire(const char *path, const hd_api **hd) {
+knurl_result hd_acquire(const char *path, const char *device, const hd_api **hd) {
     if (loaded.users == 0) {
         attempts tried = {""};
         const char *named = path[0] ? path : getenv("KNURL_HD_LIBRARY");
@@ -87,7 +87,7 @@ knurl_result hd_acquire(const char *path, const hd_api **hd) {
             }
         }
         if (!found) {
-            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'touch': the HD library cannot be loaded%s: %s; %s",
+            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device '%s': the HD library cannot be loaded%s: %s; %s", device,
                               path[0]             ? ""
                               : named && named[0] ? " (KNURL_HD_LIBRARY names it)"
                                                   : "",
@@ -95,9 +95,9 @@ knurl_result hd_acquire(const char *path, const hd_api **hd) {
         }
     } else if (path[0] && strcmp(path, loaded.path) != 0) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "device 'touch': expected the HD library that is in use, '%s', found '%s': all devices of a "
+                          "device '%s': expected the HD library that is in use, '%s', found '%s': all devices of a "
                           "program share one",
-                          loaded.path, path);
+                          device, loaded.path, path);
     }
     loaded.users++;
     *hd = &loaded.api;

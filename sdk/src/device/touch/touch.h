@@ -26,8 +26,9 @@ struct touch {
     const hd_api *hd;
     touch_slot *slot;
     hd_device handle;
-    char name[KNURL_URI_ROOM]; /* as opened; "": the default device */
-    char title[128];           /* for people: model and versions */
+    char uri[KNURL_URI_ROOM + 8]; /* for messages: "touch" or "touch:NAME" */
+    char name[KNURL_URI_ROOM];    /* as opened; "": the default device */
+    char title[128];              /* for people: model and versions */
     knurl_device_info info;
     hd_enum style;            /* of calibration */
     uint32_t trouble;         /* the error that getting it ready brought, 0: none */
@@ -63,6 +64,21 @@ uint32_t touch_take_errors(const hd_api *hd, touch_slot *own);
 
 /* touch_info.c: asks what the device is, for info and title; current, and not in a frame. */
 void touch_ask_info(touch *t);
+
+/* touch_connect.c; all but touch_detach() under the lock of touch.c.
+ * Finds the device and has it ready to play forces, and gives HD its device back. Errors as knurl_device_open(). */
+knurl_result touch_connect(touch *t);
+void touch_disconnect(touch *t);
+
+/* The tick is called from now on, or is taken off HD's list. Errors: KNURL_ERROR_SYSTEM. */
+knurl_result touch_schedule(touch *t);
+void touch_unschedule(touch *t);
+
+/* From now on the scheduler's calls find nothing. 0: one goes on. [not the servo thread] */
+int touch_detach(touch *t);
+
+/* The slot whose device has this handle, or (HD_NO_DEVICE) a free one; null: there is none. */
+touch_slot *touch_find_slot(hd_device handle);
 
 /* More than anyone has on the desk. */
 #define TOUCH_ROOM 8
