@@ -138,6 +138,31 @@ TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever) {
     knurl_device_close(b.device);
 }
 
+static void dream_once(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    if (tick == 10) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + INT64_C(1600000000));
+    }
+    stub_push_force(tick, sample, force, user);
+}
+
+TEST(a_tick_that_takes_longer_than_a_second_is_no_loss) {
+    knurl_loop *loop = NULL;
+    stub_push push = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0};
+    stub.set(0, STUB_BY_HAND, 0.0);
+    knurl_device *device = stub_open("touch");
+    knurl_loop_desc desc = stub_loop_desc(device, &push);
+    desc.force_callback = dream_once;
+    desc.tick_limit = 50;
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    assert_int_equal(knurl_loop_wait(loop, 15.0), 1);
+    assert_int_equal(stub_loop_state(loop), KNURL_LOOP_DONE);
+    knurl_loop_destroy(loop);
+    assert_int_equal(stub_events(device, KNURL_FAULT_LOST, NULL), 0);
+    assert_int_equal(push.ticks, 50);
+    knurl_device_close(device);
+}
+
 /* --- refusals and other errors --- */
 
 TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go) {
@@ -350,6 +375,7 @@ int main(void) {
         BENCH_TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time),
         BENCH_TEST(a_loop_whose_device_is_away_can_be_stopped),
         BENCH_TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever),
+        BENCH_TEST(a_tick_that_takes_longer_than_a_second_is_no_loss),
         BENCH_TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go),
         BENCH_TEST(other_errors_are_counted_and_nothing_else),
         BENCH_TEST(errors_without_end_do_not_hold_up_the_servo_thread),

@@ -13,6 +13,7 @@
 
 static unsigned long rate_now; /* Hz of the scheduler, as set by the latest start */
 static uint32_t busy;          /* atomic: held by who opens, closes, starts or looks again; never by a servo thread */
+
 static void lock(void) {
     while (__atomic_exchange_n(&busy, 1u, __ATOMIC_ACQUIRE)) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
@@ -50,7 +51,7 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
     touch *made = calloc(1, sizeof *made);
     if (!made) {
         hd_release();
-        return knurl_fail(KNURL_ERROR_MEMORY, "device 'touch': could not get %u bytes", (unsigned)sizeof *made);
+        return knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %u bytes", uri, (unsigned)sizeof *made);
     }
     made->hd = hd;
     memcpy(made->uri, uri, sizeof uri);
@@ -177,7 +178,8 @@ static knurl_result touch_reopen(knurl_device *device) {
 }
 
 static uint32_t touch_leave(knurl_device *device) {
-    return (uint32_t)touch_detach(of(device)); /* HD may hang: it is asked for nothing here */
+    touch *t = of(device); /* HD may hang: it is asked for nothing here */
+    return !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) && touch_detach(t);
 }
 
 /* One look at the default device, where nobody in this process has one. */
