@@ -104,9 +104,8 @@ static void show(const sample *s) {
     knurl_hip_counts counts;
     knurl_loop_stats stats;
     knurl_loop_stats_init(&stats, sizeof stats);
-    (void)knurl_loop_get_stats(s->loop, &stats);
     show_faults(s);
-    if (knurl_scene_get_tick(s->scene, 0, &now, &counts) != KNURL_OK) {
+    if (knurl_loop_get_stats(s->loop, &stats) || knurl_scene_get_tick(s->scene, 0, &now, &counts)) {
         return; /* not one tick yet */
     }
     for (int i = 0; i < PLATES; i++) {
@@ -124,8 +123,7 @@ int main(int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
         char *end = "";
         if (strcmp(argv[i], "--help") == 0) {
-            (void)fputs(usage, stdout);
-            return 0;
+            return fputs(usage, stdout) < 0;
         }
         if (strcmp(argv[i], "--seconds") == 0 && i + 1 < argc) {
             seconds = strtod(argv[++i], &end);
@@ -141,12 +139,10 @@ int main(int argc, char **argv) {
     sample s = {0};
     (void)signal(SIGINT, on_interrupt);
     const int failed = start(&s, uri, seconds) != KNURL_OK;
-    if (failed) {
-        (void)fprintf(stderr, "touch_grating: %s\n", knurl_error_message());
-    }
     while (!failed && !interrupted && !knurl_loop_wait(s.loop, 0.1)) {
         show(&s);
     }
+    (void)(failed ? fprintf(stderr, "touch_grating: %s\n", knurl_error_message()) : printf("\n"));
     knurl_loop_destroy(s.loop); /* by the ramp */
     knurl_device_close(s.device);
     knurl_scene_destroy(s.scene);

@@ -65,6 +65,7 @@ TEST(a_function_that_is_missing_is_named_and_nothing_stays_loaded) {
 
 TEST(a_library_for_other_machines_and_a_file_that_is_none_are_told) {
     static const char *const narrow[] = {"wrong ELF class", "ELFCLASS32"};
+    static const char *const other[] = {"another processor", "machine 8"};
     static const char *const none[] = {"invalid ELF header"};
     unsigned char bytes[4096];
     FILE *file = fopen(KNURL_TEST_STUB, "rb");
@@ -78,10 +79,17 @@ TEST(a_library_for_other_machines_and_a_file_that_is_none_are_told) {
     write_bytes(KNURL_TEST_TMP "/libHD_32.so", bytes, sizeof bytes);
     check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_32.so", KNURL_ERROR_UNSUPPORTED, narrow,
                       COUNT_OF(narrow));
+    bytes[4] = 2;  /* 64 bits again */
+    bytes[18] = 8; /* EM_MIPS */
+    bytes[19] = 0;
+    write_bytes(KNURL_TEST_TMP "/libHD_mips.so", bytes, sizeof bytes);
+    check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_mips.so", KNURL_ERROR_UNSUPPORTED, other,
+                      COUNT_OF(other));
     memset(bytes, '#', sizeof bytes);
     write_bytes(KNURL_TEST_TMP "/libHD_text.so", bytes, sizeof bytes);
     check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_text.so", KNURL_ERROR_UNSUPPORTED, none, COUNT_OF(none));
     assert_int_equal(remove(KNURL_TEST_TMP "/libHD_32.so"), 0);
+    assert_int_equal(remove(KNURL_TEST_TMP "/libHD_mips.so"), 0);
     assert_int_equal(remove(KNURL_TEST_TMP "/libHD_text.so"), 0);
 }
 

@@ -41,6 +41,34 @@ static void note(attempts *tried, const char *path, const char *why) {
     (void)snprintf(tried->text + used, sizeof tried->text - used, "%s%.300s (%.240s)", used ? "; " : "", path, reason);
 }
 
+/* Linux says "no such file" of a library that is there, but for another processor. */
+#if defined(__x86_64__)
+#define ELF_MACHINE 62
+#elif defined(__i386__)
+#define ELF_MACHINE 3
+#elif defined(__aarch64__)
+#define ELF_MACHINE 183
+#elif defined(__arm__)
+#define ELF_MACHINE 40
+#else
+#define ELF_MACHINE 0 /* cannot tell */
+#endif
+
+static void look_for_machine(const char *path, char *why, size_t why_size) {
+    unsigned char head[20] = {0};
+    char place[PATH_ROOM + 16];
+    (void)snprintf(place, sizeof place, "%s%.500s", strchr(path, '/') ? "" : "/usr/lib/", path);
+    FILE *file = fopen(place, "rb");
+    const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
+    if (file) {
+        (void)fclose(file);
+    }
+    const int machine = head[5] == 2 ? 256 * head[18] + head[19] : 256 * head[19] + head[18]; /* EI_DATA: big-endian */
+    if (got == sizeof head && memcmp(head, "\177ELF", 4) == 0 && ELF_MACHINE && machine != ELF_MACHINE) {
+        (void)snprintf(why, why_size, "it is for another processor: ELF machine %d, expected %d", machine, ELF_MACHINE);
+    }
+}
+
 /* The first symbol that the library lacks, or null: all are there. */
 static const char *find_functions(knurl_library *library, hd_api *api) {
 #define HD_FIND(field, symbol, result, arguments)                                                                      \
@@ -58,6 +86,7 @@ static int try_path(const char *path, attempts *tried) {
     hd_api api;
     knurl_library *library = knurl_system_load_library(path, why, sizeof why);
     if (!library) {
+        look_for_machine(path, why, sizeof why);
         note(tried, path, why);
         return 0;
     }
