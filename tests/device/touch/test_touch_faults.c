@@ -140,7 +140,7 @@ TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever) {
 
 static void dream_once(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
     if (tick == 10) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + INT64_C(1600000000));
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + INT64_C(1300000000));
     }
     stub_push_force(tick, sample, force, user);
 }
