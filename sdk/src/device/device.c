@@ -182,7 +182,7 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
         vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
     }
     const knurl_result result = device->driver->write(device, safe);
-    if (!device->is_linked) {
+    if (!device->is_linked && !device->driver->serve) { /* else the thread that sends it says so when it is out */
         knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
     }
     if (result) {

@@ -37,6 +37,9 @@ typedef struct knurl_driver {
      * returns 0, and never afterwards; read and write work inside of it. When the device gets lost, `tick` is called
      * once more, then not before reopen() succeeds. Null: the loop has a thread of its own. */
     knurl_result (*serve)(knurl_device *device, uint32_t (*tick)(void *argument), void *argument);
+    /* When `tick` has not been called for long: sees to it that it is not called again before reopen(), and returns 1;
+     * or 0 where a call is under way. Null where serve is. [not the haptic thread] */
+    uint32_t (*leave)(knurl_device *device);
 } knurl_driver;
 
 /* Positions are held against the last one. */
@@ -62,6 +65,9 @@ struct knurl_device {
     uint32_t lost;  /* nobody but reopen() may call the driver any more */
     uint32_t quiet; /* 1: the latest force that went out was 0 */
 };
+
+/* s without a tick after which a device that owns the servo thread counts as lost. */
+#define KNURL_SERVE_GIVE_UP 1.0
 
 /* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
 #define KNURL_HAND_SPEED 10.0

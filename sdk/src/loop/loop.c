@@ -36,6 +36,8 @@ typedef struct keeper {
     uint64_t seen;   /* beats */
     int64_t seen_at; /* ns, when there was a new one */
     int64_t tried_at;
+    uint64_t idle_beats;
+    double idle; /* s without a beat, in naps: a process that is stopped and goes on has not waited */
 } keeper;
 
 static void watch(knurl_loop *loop, keeper *k, int64_t now) {
@@ -49,6 +51,27 @@ static void watch(knurl_loop *loop, keeper *k, int64_t now) {
         knurl_device_halt(device);
         knurl_events_report(&device->events, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
         knurl_count_up(&loop->watchdogs);
+    }
+}
+
+/* A device that owns the servo thread and has stopped calling is lost; nobody would notice in a tick. */
+static void look_for_stall(knurl_loop *loop, keeper *k, double nap) {
+    knurl_device *device = loop->desc.device;
+    const uint64_t beats = knurl_load_relaxed(&loop->beats);
+    k->idle = beats == k->idle_beats && !knurl_load_acquire(&device->lost) ? k->idle + nap : 0.0;
+    k->idle_beats = beats;
+    if (k->idle < KNURL_SERVE_GIVE_UP || !device->driver->leave || !device->driver->leave(device)) {
+        return;
+    }
+    k->idle = 0.0;
+    if (!is_running(loop) || knurl_load_acquire(&device->lost)) {
+        return; /* its last call came just now */
+    }
+    knurl_device_halt(device);
+    knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+    knurl_store_release(&device->lost, 1u);
+    if (!loop->desc.reconnect) {
+        knurl_loop_end(loop, KNURL_LOOP_LOST);
     }
 }
 
@@ -70,11 +93,12 @@ static void keeper_thread(void *argument) {
     const int64_t nap = limit > 80000000 || limit == 0 ? 20000000
                         : limit < 400000               ? 100000
                                                        : limit / 4; /* nobody waits long for it */
-    keeper k = {0, knurl_system_now_ns(), 0};
+    keeper k = {0, knurl_system_now_ns(), 0, 0, 0.0};
     while (is_running(loop)) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
         const int64_t now = knurl_system_now_ns();
         watch(loop, &k, now);
+        look_for_stall(loop, &k, 1e-9 * (double)nap);
         look_for_device(loop, &k, now);
     }
 }
@@ -200,7 +224,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
         return result;
     }
-    const int needs_keeper = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect;
+    const int needs_keeper = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || loop->desc.device->driver->serve;
     if (needs_keeper && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
         loop->keeper = knurl_system_start_thread(keeper_thread, loop, STACK_BYTES);
         if (!loop->keeper) {

@@ -1,16 +1,232 @@
-/* 3D Systems Touch. SPDX-License-Identifier: MIT */
-#include "device/driver.h"
+/* 3D Systems Touch, by the HD library. Its scheduler owns the servo thread and is one for all devices: it starts with
+ * the first loop (better after all devices were opened) and stops when the last device is closed.
+ * SPDX-License-Identifier: MIT */
+#include "device/touch/touch.h"
 
-static const char reason[] = "its driver (OpenHaptics, loaded at run time) is not in this version";
+#include "base/atomic.h"
+#include "base/system.h"
 
-static void touch_list(knurl_listings *listings) {
-    knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", reason);
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static unsigned long rate_now; /* Hz of the scheduler, as set by the latest start */
+static uint32_t busy;          /* atomic: held by who opens, closes, starts or looks again; never by a servo thread */
+
+static void lock(void) {
+    while (__atomic_exchange_n(&busy, 1u, __ATOMIC_ACQUIRE)) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
+    }
+}
+
+static void unlock(void) {
+    knurl_store_release(&busy, 0u);
+}
+
+static touch *of(knurl_device *device) {
+    return (touch *)(void *)device; /* its first member */
+}
+
+static void take_slot(touch *t) {
+    t->slot = touch_find_slot(HD_NO_DEVICE);
+    t->slot->owner = t;
+    knurl_store_release(&t->slot->loss, 0u);
+    knurl_store_release(&t->slot->refusal, 0u);
+    __atomic_store_n(&t->slot->others, 0, __ATOMIC_RELAXED);
+    knurl_store_release(&t->slot->key, t->handle + 1u);
+}
+
+static knurl_result open_locked(const char *name, const char *library, knurl_device **device) {
+    const hd_api *hd = NULL;
+    if (!touch_find_slot(HD_NO_DEVICE)) {
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'touch': expected at most %d open ones", TOUCH_ROOM);
+    }
+    char uri[KNURL_URI_ROOM + 8];
+    (void)snprintf(uri, sizeof uri, "touch%s%s", name[0] ? ":" : "", name);
+    knurl_result result = hd_acquire(library, uri, &hd);
+    if (result) {
+        return result;
+    }
+    touch *made = calloc(1, sizeof *made);
+    if (!made) {
+        hd_release();
+        return knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %u bytes", uri, (unsigned)sizeof *made);
+    }
+    made->hd = hd;
+    memcpy(made->uri, uri, sizeof uri);
+    (void)snprintf(made->name, sizeof made->name, "%s", name);
+    result = touch_connect(made);
+    if (result) {
+        hd_release();
+        free(made);
+        return result;
+    }
+    take_slot(made);
+    made->base.driver = &knurl_touch_driver;
+    made->base.max_force = made->info.max_force;
+    made->base.max_speed = KNURL_HAND_SPEED;
+    made->base.quiet = 1;
+    *device = &made->base;
+    return KNURL_OK;
 }
 
 static knurl_result touch_open(const char *options, knurl_device **device) {
-    (void)options;
-    (void)device;
-    return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'touch': %s", reason);
+    char name[KNURL_URI_ROOM];
+    char library[KNURL_URI_ROOM];
+    const knurl_uri_key keys[] = {{"library", library}};
+    knurl_result result = knurl_uri_parse("touch", options, name, keys, 1);
+    if (!result) {
+        lock();
+        result = open_locked(name, library, device);
+        unlock();
+    }
+    return result;
 }
 
-const knurl_driver knurl_touch_driver = {.uri = "touch", .list = touch_list, .open = touch_open};
+static void touch_close(knurl_device *device) {
+    touch *t = of(device);
+    lock();
+    if (touch_detach(t)) {
+        touch_unschedule(t);
+        touch_disconnect(t);
+        t->slot->owner = NULL;
+        free(t);
+        hd_release();
+    } /* else HD hangs inside of a call for this device: what that may still use is left to it */
+    unlock();
+}
+
+static void touch_info(const knurl_device *device, knurl_device_info *info) {
+    *info = ((const touch *)(const void *)device)->info;
+}
+
+static void touch_status(const knurl_device *device, knurl_device_status *status) {
+    const touch_slot *slot = ((const touch *)(const void *)device)->slot;
+    status->bad_bytes = __atomic_load_n(&slot->others, __ATOMIC_RELAXED); /* HD hands out errors, not bytes */
+}
+
+static knurl_result start_locked(touch *t, double rate) {
+    const unsigned long whole = (unsigned long)rate;
+    if ((double)whole != rate) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "device '%s': expected a whole number of Hz, found %g Hz; HD's scheduler keeps no other",
+                          t->uri, rate);
+    }
+    for (int i = 0; i < TOUCH_ROOM; i++) {
+        if (&touch_slots[i] != t->slot && knurl_load_acquire(&touch_slots[i].device) && whole != rate_now) {
+            return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                              "device '%s': expected %lu Hz, found %lu Hz; HD has one scheduler for all "
+                              "devices, and another runs at that rate",
+                              t->uri, rate_now, whole);
+        }
+    }
+    (void)touch_take_errors(t->hd, t->slot);
+    t->hd->set_rate(whole);
+    const uint32_t code = touch_take_errors(t->hd, t->slot);
+    if (code) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "device '%s': HD's scheduler refuses %lu Hz (0x%04x: %s); 500, 1000 and mostly 2000 Hz "
+                          "are known to work",
+                          t->uri, whole, (unsigned)code, hd_error_sentence(code));
+    }
+    rate_now = whole;
+    return KNURL_OK;
+}
+
+static knurl_result touch_start(knurl_device *device, double update_rate_hz) {
+    lock();
+    const knurl_result result = start_locked(of(device), update_rate_hz);
+    unlock();
+    return result;
+}
+
+static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *argument), void *argument) {
+    touch *t = of(device);
+    lock();
+    knurl_result result = KNURL_OK;
+    if (!touch_detach(t)) { /* the latest loop's last call */
+        result =
+            knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the latest loop", t->uri);
+    } else {
+        touch_unschedule(t);
+        t->tick = tick;
+        t->argument = argument;
+        result = touch_schedule(t);
+    }
+    unlock();
+    return result;
+}
+
+static knurl_result touch_reopen(knurl_device *device) {
+    touch *t = of(device);
+    lock();
+    knurl_result result = KNURL_ERROR_DEVICE_LOST;
+    if (touch_detach(t)) {
+        touch_unschedule(t);
+        touch_disconnect(t);
+        result = touch_connect(t);
+        if (!result) {
+            knurl_store_release(&t->slot->key, t->handle + 1u);
+            knurl_store_release(&t->slot->refusal, 0u);
+            knurl_store_release(&t->slot->loss, 0u);
+            result = t->tick ? touch_schedule(t) : KNURL_OK;
+        }
+    }
+    unlock();
+    return result;
+}
+
+static uint32_t touch_leave(knurl_device *device) {
+    touch *t = of(device); /* HD may hang: it is asked for nothing here */
+    return !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) && touch_detach(t);
+}
+
+/* One look at the default device, where nobody in this process has one. */
+static void list_default(knurl_listings *listings) {
+    touch t;
+    memset(&t, 0, sizeof t);
+    (void)snprintf(t.uri, sizeof t.uri, "touch");
+    if (hd_acquire("", t.uri, &t.hd)) {
+        knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
+        return;
+    }
+    if (touch_connect(&t)) {
+        knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
+    } else {
+        touch_disconnect(&t);
+        knurl_listings_add(listings, "touch", t.title, "%s", "");
+    }
+    hd_release();
+}
+
+static void touch_list(knurl_listings *listings) {
+    uint32_t open = 0;
+    lock();
+    for (int i = 0; i < TOUCH_ROOM; i++) {
+        const touch *t = touch_slots[i].owner;
+        if (t) {
+            knurl_listings_add(listings, t->uri, t->title, "in use: this program has it open already");
+            open++;
+        }
+    }
+    if (!open) {
+        list_default(listings);
+    }
+    unlock();
+}
+
+const knurl_driver knurl_touch_driver = {
+    .uri = "touch",
+    .list = touch_list,
+    .open = touch_open,
+    .close = touch_close,
+    .get_info = touch_info,
+    .get_status = touch_status,
+    .start = touch_start,
+    .read = touch_read,
+    .write = touch_write,
+    .reopen = touch_reopen,
+    .serve = touch_serve,
+    .leave = touch_leave,
+};

@@ -1,0 +1,127 @@
+/* The HD API of 3D Systems' OpenHaptics, as far as it is needed: types, numbers and functions, written down anew from
+ * its public reference. The library itself is loaded at run time (hd_load.h). Lengths mm, stiffness N/mm, forces N.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HD_H
+#define KNURL_SRC_HD_H
+
+#include <stdint.h>
+
+/* Functions and callbacks alike; other platforms have one convention. */
+#if defined(_WIN32) && !defined(_WIN64)
+#define HD_CALL __stdcall
+#else
+#define HD_CALL
+#endif
+
+typedef uint32_t hd_enum;
+typedef uint32_t hd_device;              /* HHD */
+typedef unsigned long hd_scheduler_code; /* HDSchedulerHandle: 8 bytes on 64-bit Linux, 4 on Windows */
+typedef uint32_t(HD_CALL *hd_callback)(void *user);
+
+/* Comes by value, newest first. */
+typedef struct hd_error {
+    uint32_t code; /* 0: there is none (any more) */
+    int32_t internal;
+    hd_device device; /* current when it happened */
+} hd_error;
+
+#define HD_NO_DEVICE ((hd_device)0xFFFFFFFF)
+
+/* What a callback returns. */
+enum { HD_DONE = 0, HD_AGAIN = 1 };
+
+#define HD_PRIORITY_MOST ((unsigned short)65535)
+
+enum {
+    HD_BUTTONS = 0x2000,
+    HD_POSITION = 0x2050, /* 3 doubles, mm */
+    HD_VERSION = 0x2500,
+    HD_MODEL = 0x2501,
+    HD_DRIVER_VERSION = 0x2502,
+    HD_USABLE_WORKSPACE = 0x2551,  /* 6 doubles, mm: least x, y, z, greatest x, y, z */
+    HD_MAX_STIFFNESS = 0x2602,     /* N/mm */
+    HD_MAX_FORCE = 0x2603,         /* N */
+    HD_CONTINUOUS_FORCE = 0x2604,  /* N */
+    HD_MAX_DAMPING = 0x2609,       /* N s/mm */
+    HD_FORCE = 0x2700,             /* 3 doubles, N */
+    HD_FORCE_OUTPUT = 0x4000,      /* a capability */
+    HD_CALIBRATED = 0x5000,        /* what hdCheckCalibration() tells: this and the next two */
+    HD_CALIBRATION_STALE = 0x5001, /* hdUpdateCalibration() mends it */
+    HD_CALIBRATION_MANUAL = 0x5002 /* a person has to help */
+};
+
+enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
+
+/* Every function that is needed: field, symbol, what it returns, what it takes. All or none is loaded. */
+#define HD_FUNCTIONS(X)                                                                                                \
+    X(init, hdInitDevice, hd_device, (const char *name))                                                               \
+    X(disable_device, hdDisableDevice, void, (hd_device device))                                                       \
+    X(make_current, hdMakeCurrentDevice, void, (hd_device device))                                                     \
+    X(current, hdGetCurrentDevice, hd_device, (void))                                                                  \
+    X(begin_frame, hdBeginFrame, void, (hd_device device))                                                             \
+    X(end_frame, hdEndFrame, void, (hd_device device))                                                                 \
+    X(enable, hdEnable, void, (hd_enum what))                                                                          \
+    X(disable, hdDisable, void, (hd_enum what))                                                                        \
+    X(get_integers, hdGetIntegerv, void, (hd_enum what, int32_t *values))                                              \
+    X(get_doubles, hdGetDoublev, void, (hd_enum what, double *values))                                                 \
+    X(set_doubles, hdSetDoublev, void, (hd_enum what, const double *values))                                           \
+    X(get_string, hdGetString, const char *, (hd_enum what))                                                           \
+    X(next_error, hdGetError, hd_error, (void))                                                                        \
+    X(check_calibration, hdCheckCalibration, hd_enum, (void))                                                          \
+    X(calibration_style, hdCheckCalibrationStyle, hd_enum, (void))                                                     \
+    X(update_calibration, hdUpdateCalibration, void, (hd_enum style))                                                  \
+    X(start_scheduler, hdStartScheduler, void, (void))                                                                 \
+    X(stop_scheduler, hdStopScheduler, void, (void))                                                                   \
+    X(set_rate, hdSetSchedulerRate, void, (unsigned long rate))                                                        \
+    X(schedule, hdScheduleAsynchronous, hd_scheduler_code,                                                             \
+      (hd_callback callback, void *user, unsigned short priority))                                                     \
+    X(call_in_turn, hdScheduleSynchronous, void, (hd_callback callback, void *user, unsigned short priority))          \
+    X(unschedule, hdUnschedule, void, (hd_scheduler_code what))
+
+typedef struct hd_api {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a list of parameters cannot stand in any */
+#define HD_FIELD(field, symbol, result, arguments) result(HD_CALL *field) arguments;
+    HD_FUNCTIONS(HD_FIELD)
+#undef HD_FIELD
+} hd_api;
+
+/* Every error: code, and what is wrong; what helps. */
+#define HD_ERRORS(X)                                                                                                   \
+    X(0x0100, "HD knows no such parameter; another version of OpenHaptics may know it")                                \
+    X(0x0101, "HD allows no such value")                                                                               \
+    X(0x0102, "HD does not allow this now")                                                                            \
+    X(0x0103, "HD has no such parameter of this type; another version of OpenHaptics may have it")                     \
+    X(0x0104, "HD knows no such device any more; open it again")                                                       \
+    X(0x0200, "its motors are too warm; let it rest for some minutes")                                                 \
+    X(0x0201, "the force is greater than it can play; play weaker forces")                                             \
+    X(0x0202, "the force rises faster than it allows; play softer surfaces")                                           \
+    X(0x0203, "it moves faster than it allows; hold it more firmly, or let it cool down where its motors are warm")    \
+    X(0x0204, "it could not play the force; see that the arm is free, and unplug its power for a moment")              \
+    X(0x0300, "it reports a fault of its own; unplug power and cable for a moment, then run Touch_Diagnostic")         \
+    X(0x0301, "it is in use already; close the other program (or the other part of this one) that has opened it")      \
+    X(0x0302, "it does not answer; see that its cable and its power are plugged in, then run its set-up program "      \
+              "(Touch Setup; Linux: Touch_AdvancedConfig), which must find it")                                        \
+    X(0x0303, "it cannot be reached the way that its set-up says; run its set-up program again (Touch Setup; Linux: "  \
+              "Touch_AdvancedConfig), and see that GTDD_HOME names the folder of its configuration")                   \
+    X(0x0304, "the system gave HD no timer for its scheduler; see that no other program runs one")                     \
+    X(0x0400, "a frame was begun where none may be")                                                                   \
+    X(0x0401, "a frame was ended where none was begun")                                                                \
+    X(0x0402, "a frame was begun twice")                                                                               \
+    X(0x0500, "HD's scheduler has no such priority")                                                                   \
+    X(0x0501, "HD's scheduler is full; end other uses of it")                                                          \
+    X(0x0600, "HD found no valid licence; install the OpenHaptics edition that goes with the device's driver")
+
+/* The sentence; static, never null, also for codes that are none. */
+const char *hd_error_sentence(uint32_t code);
+
+/* 1: with this error the device is gone until it is initialised again. */
+int hd_error_is_loss(uint32_t code);
+
+/* 1: with this error the device does not play the force that it was told. */
+int hd_error_is_refusal(uint32_t code);
+
+/* Takes away the errors that HD has kept, newest first. Returns how many. */
+#define HD_ERRORS_AT_ONCE 16
+int hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]);
+
+#endif

@@ -1,0 +1,168 @@
+/* A Touch and HD: connecting, and the scheduler, which starts with the first loop and stops with the last device. All
+ * under the lock of touch.c. SPDX-License-Identifier: MIT */
+#include "device/touch/touch.h"
+
+#include "base/atomic.h"
+#include "base/system.h"
+
+#include <string.h>
+
+/* How long a call of the scheduler's may go on after its tick has ended, ns. */
+#define PATIENCE_NS 200000000
+
+static const char udev_help[] =
+#if defined(_WIN32)
+    "";
+#else
+    "; if only the permission is missing: copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
+    "--reload' and 'udevadm trigger', and plug it in again";
+#endif
+
+static uint32_t users; /* devices for which the scheduler runs */
+
+int touch_detach(touch *t) {
+    const int64_t until = knurl_system_now_ns() + PATIENCE_NS;
+    __atomic_store_n(&t->slot->device, NULL, __ATOMIC_SEQ_CST);
+    while (__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST)) {
+        if (knurl_system_now_ns() > until) {
+            return 0;
+        }
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 100000);
+    }
+    return 1;
+}
+
+void touch_unschedule(touch *t) {
+    if (knurl_load_acquire(&t->slot->scheduled)) {
+        t->hd->unschedule(t->task);
+        knurl_store_release(&t->slot->scheduled, 0u);
+    }
+}
+
+static void leave_scheduler(touch *t) {
+    if (t->uses_scheduler && --users == 0) {
+        t->hd->stop_scheduler();
+    }
+    t->uses_scheduler = 0;
+}
+
+knurl_result touch_schedule(touch *t) {
+    t->until_check = 0;
+    t->pause = 0;
+    t->told_loss = 0;
+    __atomic_store_n(&t->slot->device, t, __ATOMIC_SEQ_CST);
+    if (!t->uses_scheduler) {
+        t->uses_scheduler = 1;
+        if (users++ == 0) {
+            t->hd->start_scheduler();
+        }
+    }
+    knurl_store_release(&t->slot->scheduled, 1u);
+    t->task = t->hd->schedule(touch_servo, t->slot, HD_PRIORITY_MOST);
+    const uint32_t code = touch_take_errors(t->hd, t->slot);
+    if (code >= 0x0500 || code == 0x0304) {
+        (void)touch_detach(t);
+        touch_unschedule(t);
+        leave_scheduler(t);
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device '%s': HD's scheduler does not start: 0x%04x: %s", t->uri,
+                          (unsigned)code, hd_error_sentence(code));
+    }
+    return KNURL_OK;
+}
+
+touch_slot *touch_find_slot(hd_device handle) {
+    for (int i = 0; i < TOUCH_ROOM; i++) {
+        touch_slot *slot = &touch_slots[i];
+        if (handle == HD_NO_DEVICE ? !slot->owner : slot->owner && slot->owner->handle == handle) {
+            return slot;
+        }
+    }
+    return NULL;
+}
+
+/* By its name; the default one by the names that HD's versions know it by. HD_NO_DEVICE: *code says why. */
+static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) {
+    static const char *const defaults[] = {NULL, "Default Device", "Default PHANToM"};
+    const size_t count = name[0] ? 1 : sizeof defaults / sizeof *defaults;
+    hd_device handle = HD_NO_DEVICE;
+    *code = 0;
+    for (size_t i = 0; i < count && handle == HD_NO_DEVICE; i++) {
+        (void)touch_take_errors(hd, NULL);
+        handle = hd->init(name[0] ? name : defaults[i]);
+        const uint32_t told = touch_take_errors(hd, NULL);
+        *code = *code ? *code : told; /* the first name's */
+        if (handle != HD_NO_DEVICE && touch_find_slot(handle)) {
+            *code = 0x0301;
+            return HD_NO_DEVICE; /* another of ours: nothing to give back */
+        }
+        if (handle != HD_NO_DEVICE && told) {
+            hd->disable_device(handle);
+            *code = told;
+            handle = HD_NO_DEVICE;
+        }
+    }
+    return handle;
+}
+
+/* Calls that are about the current device: in a turn of the scheduler's where it runs for others, whose frames would
+ * else make theirs the current one in between. */
+static void in_turn(touch *t, hd_callback calls) {
+    if (users > 0) {
+        t->hd->call_in_turn(calls, t, HD_PRIORITY_MOST);
+    } else {
+        (void)calls(t);
+    }
+}
+
+static uint32_t HD_CALL prepare(void *user) {
+    touch *t = user;
+    t->hd->make_current(t->handle);
+    (void)touch_take_errors(t->hd, NULL);
+    t->hd->enable(HD_FORCE_OUTPUT);
+    t->trouble = touch_take_errors(t->hd, NULL);
+    if (!t->title[0]) { /* once: others may be reading it later */
+        touch_ask_info(t);
+    }
+    t->style = t->hd->calibration_style();
+    (void)touch_take_errors(t->hd, NULL); /* of what this version of HD does not tell */
+    return HD_DONE;
+}
+
+static uint32_t HD_CALL switch_off(void *user) {
+    touch *t = user;
+    t->hd->make_current(t->handle);
+    t->hd->disable(HD_FORCE_OUTPUT);
+    (void)touch_take_errors(t->hd, NULL); /* it may be away */
+    return HD_DONE;
+}
+
+knurl_result touch_connect(touch *t) {
+    uint32_t code = 0;
+    t->handle = initialise(t->hd, t->name, &code);
+    if (t->handle != HD_NO_DEVICE) {
+        in_turn(t, prepare);
+        code = t->trouble;
+        if (!code) {
+            return KNURL_OK;
+        }
+        t->hd->disable_device(t->handle);
+        t->handle = HD_NO_DEVICE;
+    }
+    const int unreachable = code == 0 || (code >= 0x0300 && code != 0x0301 && code < 0x0400);
+    return knurl_fail(unreachable ? KNURL_ERROR_DEVICE_LOST : KNURL_ERROR_SYSTEM,
+                      "device '%s' cannot be opened: 0x%04x: %s%s", t->uri, (unsigned)code, hd_error_sentence(code),
+                      unreachable ? udev_help : "");
+}
+
+void touch_disconnect(touch *t) {
+    leave_scheduler(t);
+    if (t->handle != HD_NO_DEVICE) {
+        in_turn(t, switch_off);
+        t->hd->disable_device(t->handle);
+        (void)touch_take_errors(t->hd, NULL);
+        t->handle = HD_NO_DEVICE;
+    }
+    if (t->slot) {
+        knurl_store_release(&t->slot->key, 0u);
+    }
+}

@@ -1,0 +1,184 @@
+/* A Touch on HD's scheduler thread: a frame a tick. Should that thread ever stand still, HD itself is assumed to let go
+ * of the motors: its device driver has a watchdog of its own. SPDX-License-Identifier: MIT */
+#include "device/touch/touch.h"
+
+#include "base/atomic.h"
+#include "base/system.h"
+#include "base/vec3.h"
+
+#include <string.h>
+
+touch_slot touch_slots[TOUCH_ROOM];
+
+static touch *of(knurl_device *device) {
+    return (touch *)(void *)device; /* its first member */
+}
+
+static touch_slot *slot_of(hd_device handle) {
+    const uint32_t key = handle + 1u; /* HD_NO_DEVICE: 0 */
+    for (int i = 0; i < TOUCH_ROOM && key; i++) {
+        if (knurl_load_acquire(&touch_slots[i].key) == key) {
+            return &touch_slots[i];
+        }
+    }
+    return NULL;
+}
+
+uint32_t touch_take_errors(const hd_api *hd, touch_slot *own) {
+    hd_error errors[HD_ERRORS_AT_ONCE];
+    uint32_t oldest = 0;
+    for (int i = 0, count = hd_take_errors(hd, errors); i < count; i++) {
+        const uint32_t code = errors[i].code;
+        touch_slot *about = slot_of(errors[i].device);
+        about = about ? about : own;
+        oldest = about == own ? code : oldest;
+        if (about && hd_error_is_loss(code)) {
+            knurl_store_release(&about->loss, code);
+        } else if (about && hd_error_is_refusal(code)) {
+            knurl_store_release(&about->refusal, code);
+        } else if (about) {
+            (void)__atomic_fetch_add(&about->others, 1, __ATOMIC_RELAXED);
+        }
+    }
+    return oldest;
+}
+
+/* Not in a frame. HD takes over a new reference, such as the inkwell's, when it is told to. */
+static void keep_calibration(touch *t) {
+    if (t->until_check > 0) {
+        t->until_check--;
+        return;
+    }
+    t->until_check = TOUCH_CHECK_FRAMES - 1;
+    hd_enum state = t->hd->check_calibration();
+    if (state == HD_CALIBRATION_STALE) {
+        t->hd->update_calibration(t->style);
+        state = t->hd->check_calibration();
+    }
+    if (state != HD_CALIBRATED && !t->uncalibrated) {
+        knurl_events_report(&t->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+    }
+    t->uncalibrated = state != HD_CALIBRATED;
+}
+
+/* What HD does not fill in, because it fails, is not a number. Initialising a device makes it the current one, on
+ * whatever thread: then what was read was perhaps that one's, and is read again. */
+static void read_frame(touch *t) {
+    double position[3] = {NAN, NAN, NAN};
+    int32_t buttons = 0;
+    for (int attempt = 0; attempt < 2; attempt++) {
+        t->hd->get_doubles(HD_POSITION, position);
+        t->hd->get_integers(HD_BUTTONS, &buttons);
+        if (t->hd->current() == t->handle) {
+            break;
+        }
+        t->hd->make_current(t->handle);
+    }
+    memset(&t->sample, 0, sizeof t->sample);
+    vec3_scale(1e-3, position, t->sample.position);
+    t->sample.buttons = (uint32_t)buttons;
+    memset(t->force, 0, sizeof t->force); /* a tick that writes nothing leaves no force */
+}
+
+/* The loop may be gone when this returns 0. */
+static int call_tick(touch *t) {
+    knurl_store_release(&t->frame_thread, knurl_system_thread_id());
+    const int more = t->tick(t->argument) != 0;
+    knurl_store_release(&t->frame_thread, (uintptr_t)0);
+    if (!more) {
+        t->tick = NULL;
+    }
+    return more;
+}
+
+static void play(touch *t, int more) {
+    double force[3] = {0.0, 0.0, 0.0};
+    const double length = vec3_length(t->force);
+    if (more && isfinite(length) && !t->pause && !knurl_device_is_halted(&t->base) && !knurl_device_ends()) {
+        vec3_scale(length > t->base.max_force ? t->base.max_force / length : 1.0, t->force, force);
+    }
+    t->hd->make_current(t->handle); /* the tick took its time */
+    t->hd->set_doubles(HD_FORCE, force);
+    t->hd->end_frame(t->handle);
+    knurl_store_release(&t->base.quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
+}
+
+static void look_for_refusal(touch *t) {
+    const uint32_t refusal = __atomic_exchange_n(&t->slot->refusal, 0, __ATOMIC_ACQ_REL);
+    if (refusal) {
+        knurl_device_halt(&t->base);
+        if (!t->pause) {
+            knurl_events_report(&t->base.events, KNURL_FAULT_REFUSED, refusal);
+        }
+        t->pause = TOUCH_PAUSE_FRAMES;
+    }
+}
+
+/* 1: another one shall come. */
+static int serve_frame(touch *t) {
+    const hd_api *hd = t->hd;
+    hd->make_current(t->handle);
+    keep_calibration(t);
+    hd->begin_frame(t->handle);
+    read_frame(t);
+    (void)touch_take_errors(hd, t->slot);
+    int more = call_tick(t);
+    play(t, more);
+    (void)touch_take_errors(hd, t->slot);
+    look_for_refusal(t);
+    if (!knurl_load_acquire(&t->slot->loss)) {
+        return more;
+    }
+    if (more && !t->told_loss) { /* the end of the frame showed it */
+        (void)call_tick(t);
+    }
+    knurl_store_release(&t->base.quiet, 1u);
+    return 0;
+}
+
+uint32_t HD_CALL touch_servo(void *user) {
+    touch_slot *slot = user;
+    /* Whoever takes the device away first does so, then looks whether a call is under way: each sees the other. */
+    __atomic_store_n(&slot->inside, 1, __ATOMIC_SEQ_CST);
+    touch *t = __atomic_load_n(&slot->device, __ATOMIC_SEQ_CST);
+    const int again = t && serve_frame(t);
+    if (!again) {
+        knurl_store_release(&slot->scheduled, 0u);
+        knurl_store_release(&slot->device, (touch *)NULL);
+    }
+    knurl_store_release(&slot->inside, 0u);
+    return again ? HD_AGAIN : HD_DONE;
+}
+
+static int in_frame(const touch *t) {
+    return knurl_load_acquire(&t->frame_thread) == knurl_system_thread_id();
+}
+
+knurl_result touch_read(knurl_device *device, knurl_device_sample *sample) {
+    touch *t = of(device);
+    if (!in_frame(t)) {
+        return KNURL_ERROR_STATE;
+    }
+    if (knurl_load_acquire(&t->slot->loss)) {
+        t->told_loss = 1;
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    if (t->pause) {
+        t->pause--;
+        return KNURL_ERROR_DEVICE_NOT_READY;
+    }
+    if (t->uncalibrated) {
+        return KNURL_ERROR_DEVICE_NOT_READY;
+    }
+    *sample = t->sample;
+    return KNURL_OK;
+}
+
+knurl_result touch_write(knurl_device *device, const double force[3]) {
+    touch *t = of(device);
+    if (!in_frame(t)) {
+        return KNURL_ERROR_STATE;
+    }
+    vec3_copy(force, t->force);
+    return knurl_load_acquire(&t->slot->loss) ? KNURL_ERROR_DEVICE_LOST : KNURL_OK;
+}

@@ -1,0 +1,704 @@
+/* A libHD of our own: a scheduler thread, three devices (each a plant in a hand), errors and faults on command, and a
+ * count of every call that the API's reference does not allow. Where HD leaves something open it takes what is worst
+ * for a driver: a force is held until the next frame's, even of a device that is disabled, a device that is unscheduled
+ * may still be in its callback, errors go on one stack and the current device is one for all threads.
+ * SPDX-License-Identifier: MIT */
+#include "stub_hd.h"
+
+#include "device/fake/hand.h"
+#include "device/fake/plant.h"
+#include "device/touch/hd.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define EXPORT __attribute__((visibility("default")))
+
+#define NONE     (-1)
+#define LIST     16
+#define ERRORS   64
+#define OVERLOAD 1.5 /* times the nominal force, above which a real one complains */
+
+typedef struct simulated {
+    double settings[STUB_SETTINGS];
+    double answers[STUB_QUESTIONS];
+    knurl_plant plant;
+    knurl_hand hand;
+    double target[3];
+    double time; /* s since it was initialised */
+    double force[3];
+    int64_t limp_since;
+    int in_frame;
+    int force_output;
+} simulated;
+
+static struct {
+    pthread_mutex_t mutex;
+    simulated devices[STUB_DEVICES];
+    double settings[STUB_SETTINGS];
+    double answers[STUB_QUESTIONS];
+    int current;
+    hd_error errors[ERRORS];
+    int error_count;
+    int64_t errors_taken;
+    int64_t endless; /* errors that will never end */
+    struct {
+        hd_callback callback;
+        void *user;
+        unsigned long number;
+    } list[LIST];
+    unsigned long last_number;
+    hd_callback asked; /* by hdScheduleSynchronous() */
+    void *asked_user;
+    pthread_cond_t answered;
+    pthread_t thread;
+    int runs;
+    int stops;
+    double rate;
+    uint64_t random;
+} hd = {.mutex = PTHREAD_MUTEX_INITIALIZER,
+        .answered = PTHREAD_COND_INITIALIZER,
+        .current = NONE,
+        .rate = 1000.0,
+        .random = 88172645463325252u};
+
+/* Prototypes, as the vendor's header would have them. */
+#define PROTOTYPE(field, symbol, result, arguments) EXPORT result HD_CALL symbol arguments;
+HD_FUNCTIONS(PROTOTYPE)
+EXPORT void stub_set(int device, int setting, double value);
+EXPORT double stub_ask(int device, int question);
+EXPORT int64_t stub_limp_since(int device);
+EXPORT void stub_turn(uint64_t turns);
+EXPORT void stub_reset(void);
+
+static int64_t now_ns(void) {
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static void lock(void) {
+    (void)pthread_mutex_lock(&hd.mutex);
+}
+
+static void unlock(void) {
+    (void)pthread_mutex_unlock(&hd.mutex);
+}
+
+static uint64_t random_bits(void) {
+    hd.random ^= hd.random << 13;
+    hd.random ^= hd.random >> 7;
+    hd.random ^= hd.random << 17;
+    return hd.random;
+}
+
+/* Any double at all, or one of everyday's. */
+static double random_double(void) {
+    const uint64_t bits = random_bits();
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return random_bits() % 2 ? value : (double)(int64_t)(bits % 401) - 200.0;
+}
+
+static void push(uint32_t code, int device) {
+    if (hd.error_count < ERRORS) {
+        const hd_error error = {code, 0, device == NONE ? HD_NO_DEVICE : (hd_device)device};
+        hd.errors[hd.error_count++] = error;
+    }
+}
+
+static void misuse(uint32_t code) {
+    hd.answers[STUB_MISUSES]++;
+    push(code, hd.current);
+}
+
+/* The device with that handle, in use; null: misuse. */
+static simulated *used(hd_device handle) {
+    if (handle < STUB_DEVICES && hd.devices[handle].answers[STUB_INITIALISED] > 0.0) {
+        return &hd.devices[handle];
+    }
+    misuse(0x0104);
+    return NULL;
+}
+
+static simulated *current(void) {
+    return used(hd.current == NONE ? HD_NO_DEVICE : (hd_device)hd.current);
+}
+
+/* --- devices --- */
+
+/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in). */
+static void read_environment(simulated *d) {
+    static int failed;
+    const char *wish = getenv("KNURL_STUB_HD");
+    if (wish && strcmp(wish, "absent") == 0) {
+        d->settings[STUB_ABSENT] = 1.0;
+    } else if (wish && strncmp(wish, "fail_at=", 8) == 0) {
+        d->settings[STUB_FAIL_AT] = failed ? 0.0 : strtod(wish + 8, NULL);
+        d->settings[STUB_ABSENT] = 0.0;
+        failed = 1;
+    }
+}
+
+static void put_in_hand(simulated *d) {
+    const knurl_plant_config config = {.mass = 0.045,
+                                       .viscous = 0.5,
+                                       .coulomb = 0.26,
+                                       .hand_stiffness = 700.0,
+                                       .hand_damping = 5.0,
+                                       .resolution = 0.055e-3,
+                                       .max_force = 1e3, /* a driver that plays too much is to be seen */
+                                       .half_workspace = {0.080, 0.060, 0.035},
+                                       .delay = 1};
+    knurl_stroke_desc stroke;
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    stroke.stroke = d->settings[STUB_STROKE] > 0.0 ? (int32_t)d->settings[STUB_STROKE] : KNURL_STROKE_LINE;
+    (void)knurl_stroke_check(&stroke);
+    knurl_hand_init(&d->hand, &stroke, 0.00002, 1);
+    knurl_hand_target(&d->hand, 0.0, 1e-3, d->target);
+    knurl_plant_init(&d->plant, &config, d->target);
+    d->time = 0.0;
+    d->limp_since = now_ns();
+}
+
+static void tell_motors(simulated *d, const double force[3]) {
+    const double length = sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+    if (!isfinite(length)) {
+        d->answers[STUB_TOLD_BAD]++;
+        return;
+    }
+    d->answers[STUB_TOLD] = length;
+    d->answers[STUB_TOLD_MOST] = fmax(length, d->answers[STUB_TOLD_MOST]);
+    d->limp_since = length > 0.0 ? 0 : d->limp_since ? d->limp_since : now_ns();
+    knurl_plant_write(&d->plant, force);
+}
+
+static void move(simulated *d, double dt) {
+    double before[3];
+    double velocity[3];
+    memcpy(before, d->target, sizeof before);
+    d->time += dt;
+    knurl_hand_target(&d->hand, d->time, dt, d->target);
+    for (int axis = 0; axis < 3; axis++) {
+        velocity[axis] = (d->target[axis] - before[axis]) / dt;
+    }
+    knurl_plant_step(&d->plant, dt, d->target, velocity);
+}
+
+hd_device HD_CALL hdInitDevice(const char *name) {
+    static const char *const names[] = {"Default Device", "Left Device", "Right Device"};
+    hd_device made = HD_NO_DEVICE;
+    lock();
+    for (int i = 0; i < STUB_DEVICES; i++) {
+        simulated *d = &hd.devices[i];
+        if (strcmp(name ? name : names[STUB_DEFAULT], names[i]) != 0) {
+            continue;
+        }
+        read_environment(d);
+        if (d->answers[STUB_INITIALISED] > 0.0) {
+            push(0x0301, NONE);
+            unlock();
+            return HD_NO_DEVICE;
+        }
+        if (d->settings[STUB_ABSENT] > 0.0) {
+            break;
+        }
+        if (d->settings[STUB_INIT_ERROR] > 0.0) {
+            push((uint32_t)d->settings[STUB_INIT_ERROR], NONE);
+        }
+        made = (hd_device)i;
+        d->answers[STUB_INITIALISED] = 1.0;
+        d->force_output = 0;
+        d->in_frame = 0;
+        put_in_hand(d);
+        hd.current = i;
+        break;
+    }
+    if (made == HD_NO_DEVICE) {
+        push(0x0302, NONE);
+    }
+    unlock();
+    return made;
+}
+
+void HD_CALL hdDisableDevice(hd_device device) {
+    lock();
+    simulated *d = used(device);
+    if (d) {
+        if (d->in_frame) {
+            misuse(0x0102);
+        }
+        d->answers[STUB_INITIALISED] = 0.0;
+        hd.current = hd.current == (int)device ? NONE : hd.current;
+    }
+    unlock();
+}
+
+void HD_CALL hdMakeCurrentDevice(hd_device device) {
+    lock();
+    if (used(device)) {
+        hd.current = (int)device;
+    }
+    const int dawdles = hd.settings[STUB_DAWDLES] > 0.0 && hd.runs && !pthread_equal(pthread_self(), hd.thread);
+    unlock();
+    if (dawdles) {
+        const struct timespec nap = {0, 5000000};
+        (void)nanosleep(&nap, NULL);
+    }
+}
+
+static void drift(void) {
+    for (int i = 0; i < STUB_DEVICES && hd.settings[STUB_DRIFTS] > 0.0; i++) {
+        if (i != hd.current && hd.devices[i].answers[STUB_INITIALISED] > 0.0) {
+            hd.current = i;
+            break;
+        }
+    }
+}
+
+/* What a frame brings by itself. */
+static void make_errors(simulated *d, int index) {
+    if (d->settings[STUB_FAIL_AT] > 0.0) {
+        d->settings[STUB_FAIL_AT]--;
+        d->settings[STUB_ABSENT] = d->settings[STUB_FAIL_AT] == 0.0;
+    }
+    if (d->settings[STUB_ABSENT] > 0.0) {
+        push(0x0302, index);
+    }
+    if (d->settings[STUB_ERROR] > 0.0) {
+        push((uint32_t)d->settings[STUB_ERROR], index);
+        for (int i = 1; i < (int)d->settings[STUB_ERRORS]; i++) {
+            push((uint32_t)d->settings[STUB_ERROR], index);
+        }
+        hd.endless = d->settings[STUB_ERRORS] < 0.0;
+    }
+    if (d->settings[STUB_RANDOM] > 0.0) {
+        for (uint64_t i = random_bits() % 4; i > 0; i--) {
+            const uint64_t code = random_bits() % 0x700;
+            push(hd_error_is_loss((uint32_t)code) ? 0x0100 : (uint32_t)code, index);
+        }
+    }
+}
+
+hd_device HD_CALL hdGetCurrentDevice(void) {
+    lock();
+    const hd_device device = hd.current == NONE ? HD_NO_DEVICE : (hd_device)hd.current;
+    unlock();
+    return device;
+}
+
+void HD_CALL hdBeginFrame(hd_device device) {
+    lock();
+    simulated *d = used(device);
+    if (d) {
+        if (d->in_frame) {
+            misuse(0x0402);
+        }
+        d->in_frame = 1;
+        memset(d->force, 0, sizeof d->force);
+        drift();
+    }
+    unlock();
+}
+
+void HD_CALL hdEndFrame(hd_device device) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    lock();
+    simulated *d = used(device);
+    if (d) {
+        if (!d->in_frame) {
+            misuse(0x0401);
+        }
+        d->in_frame = 0;
+        d->answers[STUB_FRAMES]++;
+        tell_motors(d, d->force_output && d->settings[STUB_ABSENT] == 0.0 ? d->force : none);
+        make_errors(d, (int)device);
+        if (d->answers[STUB_TOLD] > OVERLOAD * 3.3) {
+            push(0x0201, (int)device);
+        }
+    }
+    unlock();
+}
+
+static void switch_output(hd_enum what, int on) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    lock();
+    simulated *d = current();
+    if (d && what == HD_FORCE_OUTPUT) {
+        d->force_output = on;
+        if (!on) {
+            tell_motors(d, none);
+        }
+    } else if (d) {
+        misuse(0x0100);
+    }
+    unlock();
+}
+
+void HD_CALL hdEnable(hd_enum what) {
+    switch_output(what, 1);
+}
+
+void HD_CALL hdDisable(hd_enum what) {
+    switch_output(what, 0);
+}
+
+void HD_CALL hdGetIntegerv(hd_enum what, int32_t *values) {
+    lock();
+    const simulated *d = current();
+    if (what != HD_BUTTONS) {
+        misuse(0x0100);
+    } else if (d) {
+        *values = d->settings[STUB_RANDOM] > 0.0 ? (int32_t)(uint32_t)random_bits() : d->time > 1.0;
+    }
+    unlock();
+}
+
+static void tell_position(const simulated *d, double mm[3]) {
+    knurl_plant_measure(&d->plant, mm);
+    mm[0] += d->settings[STUB_JUMP];
+    for (int axis = 0; axis < 3; axis++) {
+        mm[axis] = d->settings[STUB_NAN] > 0.0      ? NAN
+                   : d->settings[STUB_RANDOM] > 0.0 ? random_double()
+                                                    : 1000.0 * mm[axis];
+    }
+}
+
+void HD_CALL hdGetDoublev(hd_enum what, double *values) {
+    static const double workspace[6] = {-80.0, -60.0, -35.0, 80.0, 60.0, 35.0};
+    lock();
+    const simulated *d = current();
+    if (d && what == HD_POSITION) {
+        tell_position(d, values);
+    } else if (d && d->settings[STUB_TELLS_NOTHING] > 0.0) {
+        push(0x0100, hd.current);
+    } else if (d && d->settings[STUB_RANDOM] > 0.0) {
+        for (int i = 0; i < (what == HD_USABLE_WORKSPACE ? 6 : 1); i++) {
+            values[i] = random_double();
+        }
+    } else if (d) {
+        switch (what) {
+        case HD_USABLE_WORKSPACE:
+            memcpy(values, workspace, sizeof workspace);
+            break;
+        case HD_MAX_FORCE:
+            *values = 3.3;
+            break;
+        case HD_CONTINUOUS_FORCE:
+            *values = 0.9;
+            break;
+        case HD_MAX_STIFFNESS:
+            *values = 1.1;
+            break;
+        case HD_MAX_DAMPING:
+            *values = 0.003;
+            break;
+        default:
+            misuse(0x0100);
+            break;
+        }
+    }
+    unlock();
+}
+
+void HD_CALL hdSetDoublev(hd_enum what, const double *values) {
+    lock();
+    simulated *d = current();
+    if (what != HD_FORCE) {
+        misuse(0x0100);
+    } else if (d && !d->in_frame) {
+        misuse(0x0102);
+    } else if (d) {
+        memcpy(d->force, values, sizeof d->force);
+    }
+    unlock();
+}
+
+const char *HD_CALL hdGetString(hd_enum what) {
+    const char *text = "";
+    lock();
+    const simulated *d = current();
+    if (d && d->settings[STUB_TELLS_NOTHING] > 0.0) {
+        text = NULL;
+        push(0x0100, hd.current);
+    } else if (d) {
+        text = what == HD_MODEL ? "Touch of straw" : what == HD_VERSION ? "3.4.0" : "2023.11";
+    }
+    unlock();
+    return text;
+}
+
+hd_error HD_CALL hdGetError(void) {
+    hd_error error = {0, 0, HD_NO_DEVICE};
+    lock();
+    hd.errors_taken++;
+    drift();
+    if (hd.error_count > 0) {
+        error = hd.errors[hd.error_count - 1];
+        hd.error_count -= !hd.endless;
+    }
+    unlock();
+    return error;
+}
+
+#if !defined(STUB_LACKS_CALIBRATION)
+hd_enum HD_CALL hdCheckCalibration(void) {
+    lock();
+    const simulated *d = current();
+    const double told = d ? d->settings[STUB_CALIBRATION] : 0.0;
+    const hd_enum state = told > 0.0 ? (hd_enum)told : HD_CALIBRATED;
+    unlock();
+    return state;
+}
+#endif
+
+hd_enum HD_CALL hdCheckCalibrationStyle(void) {
+    lock();
+    const simulated *d = current();
+    const hd_enum style = d && d->settings[STUB_STYLE] > 0.0 ? (hd_enum)d->settings[STUB_STYLE] : HD_STYLE_ENCODER;
+    unlock();
+    return style;
+}
+
+void HD_CALL hdUpdateCalibration(hd_enum style) {
+    lock();
+    simulated *d = current();
+    if (d) {
+        if (d->in_frame) {
+            misuse(0x0102);
+        }
+        d->answers[STUB_UPDATES]++;
+        d->answers[STUB_LAST_STYLE] = style;
+        d->settings[STUB_CALIBRATION] = d->settings[STUB_MENDS] > 0.0 ? 0.0 : d->settings[STUB_CALIBRATION];
+    }
+    unlock();
+}
+
+/* --- the scheduler --- */
+
+/* Every callback once, then time goes on. */
+static void turn(void) {
+    lock();
+    hd.errors_taken = 0;
+    const hd_callback asked = hd.asked;
+    void *asked_user = hd.asked_user;
+    unlock();
+    if (asked) {
+        (void)asked(asked_user);
+        lock();
+        hd.asked = NULL;
+        (void)pthread_cond_broadcast(&hd.answered);
+        unlock();
+    }
+    for (int i = 0; i < LIST; i++) {
+        lock();
+        const hd_callback callback = hd.list[i].callback;
+        void *user = hd.list[i].user;
+        const unsigned long number = hd.list[i].number;
+        unlock();
+        if (callback && callback(user) == HD_DONE) {
+            lock();
+            if (hd.list[i].number == number) {
+                hd.list[i].callback = NULL;
+                hd.list[i].number = 0;
+            }
+            unlock();
+        }
+    }
+    lock();
+    hd.answers[STUB_ERRORS_TAKEN] = fmax(hd.answers[STUB_ERRORS_TAKEN], (double)hd.errors_taken);
+    for (int i = 0; i < STUB_DEVICES; i++) {
+        if (hd.devices[i].answers[STUB_INITIALISED] > 0.0) {
+            move(&hd.devices[i], 1.0 / hd.rate);
+        }
+    }
+    unlock();
+}
+
+static void *run(void *nothing) {
+    int64_t next = now_ns();
+    for (;;) {
+        lock();
+        const int stops = hd.stops;
+        const int calls = hd.settings[STUB_STALL] == 0.0 && hd.settings[STUB_BY_HAND] == 0.0;
+        const double rate = hd.rate;
+        unlock();
+        if (stops) {
+            return nothing;
+        }
+        if (calls) {
+            turn();
+        }
+        next += (int64_t)(1e9 / rate);
+        const int64_t now = now_ns();
+        next = now > next + 100000000 ? now : next;
+        const struct timespec until = {(time_t)(next / 1000000000), (long)(next % 1000000000)};
+        (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
+    }
+}
+
+void HD_CALL hdStartScheduler(void) {
+    lock();
+    hd.answers[STUB_STARTS]++;
+    if (hd.runs) {
+        misuse(0x0304);
+    } else {
+        hd.stops = 0;
+        hd.runs = pthread_create(&hd.thread, NULL, run, NULL) == 0;
+    }
+    unlock();
+}
+
+void HD_CALL hdStopScheduler(void) {
+    lock();
+    const int ran = hd.runs;
+    hd.stops = 1;
+    hd.runs = 0;
+    if (!ran) {
+        misuse(0x0102);
+    }
+    unlock();
+    if (ran) {
+        (void)pthread_join(hd.thread, NULL);
+    }
+}
+
+void HD_CALL hdSetSchedulerRate(unsigned long rate) {
+    lock();
+    if (rate < 100 || rate > 4000 || (double)rate == hd.settings[STUB_REFUSED_RATE]) {
+        push(0x0101, hd.current);
+    } else {
+        hd.rate = (double)rate;
+    }
+    unlock();
+}
+
+hd_scheduler_code HD_CALL hdScheduleAsynchronous(hd_callback callback, void *user, unsigned short priority) {
+    unsigned long number = 0;
+    (void)priority;
+    lock();
+    for (int i = 0; i < LIST && !number; i++) {
+        if (!hd.list[i].callback) {
+            hd.list[i].callback = callback;
+            hd.list[i].user = user;
+            hd.list[i].number = number = ++hd.last_number;
+        }
+    }
+    if (!number) {
+        push(0x0501, hd.current);
+    }
+    unlock();
+    return number;
+}
+
+/* Turns by hand come one after the other anyway. */
+void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned short priority) {
+    (void)priority;
+    lock();
+    const int by_hand = hd.settings[STUB_BY_HAND] > 0.0;
+    if (!hd.runs) {
+        misuse(0x0102);
+    }
+    while (hd.runs && !by_hand && hd.asked) { /* one at a time */
+        (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+    }
+    if (hd.runs && !by_hand) {
+        hd.asked = callback;
+        hd.asked_user = user;
+        while (hd.asked == callback && hd.runs) {
+            (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+        }
+        unlock();
+    } else {
+        unlock();
+        (void)callback(user);
+    }
+}
+
+void HD_CALL hdUnschedule(hd_scheduler_code what) {
+    int found = 0;
+    lock();
+    for (int i = 0; i < LIST && what; i++) {
+        if (hd.list[i].number == what) {
+            hd.list[i].callback = NULL;
+            hd.list[i].number = 0;
+            found = 1;
+        }
+    }
+    if (!found) {
+        misuse(0x0101);
+    }
+    unlock();
+}
+
+/* --- for tests --- */
+
+void stub_set(int device, int setting, double value) {
+    lock();
+    hd.devices[device].settings[setting] = value;
+    hd.settings[setting] = value;
+    if (setting == STUB_ERRORS && value >= 0.0) {
+        hd.endless = 0;
+        hd.error_count = 0;
+    }
+    unlock();
+}
+
+double stub_ask(int device, int question) {
+    lock();
+    double answer = hd.devices[device].answers[question];
+    if (question == STUB_DEPTH) {
+        answer = -hd.devices[device].plant.position[1];
+    } else if (question == STUB_RUNNING) {
+        answer = hd.runs;
+    } else if (question == STUB_RATE) {
+        answer = hd.rate;
+    } else if (question == STUB_CALLBACKS) {
+        answer = 0.0;
+        for (int i = 0; i < LIST; i++) {
+            answer += hd.list[i].callback != NULL;
+        }
+    } else if (question >= STUB_MISUSES) {
+        answer = hd.answers[question];
+    }
+    unlock();
+    return answer;
+}
+
+int64_t stub_limp_since(int device) {
+    lock();
+    const int64_t since = hd.devices[device].limp_since;
+    unlock();
+    return since;
+}
+
+static void *turn_in_thread(void *turns) {
+    for (uint64_t i = *(const uint64_t *)turns; i > 0; i--) {
+        turn();
+    }
+    return NULL;
+}
+
+/* In a thread of its own, as a scheduler's; returns after it. */
+void stub_turn(uint64_t turns) {
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, turn_in_thread, &turns) == 0) {
+        (void)pthread_join(thread, NULL);
+    }
+}
+
+void stub_reset(void) {
+    lock();
+    memset(hd.devices, 0, sizeof hd.devices);
+    memset(hd.settings, 0, sizeof hd.settings);
+    memset(hd.answers, 0, sizeof hd.answers);
+    memset(hd.list, 0, sizeof hd.list);
+    hd.error_count = 0;
+    hd.endless = 0;
+    hd.current = NONE;
+    hd.rate = 1000.0;
+    unlock();
+}

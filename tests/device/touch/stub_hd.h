@@ -1,0 +1,61 @@
+/* The stand-in for OpenHaptics: what tests do to it and ask it. Its simulation is the project's own plant in the
+ * project's own hand, a plant a device. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_STUB_HD_H
+#define KNURL_TEST_STUB_HD_H
+
+#include <stdint.h>
+
+/** The devices that are plugged in: "Default Device" (null), "Left Device", "Right Device". */
+enum { STUB_DEFAULT, STUB_LEFT, STUB_RIGHT, STUB_DEVICES };
+
+/** What can be set; all are 0 at first. A device's, or where it says so the library's. */
+enum {
+    STUB_ABSENT,        /* 1: unplugged: cannot be initialised, and each frame fails */
+    STUB_FAIL_AT,       /* frames until STUB_ABSENT comes by itself; 0: never */
+    STUB_ERROR,         /* an error code that each frame brings */
+    STUB_ERRORS,        /* how many a frame; 0 means 1; negative: as many as are asked for, for ever */
+    STUB_NAN,           /* 1: positions are no numbers */
+    STUB_JUMP,          /* m added to x */
+    STUB_CALIBRATION,   /* 0: calibrated, else what hdCheckCalibration() tells */
+    STUB_STYLE,         /* of calibration */
+    STUB_MENDS,         /* 1: hdUpdateCalibration() makes it calibrated */
+    STUB_STROKE,        /* KNURL_STROKE_ of the hand at the next initialisation; 0: line */
+    STUB_RANDOM,        /* 1: what is asked for is random, as are errors */
+    STUB_TELLS_NOTHING, /* 1: knows none of its properties */
+    STUB_INIT_ERROR,    /* an error code that initialising brings */
+    STUB_REFUSED_RATE,  /* library: Hz that the scheduler refuses */
+    STUB_STALL,         /* library: 1: the scheduler stops calling */
+    STUB_DRIFTS,        /* library: 1: in frames, the current device becomes another, as if another thread had changed
+                           it */
+    STUB_DAWDLES,       /* library: 1: threads but the scheduler's take their time after hdMakeCurrentDevice() */
+    STUB_BY_HAND,       /* library: 1: turns come from stub_turn() alone */
+    STUB_SETTINGS
+};
+
+/** What can be asked. */
+enum {
+    STUB_INITIALISED,  /* 1: in use */
+    STUB_UPDATES,      /* calls of hdUpdateCalibration() */
+    STUB_LAST_STYLE,   /* what that was called with */
+    STUB_FRAMES,       /* ended */
+    STUB_TOLD,         /* N: length of the force that the motors are told */
+    STUB_TOLD_MOST,    /* N: the greatest so far */
+    STUB_TOLD_BAD,     /* forces that were not finite */
+    STUB_DEPTH,        /* m below y = 0 */
+    STUB_MISUSES,      /* library: calls that HD's reference does not allow */
+    STUB_STARTS,       /* library: of the scheduler */
+    STUB_RUNNING,      /* library: 1: the scheduler is */
+    STUB_CALLBACKS,    /* library: on its list */
+    STUB_RATE,         /* library: Hz */
+    STUB_ERRORS_TAKEN, /* library: most calls of hdGetError() in one turn */
+    STUB_QUESTIONS
+};
+
+/** The library's functions for tests; STUB_FUNCTIONS(X): type, name. */
+typedef void (*stub_set_function)(int device, int setting, double value);
+typedef double (*stub_ask_function)(int device, int question);
+typedef int64_t (*stub_limp_function)(int device); /* ns on the monotonic clock since when no force; 0: there is one */
+typedef void (*stub_turn_function)(uint64_t turns);
+typedef void (*stub_reset_function)(void); /* as new; nothing may be in use */
+
+#endif

@@ -1,0 +1,317 @@
+/* The Touch driver over the stub, turn by turn: units, forces, faults, ends. SPDX-License-Identifier: MIT */
+#include "device/touch/stub.h"
+
+#include "device/driver.h"
+
+/* A device, and a loop that pushes with one force. */
+typedef struct bench {
+    knurl_device *device;
+    stub_push push;
+    knurl_loop *loop;
+} bench;
+
+static void start(bench *b, double force) {
+    memset(b, 0, sizeof *b);
+    b->push.force[1] = force;
+    b->device = stub_open("touch");
+    const knurl_loop_desc desc = stub_loop_desc(b->device, &b->push);
+    b->loop = stub_loop(&desc);
+}
+
+static void end(bench *b) {
+    stub_end_loop(b->loop);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD) == 0.0);
+    knurl_device_close(b->device);
+}
+
+static double told(void) {
+    return stub.ask(STUB_DEFAULT, STUB_TOLD);
+}
+
+/* --- what the device is --- */
+
+TEST(what_hd_tells_of_the_device_comes_in_si) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    knurl_device *device = stub_open("touch");
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "3D Systems Touch (Touch of straw)");
+    CHECK_CLOSE(info.workspace_min[0], -0.080, 1e-12); /* the stub's: +-80, 60, 35 mm */
+    CHECK_CLOSE(info.workspace_max[1], 0.060, 1e-12);
+    CHECK_CLOSE(info.workspace_max[2], 0.035, 1e-12);
+    CHECK_CLOSE(info.max_force, 3.3, 1e-12);
+    CHECK_CLOSE(info.continuous_force, 0.9, 1e-12);
+    CHECK_CLOSE(info.max_stiffness, 1100.0, 1e-9); /* 1.1 N/mm */
+    CHECK_CLOSE(info.max_damping, 3.0, 1e-12);     /* 0.003 N s/mm */
+    CHECK_CLOSE(info.resolution, 0.055e-3, 1e-12);
+    assert_true(info.heat_time > 0.0 && info.mass > 0.0);
+    knurl_device_close(device);
+}
+
+TEST(what_hd_does_not_tell_comes_from_the_data_sheet) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    stub.set(STUB_DEFAULT, STUB_TELLS_NOTHING, 1.0);
+    knurl_device *device = stub_open("touch");
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "3D Systems Touch (model not told)");
+    CHECK_CLOSE(info.workspace_max[0] - info.workspace_min[0], 0.160, 1e-12);
+    CHECK_CLOSE(info.workspace_max[1] - info.workspace_min[1], 0.120, 1e-12);
+    CHECK_CLOSE(info.workspace_max[2] - info.workspace_min[2], 0.070, 1e-12);
+    CHECK_CLOSE(info.max_force, 3.3, 1e-12);
+    CHECK_CLOSE(info.continuous_force, 0.88, 1e-12);
+    CHECK_CLOSE(info.max_stiffness, 1020.0, 1e-9);
+    assert_true(isinf(info.max_damping));
+    knurl_device_close(device);
+}
+
+TEST(random_properties_are_never_believed_where_they_make_no_sense) {
+    for (int turn = 0; turn < 2000; turn++) {
+        knurl_device_info info;
+        knurl_device_info_init(&info, sizeof info);
+        stub.set(STUB_DEFAULT, STUB_RANDOM, 1.0);
+        knurl_device *device = stub_open("touch");
+        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        assert_true(info.max_force > 0.0 && info.max_force <= 100.0);
+        assert_true(info.continuous_force > 0.0 && info.continuous_force <= info.max_force);
+        assert_true(info.max_stiffness > 0.0 && info.max_damping > 0.0);
+        for (int axis = 0; axis < 3; axis++) {
+            assert_true(info.workspace_min[axis] < info.workspace_max[axis]);
+            assert_true(fabs(info.workspace_min[axis]) <= 10.0 && fabs(info.workspace_max[axis]) <= 10.0);
+        }
+        knurl_device_close(device);
+    }
+}
+
+TEST(a_device_that_cannot_be_opened_is_given_back_and_says_why) {
+    static const struct {
+        double error;
+        knurl_result result;
+        const char *word;
+    } table[] = {{0x0600, KNURL_ERROR_SYSTEM, "licence"},
+                 {0x0301, KNURL_ERROR_SYSTEM, "in use"},
+                 {0x0303, KNURL_ERROR_DEVICE_LOST, "GTDD_HOME"},
+                 {0x0777, KNURL_ERROR_SYSTEM, "does not know"}};
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        knurl_device *device = NULL;
+        stub.set(STUB_DEFAULT, STUB_INIT_ERROR, table[i].error);
+        CHECK_REFUSED(knurl_device_open("touch", &device), table[i].result, device);
+        check_message(table[i].word);
+        assert_true(stub.ask(STUB_DEFAULT, STUB_INITIALISED) == 0.0);
+    }
+}
+
+/* --- positions and forces --- */
+
+TEST(positions_come_in_metres_and_buttons_as_bits) {
+    bench b;
+    stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
+    start(&b, 0.0);
+    stub.turn(1500);
+    CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_DEPTH), 0.001, 0.0005); /* a hand at rest, 1 mm below, dry friction */
+    CHECK_CLOSE(b.push.from[1], -stub.ask(STUB_DEFAULT, STUB_DEPTH), 0.00006); /* an encoder's step */
+    CHECK_CLOSE(b.push.from[0], 0.0, 0.0005);
+    assert_int_equal(b.push.buttons, 1);
+    end(&b);
+}
+
+TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame) {
+    bench b;
+    start(&b, 1.25);
+    stub.turn(1);
+    CHECK_CLOSE(told(), 1.25, 1e-12);
+    b.push.force[1] = -0.5;
+    stub.turn(1);
+    CHECK_CLOSE(told(), 0.5, 1e-12);
+    assert_int_equal(b.push.ticks, 2);
+    end(&b);
+}
+
+TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan) {
+    bench b;
+    start(&b, 100.0);
+    stub.turn(3);
+    CHECK_CLOSE(told(), 3.3, 1e-9);
+    b.push.force[0] = NAN;
+    stub.turn(3);
+    assert_true(told() == 0.0);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_BAD) == 0.0);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) <= 3.3 + 1e-9);
+    b.push.force[0] = 0.0;
+    end(&b);
+}
+
+TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp) {
+    bench b;
+    start(&b, 1.0);
+    stub.turn(5);
+    knurl_device_halt(b.device);
+    stub.turn(1);
+    assert_true(told() == 0.0);
+    stub.turn(1);
+    assert_true(told() > 0.0 && told() < 0.1); /* a ramp of 20 ticks */
+    stub.turn(30);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out) {
+    bench b;
+    start(&b, 1.0);
+    assert_int_equal(b.device->quiet, 1);
+    stub.turn(2);
+    assert_int_equal(b.device->quiet, 0);
+    knurl_device_halt(b.device);
+    assert_int_equal(b.device->quiet, 0);
+    stub.turn(1);
+    assert_int_equal(b.device->quiet, 1);
+    end(&b);
+}
+
+/* --- a servo thread's own ticks --- */
+
+typedef struct ticker {
+    knurl_device *device;
+    uint64_t calls;
+    uint64_t last;   /* call that returns 0 */
+    uint64_t writes; /* calls that write a force */
+    int halts;       /* 1: halts after it wrote */
+} ticker;
+
+static uint32_t tick(void *argument) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    ticker *t = argument;
+    knurl_device_sample sample;
+    t->calls++;
+    (void)knurl_device_read(t->device, &sample);
+    if (t->calls <= t->writes) {
+        (void)knurl_device_write(t->device, force);
+    }
+    if (t->halts) {
+        knurl_device_halt(t->device);
+    }
+    return t->calls < t->last;
+}
+
+static ticker serve(uint64_t last, uint64_t writes) {
+    const ticker t = {stub_open("touch"), 0, last, writes, 0};
+    assert_int_equal(knurl_device_start(t.device, 1000.0), KNURL_OK);
+    return t;
+}
+
+TEST(a_tick_is_never_called_again_after_it_returned_0) {
+    ticker t = serve(5, 5);
+    assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
+    stub.turn(50);
+    assert_int_equal(t.calls, 5);
+    assert_true(stub.ask(0, STUB_CALLBACKS) == 0.0);
+    assert_true(told() == 0.0); /* whatever its last call wrote */
+    t.last = 8;
+    assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK); /* another loop */
+    stub.turn(50);
+    assert_int_equal(t.calls, 8);
+    knurl_device_close(t.device);
+}
+
+TEST(a_tick_that_writes_nothing_leaves_no_force) {
+    ticker t = serve(1000, 10);
+    assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
+    stub.turn(10);
+    assert_true(told() == 1.0);
+    stub.turn(1);
+    assert_true(told() == 0.0);
+    knurl_device_close(t.device);
+}
+
+TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out) {
+    ticker t = serve(1000, 1000);
+    t.halts = 1;
+    assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
+    stub.turn(10);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) == 0.0);
+    knurl_device_close(t.device);
+}
+
+TEST(closing_lets_go_of_the_motors_and_nothing_is_called_any_more) {
+    ticker t = serve(1000, 1000);
+    assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
+    stub.turn(10);
+    assert_true(told() == 1.0);
+    knurl_device_close(t.device);
+    assert_true(told() == 0.0);
+    stub.turn(10);
+    assert_int_equal(t.calls, 10);
+}
+
+TEST(it_can_be_read_and_written_only_in_a_tick) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    bench b;
+    knurl_device_sample sample;
+    start(&b, 0.0);
+    assert_int_equal(knurl_device_read(b.device, &sample), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_device_write(b.device, force), KNURL_ERROR_STATE);
+    stub.turn(2);
+    assert_int_equal(knurl_device_read(b.device, &sample), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_device_write(b.device, force), KNURL_ERROR_STATE);
+    stub.turn(1);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) == 0.0);
+    assert_int_equal(knurl_device_is_halted(b.device), 0);
+    end(&b);
+}
+
+TEST(a_loop_cannot_be_stepped) {
+    knurl_loop *loop = NULL;
+    stub_push push = {{0}, {0}, 0, 0};
+    knurl_device *device = stub_open("touch");
+    const knurl_loop_desc desc = stub_loop_desc(device, &push);
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_step(loop, 1), KNURL_ERROR_UNSUPPORTED);
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+}
+
+/* --- the rate --- */
+
+TEST(the_scheduler_runs_at_the_rate_of_the_loop) {
+    knurl_device *device = stub_open("touch");
+    assert_int_equal(knurl_device_start(device, 500.0), KNURL_OK);
+    assert_true(stub.ask(0, STUB_RATE) == 500.0);
+    knurl_device_close(device);
+}
+
+TEST(rates_that_the_scheduler_cannot_keep_are_refused) {
+    knurl_device *device = stub_open("touch");
+    stub.set(0, STUB_REFUSED_RATE, 2000.0);
+    (void)knurl_fail(KNURL_OK, "stale message");
+    assert_int_equal(knurl_device_start(device, 2000.0), KNURL_ERROR_UNSUPPORTED);
+    check_message("2000 Hz");
+    check_message("0x0101");
+    assert_int_equal(knurl_device_start(device, 1000.5), KNURL_ERROR_UNSUPPORTED);
+    check_message("1000.5 Hz");
+    assert_true(stub.ask(0, STUB_RATE) == 1000.0);
+    knurl_device_close(device);
+}
+
+int main(void) {
+#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
+    const struct CMUnitTest tests[] = {
+        BENCH_TEST(what_hd_tells_of_the_device_comes_in_si),
+        BENCH_TEST(what_hd_does_not_tell_comes_from_the_data_sheet),
+        BENCH_TEST(random_properties_are_never_believed_where_they_make_no_sense),
+        BENCH_TEST(a_device_that_cannot_be_opened_is_given_back_and_says_why),
+        BENCH_TEST(positions_come_in_metres_and_buttons_as_bits),
+        BENCH_TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame),
+        BENCH_TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan),
+        BENCH_TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp),
+        BENCH_TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out),
+        BENCH_TEST(a_tick_is_never_called_again_after_it_returned_0),
+        BENCH_TEST(a_tick_that_writes_nothing_leaves_no_force),
+        BENCH_TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out),
+        BENCH_TEST(closing_lets_go_of_the_motors_and_nothing_is_called_any_more),
+        BENCH_TEST(it_can_be_read_and_written_only_in_a_tick),
+        BENCH_TEST(a_loop_cannot_be_stepped),
+        BENCH_TEST(the_scheduler_runs_at_the_rate_of_the_loop),
+        BENCH_TEST(rates_that_the_scheduler_cannot_keep_are_refused),
+    };
+    return cmocka_run_group_tests(tests, stub_load, stub_unload);
+}

@@ -1,0 +1,391 @@
+/* What goes wrong with a Touch: losses, refusals, calibration, nonsense, a scheduler that stands still.
+ * SPDX-License-Identifier: MIT */
+#include "device/touch/stub.h"
+#include "device/touch/touch_double.h"
+
+#include "device/driver.h"
+
+typedef struct bench {
+    knurl_device *device;
+    stub_push push;
+    knurl_loop *loop;
+} bench;
+
+static void start(bench *b, uint32_t reconnect) {
+    memset(b, 0, sizeof *b);
+    b->push.force[1] = 1.0;
+    b->device = stub_open("touch");
+    knurl_loop_desc desc = stub_loop_desc(b->device, &b->push);
+    desc.reconnect = reconnect;
+    b->loop = stub_loop(&desc);
+}
+
+static void end(bench *b) {
+    stub_end_loop(b->loop);
+    knurl_device_close(b->device);
+}
+
+static double told(void) {
+    return stub.ask(STUB_DEFAULT, STUB_TOLD);
+}
+
+static knurl_device_status status_of(const knurl_device *device) {
+    knurl_device_status status;
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    return status;
+}
+
+/* --- losses --- */
+
+/* Counts its calls; goes on as a loop does that waits for its device. */
+static uint32_t count_calls(void *argument) {
+    knurl_device **device = argument;
+    knurl_device_sample sample;
+    (*device)->max_speed += 1.0; /* a counter that is at hand */
+    (void)knurl_device_read(*device, &sample);
+    return 1;
+}
+
+TEST(a_device_that_is_lost_is_told_of_once_and_not_served_any_more) {
+    knurl_device *device = stub_open("touch");
+    device->max_speed = 100.0;
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    assert_int_equal(device->driver->serve(device, count_calls, &device), KNURL_OK);
+    stub.turn(10);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
+    stub.turn(50);
+    assert_true(device->max_speed == 112.0); /* the frame that failed, and the call that tells */
+    assert_int_equal(stub_events(device, KNURL_FAULT_LOST, NULL), 1);
+    assert_true(stub.ask(0, STUB_CALLBACKS) == 0.0);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 0.0);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    stub.turn(10);
+    assert_true(device->max_speed == 122.0);
+    assert_int_equal(stub_events(device, KNURL_FAULT_RECONNECTED, NULL), 1);
+    assert_true(stub.ask(0, STUB_STARTS) == 2.0 && stub.ask(0, STUB_MISUSES) == 0.0);
+    knurl_device_close(device);
+}
+
+TEST(every_error_that_is_a_loss_ends_the_loop) {
+    static const double codes[] = {0x0104, 0x0300, 0x0301, 0x0302, 0x0303, 0x0304};
+    for (size_t i = 0; i < COUNT_OF(codes); i++) {
+        bench b;
+        start(&b, 0);
+        stub.turn(3);
+        stub.set(STUB_DEFAULT, STUB_ERROR, codes[i]);
+        stub.turn(3);
+        stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
+        assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_LOST);
+        assert_int_equal(status_of(b.device).lost, 1);
+        end(&b);
+    }
+}
+
+TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time) {
+    bench b;
+    stub.set(0, STUB_BY_HAND, 0.0);
+    start(&b, 1);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
+    int64_t until = knurl_system_now_ns() + INT64_C(10000000000);
+    while (!status_of(b.device).lost && knurl_system_now_ns() < until) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    assert_int_equal(status_of(b.device).lost, 1);
+    assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_RUNNING);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 0.0);
+    const uint64_t ticks = __atomic_load_n(&b.push.ticks, __ATOMIC_RELAXED);
+    while (__atomic_load_n(&b.push.ticks, __ATOMIC_RELAXED) < ticks + 50 && knurl_system_now_ns() < until) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    assert_true(__atomic_load_n(&b.push.ticks, __ATOMIC_RELAXED) >= ticks + 50);
+    assert_int_equal(status_of(b.device).lost, 0);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_RECONNECTED, NULL), 1);
+    knurl_loop_destroy(b.loop);
+    knurl_device_close(b.device);
+    assert_true(told() == 0.0);
+}
+
+TEST(a_loop_whose_device_is_away_can_be_stopped) {
+    bench b;
+    stub.set(0, STUB_BY_HAND, 0.0);
+    start(&b, 1);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 50000000);
+    knurl_loop_destroy(b.loop);
+    knurl_device_close(b.device);
+    assert_true(told() == 0.0);
+}
+
+TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever) {
+    bench b;
+    stub.set(0, STUB_BY_HAND, 0.0);
+    start(&b, 0);
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000);
+    stub.set(0, STUB_STALL, 1.0);
+    const int64_t from = knurl_system_now_ns();
+    knurl_loop_stop(b.loop); /* while it stands */
+    assert_true(knurl_system_now_ns() - from < INT64_C(10000000000));
+    assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_LOST);
+    knurl_loop_destroy(b.loop);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_LOST, NULL), 1);
+    const uint64_t ticks = b.push.ticks;
+    stub.set(0, STUB_STALL, 0.0); /* and goes on when the loop is no more */
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000);
+    assert_int_equal(b.push.ticks, ticks);
+    knurl_device_close(b.device);
+}
+
+static void dream_once(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    if (tick == 10) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + INT64_C(1300000000));
+    }
+    stub_push_force(tick, sample, force, user);
+}
+
+TEST(a_tick_that_takes_longer_than_a_second_is_no_loss) {
+    knurl_loop *loop = NULL;
+    stub_push push = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0};
+    stub.set(0, STUB_BY_HAND, 0.0);
+    knurl_device *device = stub_open("touch");
+    knurl_loop_desc desc = stub_loop_desc(device, &push);
+    desc.force_callback = dream_once;
+    desc.tick_limit = 50;
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    assert_int_equal(knurl_loop_wait(loop, 15.0), 1);
+    assert_int_equal(stub_loop_state(loop), KNURL_LOOP_DONE);
+    knurl_loop_destroy(loop);
+    assert_int_equal(stub_events(device, KNURL_FAULT_LOST, NULL), 0);
+    assert_int_equal(push.ticks, 50);
+    knurl_device_close(device);
+}
+
+/* --- refusals and other errors --- */
+
+TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go) {
+    static const double codes[] = {0x0200, 0x0201, 0x0202, 0x0203, 0x0204};
+    for (size_t i = 0; i < COUNT_OF(codes); i++) {
+        bench b;
+        double value = 0.0;
+        start(&b, 0);
+        stub.turn(5);
+        assert_true(told() == 1.0);
+        stub.set(STUB_DEFAULT, STUB_ERROR, codes[i]);
+        stub.turn(2);
+        assert_true(told() == 0.0);
+        stub.turn(500);
+        assert_int_equal(stub_events(b.device, KNURL_FAULT_REFUSED, &value), 1);
+        CHECK_SAME(value, codes[i]);
+        assert_true(told() == 0.0 && status_of(b.device).halted == 1 && status_of(b.device).lost == 0);
+        stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
+        stub.turn(99);
+        assert_true(told() == 0.0);
+        stub.turn(60);
+        CHECK_CLOSE(told(), 1.0, 1e-12);
+        assert_int_equal(stub_events(b.device, KNURL_FAULT_RESUMED, NULL), 1);
+        end(&b);
+    }
+}
+
+TEST(other_errors_are_counted_and_nothing_else) {
+    bench b;
+    start(&b, 0);
+    stub.turn(5);
+    const uint64_t before = status_of(b.device).bad_bytes;
+    stub.set(STUB_DEFAULT, STUB_ERROR, 0x0100);
+    stub.turn(20);
+    stub.set(STUB_DEFAULT, STUB_ERROR, 0x0abc);
+    stub.turn(20);
+    stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
+    assert_int_equal(status_of(b.device).bad_bytes - before, 40);
+    knurl_device_event event;
+    while (knurl_device_next_event(b.device, &event)) {
+        assert_int_equal(event.code, KNURL_FAULT_OVERRUN); /* of turns by hand, at any pace */
+    }
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST(errors_without_end_do_not_hold_up_the_servo_thread) {
+    bench b;
+    start(&b, 0);
+    stub.turn(5);
+    stub.set(STUB_DEFAULT, STUB_ERRORS, -1.0);
+    stub.set(STUB_DEFAULT, STUB_ERROR, 0x0100);
+    stub.turn(100);
+    stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
+    stub.set(STUB_DEFAULT, STUB_ERRORS, 0.0);
+    assert_true(stub.ask(0, STUB_ERRORS_TAKEN) <= 2.0 * 16.0);
+    assert_true(b.push.ticks >= 105);
+    end(&b);
+}
+
+/* --- positions --- */
+
+TEST(positions_that_are_no_numbers_let_go_until_they_are_again) {
+    bench b;
+    start(&b, 0);
+    stub.turn(10);
+    stub.set(STUB_DEFAULT, STUB_NAN, 1.0);
+    stub.turn(1);
+    assert_true(told() == 0.0);
+    stub.turn(50);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_NOT_FINITE, NULL), 1);
+    stub.set(STUB_DEFAULT, STUB_NAN, 0.0);
+    stub.turn(60);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST(a_position_that_jumps_lets_go_until_it_is_believed) {
+    bench b;
+    start(&b, 0);
+    stub.turn(10);
+    stub.set(STUB_DEFAULT, STUB_JUMP, 0.05);
+    stub.turn(1);
+    assert_true(told() == 0.0);
+    double value = 0.0;
+    stub.turn(60);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_JUMP, &value), 1);
+    CHECK_CLOSE(value, 0.05, 0.001);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+/* --- calibration --- */
+
+TEST(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style) {
+    bench b;
+    stub.set(STUB_DEFAULT, STUB_STYLE, 2.0); /* automatic */
+    stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
+    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);
+    start(&b, 0);
+    stub.turn(250);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 1.0);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_LAST_STYLE) == 2.0);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 0);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell) {
+    bench b;
+    stub.set(STUB_DEFAULT, STUB_STYLE, 4.0); /* inkwell */
+    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5002);
+    start(&b, 0);
+    stub.turn(350);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 1);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) == 0.0);
+    assert_int_equal(b.push.ticks, 0);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 0.0); /* a person has to do something first */
+    stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
+    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001); /* it is in */
+    stub.turn(150);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 1.0);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST(the_calibration_is_looked_at_every_100_ticks) {
+    bench b;
+    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);
+    start(&b, 0);
+    stub.turn(1000);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 10.0);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 1);
+    end(&b);
+}
+
+/* --- nonsense --- */
+
+typedef struct echo {
+    knurl_device *device;
+    uint64_t calls, felt;
+} echo;
+
+static uint32_t play_echo(void *argument) {
+    echo *e = argument;
+    knurl_device_sample sample;
+    double force[3];
+    e->calls++;
+    if (knurl_device_read(e->device, &sample) == KNURL_OK) {
+        e->felt++;
+        for (int axis = 0; axis < 3; axis++) {
+            force[axis] = -500.0 * sample.position[axis]; /* up to infinity */
+        }
+        knurl_device_release_halt(e->device);
+        (void)knurl_device_write(e->device, force);
+    }
+    return 1;
+}
+
+TEST(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great) {
+    echo e = {stub_open("touch"), 0, 0};
+    e.device->max_speed = 0.0; /* so that jumps do not hold the force back */
+    stub.set(STUB_DEFAULT, STUB_RANDOM, 1.0);
+    assert_int_equal(knurl_device_start(e.device, 1000.0), KNURL_OK);
+    assert_int_equal(e.device->driver->serve(e.device, play_echo, &e), KNURL_OK);
+    stub.turn(250000); /* 3 positions, buttons and 1.5 errors each */
+    assert_int_equal(e.calls, 250000);
+    assert_true(e.felt > 10000);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_BAD) == 0.0);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) > 3.0 && stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) <= 3.3 + 1e-9);
+    stub.set(STUB_DEFAULT, STUB_RANDOM, 0.0);
+    knurl_device_close(e.device);
+}
+
+/* --- the double that the table of faults uses --- */
+
+TEST(the_double_plays_and_each_of_its_faults_makes_it_limp) {
+    for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
+        if (!(touch_double.faults & 1u << fault)) {
+            continue;
+        }
+        bench b;
+        memset(&b, 0, sizeof b);
+        b.push.force[1] = 0.5;
+        b.device = touch_double.open();
+        assert_non_null(b.device);
+        const knurl_loop_desc desc = stub_loop_desc(b.device, &b.push);
+        b.loop = stub_loop(&desc);
+        const int64_t until = knurl_system_now_ns() + INT64_C(10000000000);
+        while (touch_double.limp_since() && knurl_system_now_ns() < until) {
+            knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+        }
+        assert_int_equal(touch_double.limp_since(), 0);
+        touch_double.inject(fault);
+        while (!touch_double.limp_since() && knurl_system_now_ns() < until) {
+            knurl_system_sleep_until_ns(knurl_system_now_ns() + 100000);
+        }
+        assert_true(knurl_system_now_ns() < until);
+        touch_double.inject(DOUBLE_WELL);
+        knurl_loop_destroy(b.loop);
+        touch_double.close(b.device);
+    }
+}
+
+int main(void) {
+#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
+    const struct CMUnitTest tests[] = {
+        BENCH_TEST(a_device_that_is_lost_is_told_of_once_and_not_served_any_more),
+        BENCH_TEST(every_error_that_is_a_loss_ends_the_loop),
+        BENCH_TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time),
+        BENCH_TEST(a_loop_whose_device_is_away_can_be_stopped),
+        BENCH_TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever),
+        BENCH_TEST(a_tick_that_takes_longer_than_a_second_is_no_loss),
+        BENCH_TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go),
+        BENCH_TEST(other_errors_are_counted_and_nothing_else),
+        BENCH_TEST(errors_without_end_do_not_hold_up_the_servo_thread),
+        BENCH_TEST(positions_that_are_no_numbers_let_go_until_they_are_again),
+        BENCH_TEST(a_position_that_jumps_lets_go_until_it_is_believed),
+        BENCH_TEST(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style),
+        BENCH_TEST(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell),
+        BENCH_TEST(the_calibration_is_looked_at_every_100_ticks),
+        BENCH_TEST(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great),
+        BENCH_TEST(the_double_plays_and_each_of_its_faults_makes_it_limp),
+    };
+    return cmocka_run_group_tests(tests, stub_load, stub_unload);
+}

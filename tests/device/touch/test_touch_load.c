@@ -1,0 +1,193 @@
+/* Finding the HD library: what is told when it cannot be had, and how long it stays. SPDX-License-Identifier: MIT */
+#include "device/touch/stub.h"
+
+#include "device/touch/hd_load.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+
+/* 1 while the stub is in memory. */
+static int is_loaded(const char *path) {
+    void *found = dlopen(path, RTLD_NOW | RTLD_NOLOAD);
+    if (found) {
+        (void)dlclose(found);
+    }
+    return found != NULL;
+}
+
+static void check_refused_uri(const char *uri, knurl_result code, const char *const *words, size_t count) {
+    knurl_device *device = NULL;
+    CHECK_REFUSED(knurl_device_open(uri, &device), code, device);
+    for (size_t i = 0; i < count; i++) {
+        check_message(words[i]);
+    }
+    assert_true(strlen(knurl_error_message()) < 1000); /* nothing of it is cut off */
+}
+
+static void write_bytes(const char *path, const void *bytes, size_t size) {
+    FILE *file = fopen(path, "wb");
+    if (!file) {
+        fail_msg("%s cannot be written", path);
+        return;
+    }
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+TEST(without_a_library_every_place_that_was_tried_is_told_and_what_helps) {
+    static const char *const words[] = {"libHD.so (",       "libHD.so.3.4 (", "libHD.so.3.0 (",
+                                        "No such file",     "OpenHaptics",    "device driver",
+                                        "KNURL_HD_LIBRARY", "?library=",      "GTDD_HOME"};
+    assert_int_equal(unsetenv("KNURL_HD_LIBRARY"), 0);
+    check_refused_uri("touch", KNURL_ERROR_UNSUPPORTED, words, COUNT_OF(words));
+}
+
+TEST(a_library_that_is_named_is_the_only_one_that_is_tried) {
+    static const char *const words[] = {"/nowhere/libHD.so (", "No such file", "KNURL_HD_LIBRARY names it"};
+    static const char *const other[] = {"/elsewhere/libHD.so (", "No such file"};
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", "/nowhere/libHD.so", 1), 0);
+    check_refused_uri("touch", KNURL_ERROR_UNSUPPORTED, words, COUNT_OF(words));
+    assert_null(strstr(knurl_error_message(), "libHD.so.3.4"));
+    check_refused_uri("touch:?library=/elsewhere/libHD.so", KNURL_ERROR_UNSUPPORTED, other, COUNT_OF(other));
+    assert_null(strstr(knurl_error_message(), "/nowhere"));
+}
+
+TEST(the_library_that_a_library_needs_and_lacks_shows_through) {
+    static const char *const words[] = {"libPhantomIOLib42.so", "OpenHaptics"};
+    check_refused_uri("touch:?library=" KNURL_TEST_STUB_ALONE, KNURL_ERROR_UNSUPPORTED, words, COUNT_OF(words));
+}
+
+TEST(a_function_that_is_missing_is_named_and_nothing_stays_loaded) {
+    static const char *const words[] = {"hdCheckCalibration,", "too old"};
+    check_refused_uri("touch:?library=" KNURL_TEST_STUB_OLD, KNURL_ERROR_UNSUPPORTED, words, COUNT_OF(words));
+    assert_false(is_loaded(KNURL_TEST_STUB_OLD));
+}
+
+TEST(a_library_for_other_machines_and_a_file_that_is_none_are_told) {
+    static const char *const narrow[] = {"wrong ELF class", "ELFCLASS32"};
+    static const char *const other[] = {"another processor", "machine 8"};
+    static const char *const none[] = {"invalid ELF header"};
+    unsigned char bytes[4096];
+    FILE *file = fopen(KNURL_TEST_STUB, "rb");
+    if (!file) {
+        fail_msg("%s cannot be read", KNURL_TEST_STUB);
+        return;
+    }
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
+    assert_int_equal(fclose(file), 0);
+    bytes[4] = 1; /* EI_CLASS: 32 bits */
+    write_bytes(KNURL_TEST_TMP "/libHD_32.so", bytes, sizeof bytes);
+    check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_32.so", KNURL_ERROR_UNSUPPORTED, narrow,
+                      COUNT_OF(narrow));
+    bytes[4] = 2;  /* 64 bits again */
+    bytes[18] = 8; /* EM_MIPS */
+    bytes[19] = 0;
+    write_bytes(KNURL_TEST_TMP "/libHD_mips.so", bytes, sizeof bytes);
+    check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_mips.so", KNURL_ERROR_UNSUPPORTED, other,
+                      COUNT_OF(other));
+    memset(bytes, '#', sizeof bytes);
+    write_bytes(KNURL_TEST_TMP "/libHD_text.so", bytes, sizeof bytes);
+    check_refused_uri("touch:?library=" KNURL_TEST_TMP "/libHD_text.so", KNURL_ERROR_UNSUPPORTED, none, COUNT_OF(none));
+    assert_int_equal(remove(KNURL_TEST_TMP "/libHD_32.so"), 0);
+    assert_int_equal(remove(KNURL_TEST_TMP "/libHD_mips.so"), 0);
+    assert_int_equal(remove(KNURL_TEST_TMP "/libHD_text.so"), 0);
+}
+
+TEST(two_devices_share_the_library_and_the_last_one_unloads_it) {
+    knurl_device *second = NULL;
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    assert_false(is_loaded(KNURL_TEST_STUB));
+    knurl_device *left = stub_open("touch:Left Device");
+    knurl_device *right = stub_open("touch:Right Device?library=" KNURL_TEST_STUB);
+    CHECK_REFUSED(knurl_device_open("touch:?library=/elsewhere/libHD.so", &second), KNURL_ERROR_ARGUMENT, second);
+    check_message("share one");
+    knurl_device_close(left);
+    assert_true(is_loaded(KNURL_TEST_STUB));
+    knurl_device_close(right);
+    assert_false(is_loaded(KNURL_TEST_STUB));
+}
+
+TEST(a_device_that_cannot_be_opened_leaves_no_library_behind) {
+    static const char *const words[] = {"Nobody's Device", "0x0302", "70-knurl.rules", "Touch_AdvancedConfig"};
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    check_refused_uri("touch:Nobody's Device", KNURL_ERROR_DEVICE_LOST, words, COUNT_OF(words));
+    assert_false(is_loaded(KNURL_TEST_STUB));
+}
+
+static int refuses_memory;
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuses_memory ? NULL : __real_calloc(count, size);
+}
+
+TEST(without_memory_nothing_is_opened_and_nothing_left_behind) {
+    static const char *const words[] = {"touch", "bytes"};
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    refuses_memory = 1;
+    check_refused_uri("touch", KNURL_ERROR_MEMORY, words, COUNT_OF(words));
+    refuses_memory = 0;
+    assert_false(is_loaded(KNURL_TEST_STUB));
+}
+
+TEST(a_uri_with_a_key_that_is_none_is_refused) {
+    static const char *const words[] = {"touch", "library=", "rate=1000"};
+    check_refused_uri("touch:?rate=1000", KNURL_ERROR_ARGUMENT, words, COUNT_OF(words));
+}
+
+/* --- the listing --- */
+
+static knurl_device_listing listing_of_touch(void) {
+    static knurl_device_listing all[16];
+    const uint32_t count = knurl_device_list(all, COUNT_OF(all));
+    for (uint32_t i = 0; i < count && i < COUNT_OF(all); i++) {
+        if (strncmp(all[i].uri, "touch", 5) == 0) {
+            return all[i];
+        }
+    }
+    fail_msg("no Touch is listed");
+    return all[0];
+}
+
+TEST(the_listing_says_why_there_is_none_or_what_there_is) {
+    assert_int_equal(unsetenv("KNURL_HD_LIBRARY"), 0);
+    knurl_device_listing found = listing_of_touch();
+    assert_string_equal(found.uri, "touch");
+    assert_non_null(strstr(found.reason, "libHD.so"));
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    found = listing_of_touch();
+    assert_string_equal(found.reason, "");
+    assert_string_equal(found.name, "3D Systems Touch (Touch of straw, HD 3.4.0, driver 2023.11)");
+    assert_int_equal(setenv("KNURL_STUB_HD", "absent", 1), 0);
+    found = listing_of_touch();
+    assert_non_null(strstr(found.reason, "0x0302"));
+    assert_int_equal(unsetenv("KNURL_STUB_HD"), 0);
+    assert_false(is_loaded(KNURL_TEST_STUB));
+}
+
+TEST(a_device_that_this_program_has_open_is_listed_as_in_use) {
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    knurl_device *left = stub_open("touch:Left Device");
+    const knurl_device_listing found = listing_of_touch();
+    assert_string_equal(found.uri, "touch:Left Device");
+    assert_non_null(strstr(found.reason, "in use"));
+    knurl_device_close(left);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_a_library_every_place_that_was_tried_is_told_and_what_helps),
+        cmocka_unit_test(a_library_that_is_named_is_the_only_one_that_is_tried),
+        cmocka_unit_test(the_library_that_a_library_needs_and_lacks_shows_through),
+        cmocka_unit_test(a_function_that_is_missing_is_named_and_nothing_stays_loaded),
+        cmocka_unit_test(a_library_for_other_machines_and_a_file_that_is_none_are_told),
+        cmocka_unit_test(two_devices_share_the_library_and_the_last_one_unloads_it),
+        cmocka_unit_test(a_device_that_cannot_be_opened_leaves_no_library_behind),
+        cmocka_unit_test(without_memory_nothing_is_opened_and_nothing_left_behind),
+        cmocka_unit_test(a_uri_with_a_key_that_is_none_is_refused),
+        cmocka_unit_test(the_listing_says_why_there_is_none_or_what_there_is),
+        cmocka_unit_test(a_device_that_this_program_has_open_is_listed_as_in_use),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

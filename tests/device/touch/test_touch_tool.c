@@ -1,0 +1,116 @@
+/* Programs on a Touch: the tool and the sample, over the stub and without any library. SPDX-License-Identifier: MIT */
+#include "support/tool.h"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+#define RUN_SAMPLE(...) run_tool((const char *const[]){KNURL_TEST_SAMPLE, __VA_ARGS__, NULL})
+
+static int use_stub(void **state) {
+    (void)state;
+    (void)unsetenv("KNURL_STUB_HD");
+    return setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1);
+}
+
+static int use_none(void **state) {
+    (void)state;
+    return unsetenv("KNURL_HD_LIBRARY");
+}
+
+/* --- the tool --- */
+
+TEST(the_tool_feels_the_demo_plate_on_a_touch) {
+    process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "2", "--method", "S2");
+    if (p.exit_code != 0) {
+        fail_msg("exit %d, signal %d: %s", p.exit_code, p.signal, p.err);
+    }
+    assert_non_null(strstr(p.out, "3D Systems Touch"));
+    assert_true(json_number_of(p.out, "contact_s") > 1.0);
+    assert_true(json_number_of(p.out, "events") > 20.0);
+    assert_true(json_number_of(p.out, "force_max_n") > 0.05 && json_number_of(p.out, "force_max_n") <= 3.3);
+    process_free(&p);
+}
+
+TEST(the_tool_says_so_when_the_touch_gets_lost) {
+    assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
+    process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "5");
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "the device was lost"));
+    process_free(&p);
+}
+
+TEST(without_a_library_the_tool_says_what_helps) {
+    process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "2");
+    check_refused(&p, 1, "touch|libHD.so|OpenHaptics|KNURL_HD_LIBRARY", "run --device touch");
+}
+
+/* --- the sample --- */
+
+static process start_sample(const char *uri) {
+    return process_start((const char *const[]){KNURL_TEST_SAMPLE, "--seconds", "1.9", uri, NULL}, NULL);
+}
+
+static void check_sample(process *p) {
+    process_finish(p);
+    if (p->exit_code != 0) {
+        fail_msg("exit %d, signal %d: %s", p->exit_code, p->signal, p->err);
+    }
+    assert_non_null(strstr(p->out, "grating 0.5 mm"));
+    assert_non_null(strstr(p->out, "grating 1 mm"));
+    assert_non_null(strstr(p->out, "grating 2 mm"));
+    assert_null(strstr(p->out, "lost"));
+    process_free(p);
+}
+
+TEST(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device) {
+    process touch = start_sample("touch");
+    process fake = start_sample("fake");
+    check_sample(&touch);
+    check_sample(&fake);
+}
+
+TEST(the_sample_tells_faults_as_they_come_and_waits_for_the_device) {
+    assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
+    process p = RUN_SAMPLE("--seconds", "1");
+    assert_non_null(strstr(p.out, "lost: "));
+    assert_non_null(strstr(p.out, "reconnected: ")); /* the stub's cable is plugged in again at once */
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+}
+
+TEST(the_sample_stops_at_ctrl_c) {
+    process p = process_start((const char *const[]){KNURL_TEST_SAMPLE, "touch", NULL}, NULL);
+    const struct timespec nap = {0, 500000000};
+    (void)nanosleep(&nap, NULL);
+    assert_int_equal(kill(p.pid, SIGINT), 0);
+    process_finish(&p);
+    assert_int_equal(p.signal, 0);
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+}
+
+TEST(the_sample_helps_and_refuses) {
+    process p = RUN_SAMPLE("--help");
+    assert_int_equal(p.exit_code, 0);
+    assert_non_null(strstr(p.out, "--seconds"));
+    process_free(&p);
+    p = RUN_SAMPLE("--seconds", "-1");
+    assert_int_equal(p.exit_code, 2);
+    process_free(&p);
+    p = RUN_SAMPLE("--seconds", "1");
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "libHD.so"));
+    process_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(the_tool_feels_the_demo_plate_on_a_touch, use_stub),
+        cmocka_unit_test_setup(the_tool_says_so_when_the_touch_gets_lost, use_stub),
+        cmocka_unit_test_setup(without_a_library_the_tool_says_what_helps, use_none),
+        cmocka_unit_test_setup(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device, use_stub),
+        cmocka_unit_test_setup(the_sample_tells_faults_as_they_come_and_waits_for_the_device, use_stub),
+        cmocka_unit_test_setup(the_sample_stops_at_ctrl_c, use_stub),
+        cmocka_unit_test_setup(the_sample_helps_and_refuses, use_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

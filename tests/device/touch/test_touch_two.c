@@ -1,0 +1,171 @@
+/* Two Touches at once: HD has one scheduler and one stack of errors for both. SPDX-License-Identifier: MIT */
+#include "device/touch/stub.h"
+
+typedef struct hand {
+    knurl_device *device;
+    stub_push push;
+    knurl_loop *loop;
+} hand;
+
+static void start(hand *h, const char *uri, double force) {
+    memset(h, 0, sizeof *h);
+    h->push.force[1] = force;
+    h->device = stub_open(uri);
+    const knurl_loop_desc desc = stub_loop_desc(h->device, &h->push);
+    h->loop = stub_loop(&desc);
+}
+
+static void end(hand *h) {
+    stub_end_loop(h->loop);
+    knurl_device_close(h->device);
+}
+
+TEST(each_device_gets_its_own_force_from_one_scheduler) {
+    hand left;
+    hand right;
+    start(&left, "touch:Left Device", 1.0);
+    start(&right, "touch:Right Device", 2.0);
+    stub.turn(50);
+    assert_true(stub.ask(0, STUB_STARTS) == 1.0);
+    assert_int_equal(left.push.ticks, 50);
+    assert_int_equal(right.push.ticks, 50);
+    CHECK_CLOSE(stub.ask(STUB_LEFT, STUB_TOLD), 1.0, 1e-12);
+    CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
+    end(&left);
+    assert_true(stub.ask(0, STUB_RUNNING) == 1.0);
+    const uint64_t before = right.push.ticks;
+    stub.turn(10);
+    assert_int_equal(right.push.ticks, before + 10);
+    assert_true(stub.ask(STUB_LEFT, STUB_TOLD) == 0.0);
+    end(&right);
+    assert_true(stub.ask(0, STUB_RUNNING) == 0.0);
+}
+
+TEST(each_device_gives_its_own_position) {
+    hand left;
+    hand right;
+    stub.set(STUB_RIGHT, STUB_JUMP, 0.02);
+    start(&left, "touch:Left Device", 0.0);
+    start(&right, "touch:Right Device", 0.0);
+    stub.turn(100);
+    CHECK_CLOSE(right.push.from[0] - left.push.from[0], 0.02, 1e-9); /* the same stroke, 20 mm aside */
+    end(&left);
+    end(&right);
+}
+
+TEST(one_that_is_lost_leaves_the_other_as_it_is) {
+    hand left;
+    hand right;
+    start(&left, "touch:Left Device", 1.0);
+    start(&right, "touch:Right Device", 2.0);
+    stub.turn(10);
+    stub.set(STUB_LEFT, STUB_ABSENT, 1.0);
+    stub.turn(20);
+    assert_int_equal(stub_loop_state(left.loop), KNURL_LOOP_LOST);
+    assert_int_equal(stub_events(left.device, KNURL_FAULT_LOST, NULL), 1);
+    assert_int_equal(right.push.ticks, 30);
+    CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
+    assert_int_equal(stub_events(right.device, KNURL_FAULT_LOST, NULL), 0);
+    end(&left);
+    end(&right);
+}
+
+/* More errors than one look takes away: the rest turns up in the other's frame. */
+TEST(an_error_is_blamed_on_the_device_that_it_is_about) {
+    hand left;
+    hand right;
+    start(&left, "touch:Left Device", 1.0);
+    start(&right, "touch:Right Device", 2.0);
+    stub.turn(10);
+    stub.set(STUB_LEFT, STUB_ERRORS, 40.0);
+    stub.set(STUB_LEFT, STUB_ERROR, 0x0200);
+    stub.turn(3);
+    stub.set(STUB_LEFT, STUB_ERROR, 0.0);
+    assert_int_equal(stub_events(left.device, KNURL_FAULT_REFUSED, NULL), 1);
+    assert_int_equal(stub_events(right.device, KNURL_FAULT_REFUSED, NULL), 0);
+    assert_int_equal(right.push.ticks, 13);
+    CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
+    end(&left);
+    end(&right);
+}
+
+TEST(a_device_is_opened_once) {
+    knurl_device *second = NULL;
+    knurl_device *first = stub_open("touch");
+    CHECK_REFUSED(knurl_device_open("touch", &second), KNURL_ERROR_SYSTEM, second);
+    check_message("in use");
+    CHECK_REFUSED(knurl_device_open("touch:Default Device", &second), KNURL_ERROR_SYSTEM, second);
+    assert_true(stub.ask(STUB_DEFAULT, STUB_INITIALISED) == 1.0);
+    knurl_device_close(first);
+}
+
+TEST(two_loops_run_at_one_rate) {
+    hand left;
+    start(&left, "touch:Left Device", 1.0);
+    knurl_device *right = stub_open("touch:Right Device");
+    (void)knurl_fail(KNURL_OK, "stale message");
+    assert_int_equal(knurl_device_start(right, 500.0), KNURL_ERROR_UNSUPPORTED);
+    check_message("one scheduler");
+    assert_true(stub.ask(0, STUB_RATE) == 1000.0);
+    end(&left);
+    assert_int_equal(knurl_device_start(right, 500.0), KNURL_OK); /* nobody else runs any more */
+    knurl_device_close(right);
+}
+
+TEST(a_current_device_that_another_thread_changes_mixes_nothing_up) {
+    hand left;
+    hand right;
+    stub.set(STUB_RIGHT, STUB_JUMP, 0.02);
+    start(&left, "touch:Left Device", 1.0);
+    start(&right, "touch:Right Device", 2.0);
+    stub.set(0, STUB_DRIFTS, 1.0);
+    stub.turn(50);
+    CHECK_CLOSE(right.push.from[0] - left.push.from[0], 0.02, 0.001);
+    CHECK_CLOSE(stub.ask(STUB_LEFT, STUB_TOLD), 1.0, 1e-12);
+    CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
+    stub.set(0, STUB_DRIFTS, 0.0);
+    end(&left);
+    end(&right);
+}
+
+/* In real time, opened and closed while the other runs: for ThreadSanitizer, too. HD has one current device. */
+TEST(one_comes_and_goes_while_the_other_runs) {
+    hand left;
+    stub.set(0, STUB_BY_HAND, 0.0);
+    stub.set(STUB_RIGHT, STUB_JUMP, 0.05); /* so that whose position it is can be told */
+    start(&left, "touch:Left Device", 1.0);
+    stub.set(0, STUB_DAWDLES, 1.0);
+    for (int turn = 0; turn < 5; turn++) {
+        hand right;
+        start(&right, "touch:Right Device", 0.5);
+        for (int waits = 0; waits < 5000 && __atomic_load_n(&right.push.ticks, __ATOMIC_RELAXED) < 20; waits++) {
+            knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+        }
+        assert_true(__atomic_load_n(&right.push.ticks, __ATOMIC_RELAXED) >= 20);
+        CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD_MOST), 0.5, 1e-12); /* its force output was switched on */
+        knurl_loop_stop(right.loop);
+        assert_int_equal(stub_loop_state(right.loop), KNURL_LOOP_DONE);
+        knurl_loop_destroy(right.loop);
+        knurl_device_close(right.device);
+        assert_true(stub.ask(STUB_RIGHT, STUB_TOLD) == 0.0);
+        assert_int_equal(stub_loop_state(left.loop), KNURL_LOOP_RUNNING);
+    }
+    knurl_loop_destroy(left.loop);
+    assert_int_equal(stub_events(left.device, KNURL_FAULT_JUMP, NULL), 0);
+    knurl_device_close(left.device);
+}
+
+int main(void) {
+#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
+    const struct CMUnitTest tests[] = {
+        BENCH_TEST(each_device_gets_its_own_force_from_one_scheduler),
+        BENCH_TEST(each_device_gives_its_own_position),
+        BENCH_TEST(one_that_is_lost_leaves_the_other_as_it_is),
+        BENCH_TEST(an_error_is_blamed_on_the_device_that_it_is_about),
+        BENCH_TEST(a_device_is_opened_once),
+        BENCH_TEST(two_loops_run_at_one_rate),
+        BENCH_TEST(a_current_device_that_another_thread_changes_mixes_nothing_up),
+        BENCH_TEST(one_comes_and_goes_while_the_other_runs),
+    };
+    return cmocka_run_group_tests(tests, stub_load, stub_unload);
+}
