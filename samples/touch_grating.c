@@ -73,7 +73,6 @@ static knurl_result start(sample *s, const char *uri, double seconds) {
     knurl_loop_desc_init(&desc, sizeof desc);
     knurl_result result = build_scene(s);
     result = result ? result : knurl_device_open(uri, &s->device);
-    result = result ? result : knurl_device_let_go_on_crash();
     desc.scene = s->scene;
     desc.device = s->device;
     desc.reconnect = 1; /* a cable that was pulled may be plugged in again */
@@ -137,6 +136,7 @@ int main(int argc, char **argv) {
         }
     }
     sample s = {0};
+    (void)knurl_device_let_go_on_crash(); /* before the handler of ours, with which Ctrl-C ends by the ramp */
     (void)signal(SIGINT, on_interrupt);
     const int failed = start(&s, uri, seconds) != KNURL_OK;
     while (!failed && !interrupted && !knurl_loop_wait(s.loop, 0.1)) {
