@@ -1,0 +1,584 @@
+/* The raw HID driver over a simulated bus and device, in real time. What is checked is what must come in the end or
+ * must never be, not how promptly the machine runs a thread. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/double.h"
+
+#include "base/vec3.h"
+#include "device/rawhid/choose.h"
+#include "device/rawhid/fake_hid.h"
+#include "device/rawhid/kinematics.h"
+#include "device/rawhid/rawhid.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static fake_hid hid;
+static knurl_device *device;
+
+static void sleep_s(double s) {
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(s * 1e9));
+}
+
+static void open_device(const char *options) {
+    const knurl_result result = knurl_rawhid_open(options, &hid.bus, &device);
+    if (result) {
+        print_error("rawhid:%s: %s\n", options, knurl_error_message());
+    }
+    assert_int_equal(result, KNURL_OK);
+}
+
+static int set_up(void **state) {
+    (void)state;
+    fake_hid_init(&hid, 64, NULL);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    knurl_device_close(device);
+    device = NULL;
+    assert_int_equal(hid.opened, hid.closed);
+    fake_hid_destroy(&hid);
+    return 0;
+}
+
+/* What must leave the output alone. */
+typedef struct opened {
+    knurl_device *device;
+} opened;
+
+static void check_open_refused(const char *options, knurl_result code, const char *words) {
+    opened out = {NULL};
+    CHECK_REFUSED(knurl_rawhid_open(options, &hid.bus, &out.device), code, out);
+    check_message(words);
+    assert_int_equal(hid.opened, hid.closed);
+}
+
+/* Ticks as a loop does, 1 kHz or slower, writing `force`, until `result` comes. */
+static int tick_until(knurl_result result, const double force[3], double seconds, knurl_device_sample *sample) {
+    const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
+    do {
+        if (knurl_device_read(device, sample) == result) {
+            return 1;
+        }
+        (void)knurl_device_write(device, force);
+        sleep_s(0.001);
+    } while (knurl_system_now_ns() < until);
+    return 0;
+}
+
+static const double none[3] = {0.0, 0.0, 0.0};
+
+static knurl_device_sample wait_for_position(void) {
+    knurl_device_sample sample;
+    assert_true(tick_until(KNURL_OK, none, 5.0, &sample));
+    return sample;
+}
+
+/* Ticks for a time. */
+static void tick_for(double seconds, const double force[3]) {
+    knurl_device_sample sample;
+    (void)tick_until(1, force, seconds, &sample);
+}
+
+static void wait_for_event(int32_t code) {
+    knurl_device_event event;
+    const int64_t until = knurl_system_now_ns() + 5000000000;
+    while (knurl_system_now_ns() < until) {
+        while (knurl_device_next_event(device, &event)) {
+            if (event.code == code) {
+                return;
+            }
+        }
+        tick_for(0.002, none);
+    }
+    fail_msg("no event '%s'", knurl_fault_name(code));
+}
+
+static uint32_t events_of(int32_t code) {
+    knurl_device_event event;
+    uint32_t count = 0;
+    while (knurl_device_next_event(device, &event)) {
+        count += event.code == code;
+    }
+    return count;
+}
+
+static void wait_until_limp(void) {
+    const int64_t until = knurl_system_now_ns() + 5000000000;
+    while (fake_hid_limp_since(&hid) == 0 && knurl_system_now_ns() < until) {
+        sleep_s(0.001);
+    }
+    assert_true(fake_hid_limp_since(&hid) != 0);
+}
+
+static void check_let_go(int fault, int32_t code) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    knurl_device_sample sample;
+    open_device("");
+    (void)wait_for_position();
+    tick_for(0.05, force);
+    fake_hid_inject(&hid, fault);
+    assert_true(tick_until(KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    wait_until_limp();
+    wait_for_event(code);
+}
+
+/* Everything well again: positions come, and the force too, once a halt is released. */
+static void check_recovers(void) {
+    fake_hid_inject(&hid, DOUBLE_WELL);
+    (void)wait_for_position();
+}
+
+/* --- opening --- */
+
+TEST(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is) {
+    static const size_t lengths[2] = {14, 64};
+    for (int i = 0; i < 2; i++) {
+        fake_hid_destroy(&hid);
+        fake_hid_init(&hid, lengths[i], NULL);
+        open_device("");
+        const knurl_device_sample sample = wait_for_position();
+        assert_true(vec3_length(sample.position) < 0.0003); /* the middle, but for the encoders' steps and friction */
+        assert_int_equal(hid.last_size, lengths[i] + 1);
+        knurl_device_close(device);
+        device = NULL;
+    }
+}
+
+TEST(the_first_reports_carry_no_current_and_no_command) {
+    open_device("");
+    assert_true(hid.written > 0);
+    assert_int_equal(hid.sim.commands, 0);
+    for (size_t i = 0; i < hid.last_size; i++) {
+        assert_int_equal(hid.last[i], 0);
+    }
+}
+
+TEST(it_is_named_by_vendor_and_product) {
+    static const char *const good[] = {"16c0:0486", "16C0:486", "16c0:0486?", "?", "?home=0"};
+    static const char *const bad[] = {"16c0", "16c0:", ":0486", "16c0:00486", "16c0:048g", "0x16c0:0486", "first"};
+    for (size_t i = 0; i < COUNT_OF(good); i++) {
+        open_device(good[i]);
+        knurl_device_close(device);
+        device = NULL;
+    }
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        check_open_refused(bad[i], KNURL_ERROR_ARGUMENT, bad[i]);
+    }
+    check_open_refused("?colour=red", KNURL_ERROR_ARGUMENT, "geometry= or home=");
+    check_open_refused("?home=yes", KNURL_ERROR_ARGUMENT, "'yes'");
+    check_open_refused("?geometry=/nowhere", KNURL_ERROR_IO, "/nowhere");
+}
+
+TEST(of_several_devices_the_one_that_is_named_is_opened) {
+    knurl_rawhid_found other = hid.found[0];
+    knurl_rawhid_geometry geometry;
+    knurl_rawhid_wanted wanted;
+    knurl_rawhid_found chosen;
+    size_t bytes = 0;
+    other.vendor = 0x1234;
+    other.product = 0x0006;
+    other.sizes.in = other.sizes.out = 14;
+    (void)snprintf(other.path, sizeof other.path, "/dev/hidraw1");
+    hid.found[1] = other;
+    hid.found_count = 2;
+    knurl_rawhid_geometry_init(&geometry);
+    assert_int_equal(knurl_rawhid_want("1234:6", &geometry, &wanted), KNURL_OK);
+    assert_int_equal(knurl_rawhid_choose(&hid.bus, &wanted, &chosen, &bytes), KNURL_OK);
+    assert_string_equal(chosen.path, "/dev/hidraw1");
+    assert_int_equal(bytes, 14);
+    assert_int_equal(knurl_rawhid_want("", &geometry, &wanted), KNURL_OK);
+    assert_int_equal(knurl_rawhid_choose(&hid.bus, &wanted, &chosen, &bytes), KNURL_OK);
+    assert_string_equal(chosen.path, "/dev/hidraw0");
+    assert_int_equal(bytes, 64);
+}
+
+TEST(of_a_devices_interfaces_the_one_of_its_usage_is_opened) {
+    hid.found[1] = hid.found[0];
+    hid.found[0].usage_page = 0xffc9; /* a Teensy's emulated serial port */
+    hid.found[0].usage = 4;
+    hid.found_count = 2;
+    open_device("");
+    (void)wait_for_position();
+}
+
+TEST(why_it_cannot_be_opened_is_said_in_a_sentence) {
+    hid.found_count = 0;
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "1234:0006 (mbed) or 16c0:0486 (Teensy) and found none");
+    check_open_refused("beef:1", KNURL_ERROR_DEVICE_LOST, "beef:0001 and found none");
+    hid.found_count = 1;
+    hid.found[0].usage_page = 0xffc9;
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "is of usage ffc9:0200; expected ffab:0200");
+    hid.found[0].usage_page = 0xffab;
+    hid.found[0].sizes.in = hid.found[0].sizes.out = 8;
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "reports are of 8 bytes in and 8 out; expected 14 to 64");
+    hid.found[0].sizes.in = 64;
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "64 bytes in and 8 out");
+    hid.found[0].sizes.out = 64;
+    hid.found[0].is_denied = 1;
+    check_open_refused("", KNURL_ERROR_SYSTEM, "/dev/hidraw0 is denied: copy sdk/udev/70-knurl.rules to");
+    hid.found[0].is_denied = 0;
+    hid.refuses_opening = 1;
+    check_open_refused("", KNURL_ERROR_SYSTEM, "device or resource busy");
+}
+
+TEST(a_device_that_does_not_answer_is_not_opened) {
+    fake_hid_inject(&hid, DOUBLE_MUTE);
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "none within 0.5 s");
+    fake_hid_inject(&hid, DOUBLE_SHORT);
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "175 bytes that make none"); /* 25 times 7 */
+}
+
+TEST(what_it_is_is_told) {
+    knurl_device_info info;
+    open_device("");
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "WoodenHaptics v2015");
+    CHECK_SAME(info.max_force, 5.0);
+    CHECK_SAME(info.max_stiffness, 1000.0);
+    CHECK_SAME(info.max_damping, 8.0);
+    CHECK_SAME(info.native_rate, 1000.0);
+    CHECK_SAME(info.delay, 2.0);
+    CHECK_CLOSE(info.resolution, 0.000101, 1e-6);
+    assert_true(info.continuous_force > 0.0 && info.continuous_force < info.max_force && info.heat_time > 0.0);
+    assert_true(info.mass > 0.0);
+    for (int axis = 0; axis < 3; axis++) { /* a cube whose corners are on a sphere of 100 mm */
+        CHECK_CLOSE(info.workspace_max[axis], 0.1 / sqrt(3.0), 1e-9);
+        CHECK_CLOSE(info.workspace_min[axis], -0.1 / sqrt(3.0), 1e-9);
+    }
+}
+
+TEST(a_geometry_file_makes_it_another_device) {
+    char path[512];
+    char options[600];
+    knurl_device_info info;
+    (void)snprintf(path, sizeof path, "%s/driver_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
+    (void)snprintf(options, sizeof options, "?geometry=%s", path);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fputs("name = mine\nmax_force = 2\nvendor = 0xcafe\nproduct = 0x0001\nhome_on_open = 1\n", file);
+    (void)fclose(file);
+    hid.found[0].vendor = 0xcafe;
+    hid.found[0].product = 1;
+    hid_sim_forget(&hid.sim);
+    open_device(options);
+    (void)remove(path);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "mine");
+    CHECK_SAME(info.max_force, 2.0);
+    assert_true(hid.sim.commands > 0); /* home_on_open */
+}
+
+/* --- homing --- */
+
+TEST(home_1_sets_the_counters_to_the_home_pose) {
+    uint8_t said[HID_SIM_MOST_BYTES];
+    hid_sim_forget(&hid.sim);
+    open_device("?home=1");
+    hid_sim_say(&hid.sim, said);
+    assert_int_equal(hid.sim.commands, 1);
+    for (int i = 0; i < 3; i++) { /* 0, 0, 6000, up to what the hand has moved */
+        const int counts = (int16_t)(said[2 * i] | said[2 * i + 1] << 8);
+        assert_true(abs(counts - (i == 2 ? 6000 : 0)) <= 100);
+    }
+}
+
+TEST(a_device_that_does_not_take_its_counters_is_not_opened) {
+    hid.ignores_commands = 1;
+    check_open_refused("?home=1", KNURL_ERROR_DEVICE_LOST, "homing: expected its encoders at 0, 0, 6000, found 0, 13");
+}
+
+TEST(a_device_that_never_was_homed_gives_no_position_and_gets_no_force) {
+    static const double force[3] = {1.0, 1.0, 1.0};
+    knurl_device_sample sample;
+    hid_sim_forget(&hid.sim);
+    open_device("");
+    wait_for_event(KNURL_FAULT_UNCALIBRATED);
+    assert_false(tick_until(KNURL_OK, force, 0.3, &sample));
+    assert_true(fake_hid_limp_since(&hid) != 0);
+}
+
+TEST(its_button_homes_it_and_positions_come_again_after_a_pause) {
+    open_device("");
+    (void)wait_for_position();
+    assert_int_equal(events_of(KNURL_FAULT_UNCALIBRATED), 0);
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.sim.info = 1;
+    knurl_system_mutex_unlock(&hid.mutex);
+    knurl_device_sample sample;
+    assert_true(tick_until(KNURL_ERROR_DEVICE_NOT_READY, none, 5.0, &sample));
+    wait_for_event(KNURL_FAULT_UNCALIBRATED);
+    sample = wait_for_position();
+    CHECK_CLOSE(sample.position[1], 0.205, 0.005); /* the home pose */
+    CHECK_CLOSE(sample.position[2], 0.025, 0.005);
+}
+
+/* --- forces --- */
+
+TEST(a_force_moves_the_hand_its_way_by_what_the_hand_gives) {
+    static const double forces[6][3] = {{2.0, 0.0, 0.0},  {0.0, 2.0, 0.0},  {0.0, 0.0, 2.0},
+                                        {-2.0, 0.0, 0.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, -2.0}};
+    open_device("");
+    (void)wait_for_position();
+    for (size_t i = 0; i < COUNT_OF(forces); i++) {
+        knurl_device_sample sample;
+        double pushed[3];
+        knurl_device_release_halt(device);
+        tick_for(0.15, forces[i]);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        for (int axis = 0; axis < 3; axis++) { /* 2000 N/m; 0.3 N of friction, and the encoders' steps */
+            CHECK_CLOSE(sample.position[axis], forces[i][axis] / 2000.0, 0.3 / 2000.0 + 0.0002);
+        }
+        knurl_system_mutex_lock(&hid.mutex);
+        hid_sim_push(hid.sim.angles, hid.sim.current, pushed);
+        knurl_system_mutex_unlock(&hid.mutex);
+        vec3_sub(pushed, forces[i], pushed);
+        assert_true(vec3_length(pushed) < 0.02); /* half a milliampere a motor, and the arm a millisecond ago */
+    }
+}
+
+TEST(no_motor_ever_gets_more_than_its_limit) {
+    static const double far[3] = {0.0, 0.0, 100.0}; /* shortened to 5 N, which is 3.1 A of a motor */
+    open_device("");
+    (void)wait_for_position();
+    knurl_device_release_halt(device);
+    tick_for(0.1, far);
+    int greatest = 0;
+    knurl_system_mutex_lock(&hid.mutex);
+    for (int i = 0; i < 3; i++) {
+        greatest = abs(hid.sim.current[i]) > greatest ? abs(hid.sim.current[i]) : greatest;
+    }
+    knurl_system_mutex_unlock(&hid.mutex);
+    assert_int_equal(greatest, 3000);
+}
+
+TEST(closing_leaves_the_motors_without_current) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    open_device("");
+    (void)wait_for_position();
+    knurl_device_release_halt(device);
+    tick_for(0.05, force);
+    assert_true(fake_hid_limp_since(&hid) == 0);
+    knurl_device_close(device);
+    device = NULL;
+    assert_true(fake_hid_limp_since(&hid) != 0);
+    for (size_t i = 0; i < hid.last_size; i++) {
+        assert_int_equal(hid.last[i], 0);
+    }
+    assert_true(1e-9 * (double)(knurl_system_now_ns() - fake_hid_limp_since(&hid)) < 0.4); /* not by its watchdog */
+}
+
+TEST(it_hears_from_the_host_often_enough_to_keep_its_motors_on) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    open_device("");
+    (void)wait_for_position();
+    knurl_device_release_halt(device);
+    tick_for(0.7, force);
+    assert_true(fake_hid_limp_since(&hid) == 0);
+}
+
+TEST(half_a_second_without_a_report_lets_the_firmware_drop_the_motors) {
+    static const uint8_t pushing[65] = {0, 0xe8, 0x03};
+    const double t = 100.0;
+    hid.sim.time = t;
+    assert_int_equal(hid_sim_hear(&hid.sim, t, pushing + 1, 64), 1);
+    assert_true(hid_sim_limp_since(&hid.sim, t + 0.499) < 0.0);
+    CHECK_CLOSE(hid_sim_limp_since(&hid.sim, t + 0.501), t + 0.5, 1e-9);
+}
+
+/* --- faults --- */
+
+TEST(a_device_that_falls_silent_is_let_go_of_and_comes_back) {
+    check_let_go(DOUBLE_MUTE, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back) {
+    check_let_go(DOUBLE_HANG, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(answers_that_come_late_are_no_positions) {
+    check_let_go(DOUBLE_LATE, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(answers_that_are_cut_off_are_counted_and_told_once) {
+    knurl_device_status status;
+    check_let_go(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
+    tick_for(0.05, none);
+    assert_int_equal(events_of(KNURL_FAULT_CORRUPT), 0);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    assert_true(status.bad_bytes >= 7 && status.bad_bytes % 7 == 0);
+    check_recovers();
+}
+
+TEST(answers_of_random_bytes_are_no_positions) {
+    check_let_go(DOUBLE_CORRUPT, KNURL_FAULT_CORRUPT);
+    check_recovers();
+}
+
+TEST(a_jump_is_told_and_where_the_device_then_stays_is_believed) {
+    open_device("");
+    (void)wait_for_position();
+    fake_hid_inject(&hid, DOUBLE_JUMP);
+    wait_for_event(KNURL_FAULT_JUMP);
+    const knurl_device_sample sample = wait_for_position();
+    CHECK_CLOSE(sample.position[0], 0.05, 0.0003);
+}
+
+TEST(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed) {
+    check_let_go(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
+    knurl_device_sample sample;
+    assert_false(tick_until(KNURL_OK, none, 0.2, &sample));
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.sim.info = 1;
+    knurl_system_mutex_unlock(&hid.mutex);
+    (void)wait_for_position();
+}
+
+TEST(old_reports_in_the_queue_are_no_positions) {
+    uint8_t old[64] = {0};
+    knurl_device_sample sample;
+    hid_sim_say(&hid.sim, old);
+    old[0] = 200; /* body a a tenth of a radian further: 9 mm to the right */
+    open_device("");
+    (void)wait_for_position();
+    for (int i = 0; i < 200; i++) {
+        fake_hid_push(&hid, old, sizeof old);
+        sleep_s(0.001);
+        if (knurl_device_read(device, &sample) == KNURL_OK) {
+            /* one may slip in between the driver's look at the queue and its own report */
+            assert_true(fabs(sample.position[0]) < 0.0003 || fabs(sample.position[0] - 0.0086) < 0.0003);
+        }
+    }
+    sample = wait_for_position();
+    sleep_s(0.01);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    assert_true(fabs(sample.position[0]) < 0.0003);
+}
+
+TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    knurl_device_sample sample;
+    open_device("");
+    (void)wait_for_position();
+    knurl_device_release_halt(device);
+    tick_for(0.05, force);
+    fake_hid_inject(&hid, DOUBLE_UNPLUG);
+    assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, force, 5.0, &sample));
+    wait_for_event(KNURL_FAULT_LOST);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    check_message("16c0:0486");
+    wait_until_limp(); /* by its own watchdog */
+    fake_hid_inject(&hid, DOUBLE_WELL);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    wait_for_event(KNURL_FAULT_RECONNECTED);
+    (void)wait_for_position();
+    assert_int_equal(hid.opened, hid.closed + 1);
+}
+
+TEST(a_second_of_silence_is_a_device_that_is_lost) {
+    knurl_device_sample sample;
+    open_device("");
+    (void)wait_for_position();
+    fake_hid_inject(&hid, DOUBLE_MUTE);
+    assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    fake_hid_inject(&hid, DOUBLE_WELL);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    (void)wait_for_position();
+}
+
+/* With home=1, and its cable in again while the hand is in mid-air: its counters are as good as before. */
+TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
+    knurl_device_sample sample;
+    for (int loses = 0; loses < 2; loses++) {
+        open_device("?home=1");
+        const uint32_t commands = hid.sim.commands;
+        fake_hid_inject(&hid, DOUBLE_UNPLUG);
+        assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+        if (loses) {
+            fake_hid_inject(&hid, DOUBLE_UNHOMED);
+        }
+        fake_hid_inject(&hid, DOUBLE_WELL);
+        assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+        assert_int_equal(hid.sim.commands > commands, loses);
+        knurl_device_close(device);
+        device = NULL;
+    }
+}
+
+/* --- the list --- */
+
+static uint32_t list(knurl_device_listing listings[8]) {
+    knurl_listings found = {listings, 8, 0};
+    knurl_rawhid_list(&hid.bus, &found);
+    return found.count;
+}
+
+TEST(the_list_tells_what_is_there_and_why_it_cannot_be_used) {
+    knurl_device_listing listings[8];
+    hid.found[1] = hid.found[0];
+    hid.found[1].usage_page = 0xffc9; /* the second interface of the same device is no device */
+    hid.found[2].vendor = 0x046d;     /* a mouse */
+    hid.found_count = 3;
+    assert_int_equal(list(listings), 1);
+    assert_string_equal(listings[0].uri, "rawhid:16c0:0486");
+    assert_string_equal(listings[0].name, "Simulated WoodenHaptics");
+    assert_string_equal(listings[0].reason, "");
+    hid.found[0].is_denied = 1;
+    assert_int_equal(list(listings), 1);
+    assert_non_null(strstr(listings[0].reason, "70-knurl.rules"));
+    hid.found[0].usage = 1;
+    assert_int_equal(list(listings), 2);
+    assert_non_null(strstr(listings[0].reason, "expected ffab:0200"));
+    hid.found_count = 0;
+    assert_int_equal(list(listings), 1);
+    assert_string_equal(listings[0].uri, "rawhid");
+    assert_non_null(strstr(listings[0].reason, "1234:0006 (mbed) or 16c0:0486 (Teensy)"));
+}
+
+#define WITH_BUS(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WITH_BUS(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is),
+        WITH_BUS(the_first_reports_carry_no_current_and_no_command),
+        WITH_BUS(it_is_named_by_vendor_and_product),
+        WITH_BUS(of_several_devices_the_one_that_is_named_is_opened),
+        WITH_BUS(of_a_devices_interfaces_the_one_of_its_usage_is_opened),
+        WITH_BUS(why_it_cannot_be_opened_is_said_in_a_sentence),
+        WITH_BUS(a_device_that_does_not_answer_is_not_opened),
+        WITH_BUS(what_it_is_is_told),
+        WITH_BUS(a_geometry_file_makes_it_another_device),
+        WITH_BUS(home_1_sets_the_counters_to_the_home_pose),
+        WITH_BUS(a_device_that_does_not_take_its_counters_is_not_opened),
+        WITH_BUS(a_device_that_never_was_homed_gives_no_position_and_gets_no_force),
+        WITH_BUS(its_button_homes_it_and_positions_come_again_after_a_pause),
+        WITH_BUS(a_force_moves_the_hand_its_way_by_what_the_hand_gives),
+        WITH_BUS(no_motor_ever_gets_more_than_its_limit),
+        WITH_BUS(closing_leaves_the_motors_without_current),
+        WITH_BUS(it_hears_from_the_host_often_enough_to_keep_its_motors_on),
+        WITH_BUS(half_a_second_without_a_report_lets_the_firmware_drop_the_motors),
+        WITH_BUS(a_device_that_falls_silent_is_let_go_of_and_comes_back),
+        WITH_BUS(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back),
+        WITH_BUS(answers_that_come_late_are_no_positions),
+        WITH_BUS(answers_that_are_cut_off_are_counted_and_told_once),
+        WITH_BUS(answers_of_random_bytes_are_no_positions),
+        WITH_BUS(a_jump_is_told_and_where_the_device_then_stays_is_believed),
+        WITH_BUS(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed),
+        WITH_BUS(old_reports_in_the_queue_are_no_positions),
+        WITH_BUS(unplugged_it_is_lost_and_plugged_in_again_it_is_found),
+        WITH_BUS(a_second_of_silence_is_a_device_that_is_lost),
+        WITH_BUS(found_again_it_is_homed_only_if_it_lost_its_counters),
+        WITH_BUS(the_list_tells_what_is_there_and_why_it_cannot_be_used),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
