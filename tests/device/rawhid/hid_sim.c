@@ -133,7 +133,7 @@ static void step(hid_sim *sim) {
     }
     if (sim->hand.stroke.speed > 0.0) {
         const double before[3] = {sim->target[0], sim->target[1], sim->target[2]};
-        knurl_hand_target(&sim->hand, sim->time, STEP, sim->target);
+        knurl_hand_target(&sim->hand, sim->time - sim->begun_at, STEP, sim->target);
         for (int axis = 0; axis < 3; axis++) {
             velocity[axis] = (sim->target[axis] - before[axis]) / STEP;
         }
@@ -165,6 +165,7 @@ int hid_sim_hear(hid_sim *sim, double time, const uint8_t *report, size_t size) 
     int any = 0;
     const int16_t command = word(report, 3);
     sim->heard_at = time;
+    sim->begun_at = sim->reports == 0 ? time : sim->begun_at;
     sim->reports++;
     for (int i = 0; i < 3; i++) {
         sim->current[i] = command == 1 ? 0 : word(report, i);

@@ -19,6 +19,7 @@ typedef struct hid_sim {
     double target[3];
     double time;        /* s, up to which it has moved */
     double heard_at;    /* s, the latest report */
+    double begun_at;    /* s, the first report: the hand comes down then */
     double limp_from;   /* s since when the motors get no current; < 0: they get some */
     double shift[3];    /* m: added to where the arm is */
     double angles[3];   /* rad, of the bodies */
