@@ -40,11 +40,9 @@ static void answer(fake_hid *hid) {
 
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
     fake_hid *hid = self;
-    if (hid->fault == DOUBLE_HANG) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
     knurl_system_mutex_lock(&hid->mutex);
-    const int works = hid->fault != DOUBLE_UNPLUG && hid->fault != DOUBLE_HANG;
+    const int hangs = hid->fault == DOUBLE_HANG;
+    const int works = hid->fault != DOUBLE_UNPLUG && !hangs;
     if (works && size <= sizeof hid->last) {
         memcpy(hid->last, bytes, size);
         hid->last_size = size;
@@ -59,6 +57,9 @@ static int port_write(void *self, const uint8_t *bytes, size_t size) {
         }
     }
     knurl_system_mutex_unlock(&hid->mutex);
+    if (hangs) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 5000000);
+    }
     return works;
 }
 

@@ -43,6 +43,36 @@ static int tear_down(void **state) {
     return 0;
 }
 
+/* Reports that were sent, and commands among them, so far. */
+static uint32_t reports_sent(void) {
+    knurl_system_mutex_lock(&hid.mutex);
+    const uint32_t sent = hid.written;
+    knurl_system_mutex_unlock(&hid.mutex);
+    return sent;
+}
+
+static uint32_t commands_sent(void) {
+    knurl_system_mutex_lock(&hid.mutex);
+    const uint32_t commands = hid.sim.commands;
+    knurl_system_mutex_unlock(&hid.mutex);
+    return commands;
+}
+
+/* The latest report, its ID first; returns its length. */
+static size_t last_sent(uint8_t bytes[HID_SIM_MOST_BYTES + 1]) {
+    knurl_system_mutex_lock(&hid.mutex);
+    const size_t size = hid.last_size;
+    memcpy(bytes, hid.last, sizeof hid.last);
+    knurl_system_mutex_unlock(&hid.mutex);
+    return size;
+}
+
+static void press_button(void) {
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.sim.info = 1;
+    knurl_system_mutex_unlock(&hid.mutex);
+}
+
 /* What must leave the output alone. */
 typedef struct opened {
     knurl_device *device;
@@ -158,18 +188,21 @@ TEST(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is) {
         open_device("");
         const knurl_device_sample sample = wait_for_position();
         assert_true(vec3_length(sample.position) < 0.0003); /* the middle, but for the encoders' steps and friction */
-        assert_int_equal(hid.last_size, lengths[i] + 1);
+        uint8_t last[HID_SIM_MOST_BYTES + 1];
+        assert_int_equal(last_sent(last), lengths[i] + 1);
         knurl_device_close(device);
         device = NULL;
     }
 }
 
 TEST(the_first_reports_carry_no_current_and_no_command) {
+    uint8_t last[HID_SIM_MOST_BYTES + 1];
     open_device("");
-    assert_true(hid.written > 0);
-    assert_int_equal(hid.sim.commands, 0);
-    for (size_t i = 0; i < hid.last_size; i++) {
-        assert_int_equal(hid.last[i], 0);
+    assert_true(reports_sent() > 0);
+    assert_int_equal(commands_sent(), 0);
+    assert_int_equal(last_sent(last), 65);
+    for (size_t i = 0; i < 65; i++) {
+        assert_int_equal(last[i], 0);
     }
 }
 
@@ -287,7 +320,7 @@ TEST(a_geometry_file_makes_it_another_device) {
     assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
     assert_string_equal(info.name, "mine");
     CHECK_SAME(info.max_force, 2.0);
-    assert_true(hid.sim.commands > 0); /* home_on_open */
+    assert_true(commands_sent() > 0); /* home_on_open */
 }
 
 /* --- homing --- */
@@ -296,8 +329,10 @@ TEST(home_1_sets_the_counters_to_the_home_pose) {
     uint8_t said[HID_SIM_MOST_BYTES];
     hid_sim_forget(&hid.sim);
     open_device("?home=1");
+    knurl_system_mutex_lock(&hid.mutex);
     hid_sim_say(&hid.sim, said);
-    assert_int_equal(hid.sim.commands, 1);
+    knurl_system_mutex_unlock(&hid.mutex);
+    assert_int_equal(commands_sent(), 1);
     for (int i = 0; i < 3; i++) { /* 0, 0, 6000, up to what the hand has moved */
         const int counts = (int16_t)(said[2 * i] | said[2 * i + 1] << 8);
         assert_true(abs(counts - (i == 2 ? 6000 : 0)) <= 100);
@@ -323,9 +358,7 @@ TEST(its_button_homes_it_and_positions_come_again_after_a_pause) {
     open_device("");
     (void)wait_for_position();
     assert_int_equal(events_of(KNURL_FAULT_UNCALIBRATED), 0);
-    knurl_system_mutex_lock(&hid.mutex);
-    hid.sim.info = 1;
-    knurl_system_mutex_unlock(&hid.mutex);
+    press_button();
     knurl_device_sample sample;
     assert_true(tick_until(KNURL_ERROR_DEVICE_NOT_READY, none, 5.0, &sample));
     wait_for_event(KNURL_FAULT_UNCALIBRATED);
@@ -405,11 +438,9 @@ TEST(closing_leaves_the_motors_without_current) {
 TEST(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks) {
     open_device("");
     (void)wait_for_position();
-    const uint32_t before = hid.written;
+    const uint32_t before = reports_sent();
     sleep_s(0.3);
-    knurl_system_mutex_lock(&hid.mutex);
-    assert_true(hid.written > before + 10 && hid.sim.heard_at > 1e-9 * (double)knurl_system_now_ns() - 0.25);
-    knurl_system_mutex_unlock(&hid.mutex);
+    assert_true(reports_sent() > before + 10);
 }
 
 TEST(half_a_second_without_a_report_lets_the_firmware_drop_the_motors) {
@@ -467,9 +498,7 @@ TEST(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed) {
     check_let_go(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
     knurl_device_sample sample;
     assert_false(tick_until(KNURL_OK, none, 0.2, &sample));
-    knurl_system_mutex_lock(&hid.mutex);
-    hid.sim.info = 1;
-    knurl_system_mutex_unlock(&hid.mutex);
+    press_button();
     (void)wait_for_position();
 }
 
@@ -500,8 +529,10 @@ TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
     open_device("");
     (void)wait_for_position();
     hold(0.05, force);
+    const int64_t pulled = knurl_system_now_ns();
     fake_hid_inject(&hid, DOUBLE_UNPLUG);
     assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, force, 5.0, &sample));
+    assert_true(knurl_system_now_ns() - pulled < 900000000); /* the system tells, before a second of silence does */
     wait_for_event(KNURL_FAULT_LOST);
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     check_message("16c0:0486");
@@ -530,7 +561,7 @@ TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
     knurl_device_sample sample;
     for (int loses = 0; loses < 2; loses++) {
         open_device("?home=1");
-        const uint32_t commands = hid.sim.commands;
+        const uint32_t commands = commands_sent();
         fake_hid_inject(&hid, DOUBLE_UNPLUG);
         assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
         if (loses) {
@@ -538,7 +569,7 @@ TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
         }
         fake_hid_inject(&hid, DOUBLE_WELL);
         assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-        assert_int_equal(hid.sim.commands > commands, loses);
+        assert_int_equal(commands_sent() > commands, loses);
         knurl_device_close(device);
         device = NULL;
     }
