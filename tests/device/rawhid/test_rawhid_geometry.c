@@ -32,7 +32,10 @@ TEST(the_file_that_is_shipped_names_every_key) {
     };
     static char text[KNURL_RAWHID_FILE_ROOM];
     FILE *file = fopen(KNURL_TEST_ASSETS "/devices/woodenhaptics.geometry", "rb");
-    assert_non_null(file);
+    if (!file) {
+        fail_msg("no file");
+        return;
+    }
     text[0] = '\n';
     text[1 + fread(text + 1, 1, sizeof text - 2, file)] = '\0';
     (void)fclose(file);
@@ -201,7 +204,10 @@ TEST(a_file_that_is_missing_or_too_long_is_refused_by_its_name) {
     (void)snprintf(path, sizeof path, "%s/long_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
     for (int extra = 0; extra < 2; extra++) {
         FILE *file = fopen(path, "wb");
-        assert_non_null(file);
+        if (!file) {
+            fail_msg("%s cannot be written", path);
+            return;
+        }
         for (int i = 0; i < KNURL_RAWHID_FILE_ROOM + extra; i++) {
             (void)fputc(' ', file);
         }

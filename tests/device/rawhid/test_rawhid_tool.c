@@ -4,6 +4,8 @@
 #define ON_EMULATED(...)                                                                                               \
     run_tool((const char *const[]){UMOCKDEV_WRAPPER, EMULATE_RAWHID, "--", KNURL_TEST_TOOL, __VA_ARGS__, NULL})
 
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
 TEST(the_tool_lists_the_device) {
     process p = ON_EMULATED("devices");
     check_done(&p);
@@ -13,7 +15,7 @@ TEST(the_tool_lists_the_device) {
 }
 
 TEST(a_plate_is_felt_with_it) {
-    process p = ON_EMULATED("run", KNURL_TEST_ASSETS "/plate_1d.glb", "--device", "rawhid", "--seconds", "2");
+    process p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "2");
     if (p.exit_code != 0) {
         print_error("%s", p.err);
     }
@@ -24,7 +26,7 @@ TEST(a_plate_is_felt_with_it) {
 }
 
 TEST(a_run_with_a_device_that_is_not_there_fails_with_a_sentence) {
-    process p = ON_EMULATED("run", KNURL_TEST_ASSETS "/plate_1d.glb", "--device", "rawhid:1234:6", "--seconds", "1");
+    process p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "1");
     assert_true(p.exit_code != 0);
     assert_non_null(strstr(p.err, "looked for a USB HID device 1234:0006 and found none"));
     process_free(&p);

@@ -70,7 +70,7 @@ int knurl_rawhid_number(const char *text, size_t length, double *value) {
         at = take_exponent(text, at + 1, length, &exponent);
     }
     const int scale = d.scale + exponent;
-    if (at != length || d.digits == 0 || d.significant > 15 || (d.mantissa > 0 && (scale < -22 || scale > 22))) {
+    if (at != length || d.digits == 0 || d.significant > 15 || (d.mantissa != 0 && (scale < -22 || scale > 22))) {
         return 0;
     }
     const double size = d.mantissa == 0 ? 0.0
