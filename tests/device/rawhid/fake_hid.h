@@ -20,7 +20,6 @@ typedef struct fake_hid {
     uint32_t opened, closed;
     uint32_t refuses_opening;
     uint32_t ignores_commands;
-    int64_t silent_since;                 /* ns; when nobody sent anything any more, 0: from the start */
     uint8_t last[HID_SIM_MOST_BYTES + 1]; /* the latest report that was sent, its ID first */
     size_t last_size;
     uint32_t written;

@@ -8,6 +8,7 @@
 #include "device/rawhid/fake_hid.h"
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/rawhid.h"
+#include "device/rawhid/rawhid_double.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -606,6 +607,30 @@ TEST(the_list_tells_what_is_there_and_why_it_cannot_be_used) {
     assert_non_null(strstr(listings[0].reason, "1234:0006 (mbed) or 16c0:0486 (Teensy)"));
 }
 
+/* --- the double --- */
+
+TEST(the_double_has_every_fault_that_it_claims_and_is_well_again) {
+    for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
+        if (rawhid_double.faults >> fault & 1u) {
+            knurl_device_sample sample;
+            device = rawhid_double.open();
+            assert_non_null(device);
+            (void)wait_for_position();
+            rawhid_double.inject(fault);
+            int told = 0;
+            for (int i = 0; i < 5000 && !told; i++) {
+                told = knurl_device_read(device, &sample) != KNURL_OK;
+                sleep_s(0.001);
+            }
+            assert_true(told);
+            rawhid_double.inject(DOUBLE_WELL);
+            assert_true(rawhid_double.limp_since() > 0);
+            rawhid_double.close(device);
+            device = NULL;
+        }
+    }
+}
+
 #define WITH_BUS(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 
 int main(void) {
@@ -640,6 +665,7 @@ int main(void) {
         WITH_BUS(a_second_of_silence_is_a_device_that_is_lost),
         WITH_BUS(found_again_it_is_homed_only_if_it_lost_its_counters),
         WITH_BUS(the_list_tells_what_is_there_and_why_it_cannot_be_used),
+        WITH_BUS(the_double_has_every_fault_that_it_claims_and_is_well_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
