@@ -1,7 +1,4 @@
 /* USB HID by hidapi. SPDX-License-Identifier: MIT */
-#if defined(__linux__) && !defined(_POSIX_C_SOURCE)
-#define _POSIX_C_SOURCE 200809L /* access() */
-#endif
 #include "device/rawhid/transport.h"
 
 #ifndef KNURL_HAVE_HIDAPI
