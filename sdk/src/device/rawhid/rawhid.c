@@ -1,16 +1,376 @@
-/* raw HID device. SPDX-License-Identifier: MIT */
-#include "device/driver.h"
+/* WoodenHaptics and its kin: a microcontroller with encoders and current-controlled motors that speaks raw HID. Read
+ * exchange() first. SPDX-License-Identifier: MIT */
+#include "device/rawhid/rawhid.h"
 
-static const char reason[] = "its driver (hidapi) is not in this version";
+#include "base/atomic.h"
+#include "base/vec3.h"
+#include "device/link.h"
+#include "device/rawhid/choose.h"
+#include "device/rawhid/kinematics.h"
+#include "device/uri.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ANSWER_NS     4000000 /* how long a report is waited for: an exchange takes 5 ms at most */
+#define QUEUE_ROOM    64      /* reports that the kernel keeps */
+#define GREET_TRIES   25      /* of 20 ms: the firmware takes a while after power-up */
+#define HOME_MARGIN   100     /* counts that a hand may have moved since the counters were set */
+#define STRANGE_LIMIT 3       /* impossible poses in a row that make the counters untrustworthy */
+#define HOLD_TURNS    50      /* exchanges without a position after homing: the loop lets go first, then ramps */
+
+typedef struct rawhid {
+    knurl_device base;
+    knurl_link link;
+    const knurl_rawhid_bus *bus;
+    knurl_rawhid_port port; /* self: null where it is closed */
+    knurl_rawhid_geometry geometry;
+    knurl_rawhid_arm arm;
+    knurl_rawhid_wanted wanted;
+    size_t report_bytes;
+    int16_t home[3];
+    uint32_t home_on_open;
+    /* the I/O thread's */
+    double angles[3];
+    uint32_t knows_angles;
+    uint32_t is_corrupt; /* reported */
+    uint32_t is_lost;    /* its counters do not tell where it is; reported */
+    uint32_t strange;    /* impossible poses in a row */
+    uint32_t hold;       /* exchanges without a position still to come */
+    uint64_t bad_bytes;  /* atomic */
+} rawhid;
+
+static rawhid *of(knurl_device *device) {
+    return (rawhid *)(void *)device; /* its first member */
+}
+
+static const rawhid *look_at(const knurl_device *device) {
+    return (const rawhid *)(const void *)device;
+}
+
+/* --- reports --- */
+
+enum { GONE = -1, NOTHING = 0, REPORT = 1, BAD = 2 };
+
+static int take_report(rawhid *r, int milliseconds, knurl_rawhid_in *in) {
+    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1]; /* one more, so that a report that is too long shows */
+    const int got = r->port.read(r->port.self, bytes, sizeof bytes, milliseconds);
+    if (got <= 0) {
+        return got < 0 ? GONE : NOTHING;
+    }
+    if (knurl_rawhid_parse(bytes, (size_t)got, r->report_bytes, in)) {
+        r->is_corrupt = 0;
+        return REPORT;
+    }
+    knurl_store_relaxed(&r->bad_bytes, knurl_load_relaxed(&r->bad_bytes) + (uint64_t)got);
+    if (!r->is_corrupt) {
+        r->is_corrupt = 1;
+        knurl_events_report(&r->base.events, KNURL_FAULT_CORRUPT, got);
+    }
+    return BAD;
+}
+
+/* Throws away what came too late to be an answer to what is sent next. 0: the device is gone. */
+static int drain(rawhid *r) {
+    knurl_rawhid_in ignored;
+    int outcome = REPORT;
+    for (int i = 0; i < QUEUE_ROOM && outcome > NOTHING; i++) {
+        outcome = take_report(r, 0, &ignored);
+    }
+    return outcome != GONE;
+}
+
+/* The next report that makes sense, within `ns`. */
+static int await_report(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
+    const int64_t until = knurl_system_now_ns() + ns;
+    for (int i = 0; i < QUEUE_ROOM; i++) {
+        const int64_t left = until - knurl_system_now_ns();
+        const int outcome = take_report(r, left > 0 ? (int)((left + 999999) / 1000000) : 0, in);
+        if (outcome != BAD) {
+            return outcome;
+        }
+    }
+    return NOTHING;
+}
+
+/* 0: nothing went out. */
+static int send_currents(rawhid *r, const double force[3]) {
+    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
+    int16_t ma[3] = {0, 0, 0};
+    if (r->knows_angles) {
+        knurl_rawhid_currents(&r->arm, r->angles, force, ma);
+    }
+    return r->port.write(r->port.self, bytes, knurl_rawhid_put_currents(bytes, r->report_bytes, ma));
+}
+
+static int send_home(rawhid *r) {
+    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
+    return r->port.write(r->port.self, bytes, knurl_rawhid_put_counters(bytes, r->report_bytes, r->home));
+}
+
+/* --- the exchange --- */
+
+/* Where the grip is by its counters, unless they cannot be believed. */
+static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sample) {
+    if (in->info == 1) { /* its button: the grip is in the home pose */
+        if (r->hold == 0 && !r->is_lost) {
+            knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+        }
+        r->knows_angles = 0;
+        r->hold = HOLD_TURNS;
+        r->strange = r->is_lost = 0;
+        (void)send_home(r);
+        return KNURL_LINK_NO_POSITION;
+    }
+    knurl_rawhid_angles(&r->arm, in->counts, r->angles);
+    r->strange = knurl_rawhid_is_pose(&r->arm, r->angles) ? 0 : r->strange + 1;
+    if (r->strange >= STRANGE_LIMIT && !r->is_lost) { /* until it is homed: it has lost power, or never was */
+        r->is_lost = 1;
+        knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+    }
+    r->hold -= r->hold > 0;
+    r->knows_angles = r->strange == 0 && !r->is_lost && r->hold == 0;
+    if (!r->knows_angles) {
+        return KNURL_LINK_NO_POSITION;
+    }
+    knurl_rawhid_position(&r->arm, r->angles, sample->position);
+    return KNURL_LINK_POSITION;
+}
+
+/* The firmware answers each report with one. The motors' currents are right for where the arm was in the exchange
+ * before, a millisecond ago. */
+static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+    rawhid *r = of(device);
+    knurl_rawhid_in in;
+    if (!drain(r)) {
+        return KNURL_LINK_LOST;
+    }
+    if (!send_currents(r, force)) {
+        knurl_rawhid_in ignored; /* only reading tells a device that is gone from one that is busy */
+        return take_report(r, 0, &ignored) == GONE ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
+    }
+    const int outcome = await_report(r, ANSWER_NS, &in);
+    return outcome == GONE ? KNURL_LINK_LOST : outcome == REPORT ? locate(r, &in, sample) : KNURL_LINK_NOTHING;
+}
+
+/* --- opening --- */
+
+/* Zero currents until it answers: the first report is what makes it start. */
+static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    int outcome = NOTHING;
+    for (int i = 0; i < GREET_TRIES && outcome == NOTHING; i++) {
+        outcome = drain(r) ? NOTHING : GONE;
+        (void)(outcome == NOTHING && send_currents(r, none));
+        outcome = outcome == NOTHING ? await_report(r, 20000000, in) : outcome;
+    }
+    if (outcome == REPORT) {
+        return KNURL_OK;
+    }
+    return knurl_fail(
+        KNURL_ERROR_DEVICE_LOST,
+        "device 'rawhid' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
+        "bytes that make none; switch its power on, or plug it in again",
+        r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
+        outcome == GONE ? "that it went away" : "none within 0.5 s", (unsigned long)r->bad_bytes);
+}
+
+static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
+    int near = in->info == 0;
+    for (int i = 0; i < 3; i++) {
+        near &= abs(in->counts[i] - r->home[i]) <= HOME_MARGIN;
+    }
+    return near;
+}
+
+/* Sets the counters, and sees them set. */
+static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
+    knurl_result result = KNURL_OK;
+    for (int i = 0; i < GREET_TRIES && !result; i++) {
+        (void)send_home(r);
+        result = await_report(r, 20000000, in) == GONE ? KNURL_ERROR_DEVICE_LOST : greet(r, in);
+        if (!result && is_home(r, in)) {
+            return KNURL_OK;
+        }
+    }
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                      "device 'rawhid' (%04x:%04x): homing: expected its encoders at %d, %d, %d, found %d, %d, %d; its "
+                      "firmware does not set counters, or the grip was moved",
+                      r->wanted.vendor, r->wanted.product, r->home[0], r->home[1], r->home[2], in->counts[0],
+                      in->counts[1], in->counts[2]);
+}
+
+static void close_port(rawhid *r) {
+    if (r->port.self) {
+        r->port.close(r->port.self);
+        r->port.self = NULL;
+    }
+}
+
+static knurl_result open_port(rawhid *r) {
+    knurl_rawhid_found found;
+    char why[256] = "";
+    const knurl_result result = knurl_rawhid_choose(r->bus, &r->wanted, &found, &r->report_bytes);
+    if (result) {
+        return result;
+    }
+    if (!r->bus->open(r->bus->user, &found, &r->port, why, sizeof why)) {
+        return knurl_fail(KNURL_ERROR_SYSTEM,
+                          "device 'rawhid' (%04x:%04x): %s could not be opened: %s; end other programs that use it",
+                          found.vendor, found.product, found.path, why);
+    }
+    r->wanted.vendor = found.vendor; /* from now on it is this one that is meant */
+    r->wanted.product = found.product;
+    return KNURL_OK;
+}
+
+/* Finds it, hears it, homes it and starts the I/O thread; all closed again where that fails. */
+static knurl_result connect(rawhid *r, int is_again) {
+    knurl_rawhid_in in = {{0, 0, 0, 0, 0, 0}, 0};
+    double angles[3];
+    r->knows_angles = r->is_corrupt = r->is_lost = r->strange = r->hold = 0;
+    knurl_result result = open_port(r);
+    if (result) {
+        return result;
+    }
+    result = greet(r, &in);
+    knurl_rawhid_angles(&r->arm, in.counts, angles);
+    /* one that was away is where it was, unless it lost its power; it must not be homed in the middle of a stroke */
+    if (!result && r->home_on_open && !(is_again && knurl_rawhid_is_pose(&r->arm, angles))) {
+        result = home(r, &in);
+    }
+    result = result ? result : knurl_link_open(&r->link, &r->base, exchange, 1000.0);
+    if (result) {
+        close_port(r);
+    }
+    return result;
+}
+
+static knurl_result read_options(const char *options, rawhid *r) {
+    char id[KNURL_URI_ROOM];
+    char geometry[KNURL_URI_ROOM];
+    char homing[KNURL_URI_ROOM];
+    const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}};
+    knurl_result result = knurl_uri_parse("rawhid", options, id, keys, sizeof keys / sizeof *keys);
+    if (!result && homing[0] && strcmp(homing, "0") != 0 && strcmp(homing, "1") != 0) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "device 'rawhid': home: expected 0 or 1, found '%.100s'", homing);
+    }
+    knurl_rawhid_geometry_init(&r->geometry);
+    if (!result && geometry[0]) {
+        result = knurl_rawhid_geometry_load(geometry, &r->geometry);
+    }
+    result = result ? result : knurl_rawhid_want(id, &r->geometry, &r->wanted);
+    knurl_rawhid_arm_init(&r->arm, &r->geometry);
+    for (int i = 0; i < 3; i++) {
+        r->home[i] = (int16_t)r->geometry.home[i];
+    }
+    r->home_on_open = homing[0] ? homing[0] == '1' : r->geometry.home_on_open > 0.0;
+    return result;
+}
+
+knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus, knurl_device **device) {
+    rawhid *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'rawhid': could not get %u bytes", (unsigned)sizeof *made);
+    }
+    made->bus = bus;
+    knurl_result result = read_options(options, made);
+    made->base.driver = &knurl_rawhid_driver;
+    made->base.max_force = made->geometry.max_force;
+    made->base.max_speed = KNURL_HAND_SPEED;
+    result = result ? result : connect(made, 0);
+    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    if (result) {
+        free(made);
+        return result;
+    }
+    *device = &made->base;
+    return KNURL_OK;
+}
+
+/* --- the driver --- */
+
+static void rawhid_close(knurl_device *device) {
+    rawhid *r = of(device);
+    knurl_link_close(&r->link); /* its last exchanges let go of the motors */
+    close_port(r);
+    free(r);
+}
+
+static knurl_result rawhid_reopen(knurl_device *device) {
+    rawhid *r = of(device);
+    knurl_link_close(&r->link); /* its thread has ended by itself */
+    close_port(r);
+    return connect(r, 1);
+}
+
+static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
+    const rawhid *r = look_at(device);
+    const knurl_rawhid_geometry *g = &r->geometry;
+    (void)snprintf(info->name, sizeof info->name, "%s", g->name);
+    for (int axis = 0; axis < 3; axis++) { /* the cube in its makers' sphere: the joints' stops are not published */
+        info->workspace_max[axis] = 0.577350269189626 * g->workspace_radius;
+        info->workspace_min[axis] = -info->workspace_max[axis];
+    }
+    info->resolution = knurl_rawhid_resolution(&r->arm); /* of its encoders and gears */
+    info->max_force = g->max_force;                      /* CHAI3D */
+    info->max_stiffness = g->max_stiffness;              /* CHAI3D */
+    info->max_damping = g->max_damping;                  /* CHAI3D */
+    info->continuous_force = g->continuous_force;        /* assumed: a third of the peak */
+    info->heat_time = g->heat_time;                      /* assumed: as the Touch's */
+    info->mass = g->mass;                                /* assumed */
+    info->viscous = g->viscous;                          /* assumed */
+    info->coulomb = g->coulomb;                          /* assumed */
+    info->delay = 2.0;          /* assumed: the force waits for the next exchange, the position for the next tick */
+    info->native_rate = 1000.0; /* its interrupt endpoints are polled every millisecond */
+}
+
+static void rawhid_status(const knurl_device *device, knurl_device_status *status) {
+    const rawhid *r = look_at(device);
+    knurl_link_get_status(&r->link, status);
+    status->bad_bytes = knurl_load_relaxed(&r->bad_bytes);
+}
+
+static knurl_result rawhid_start(knurl_device *device, double update_rate_hz) {
+    knurl_link_start(&of(device)->link, update_rate_hz);
+    return KNURL_OK;
+}
+
+static knurl_result rawhid_read(knurl_device *device, knurl_device_sample *sample) {
+    return knurl_link_read(&of(device)->link, sample);
+}
+
+static knurl_result rawhid_write(knurl_device *device, const double force[3]) {
+    return knurl_link_write(&of(device)->link, force);
+}
+
+#define NO_HIDAPI                                                                                                      \
+    "this build has no hidapi: install it with its headers (Debian: libhidapi-dev), configure and build again"
 
 static void rawhid_list(knurl_listings *listings) {
-    knurl_listings_add(listings, "rawhid", "raw HID device", "%s", reason);
+    if (knurl_rawhid_hidapi()) {
+        knurl_rawhid_list(knurl_rawhid_hidapi(), listings);
+    } else {
+        knurl_listings_add(listings, "rawhid", "raw HID device (WoodenHaptics)", "%s", NO_HIDAPI);
+    }
 }
 
 static knurl_result rawhid_open(const char *options, knurl_device **device) {
-    (void)options;
-    (void)device;
-    return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid': %s", reason);
+    const knurl_rawhid_bus *bus = knurl_rawhid_hidapi();
+    return bus ? knurl_rawhid_open(options, bus, device)
+               : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid': %s", NO_HIDAPI);
 }
 
-const knurl_driver knurl_rawhid_driver = {.uri = "rawhid", .list = rawhid_list, .open = rawhid_open};
+const knurl_driver knurl_rawhid_driver = {
+    .uri = "rawhid",
+    .list = rawhid_list,
+    .open = rawhid_open,
+    .close = rawhid_close,
+    .get_info = rawhid_info,
+    .get_status = rawhid_status,
+    .start = rawhid_start,
+    .read = rawhid_read,
+    .write = rawhid_write,
+    .reopen = rawhid_reopen,
+};

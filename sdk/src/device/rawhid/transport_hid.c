@@ -1,0 +1,164 @@
+/* USB HID by hidapi. SPDX-License-Identifier: MIT */
+#include "device/rawhid/transport.h"
+
+#ifndef KNURL_HAVE_HIDAPI
+
+const knurl_rawhid_bus *knurl_rawhid_hidapi(void) {
+    return NULL;
+}
+
+#else
+
+#include "base/system.h"
+
+#include <hidapi.h>
+#include <stdio.h>
+#include <string.h>
+#ifdef __linux__
+#include <errno.h>
+#include <unistd.h>
+#endif
+
+/* hidapi's calls that are about no device share memory, and hid_exit() is for the whole process. */
+static uint32_t locked;
+static uint32_t users;
+
+static void lock(void) {
+    while (__atomic_exchange_n(&locked, 1u, __ATOMIC_ACQUIRE)) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+}
+
+static void unlock(void) {
+    __atomic_store_n(&locked, 0u, __ATOMIC_RELEASE);
+}
+
+/* Both under the lock. */
+static int enter(void) {
+    if (users == 0 && hid_init() != 0) {
+        return 0;
+    }
+    users++;
+    return 1;
+}
+
+static void leave(void) {
+    if (--users == 0) {
+        (void)hid_exit();
+    }
+}
+
+/* hidapi's wide characters; what is not ASCII becomes '?'. */
+static void narrow(const wchar_t *wide, char *text, size_t size) {
+    size_t i = 0;
+    for (; wide && wide[i] && i + 1 < size; i++) {
+        text[i] = wide[i] >= 0x20 && wide[i] < 0x7f ? (char)wide[i] : '?';
+    }
+    text[i] = '\0';
+}
+
+#ifdef __linux__
+/* The kernel's own copy, for hidapi tells no sizes. */
+static void ask_sizes(const char *path, knurl_rawhid_sizes *sizes) {
+    char where[512];
+    uint8_t descriptor[4096]; /* HID_MAX_DESCRIPTOR_SIZE */
+    const char *node = strrchr(path, '/');
+    (void)snprintf(where, sizeof where, "/sys/class/hidraw/%s/device/report_descriptor", node ? node + 1 : path);
+    FILE *file = fopen(where, "rb");
+    if (file) {
+        const size_t size = fread(descriptor, 1, sizeof descriptor, file);
+        (void)knurl_rawhid_measure(descriptor, size, sizes);
+        (void)fclose(file);
+    }
+}
+
+static uint32_t is_denied(const char *path) {
+    return access(path, R_OK | W_OK) != 0 && errno == EACCES;
+}
+#else
+static void ask_sizes(const char *path, knurl_rawhid_sizes *sizes) {
+    (void)path;
+    (void)sizes;
+}
+
+static uint32_t is_denied(const char *path) {
+    (void)path;
+    return 0;
+}
+#endif
+
+static void describe(const struct hid_device_info *info, knurl_rawhid_found *found) {
+    char maker[40];
+    char product[52];
+    memset(found, 0, sizeof *found);
+    narrow(info->manufacturer_string, maker, sizeof maker);
+    narrow(info->product_string, product, sizeof product);
+    (void)snprintf(found->path, sizeof found->path, "%s", info->path ? info->path : "");
+    (void)snprintf(found->name, sizeof found->name, "%s%s%s", maker, maker[0] && product[0] ? " " : "", product);
+    found->vendor = info->vendor_id;
+    found->product = info->product_id;
+    found->usage_page = info->usage_page;
+    found->usage = info->usage;
+    found->is_denied = is_denied(found->path);
+    ask_sizes(found->path, &found->sizes);
+}
+
+static size_t hid_look(void *user, uint16_t vendor, uint16_t product, knurl_rawhid_found *found, size_t capacity) {
+    (void)user;
+    size_t count = 0;
+    lock();
+    if (enter()) {
+        struct hid_device_info *first = hid_enumerate(vendor, product);
+        for (const struct hid_device_info *info = first; info && count < capacity; info = info->next) {
+            describe(info, &found[count++]);
+        }
+        hid_free_enumeration(first);
+        leave();
+    }
+    unlock();
+    return count;
+}
+
+static int port_write(void *self, const uint8_t *bytes, size_t size) {
+    return hid_write(self, bytes, size) == (int)size;
+}
+
+static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
+    return hid_read_timeout(self, bytes, room, milliseconds);
+}
+
+static void port_close(void *self) {
+    lock();
+    hid_close(self);
+    leave();
+    unlock();
+}
+
+static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhid_port *port, char *why,
+                        size_t why_size) {
+    (void)user;
+    hid_device *device = NULL;
+    lock();
+    if (!enter()) {
+        (void)snprintf(why, why_size, "hidapi could not be started");
+    } else {
+        device = hid_open_path(found->path);
+        if (!device) {
+            narrow(hid_error(NULL), why, why_size);
+            leave();
+        }
+    }
+    unlock();
+    const knurl_rawhid_port made = {device, port_write, port_read, port_close};
+    if (device) {
+        *port = made;
+    }
+    return device != NULL;
+}
+
+const knurl_rawhid_bus *knurl_rawhid_hidapi(void) {
+    static const knurl_rawhid_bus bus = {NULL, hid_look, hid_bus_open};
+    return &bus;
+}
+
+#endif

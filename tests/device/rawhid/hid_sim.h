@@ -1,0 +1,59 @@
+/* A WoodenHaptics in a hand: firmware, encoders, motors, arm. No I/O and no clock. Its kinematics are written from the
+ * equations of its makers, in their axes, and turned round by root finding; nothing of the driver's is in it.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_HID_SIM_H
+#define KNURL_TEST_HID_SIM_H
+
+#include "device/fake/hand.h"
+#include "device/fake/plant.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define HID_SIM_MOST_BYTES 64
+
+typedef struct hid_sim {
+    size_t report_bytes;
+    knurl_plant plant; /* Knurl's device frame */
+    knurl_hand hand;
+    double target[3];
+    double time;        /* s, up to which it has moved */
+    double heard_at;    /* s, the latest report */
+    double begun_at;    /* s, the first report: the hand comes down then */
+    double limp_from;   /* s since when the motors get no current; < 0: they get some */
+    double shift[3];    /* m: added to where the arm is */
+    double angles[3];   /* rad, of the bodies */
+    int16_t offset[3];  /* counters less true counts */
+    int16_t current[3]; /* mA, as told */
+    int16_t info;
+    uint32_t reports; /* heard */
+    uint32_t commands;
+} hid_sim;
+
+/* At rest at the middle of the workspace, homed, its hand on the stroke (null: it stands there). */
+void hid_sim_init(hid_sim *sim, size_t report_bytes, const knurl_stroke_desc *stroke);
+
+/* Moves on to `time` (s); a pause of more than 50 ms is skipped over. */
+void hid_sim_advance(hid_sim *sim, double time);
+
+/* A report comes in, its ID taken off: `size` bytes, ignored unless they are report_bytes. 1: it is answered. */
+int hid_sim_hear(hid_sim *sim, double time, const uint8_t *report, size_t size);
+
+/* What it says: report_bytes. */
+void hid_sim_say(const hid_sim *sim, uint8_t report[HID_SIM_MOST_BYTES]);
+
+/* It loses power, and comes back without knowing where it is. */
+void hid_sim_forget(hid_sim *sim);
+
+/* s since when no motor has had a current at `time`; < 0: one has. */
+double hid_sim_limp_since(const hid_sim *sim, double time);
+
+/* The equations: body angles to the grip (m, makers' axes less the origin), and the other way round by Newton's method
+ * with differences for slopes, from the middle of the workspace; 0 where it finds none. */
+void hid_sim_grip(const double angles[3], double own[3]);
+int hid_sim_bend(const double own[3], double angles[3]);
+
+/* The force (N, Knurl's frame) of motor currents: what does the same virtual work, slopes by differences. */
+void hid_sim_push(const double angles[3], const int16_t ma[3], double force[3]);
+
+#endif

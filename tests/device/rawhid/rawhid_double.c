@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/rawhid/rawhid_double.h"
+
+#include "device/rawhid/fake_hid.h"
+#include "device/rawhid/rawhid.h"
+
+static fake_hid hid;
+
+static knurl_device *double_open(void) {
+    knurl_device *device = NULL;
+    fake_hid_init(&hid, 64, NULL);
+    if (knurl_rawhid_open("", &hid.bus, &device)) {
+        fake_hid_destroy(&hid);
+        return NULL;
+    }
+    knurl_device_register(device);
+    return device;
+}
+
+static void double_inject(int fault) {
+    fake_hid_inject(&hid, fault);
+}
+
+static int64_t double_limp_since(void) {
+    return fake_hid_limp_since(&hid);
+}
+
+static void double_close(knurl_device *device) {
+    knurl_device_close(device);
+    fake_hid_destroy(&hid);
+}
+
+/* A HID report comes whole or not at all, its encoders are whole numbers, and it has no word for a refused force. */
+const device_double rawhid_double = {"rawhid",
+                                     1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
+                                         1u << DOUBLE_LATE | 1u << DOUBLE_SHORT | 1u << DOUBLE_CORRUPT |
+                                         1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED,
+                                     double_open,
+                                     double_inject,
+                                     double_limp_since,
+                                     double_close};

@@ -1,0 +1,167 @@
+/* What goes wrong with a raw HID device, in real time: what must come in the end, and what must never be.
+ * SPDX-License-Identifier: MIT */
+#include "device/rawhid/driver_rig.h"
+
+/* --- faults --- */
+
+TEST(a_device_that_falls_silent_is_let_go_of_and_comes_back) {
+    check_let_go(DOUBLE_MUTE, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back) {
+    check_let_go(DOUBLE_HANG, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(answers_that_come_late_are_no_positions) {
+    check_let_go(DOUBLE_LATE, KNURL_FAULT_SILENT);
+    check_recovers();
+}
+
+TEST(answers_that_are_cut_off_are_counted_and_told_once) {
+    knurl_device_status status;
+    check_let_go(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
+    tick_for(0.05, none);
+    assert_int_equal(events_of(KNURL_FAULT_CORRUPT), 0);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    assert_true(status.bad_bytes >= 7 && status.bad_bytes % 7 == 0);
+    check_recovers();
+}
+
+TEST(answers_of_random_bytes_are_no_positions) {
+    check_let_go(DOUBLE_CORRUPT, KNURL_FAULT_CORRUPT);
+    check_recovers();
+}
+
+TEST(a_jump_is_told_and_where_the_device_then_stays_is_believed) {
+    open_device("");
+    (void)wait_for_position();
+    fake_hid_inject(&hid, DOUBLE_JUMP);
+    wait_for_event(KNURL_FAULT_JUMP);
+    const knurl_device_sample sample = wait_for_position();
+    CHECK_CLOSE(sample.position[0], 0.05, 0.0003);
+}
+
+TEST(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed) {
+    check_let_go(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
+    knurl_device_sample sample;
+    assert_false(tick_until(KNURL_OK, none, 0.1, &sample));
+    press_button();
+    (void)wait_for_position();
+}
+
+TEST(old_reports_in_the_queue_are_no_positions) {
+    uint8_t old[64] = {0};
+    knurl_device_sample sample;
+    hid_sim_say(&hid.sim, old);
+    old[0] = 200; /* body a a tenth of a radian further: 9 mm to the right */
+    open_device("");
+    (void)wait_for_position();
+    for (int i = 0; i < 100; i++) {
+        fake_hid_push(&hid, old, sizeof old);
+        sleep_s(0.001);
+        if (knurl_device_read(device, &sample) == KNURL_OK) {
+            /* one may slip in between the driver's look at the queue and its own report */
+            assert_true(fabs(sample.position[0]) < 0.0003 || fabs(sample.position[0] - 0.0086) < 0.0003);
+        }
+    }
+    sample = wait_for_position();
+    sleep_s(0.01);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    assert_true(fabs(sample.position[0]) < 0.0003);
+}
+
+TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    knurl_device_sample sample;
+    open_device("");
+    (void)wait_for_position();
+    hold(0.05, force);
+    const int64_t pulled = knurl_system_now_ns();
+    fake_hid_inject(&hid, DOUBLE_UNPLUG);
+    assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, force, 5.0, &sample));
+    assert_true(knurl_system_now_ns() - pulled < 900000000); /* the system tells, before a second of silence does */
+    wait_for_event(KNURL_FAULT_LOST);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    check_message("16c0:0486");
+    wait_until_limp(); /* by its own watchdog */
+    fake_hid_inject(&hid, DOUBLE_WELL);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    wait_for_event(KNURL_FAULT_RECONNECTED);
+    (void)wait_for_position();
+    assert_int_equal(hid.opened, hid.closed + 1);
+}
+
+TEST(a_second_of_silence_is_a_device_that_is_lost) {
+    knurl_device_sample sample;
+    open_device("");
+    (void)wait_for_position();
+    fake_hid_inject(&hid, DOUBLE_MUTE);
+    assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+    fake_hid_inject(&hid, DOUBLE_WELL);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    (void)wait_for_position();
+}
+
+/* With home=1, and its cable in again while the hand is in mid-air: its counters are as good as before. */
+TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
+    knurl_device_sample sample;
+    for (int loses = 0; loses < 2; loses++) {
+        open_device("?home=1");
+        const uint32_t commands = commands_sent();
+        fake_hid_inject(&hid, DOUBLE_UNPLUG);
+        assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+        if (loses) {
+            fake_hid_inject(&hid, DOUBLE_UNHOMED);
+        }
+        fake_hid_inject(&hid, DOUBLE_WELL);
+        assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+        assert_int_equal(commands_sent() > commands, loses);
+        knurl_device_close(device);
+        device = NULL;
+    }
+}
+
+/* --- the double --- */
+
+TEST(the_double_has_every_fault_that_it_claims_and_is_well_again) {
+    for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
+        if (rawhid_double.faults >> fault & 1u) {
+            knurl_device_sample sample;
+            device = rawhid_double.open();
+            assert_non_null(device);
+            (void)wait_for_position();
+            rawhid_double.inject(fault);
+            int told = 0;
+            for (int i = 0; i < 5000 && !told; i++) {
+                told = knurl_device_read(device, &sample) != KNURL_OK;
+                sleep_s(0.001);
+            }
+            assert_true(told);
+            rawhid_double.inject(DOUBLE_WELL);
+            assert_true(rawhid_double.limp_since() > 0);
+            rawhid_double.close(device);
+            device = NULL;
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WITH_BUS(a_device_that_falls_silent_is_let_go_of_and_comes_back),
+        WITH_BUS(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back),
+        WITH_BUS(answers_that_come_late_are_no_positions),
+        WITH_BUS(answers_that_are_cut_off_are_counted_and_told_once),
+        WITH_BUS(answers_of_random_bytes_are_no_positions),
+        WITH_BUS(a_jump_is_told_and_where_the_device_then_stays_is_believed),
+        WITH_BUS(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed),
+        WITH_BUS(old_reports_in_the_queue_are_no_positions),
+        WITH_BUS(unplugged_it_is_lost_and_plugged_in_again_it_is_found),
+        WITH_BUS(a_second_of_silence_is_a_device_that_is_lost),
+        WITH_BUS(found_again_it_is_homed_only_if_it_lost_its_counters),
+        WITH_BUS(the_double_has_every_fault_that_it_claims_and_is_well_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,258 @@
+/* The raw HID driver as it is, on hidapi as it is, over an emulated hidraw device. Nothing here is about time: there is
+ * more between both than on a machine with a device. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "base/vec3.h"
+#include "device/driver.h"
+#include "device/rawhid/emulated_hid.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define NOBODY 65534
+
+static emulated_hid hid;
+
+static const double none[3] = {0.0, 0.0, 0.0};
+
+static void sleep_s(double s) {
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(s * 1e9));
+}
+
+static int set_up(void **state) {
+    (void)state;
+    emulated_hid_init(&hid);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    emulated_hid_destroy(&hid);
+    return 0;
+}
+
+static void plug(uint16_t usage_page, uint8_t report_bytes) {
+    assert_int_equal(emulated_hid_plug(&hid, usage_page, report_bytes, NULL), 1);
+}
+
+static knurl_device *open_device(void) {
+    knurl_device *device = NULL;
+    const knurl_result result = knurl_device_open("rawhid", &device);
+    if (result) {
+        print_error("%s\n", knurl_error_message());
+    }
+    assert_int_equal(result, KNURL_OK);
+    return device;
+}
+
+static int tick_until(knurl_device *device, knurl_result result, const double force[3], double seconds,
+                      knurl_device_sample *sample) {
+    const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
+    do {
+        if (knurl_device_read(device, sample) == result) {
+            return 1;
+        }
+        (void)knurl_device_write(device, force);
+        sleep_s(0.001);
+    } while (knurl_system_now_ns() < until);
+    return 0;
+}
+
+/* Ticks as a loop does that always comes back from a halt: a machine under load brings some about. */
+static void hold(knurl_device *device, const double force[3], double seconds) {
+    knurl_device_sample sample;
+    const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
+    while (knurl_system_now_ns() < until) {
+        (void)knurl_device_read(device, &sample);
+        knurl_device_release_halt(device);
+        (void)knurl_device_write(device, force);
+        sleep_s(0.001);
+    }
+}
+
+/* 2000 N/m; 0.3 N of friction, and the encoders' steps. */
+static int has_followed(knurl_device *device, const double force[3]) {
+    knurl_device_sample sample;
+    int near = knurl_device_read(device, &sample) == KNURL_OK;
+    for (int axis = 0; axis < 3; axis++) {
+        near = near && fabs(sample.position[axis] - force[axis] / 2000.0) <= 0.3 / 2000.0 + 0.0002;
+    }
+    return near;
+}
+
+static double limp_since(void) {
+    knurl_system_mutex_lock(&hid.mutex);
+    const double since = hid_sim_limp_since(&hid.sim, 1e-9 * (double)knurl_system_now_ns());
+    knurl_system_mutex_unlock(&hid.mutex);
+    return since;
+}
+
+static void check_refused(knurl_result code, const char *words) {
+    struct {
+        knurl_device *device;
+    } out = {NULL};
+    CHECK_REFUSED(knurl_device_open("rawhid", &out.device), code, out);
+    check_message(words);
+}
+
+static knurl_device_listing listed(void) {
+    knurl_device_listing listings[8];
+    knurl_listings found = {listings, 8, 0};
+    knurl_rawhid_driver.list(&found);
+    assert_int_equal(found.count, 1);
+    return listings[0];
+}
+
+TEST(no_device_is_a_sentence) {
+    check_refused(KNURL_ERROR_DEVICE_LOST, "found none");
+    assert_non_null(strstr(listed().reason, "none is connected"));
+}
+
+TEST(it_is_listed_opened_and_closed_again_and_again) {
+    plug(0xffab, 64);
+    const knurl_device_listing listing = listed();
+    assert_string_equal(listing.uri, "rawhid:16c0:0486");
+    assert_string_equal(listing.name, "Teensyduino WoodenHaptics");
+    assert_string_equal(listing.reason, "");
+    for (int i = 0; i < 5; i++) {
+        knurl_device_sample sample;
+        knurl_device *device = open_device();
+        assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+        assert_true(vec3_length(sample.position) < 0.0003);
+        knurl_device_close(device);
+    }
+}
+
+TEST(a_force_moves_the_hand_its_way_and_closing_ends_it) {
+    static const double force[3] = {1.0, -2.0, 0.5};
+    knurl_device_sample sample;
+    knurl_device_status status;
+    plug(0xffab, 64);
+    knurl_device *device = open_device();
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    const int64_t start = knurl_system_now_ns();
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const uint64_t before = status.exchanges;
+    int tries = 0;
+    do {
+        hold(device, force, 1.0);
+    } while (!has_followed(device, force) && ++tries < 5);
+    assert_true(tries < 5);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    if (getenv("KNURL_TIMES")) {
+        print_message("%.0f exchanges/s, median %.0f us, 99 %% within %.0f us\n",
+                      (double)(status.exchanges - before) / (1e-9 * (double)(knurl_system_now_ns() - start)),
+                      1e-3 * status.exchange_ns_p50, 1e-3 * status.exchange_ns_p99);
+    }
+    knurl_device_close(device);
+    sleep_s(0.02);
+    assert_true(limp_since() >= 0.0);
+}
+
+TEST(reports_of_14_bytes_work_as_well) {
+    knurl_device_sample sample;
+    plug(0xffab, 14);
+    knurl_device *device = open_device();
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    knurl_device_close(device);
+}
+
+TEST(an_interface_of_another_usage_is_refused_in_a_sentence) {
+    plug(0xffc9, 64);
+    check_refused(KNURL_ERROR_DEVICE_LOST, "/dev/hidraw0) is there, but is of usage ffc9:0200; expected ffab:0200");
+    assert_non_null(strstr(listed().reason, "another firmware"));
+}
+
+TEST(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence) {
+    plug(0xffab, 8);
+    check_refused(KNURL_ERROR_DEVICE_LOST, "reports are of 8 bytes in and 8 out; expected 14 to 64");
+}
+
+/* In a process that is nobody's, for nothing is denied to root. */
+TEST(permission_denied_names_the_rule_that_helps) {
+    plug(0xffab, 64);
+    gchar *root = umockdev_testbed_get_root_dir(hid.testbed);
+    const int is_root = geteuid() == 0;
+    char node[1024];
+    (void)snprintf(node, sizeof node, "%s/dev/hidraw0", root);
+    const int is_closed = (!is_root || chmod(root, 0755) == 0) && chmod(node, 0) == 0;
+    g_free(root);
+    if (!is_closed) {
+        print_message("skipped: the emulated node's mode cannot be changed\n");
+        skip();
+    }
+    const pid_t child = fork();
+    if (child == 0) {
+        knurl_device *device = NULL;
+        if (is_root && (setgid(NOBODY) != 0 || setuid(NOBODY) != 0)) {
+            _exit(1);
+        }
+        const knurl_result result = knurl_device_open("rawhid", &device);
+        if (result != KNURL_ERROR_SYSTEM || !strstr(knurl_error_message(), "copy sdk/udev/70-knurl.rules")) {
+            print_error("%d: %s\n", (int)result, knurl_error_message());
+            _exit(2);
+        }
+        _exit(strstr(listed().reason, "permission to open /dev/hidraw0 is denied") ? 0 : 3);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+TEST(muted_it_is_let_go_of_and_comes_back) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    knurl_device_sample sample;
+    plug(0xffab, 64);
+    knurl_device *device = open_device();
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    (void)tick_until(device, 1, force, 0.1, &sample);
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.is_mute = 1;
+    knurl_system_mutex_unlock(&hid.mutex);
+    assert_true(tick_until(device, KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
+    sleep_s(0.05);
+    assert_true(limp_since() >= 0.0);
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.is_mute = 0;
+    knurl_system_mutex_unlock(&hid.mutex);
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    knurl_device_close(device);
+}
+
+TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
+    knurl_device_sample sample;
+    plug(0xffab, 64);
+    knurl_device *device = open_device();
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    const int64_t pulled = knurl_system_now_ns();
+    emulated_hid_unplug(&hid);
+    assert_true(tick_until(device, KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+    assert_true(knurl_system_now_ns() - pulled < 500000000); /* told by the system, not by a second's silence */
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    plug(0xffab, 64);
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    knurl_device_close(device);
+}
+
+#define WITH_MACHINE(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WITH_MACHINE(no_device_is_a_sentence),
+        WITH_MACHINE(it_is_listed_opened_and_closed_again_and_again),
+        WITH_MACHINE(a_force_moves_the_hand_its_way_and_closing_ends_it),
+        WITH_MACHINE(reports_of_14_bytes_work_as_well),
+        WITH_MACHINE(an_interface_of_another_usage_is_refused_in_a_sentence),
+        WITH_MACHINE(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence),
+        WITH_MACHINE(permission_denied_names_the_rule_that_helps),
+        WITH_MACHINE(muted_it_is_let_go_of_and_comes_back),
+        WITH_MACHINE(unplugged_it_is_lost_and_plugged_in_again_it_is_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
