@@ -143,17 +143,20 @@ KNURL_API void knurl_device_functions_init(knurl_device_functions *functions, ui
 KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
 /** Opens a device by URI; "name:" alone is "name".
- *   fake                        fake:?key=value&..., any of the keys that knurl_fake_keys() lists; a later key counts
- * over an earlier one, and `preset` sets all of them anew touch                       the Touch that is called the
- * default; touch:NAME by the name that its set-up program gave it; ?library=PATH: where libHD is, before the
- * environment variable KNURL_HD_LIBRARY and the usual places falcon                      the first one;
- * falcon:?firmware=PATH: the image to load where the device has none, before the environment variable
- * KNURL_FALCON_FIRMWARE rawhid                      the first one that is known; rawhid:VID:PID (hexadecimal) which
- * one; ?geometry=PATH: a file that says how it is built (README, "Devices") Errors: KNURL_ERROR_UNKNOWN (device),
- * KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no such driver, or a library that it
- * needs cannot be loaded), KNURL_ERROR_DEVICE_LOST (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it
- * is there but may not be used: permissions), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file),
- * KNURL_ERROR_MEMORY. [game thread] */
+ *
+ * - fake, fake:?key=value&...: any of the keys that knurl_fake_keys() lists; a later key counts over an earlier one,
+ * and `preset` sets all of them anew.
+ * - touch, touch:NAME: the default Touch, or the one that its set-up program gave this name. ?library=PATH: where libHD
+ *   is, before the environment variable KNURL_HD_LIBRARY and the usual places.
+ * - falcon: the first one. ?firmware=PATH: the image to load where the device has none, before the environment variable
+ *   KNURL_FALCON_FIRMWARE.
+ * - rawhid, rawhid:VID:PID: the first one that is known, or which one (hexadecimal). ?geometry=PATH: a file that says
+ *   how it is built, see assets/devices. ?home=1: it rests in its home pose now.
+ *
+ * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no
+ * such driver, or a library that it needs cannot be loaded), KNURL_ERROR_DEVICE_LOST (none is connected, or it does not
+ * answer), KNURL_ERROR_SYSTEM (it is there but may not be used: permissions), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a
+ * firmware or geometry file), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
 
 /** Makes a device of a caller's functions. Its positions are checked as any device's: what is not finite, or moves
