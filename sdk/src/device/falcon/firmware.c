@@ -30,8 +30,8 @@ static const request load_mode[] = {{LINES, 0x100}, {BAUD, 0x15}};              
 
 #define PROBES      10  /* frames */
 #define PROBE_MS    20  /* for an answer to each */
-#define GREETINGS   100 /* libnifalcon's patience */
-#define GREETING_MS 30  /* 7 characters at 9600 Bd, and the chip's 16 ms */
+#define GREETINGS   60  /* 1.5 s in all, as long as libnifalcon waits */
+#define GREETING_MS 25  /* 7 characters at 9600 Bd, and the chip's 16 ms */
 #define ECHO_MS     500
 #define WRITE_MS    200
 #define CHUNK       62u
