@@ -76,8 +76,7 @@ static outcome run(knurl_device *device, int ms, const double force[3]) {
 /* Opened, and its first position has come: until then it is halted, as a loop would have it. */
 static knurl_device *open_ready(void) {
     knurl_device *device = open_fake();
-    for (int i = 0; i < 1000 && run(device, 1, no_force).good == 0; i++) {
-    }
+    for (int i = 0; i < 1000 && run(device, 1, no_force).good == 0; i++) {}
     knurl_device_release_halt(device);
     return device;
 }
