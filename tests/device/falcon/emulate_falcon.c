@@ -34,7 +34,7 @@ int main(int argc, char **argv) {
     falcon_sim_init(&setup.sim, NULL);
     for (; at < argc && strcmp(argv[at], "--") != 0; at++) {
         if (strcmp(argv[at], "--unplug-after") == 0 && at + 1 < argc) {
-            setup.unplug_after = atof(argv[++at]);
+            setup.unplug_after = strtod(argv[++at], NULL);
         } else if (strcmp(argv[at], "--no-firmware") == 0) {
             falcon_sim_forget_firmware(&setup.sim, IMAGE_SIZE, 0);
         } else if (strcmp(argv[at], "--split") == 0) {

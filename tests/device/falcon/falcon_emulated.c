@@ -236,7 +236,7 @@ int falcon_emulated_start(const falcon_emulation *setup) {
     it.bed = umockdev_testbed_new();
     if (!umockdev_in_mock_environment()) { /* the answer is kept: not to be asked before there is a bed */
         (void)fprintf(stderr, "run this under umockdev-wrapper\n");
-        g_clear_object(&it.bed);
+        g_object_unref(it.bed);
         return 0;
     }
     knurl_system_mutex_init(&it.lock);
@@ -276,7 +276,7 @@ falcon_sim falcon_emulated_look(void) {
 void falcon_emulated_stop(void) {
     (void)umockdev_testbed_detach_ioctl(it.bed, NODE, NULL);
     drop_all();
-    g_clear_object(&it.handler);
-    g_clear_object(&it.bed);
+    g_object_unref(it.handler);
+    g_object_unref(it.bed);
     knurl_system_mutex_destroy(&it.lock);
 }

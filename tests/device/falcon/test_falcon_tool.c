@@ -21,7 +21,8 @@ static process run_with_falcon(const char *const *options, const char *const *ar
 #define OPTIONS(...)   ((const char *const[]){__VA_ARGS__, NULL})
 #define NO_OPTIONS     ((const char *const[]){NULL})
 #define ARGUMENTS(...) ((const char *const[]){__VA_ARGS__, NULL})
-#define PLATE          KNURL_TEST_ASSETS "/plate_1d.glb"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 static void check_felt(process *p) {
     if (p->exit_code != 0) {
@@ -37,17 +38,17 @@ static void check_felt(process *p) {
 TEST(a_falcon_is_among_the_devices) {
     process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("devices", "--json"));
     check_done(&p);
-    assert_non_null(strstr(p.out, "{\"uri\":\"falcon\",\"name\":\"Novint Falcon\",\"unusable\":\"\"}"));
+    assert_non_null(strstr(p.out, "{\"uri\": \"falcon\", \"name\": \"Novint Falcon\", \"unusable\": \"\"}"));
     process_free(&p);
 }
 
 TEST(a_plate_is_felt_through_a_falcon) {
-    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", PLATE, "--device", "falcon", "--seconds", "2"));
+    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
     check_felt(&p);
 }
 
 TEST(packets_in_pieces_change_nothing) {
-    process p = run_with_falcon(OPTIONS("--split"), ARGUMENTS("run", PLATE, "--device", "falcon", "--seconds", "2"));
+    process p = run_with_falcon(OPTIONS("--split"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
     check_felt(&p);
 }
 
@@ -56,9 +57,9 @@ TEST(a_falcon_without_firmware_is_given_the_image) {
     char uri[600];
     write_file(tool_path("image.bin"), zeros, sizeof zeros);
     (void)snprintf(uri, sizeof uri, "falcon:?firmware=%s", tool_path("image.bin"));
-    process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", PLATE, "--device", uri, "--seconds", "2"));
+    process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "2"));
     check_felt(&p);
-    p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", PLATE, "--device", "falcon", "--seconds", "2"));
+    p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
     assert_int_not_equal(p.exit_code, 0);
     assert_non_null(strstr(p.err, "KNURL_FALCON_FIRMWARE"));
     process_free(&p);
@@ -66,7 +67,7 @@ TEST(a_falcon_without_firmware_is_given_the_image) {
 
 TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
     process p = run_with_falcon(OPTIONS("--unplug-after", "1"),
-                                ARGUMENTS("run", PLATE, "--device", "falcon", "--seconds", "5"));
+                                ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "lost"));
     process_free(&p);
