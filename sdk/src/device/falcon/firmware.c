@@ -1,0 +1,237 @@
+/* Setting a Falcon up, and loading its firmware. Read knurl_falcon_prepare() first. SPDX-License-Identifier: MIT */
+#include "device/falcon/firmware.h"
+
+#include "base/system.h"
+#include "device/falcon/frame.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Requests to the FTDI chip. */
+enum { PURGE = 0, LINES = 1, FLOW = 2, BAUD = 3, FORMAT = 4, LATENCY = 9 };
+
+typedef struct request {
+    uint8_t request;
+    uint16_t value;
+} request;
+
+static const request normal_mode[] = {{PURGE, 1}, {PURGE, 2}, {LATENCY, 1}, /* ms */
+                                      {BAUD, 2},                            /* 1.5 MBaud */
+                                      {PURGE, 1}, {PURGE, 2}};
+static const request boot_mode[] = {{PURGE, 1},     {PURGE, 2},     {LATENCY, 16}, {BAUD, 0x4138}, /* 9600 Bd */
+                                    {FORMAT, 8},                                                   /* 8N1 */
+                                    {FLOW, 0},      {LINES, 0x200},                                /* RTS low */
+                                    {LINES, 0x100}, {LINES, 0x101}};                               /* DTR low, high */
+static const request load_mode[] = {{LINES, 0x100}, {BAUD, 0x15}};                                 /* 140 kBd */
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+#define PROBES      10  /* frames */
+#define PROBE_MS    20  /* for an answer to each */
+#define GREETINGS   60  /* 1.5 s in all, as long as libnifalcon waits */
+#define GREETING_MS 25  /* 7 characters at 9600 Bd, and the chip's 16 ms */
+#define ECHO_MS     500
+#define WRITE_MS    200
+#define CHUNK       62u
+
+static knurl_result gone(const char *doing) {
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'falcon': it was unplugged while %s", doing);
+}
+
+static knurl_result set_up(const knurl_falcon_transport *t, const request *requests, size_t count, const char *mode) {
+    for (size_t i = 0; i < count; i++) {
+        const int outcome = t->control(t->self, requests[i].request, requests[i].value);
+        if (outcome == KNURL_FALCON_GONE) {
+            return gone("it was set up");
+        }
+        if (outcome != KNURL_FALCON_DONE) {
+            return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                              "device 'falcon': its USB chip refused step %lu of %lu to %s (request %u, value 0x%x); "
+                              "plug it in again",
+                              (unsigned long)(i + 1), (unsigned long)count, mode, (unsigned)requests[i].request,
+                              (unsigned)requests[i].value);
+        }
+    }
+    return KNURL_OK;
+}
+
+static int64_t after_ms(int64_t ms) {
+    return knurl_system_now_ns() + ms * 1000000;
+}
+
+/* The data of one packet, or none by the deadline. `bytes`: a packet's room. KNURL_FALCON_. */
+static int receive(const knurl_falcon_transport *t, int64_t deadline, uint8_t *bytes, size_t *count) {
+    for (;;) {
+        uint8_t packet[KNURL_FALCON_PACKET];
+        size_t size = 0;
+        const int64_t left = deadline - knurl_system_now_ns();
+        if (left <= 0) {
+            return KNURL_FALCON_NOTHING;
+        }
+        const int outcome = t->read(t->self, packet, &size, (uint32_t)(left / 1000000) + 1);
+        if (outcome == KNURL_FALCON_GONE) {
+            return outcome;
+        }
+        if (outcome == KNURL_FALCON_DONE && size > KNURL_FALCON_STATUS) {
+            *count = size - KNURL_FALCON_STATUS;
+            memcpy(bytes, packet + KNURL_FALCON_STATUS, *count);
+            return outcome;
+        }
+    }
+}
+
+/* Sends frames without force until one is answered. KNURL_FALCON_. */
+static int probe(const knurl_falcon_transport *t) {
+    static const int16_t none[3] = {0, 0, 0};
+    knurl_falcon_decoder decoder = {0};
+    uint8_t frame[KNURL_FALCON_FRAME_BYTES];
+    knurl_falcon_encode(none, KNURL_FALCON_HOMING | KNURL_FALCON_RED, frame);
+    for (int i = 0; i < PROBES; i++) {
+        uint8_t bytes[KNURL_FALCON_PACKET];
+        size_t count = 0;
+        const int64_t deadline = after_ms(PROBE_MS);
+        int outcome = t->write(t->self, frame, sizeof frame, PROBE_MS);
+        while (outcome == KNURL_FALCON_DONE) {
+            outcome = receive(t, deadline, bytes, &count);
+            if (outcome == KNURL_FALCON_DONE && knurl_falcon_decode(&decoder, bytes, count) > 0) {
+                return KNURL_FALCON_DONE;
+            }
+        }
+        if (outcome == KNURL_FALCON_GONE) {
+            return outcome;
+        }
+    }
+    return KNURL_FALCON_NOTHING;
+}
+
+/* Says hello until the boot loader does: 0A 44 2C 0D, sometimes after a 00. */
+static knurl_result greet(const knurl_falcon_transport *t) {
+    static const uint8_t hello[] = {0x0a, 0x43, 0x0d};
+    static const uint8_t reply[] = {0x0a, 0x44, 0x2c, 0x0d};
+    for (int i = 0; i < GREETINGS; i++) {
+        uint8_t heard[2 * KNURL_FALCON_PACKET];
+        size_t size = 0;
+        const int64_t deadline = after_ms(GREETING_MS);
+        int outcome = t->write(t->self, hello, sizeof hello, WRITE_MS);
+        while (outcome == KNURL_FALCON_DONE && size < KNURL_FALCON_PACKET) {
+            size_t count = 0;
+            outcome = receive(t, deadline, heard + size, &count);
+            size += count;
+            if (size >= sizeof reply && memcmp(heard + size - sizeof reply, reply, sizeof reply) == 0) {
+                return KNURL_OK;
+            }
+        }
+        if (outcome == KNURL_FALCON_GONE) {
+            return gone("its boot loader was called");
+        }
+    }
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                      "device 'falcon': its boot loader does not answer (expected 0A 44 2C 0D within %d calls); switch "
+                      "its power off and on",
+                      GREETINGS);
+}
+
+/* Sends bytes that are to come back as they are. `at`: where in the image they stand. */
+static knurl_result send_echoed(const knurl_falcon_transport *t, const uint8_t *bytes, size_t count, size_t at) {
+    uint8_t heard[KNURL_FALCON_PACKET];
+    size_t echoed = 0;
+    const int64_t deadline = after_ms(ECHO_MS);
+    int outcome = t->write(t->self, bytes, count, WRITE_MS);
+    while (outcome == KNURL_FALCON_DONE && echoed < count) {
+        size_t size = 0;
+        outcome = receive(t, deadline, heard, &size);
+        for (size_t i = 0; i < size; i++, echoed++) {
+            if (echoed == count || heard[i] != bytes[echoed]) {
+                return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                                  "device 'falcon': loading its firmware: byte %lu came back as 0x%02x%s; switch its "
+                                  "power off and on",
+                                  (unsigned long)(at + echoed), (unsigned)heard[i],
+                                  echoed == count ? " and had not been sent" : ", which is not what was sent");
+            }
+        }
+    }
+    if (outcome == KNURL_FALCON_GONE) {
+        return gone("its firmware was loaded");
+    }
+    return outcome == KNURL_FALCON_DONE
+               ? KNURL_OK
+               : knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                            "device 'falcon': loading its firmware: no echo of byte %lu within %d ms; switch its power "
+                            "off and on",
+                            (unsigned long)(at + echoed), ECHO_MS);
+}
+
+static knurl_result load(const knurl_falcon_transport *t, const uint8_t *image, size_t size) {
+    static const uint8_t begin[] = {0x41};
+    knurl_result result = set_up(t, boot_mode, COUNT(boot_mode), "reach its boot loader");
+    result = result ? result : greet(t);
+    result = result ? result : set_up(t, load_mode, COUNT(load_mode), "load its firmware");
+    result = result ? result : send_echoed(t, begin, sizeof begin, 0);
+    for (size_t at = 0; at < size && !result; at += CHUNK) {
+        result = send_echoed(t, image + at, size - at < CHUNK ? size - at : CHUNK, at);
+    }
+    return result ? result : set_up(t, normal_mode, COUNT(normal_mode), "start its firmware");
+}
+
+/* The file's bytes, KNURL_FALCON_IMAGE_MOST + 1 at most. */
+static knurl_result read_image(const char *path, uint8_t *image, size_t *size) {
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s': %s", path, strerror(errno));
+    }
+    const size_t got = fread(image, 1, KNURL_FALCON_IMAGE_MOST + 1, file);
+    const int failed = ferror(file);
+    (void)fclose(file);
+    if (failed) {
+        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s' cannot be read", path);
+    }
+    if (got < KNURL_FALCON_IMAGE_LEAST || got > KNURL_FALCON_IMAGE_MOST) {
+        return knurl_fail(KNURL_ERROR_FORMAT,
+                          "device 'falcon': firmware '%s': expected an image of %d to %d bytes, found %lu%s", path,
+                          KNURL_FALCON_IMAGE_LEAST, KNURL_FALCON_IMAGE_MOST, (unsigned long)got,
+                          got > KNURL_FALCON_IMAGE_MOST ? " or more" : "");
+    }
+    *size = got;
+    return KNURL_OK;
+}
+
+static knurl_result load_file(const knurl_falcon_transport *t, const char *path) {
+    size_t size = 0;
+    uint8_t *image = malloc(KNURL_FALCON_IMAGE_MOST + 1);
+    if (!image) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': could not get %d bytes for its firmware",
+                          KNURL_FALCON_IMAGE_MOST + 1);
+    }
+    knurl_result result = read_image(path, image, &size);
+    result = result ? result : load(t, image, size);
+    free(image);
+    return result;
+}
+
+knurl_result knurl_falcon_prepare(const knurl_falcon_transport *t, const char *path) {
+    knurl_result result = set_up(t, normal_mode, COUNT(normal_mode), "reach its firmware");
+    if (result) {
+        return result;
+    }
+    int outcome = probe(t); /* the last program to use it may have loaded it */
+    if (outcome == KNURL_FALCON_NOTHING && !path[0]) {
+        return knurl_fail(
+            KNURL_ERROR_DEVICE_LOST,
+            "device 'falcon': it is connected but does not answer: after power-on it needs a firmware, which may not be "
+            "shipped with Knurl; open 'falcon:?firmware=PATH' or set KNURL_FALCON_FIRMWARE to the path of an image, "
+            "such as the nvent_firmware.bin or novint.bin that come with libnifalcon or Novint's drivers");
+    }
+    if (outcome == KNURL_FALCON_NOTHING) {
+        result = load_file(t, path);
+        outcome = result ? outcome : probe(t);
+    }
+    if (result || outcome == KNURL_FALCON_DONE) {
+        return result;
+    }
+    return outcome == KNURL_FALCON_GONE
+               ? gone("it was looked at")
+               : knurl_fail(KNURL_ERROR_FORMAT,
+                            "device 'falcon': firmware '%s' was loaded, but nothing answers: it is no Falcon's", path);
+}

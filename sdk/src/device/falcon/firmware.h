@@ -1,0 +1,18 @@
+/* Makes an open Falcon ready for frames: it comes out of power-on with a boot loader and no firmware, and keeps what it
+ * is given until it loses power. Source: libnifalcon (FalconCommLibUSB, FalconFirmware). SPDX-License-Identifier: MIT
+ */
+#ifndef KNURL_SRC_FALCON_FIRMWARE_H
+#define KNURL_SRC_FALCON_FIRMWARE_H
+
+#include "device/falcon/transport.h"
+
+/* What an image may measure, bytes: those that are known have 7 to 8 kB. */
+#define KNURL_FALCON_IMAGE_LEAST 1024
+#define KNURL_FALCON_IMAGE_MOST  65536
+
+/* Returns once the device answers a frame, of no force; where it does not, loads the image at `path` ("": none is
+ * known). Takes 0.2 s at most without loading and some 3 s with. Errors: KNURL_ERROR_DEVICE_LOST (unplugged, or
+ * does not answer), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (the image), KNURL_ERROR_MEMORY. */
+knurl_result knurl_falcon_prepare(const knurl_falcon_transport *transport, const char *path);
+
+#endif

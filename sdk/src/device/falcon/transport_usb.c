@@ -1,0 +1,323 @@
+/* A Falcon over libusb. A transfer for what comes in is always under way, so that no answer waits for one to be asked
+ * for. libusb's events are handled by whoever calls. SPDX-License-Identifier: MIT */
+#include "device/falcon/transport.h"
+
+#ifndef KNURL_HAVE_LIBUSB
+
+static const char missing[] =
+    "this build is without libusb-1.0; install its headers (libusb-1.0-0-dev), configure with "
+    "KNURL_FALCON=ON and build again";
+
+static void usb_list(void *user, knurl_listings *listings) {
+    (void)user;
+    knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", missing);
+}
+
+static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
+    (void)user;
+    (void)transport;
+    return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'falcon': %s", missing);
+}
+
+#else
+
+#include "base/system.h"
+
+#include <libusb.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define VENDOR       0x0403
+#define PRODUCT      0xcb48
+#define END_IN       0x81
+#define END_OUT      0x02
+#define REQUEST_TYPE 0x40
+#define CONTROL_MS   1000
+#define ROOM         16u  /* packets that have come and were not read yet; the oldest give way */
+#define CLOSE_MS     1000 /* for what is under way to end */
+
+static const char permission[] =
+    "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
+    "--reload' and 'udevadm trigger', and plug it in again";
+
+typedef struct usb {
+    libusb_context *context;
+    libusb_device_handle *handle;
+    struct libusb_transfer *in, *out;
+    unsigned char in_bytes[KNURL_FALCON_PACKET];
+    unsigned char out_bytes[KNURL_FALCON_PACKET];
+    int is_in_pending, is_out_pending;
+    int is_gone, is_closing, has_failed; /* has_failed: the latest transfer out */
+    struct {
+        uint8_t bytes[KNURL_FALCON_PACKET];
+        size_t count;
+    } packets[ROOM];
+    uint32_t first, held;
+} usb;
+
+static void keep(usb *u, const unsigned char *bytes, int count) {
+    if (u->held == ROOM) {
+        u->first = (u->first + 1) % ROOM;
+        u->held--;
+    }
+    const uint32_t at = (u->first + u->held++) % ROOM;
+    u->packets[at].count = (size_t)count;
+    memcpy(u->packets[at].bytes, bytes, (size_t)count);
+}
+
+static void LIBUSB_CALL on_in(struct libusb_transfer *transfer) {
+    usb *u = transfer->user_data;
+    u->is_in_pending = 0;
+    u->is_gone |= transfer->status == LIBUSB_TRANSFER_NO_DEVICE;
+    if (transfer->status == LIBUSB_TRANSFER_COMPLETED && !u->is_closing) {
+        if (transfer->actual_length > (int)KNURL_FALCON_STATUS) {
+            keep(u, u->in_bytes, transfer->actual_length);
+        }
+        u->is_in_pending = libusb_submit_transfer(transfer) == 0; /* else the next read tries, and sees why */
+    }
+}
+
+static void LIBUSB_CALL on_out(struct libusb_transfer *transfer) {
+    usb *u = transfer->user_data;
+    u->is_out_pending = 0;
+    u->is_gone |= transfer->status == LIBUSB_TRANSFER_NO_DEVICE;
+    u->has_failed = transfer->status != LIBUSB_TRANSFER_COMPLETED;
+}
+
+/* A request's own outcome. */
+static int outcome_of(usb *u, int code) {
+    u->is_gone |= code == LIBUSB_ERROR_NO_DEVICE;
+    return code >= 0 ? KNURL_FALCON_DONE : u->is_gone ? KNURL_FALCON_GONE : KNURL_FALCON_NOTHING;
+}
+
+/* Handles events until `deadline`, or until one was handled. */
+static void wait_for_events(usb *u, int64_t deadline) {
+    const int64_t left = deadline - knurl_system_now_ns();
+    struct timeval time = {0, 0};
+    if (left > 0) {
+        time.tv_sec = (time_t)(left / 1000000000);
+        time.tv_usec = (long)(left % 1000000000 / 1000);
+    }
+    (void)libusb_handle_events_timeout_completed(u->context, &time, NULL);
+}
+
+static int64_t after_ms(uint32_t ms) {
+    return knurl_system_now_ns() + (int64_t)ms * 1000000;
+}
+
+static int usb_control(void *self, uint8_t request, uint16_t value) {
+    usb *u = self;
+    return outcome_of(u, libusb_control_transfer(u->handle, REQUEST_TYPE, request, value, 0, NULL, 0, CONTROL_MS));
+}
+
+static int begin_in(usb *u) {
+    if (u->is_in_pending || u->is_gone) {
+        return u->is_gone ? KNURL_FALCON_GONE : KNURL_FALCON_DONE;
+    }
+    libusb_fill_bulk_transfer(u->in, u->handle, END_IN, u->in_bytes, sizeof u->in_bytes, on_in, u, 0);
+    const int code = libusb_submit_transfer(u->in);
+    u->is_in_pending = code == 0;
+    return outcome_of(u, code);
+}
+
+static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t timeout_ms) {
+    usb *u = self;
+    const int64_t deadline = after_ms(timeout_ms);
+    while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
+        wait_for_events(u, deadline); /* for the one before */
+    }
+    if (u->is_gone) {
+        return KNURL_FALCON_GONE;
+    }
+    if (u->is_out_pending || count > sizeof u->out_bytes) {
+        return KNURL_FALCON_NOTHING;
+    }
+    const int outcome = begin_in(u); /* before the answer can come */
+    if (outcome != KNURL_FALCON_DONE) {
+        return outcome;
+    }
+    const int had_failed = u->has_failed; /* told one write late: nobody waits for the end of this one */
+    memcpy(u->out_bytes, bytes, count);
+    libusb_fill_bulk_transfer(u->out, u->handle, END_OUT, u->out_bytes, (int)count, on_out, u, 0);
+    const int code = libusb_submit_transfer(u->out);
+    u->is_out_pending = code == 0;
+    u->has_failed = 0;
+    return had_failed && code == 0 ? KNURL_FALCON_NOTHING : outcome_of(u, code);
+}
+
+static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms) {
+    usb *u = self;
+    const int64_t deadline = after_ms(timeout_ms);
+    while (u->held == 0) {
+        const int outcome = begin_in(u);
+        if (outcome != KNURL_FALCON_DONE) {
+            return outcome;
+        }
+        if (knurl_system_now_ns() >= deadline) {
+            return KNURL_FALCON_NOTHING;
+        }
+        wait_for_events(u, deadline);
+    }
+    *count = u->packets[u->first].count;
+    memcpy(packet, u->packets[u->first].bytes, *count);
+    u->first = (u->first + 1) % ROOM;
+    u->held--;
+    return KNURL_FALCON_DONE;
+}
+
+/* Takes back what is under way, and everything else. */
+static void usb_close(void *self) {
+    usb *u = self;
+    const int64_t deadline = after_ms(CLOSE_MS);
+    u->is_closing = 1;
+    while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
+        wait_for_events(u, deadline); /* the last frame: it lets go of the motors */
+    }
+    if (u->is_in_pending) {
+        (void)libusb_cancel_transfer(u->in);
+    }
+    if (u->is_out_pending) {
+        (void)libusb_cancel_transfer(u->out);
+    }
+    while ((u->is_in_pending || u->is_out_pending) && knurl_system_now_ns() < deadline) {
+        wait_for_events(u, deadline);
+    }
+    if (u->handle) {
+        (void)libusb_release_interface(u->handle, 0);
+        libusb_close(u->handle); /* forgets transfers that are still under way */
+    }
+    libusb_free_transfer(u->in);
+    libusb_free_transfer(u->out);
+    libusb_exit(u->context);
+    free(u);
+}
+
+static knurl_result refused(const char *doing, int code) {
+    if (code == LIBUSB_ERROR_ACCESS) {
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", permission);
+    }
+    if (code == LIBUSB_ERROR_BUSY) {
+        return knurl_fail(KNURL_ERROR_SYSTEM,
+                          "device 'falcon': found (0403:cb48), but somebody else uses it: another program, or the "
+                          "kernel's ftdi_sio; close the one or unload the other");
+    }
+    if (code == LIBUSB_ERROR_NO_DEVICE) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'falcon': it was unplugged while it was opened");
+    }
+    if (code == LIBUSB_ERROR_NO_MEM) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': libusb got no memory to %s", doing);
+    }
+    return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': libusb could not %s: %s", doing,
+                      libusb_strerror((enum libusb_error)code));
+}
+
+/* Calls `visit` for every Falcon until it returns 0. Returns how many USB devices there are, or libusb's error. */
+static long visit_falcons(libusb_context *context, int (*visit)(libusb_device *device, void *user), void *user) {
+    libusb_device **devices = NULL;
+    const ssize_t count = libusb_get_device_list(context, &devices);
+    int more = 1;
+    for (ssize_t i = 0; i < count && more; i++) {
+        struct libusb_device_descriptor d;
+        if (libusb_get_device_descriptor(devices[i], &d) == 0 && d.idVendor == VENDOR && d.idProduct == PRODUCT) {
+            more = visit(devices[i], user);
+        }
+    }
+    if (count >= 0) {
+        libusb_free_device_list(devices, 1);
+    }
+    return (long)count;
+}
+
+static int visit_to_list(libusb_device *device, void *user) {
+    knurl_listings *listings = user;
+    libusb_device_handle *handle = NULL;
+    const int code = libusb_open(device, &handle);
+    if (code == 0) {
+        libusb_close(handle);
+    }
+    const char *why = code == LIBUSB_ERROR_ACCESS ? permission : code ? libusb_strerror((enum libusb_error)code) : "";
+    knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", why);
+    return 0; /* the first one is the one that is opened */
+}
+
+static void usb_list(void *user, knurl_listings *listings) {
+    (void)user;
+    libusb_context *context = NULL;
+    const uint32_t before = listings->count;
+    const int code = libusb_init(&context);
+    if (code) {
+        knurl_listings_add(listings, "falcon", "Novint Falcon", "USB cannot be looked at: libusb says '%s'",
+                           libusb_strerror((enum libusb_error)code));
+        return;
+    }
+    const long count = visit_falcons(context, visit_to_list, listings);
+    if (listings->count == before) {
+        knurl_listings_add(listings, "falcon", "Novint Falcon",
+                           "none is connected: 0403:cb48 is not among the %ld USB devices here; plug it in, and its "
+                           "power supply as well",
+                           count > 0 ? count : 0);
+    }
+    libusb_exit(context);
+}
+
+typedef struct search {
+    usb *u;
+    int found, code;
+} search;
+
+static int visit_to_open(libusb_device *device, void *user) {
+    search *s = user;
+    s->found = 1;
+    s->code = libusb_open(device, &s->u->handle);
+    return 0;
+}
+
+static knurl_result claim(usb *u) {
+    search s = {u, 0, 0};
+    int code = libusb_init(&u->context);
+    if (code) {
+        return refused("be started", code);
+    }
+    const long count = visit_falcons(u->context, visit_to_open, &s);
+    if (!s.found) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                          "device 'falcon': expected USB device 0403:cb48, found none among %ld; plug it in, and its "
+                          "power supply as well",
+                          count > 0 ? count : 0);
+    }
+    if (s.code) {
+        return refused("open it", s.code);
+    }
+    (void)libusb_set_auto_detach_kernel_driver(u->handle, 1); /* where a system has no such thing, there is no need */
+    code = libusb_claim_interface(u->handle, 0);
+    if (code) {
+        return refused("claim its interface 0", code);
+    }
+    u->in = libusb_alloc_transfer(0);
+    u->out = libusb_alloc_transfer(0);
+    return u->in && u->out ? KNURL_OK : refused("transfer", LIBUSB_ERROR_NO_MEM);
+}
+
+static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
+    (void)user;
+    usb *u = calloc(1, sizeof *u);
+    if (!u) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': could not get %lu bytes", (unsigned long)sizeof *u);
+    }
+    const knurl_result result = claim(u);
+    if (result) {
+        if (u->context) {
+            usb_close(u);
+        } else {
+            free(u);
+        }
+        return result;
+    }
+    const knurl_falcon_transport made = {u, usb_control, usb_write, usb_read, usb_close};
+    *transport = made;
+    return KNURL_OK;
+}
+
+#endif
+
+const knurl_falcon_bus knurl_falcon_usb = {usb_list, usb_open, NULL};

@@ -1,0 +1,186 @@
+/* Setting a Falcon up and loading its firmware, over a simulated one. SPDX-License-Identifier: MIT */
+#include "support/tool.h"
+
+#include "device/falcon/firmware.h"
+#include "falcon_fake.h"
+
+static uint8_t image[KNURL_FALCON_IMAGE_MOST + 1];
+static falcon_fake fake;
+static knurl_falcon_transport transport;
+
+/* Writes an image of so many bytes; returns what they add up to. */
+static uint32_t write_image(size_t size) {
+    uint64_t seed = 5;
+    uint32_t sum = 0;
+    for (size_t i = 0; i < size; i++) {
+        image[i] = (uint8_t)random_bits(&seed);
+        sum += image[i];
+    }
+    write_file(tool_path("image.bin"), image, size);
+    return sum;
+}
+
+static void plug_in(void) {
+    falcon_fake_init(&fake, NULL);
+    const knurl_falcon_bus bus = falcon_fake_bus(&fake);
+    assert_int_equal(bus.open(bus.user, &transport), KNURL_OK);
+}
+
+static void plug_out(void) {
+    transport.close(transport.self);
+    falcon_fake_free(&fake);
+}
+
+/* Fails with that code and a sentence that has all the words (apart by '|'). */
+static void check_fails(const char *path, knurl_result code, const char *words) {
+    char all[256];
+    (void)snprintf(all, sizeof all, "%s", words);
+    (void)knurl_fail(KNURL_ERROR_STATE, "stale message");
+    assert_int_equal(knurl_falcon_prepare(&transport, path), code);
+    for (char *word = all, *end = all; end; word = end + 1) {
+        end = strchr(word, '|');
+        if (end) {
+            *end = '\0';
+        }
+        check_message(word);
+        if (!end) {
+            break;
+        }
+    }
+}
+
+TEST(a_device_with_firmware_needs_no_image) {
+    plug_in();
+    assert_int_equal(knurl_falcon_prepare(&transport, ""), KNURL_OK);
+    const falcon_sim sim = falcon_fake_look(&fake);
+    assert_int_equal(sim.frames, 1);
+    assert_int_equal(sim.motors[0] | sim.motors[1] | sim.motors[2], 0);
+    assert_int_equal(sim.latency_ms, 1);
+    assert_int_equal(sim.baud, 2);
+    plug_out();
+}
+
+TEST(a_device_without_firmware_is_given_the_image) {
+    static const uint32_t sizes[] = {KNURL_FALCON_IMAGE_LEAST, 7440, 7441};
+    for (size_t i = 0; i < COUNT_OF(sizes); i++) { /* 7440: whole packets of 62 */
+        const uint32_t sum = write_image(sizes[i]);
+        plug_in();
+        falcon_sim_forget_firmware(&fake.sim, sizes[i], sum);
+        fake.sim.deaf = (uint32_t)i; /* the boot loader hears a later call */
+        assert_int_equal(knurl_falcon_prepare(&transport, tool_path("image.bin")), KNURL_OK);
+        const falcon_sim sim = falcon_fake_look(&fake);
+        assert_true(sim.has_firmware);
+        assert_int_equal(sim.image_count, sizes[i]);
+        assert_int_equal(sim.frames, 1);
+        plug_out();
+    }
+}
+
+TEST(an_echo_may_come_in_pieces) {
+    const uint32_t sum = write_image(2000);
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, sum);
+    fake.fault = DOUBLE_SPLIT;
+    assert_int_equal(knurl_falcon_prepare(&transport, tool_path("image.bin")), KNURL_OK);
+    plug_out();
+}
+
+TEST(without_an_image_the_sentence_says_how_to_name_one) {
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, 0);
+    check_fails("", KNURL_ERROR_DEVICE_LOST, "falcon|firmware|?firmware=PATH|KNURL_FALCON_FIRMWARE");
+    plug_out();
+}
+
+TEST(an_image_that_cannot_be_had_is_named) {
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, 0);
+    check_fails("/nowhere/image.bin", KNURL_ERROR_IO, "/nowhere/image.bin|No such file");
+    check_fails(tool_path(""), KNURL_ERROR_IO, tool_path(""));
+    (void)write_image(KNURL_FALCON_IMAGE_LEAST - 1);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|1024 to 65536|found 1023");
+    (void)write_image(KNURL_FALCON_IMAGE_MOST + 1);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|65536|found 65537 or more");
+    (void)write_image(0);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "found 0");
+    assert_false(fake.sim.has_firmware);
+    plug_out();
+}
+
+TEST(a_byte_that_comes_back_wrong_ends_it) {
+    static const int32_t bytes[] = {62, 1999};
+    const uint32_t sum = write_image(2000);
+    for (size_t i = 0; i < COUNT_OF(bytes); i++) {
+        char words[64];
+        plug_in();
+        falcon_sim_forget_firmware(&fake.sim, 2000, sum);
+        fake.sim.wrong_echo = bytes[i];
+        (void)snprintf(words, sizeof words, "byte %d |0x%02x|power", (int)bytes[i],
+                       (unsigned)(uint8_t)~image[bytes[i]]);
+        check_fails(tool_path("image.bin"), KNURL_ERROR_DEVICE_LOST, words);
+        assert_false(fake.sim.has_firmware);
+        plug_out();
+    }
+}
+
+TEST(an_echo_that_stays_away_ends_it) {
+    const uint32_t sum = write_image(2000);
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, sum);
+    fake.sim.no_echo = 700;
+    check_fails(tool_path("image.bin"), KNURL_ERROR_DEVICE_LOST, "no echo of byte 700 |500 ms");
+    plug_out();
+}
+
+TEST(a_boot_loader_that_does_not_answer_ends_it) {
+    (void)write_image(2000);
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, 0);
+    fake.sim.deaf = 1000;
+    check_fails(tool_path("image.bin"), KNURL_ERROR_DEVICE_LOST, "boot loader|0A 44 2C 0D");
+    plug_out();
+}
+
+TEST(an_image_that_is_none_of_a_falcon_is_named) {
+    (void)write_image(2000);
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, 1);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|nothing answers");
+    plug_out();
+}
+
+TEST(a_cable_that_is_pulled_ends_it) {
+    plug_in();
+    falcon_fake_inject(&fake, DOUBLE_UNPLUG);
+    check_fails("", KNURL_ERROR_DEVICE_LOST, "unplugged while it was set up");
+    plug_out();
+}
+
+static int refuse_control(void *self, uint8_t request, uint16_t value) {
+    (void)self;
+    return request == 3 && value == 2 ? KNURL_FALCON_NOTHING : KNURL_FALCON_DONE;
+}
+
+TEST(a_request_that_the_chip_refuses_is_named) {
+    plug_in();
+    transport.control = refuse_control;
+    check_fails("", KNURL_ERROR_DEVICE_LOST, "step 4 of 6|request 3, value 0x2");
+    plug_out();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_device_with_firmware_needs_no_image),
+        cmocka_unit_test(a_device_without_firmware_is_given_the_image),
+        cmocka_unit_test(an_echo_may_come_in_pieces),
+        cmocka_unit_test(without_an_image_the_sentence_says_how_to_name_one),
+        cmocka_unit_test(an_image_that_cannot_be_had_is_named),
+        cmocka_unit_test(a_byte_that_comes_back_wrong_ends_it),
+        cmocka_unit_test(an_echo_that_stays_away_ends_it),
+        cmocka_unit_test(a_boot_loader_that_does_not_answer_ends_it),
+        cmocka_unit_test(an_image_that_is_none_of_a_falcon_is_named),
+        cmocka_unit_test(a_cable_that_is_pulled_ends_it),
+        cmocka_unit_test(a_request_that_the_chip_refuses_is_named),
+    };
+    return cmocka_run_group_tests_name("falcon_firmware", tests, make_folder, remove_folder);
+}

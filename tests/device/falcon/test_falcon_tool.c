@@ -1,0 +1,85 @@
+/* The command-line tool with an emulated Falcon connected to the machine. SPDX-License-Identifier: MIT */
+#include "support/tool.h"
+
+/* Runs the tool on such a machine; `options` are emulate_falcon's, up to a null. */
+static process run_with_falcon(const char *const *options, const char *const *arguments) {
+    const char *all[PROCESS_ARGUMENTS] = {KNURL_TEST_WRAPPER, KNURL_TEST_EMULATE};
+    size_t count = 2;
+    for (; *options; options++) {
+        all[count++] = *options;
+    }
+    all[count++] = "--";
+    all[count++] = KNURL_TEST_TOOL;
+    for (; *arguments; arguments++) {
+        all[count++] = *arguments;
+    }
+    process p = process_start(all, NULL);
+    process_finish(&p);
+    return p;
+}
+
+#define OPTIONS(...)   ((const char *const[]){__VA_ARGS__, NULL})
+#define NO_OPTIONS     ((const char *const[]){NULL})
+#define ARGUMENTS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+static void check_felt(process *p) {
+    if (p->exit_code != 0) {
+        fail_msg("exit %d, signal %d: %s%s", p->exit_code, p->signal, p->out, p->err);
+    }
+    assert_non_null(strstr(p->out, "Novint Falcon"));
+    assert_true(json_number_of(p->out, "contact_s") > 0.0);
+    assert_true(json_number_of(p->out, "events") > 0.0);
+    assert_true(json_number_of(p->out, "force_max_n") > 0.0);
+    process_free(p);
+}
+
+TEST(a_falcon_is_among_the_devices) {
+    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("devices", "--json"));
+    check_done(&p);
+    assert_non_null(strstr(p.out, "{\"uri\": \"falcon\", \"name\": \"Novint Falcon\", \"unusable\": \"\"}"));
+    process_free(&p);
+}
+
+TEST(a_plate_is_felt_through_a_falcon) {
+    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    check_felt(&p);
+}
+
+TEST(packets_in_pieces_change_nothing) {
+    process p = run_with_falcon(OPTIONS("--split"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    check_felt(&p);
+}
+
+TEST(a_falcon_without_firmware_is_given_the_image) {
+    static const char zeros[4096];
+    char uri[600];
+    write_file(tool_path("image.bin"), zeros, sizeof zeros);
+    (void)snprintf(uri, sizeof uri, "falcon:?firmware=%s", tool_path("image.bin"));
+    process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "2"));
+    check_felt(&p);
+    p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    assert_int_not_equal(p.exit_code, 0);
+    assert_non_null(strstr(p.err, "KNURL_FALCON_FIRMWARE"));
+    process_free(&p);
+}
+
+TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
+    process p = run_with_falcon(OPTIONS("--unplug-after", "1"),
+                                ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "lost"));
+    process_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_falcon_is_among_the_devices),
+        cmocka_unit_test(a_plate_is_felt_through_a_falcon),
+        cmocka_unit_test(packets_in_pieces_change_nothing),
+        cmocka_unit_test(a_falcon_without_firmware_is_given_the_image),
+        cmocka_unit_test(a_cable_that_is_pulled_ends_the_run_with_a_sentence),
+    };
+    return cmocka_run_group_tests_name("falcon_tool", tests, make_folder, remove_folder);
+}

@@ -1,0 +1,209 @@
+/* The Falcon's driver over the real libusb, on emulated USB. SPDX-License-Identifier: MIT */
+#include "falcon_emulated.h"
+#include "support/process.h"
+
+#include "base/system.h"
+#include "device/driver.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const double no_force[3] = {0.0, 0.0, 0.0};
+
+static void plug_in(falcon_emulation *setup) {
+    if (!setup->sim.baud && !setup->sim.plant.config.mass) {
+        falcon_sim_init(&setup->sim, NULL);
+    }
+    assert_true(falcon_emulated_start(setup));
+}
+
+/* Reads and writes for so many ms; every position that came is given to `visit` for a force. Returns how many. */
+static int run(knurl_device *device, int ms, double stiffness, int *lost) {
+    int good = 0;
+    int64_t next = knurl_system_now_ns();
+    *lost = 0;
+    for (int i = 0; i < ms; i++) {
+        knurl_device_sample sample;
+        double force[3] = {0.0, 0.0, 0.0};
+        const knurl_result result = knurl_device_read(device, &sample);
+        *lost += result == KNURL_ERROR_DEVICE_LOST;
+        if (result == KNURL_OK) {
+            good++;
+            force[1] = fmax(0.0, -stiffness * sample.position[1]); /* a floor at y = 0 */
+            knurl_device_release_halt(device);
+        }
+        (void)knurl_device_write(device, result == KNURL_OK ? force : no_force);
+        next += 1000000;
+        knurl_system_sleep_until_ns(next);
+    }
+    return good;
+}
+
+static int reported(knurl_device *device, int32_t code) {
+    int count = 0;
+    knurl_device_event event;
+    while (knurl_device_next_event(device, &event)) {
+        count += event.code == code;
+    }
+    return count;
+}
+
+static knurl_device *open_falcon(void) {
+    knurl_device *device = NULL;
+    if (knurl_device_open("falcon", &device)) {
+        fail_msg("%s", knurl_error_message());
+    }
+    return device;
+}
+
+/* The hand presses 1 mm below the floor, its spring of 700 N/m against the floor's 400: it rests where both agree. */
+TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
+    falcon_emulation setup = {0};
+    int lost = 0;
+    plug_in(&setup);
+    knurl_device *device = open_falcon();
+    const int64_t begin = knurl_system_now_ns();
+    const int good = run(device, 1500, 400.0, &lost);
+    const double seconds = 1e-9 * (double)(knurl_system_now_ns() - begin);
+    knurl_device_status status;
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const falcon_sim sim = falcon_emulated_look();
+    print_message("%.0f exchanges a second, median %.2f ms, 99 %% within %.2f ms\n", (double)status.exchanges / seconds,
+                  1e-6 * status.exchange_ns_p50, 1e-6 * status.exchange_ns_p99);
+    assert_true(good > 500);
+    assert_int_equal(lost, 0);
+    assert_int_equal(sim.bad_bytes, 0);
+    assert_int_equal(status.bad_bytes, 0);
+    /* 700 (0.001 - d) = 400 d, give or take dry friction (0.5 N over 1100 N/m) */
+    CHECK_CLOSE(sim.plant.position[1], -0.001 * 700.0 / 1100.0, 0.5 / 1100.0 + 0.0001);
+    knurl_device_close(device);
+    const falcon_sim after = falcon_emulated_look();
+    assert_int_equal(after.motors[0] | after.motors[1] | after.motors[2], 0);
+    falcon_emulated_stop();
+}
+
+TEST(short_packets_change_nothing) {
+    falcon_emulation setup = {0};
+    int lost = 0;
+    setup.is_split = 1;
+    plug_in(&setup);
+    knurl_device *device = open_falcon();
+    assert_true(run(device, 500, 0.0, &lost) > 100);
+    assert_int_equal(lost, 0);
+    assert_int_equal(reported(device, KNURL_FAULT_CORRUPT), 0);
+    knurl_device_close(device);
+    falcon_emulated_stop();
+}
+
+TEST(a_mute_device_is_silent_then_lost) {
+    falcon_emulation setup = {0};
+    int lost = 0;
+    plug_in(&setup);
+    knurl_device *device = open_falcon();
+    assert_true(run(device, 200, 0.0, &lost) > 0);
+    falcon_emulated_mute(1);
+    (void)run(device, 100, 0.0, &lost);
+    assert_true(reported(device, KNURL_FAULT_SILENT) > 0);
+    (void)run(device, 1200, 0.0, &lost);
+    assert_true(lost > 0);
+    assert_int_equal(reported(device, KNURL_FAULT_LOST), 1);
+    knurl_device_close(device);
+    falcon_emulated_stop();
+}
+
+TEST(a_pulled_cable_is_told_at_once_and_the_device_had_back) {
+    falcon_emulation setup = {0};
+    int lost = 0;
+    plug_in(&setup);
+    knurl_device *device = open_falcon();
+    assert_true(run(device, 200, 0.0, &lost) > 0);
+    falcon_emulated_unplug();
+    (void)run(device, 100, 0.0, &lost);
+    assert_true(lost > 50);
+    assert_int_equal(reported(device, KNURL_FAULT_LOST), 1);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    assert_true(falcon_emulated_plug_in());
+    assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+    assert_true(run(device, 300, 0.0, &lost) > 0);
+    assert_int_equal(lost, 0);
+    knurl_device_close(device);
+    falcon_emulated_stop();
+}
+
+static knurl_device_listing find_listing(void) {
+    static knurl_device_listing listings[32];
+    const uint32_t count = knurl_device_list(listings, 32);
+    for (uint32_t i = 0; i < count && i < 32; i++) {
+        if (strncmp(listings[i].uri, "falcon", 6) == 0) {
+            return listings[i];
+        }
+    }
+    fail_msg("no listing");
+    return listings[0];
+}
+
+TEST(a_falcon_is_listed_and_one_that_is_not_there_says_so) {
+    falcon_emulation setup = {0};
+    plug_in(&setup);
+    assert_string_equal(find_listing().uri, "falcon");
+    assert_string_equal(find_listing().reason, "");
+    falcon_emulated_unplug();
+    assert_non_null(strstr(find_listing().reason, "0403:cb48"));
+    assert_non_null(strstr(find_listing().reason, "none is connected"));
+    knurl_device *device = NULL;
+    CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_DEVICE_LOST, device);
+    check_message("0403:cb48");
+    falcon_emulated_stop();
+}
+
+TEST(a_device_that_somebody_else_holds_is_refused) {
+    falcon_emulation setup = {0};
+    knurl_device *device = NULL;
+    setup.is_held = 1;
+    plug_in(&setup);
+    CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_SYSTEM, device);
+    check_message("somebody else uses it");
+    falcon_emulated_stop();
+}
+
+/* As root nothing is denied, so that root becomes nobody for this. */
+TEST(a_device_that_may_not_be_used_names_the_rule) {
+    falcon_emulation setup = {0};
+    knurl_device *device = NULL;
+    plug_in(&setup);
+    char root[512];
+    (void)snprintf(root, sizeof root, "%s", falcon_emulated_node());
+    root[strlen(root) - strlen("/dev/bus/usb/001/002")] = '\0';
+    process open_up = process_start((const char *const[]){"/bin/chmod", "-R", "a+rwX", root, NULL}, NULL);
+    process_finish(&open_up);
+    process_free(&open_up);
+    assert_int_equal(chmod(falcon_emulated_node(), 0), 0);
+    const int is_root = geteuid() == 0;
+    if (is_root) {
+        assert_int_equal(seteuid(65534), 0);
+    }
+    const knurl_device_listing listing = find_listing();
+    const knurl_result result = knurl_device_open("falcon", &device);
+    if (is_root) {
+        assert_int_equal(seteuid(0), 0);
+    }
+    assert_int_equal(result, KNURL_ERROR_SYSTEM);
+    check_message("sdk/udev/70-knurl.rules");
+    check_message("udevadm trigger");
+    assert_non_null(strstr(listing.reason, "sdk/udev/70-knurl.rules"));
+    falcon_emulated_stop();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_loop_over_usb_holds_the_hand_off_the_floor),
+        cmocka_unit_test(short_packets_change_nothing),
+        cmocka_unit_test(a_mute_device_is_silent_then_lost),
+        cmocka_unit_test(a_pulled_cable_is_told_at_once_and_the_device_had_back),
+        cmocka_unit_test(a_falcon_is_listed_and_one_that_is_not_there_says_so),
+        cmocka_unit_test(a_device_that_somebody_else_holds_is_refused),
+        cmocka_unit_test(a_device_that_may_not_be_used_names_the_rule),
+    };
+    return cmocka_run_group_tests_name("falcon_usb", tests, NULL, NULL);
+}
