@@ -185,6 +185,39 @@ TEST(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order)
     assert_true(latest[0] == REPORTS - 1 || latest[1] == REPORTS - 1);
 }
 
+/* A thread may be held up anywhere, also between taking its number and writing its event down, while others report more
+ * than the ring has room for. What it writes in the end must not be taken for theirs, nor hold up what comes after. */
+TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
+    for (int is_inside = 0; is_inside < 2; is_inside++) {
+        knurl_device_event event;
+        memset(&ring, 0, sizeof ring);
+        report_numbers(0, 10);
+        const uint64_t held_up = ring.head++;
+        const size_t at = held_up % KNURL_EVENT_ROOM;
+        if (is_inside) {
+            ring.slots[at].sequence = 2 * held_up + 1;
+        }
+        report_numbers(11, 100);
+        ring.slots[at].code = is_inside ? -77 : ring.slots[at].code;
+        if (is_inside) {
+            ring.slots[at].sequence = 2 * held_up + 2;
+        }
+        int count = 0;
+        for (double last = 0.0; knurl_events_next(&ring, &event); last = event.value) {
+            assert_int_equal(event.code, (int)event.value % 7);
+            assert_true(event.value > last);
+            count++;
+        }
+        assert_in_range(count, 63, 64);
+        CHECK_SAME(event.value, 99.0L);
+        report_numbers(100, 300); /* the slot is as good as ever */
+        for (int number = 236; number < 300; number++) {
+            assert_int_equal(knurl_events_next(&ring, &event), 1);
+            CHECK_SAME(event.value, (long double)number);
+        }
+    }
+}
+
 /* --- names --- */
 
 /* From the header's documentation, written out anew: a constant that moves breaks callers that were compiled before. */
@@ -236,6 +269,7 @@ int main(void) {
         cmocka_unit_test(events_come_oldest_first_with_the_time_at_which_they_were_seen),
         cmocka_unit_test(the_ring_keeps_the_latest_64_and_counts_all),
         cmocka_unit_test(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order),
+        cmocka_unit_test(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none),
         cmocka_unit_test(every_fault_has_its_number_its_name_and_a_sentence),
         cmocka_unit_test(codes_that_nobody_knows_have_texts_too),
     };
