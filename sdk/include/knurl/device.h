@@ -98,7 +98,8 @@ typedef struct knurl_device_functions {
     void *user;
     /** What the device is; `info` comes with defaults that promise nothing. Required: max_force > 0. [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
-    /** Prepares for being read so often; or null. [game thread] */
+    /** Prepares for being read so often; or null. The first time before anything is read; later, where blocking, while
+     * the I/O thread goes on reading. [game thread] */
     knurl_result (*start)(void *user, double update_rate_hz);
     /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time) or
      * KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5 ms] */

@@ -66,7 +66,7 @@ static void custom_status(const knurl_device *device, knurl_device_status *statu
 static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
     const knurl_device_functions *f = &of(device)->functions;
     const knurl_result result = f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
-    if (!result && f->blocking) {
+    if (!result && of(device)->link.thread) {
         knurl_link_start(&of(device)->link, update_rate_hz);
     }
     return result;
@@ -144,10 +144,9 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
     made->base.max_force = info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;
-    result = f.blocking ? knurl_link_open(&made->link, &made->base, exchange, rate_of(made)) : KNURL_OK;
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    result = knurl_device_start(&made->base, 1000.0);
+    result = result || !f.blocking ? result : knurl_link_open(&made->link, &made->base, exchange, rate_of(made));
     if (result) {
-        knurl_link_close(&made->link);
         free(made);
         return result;
     }

@@ -371,6 +371,17 @@ TEST(what_cannot_be_reopened_stays_lost) {
     knurl_device_close(device);
 }
 
+TEST(it_is_started_before_it_is_read) {
+    for (int turn = 0; turn < 20; turn++) { /* the order of threads is not given */
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        const knurl_device_functions f = home_functions(&h, 1);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_ERROR_UNSUPPORTED);
+        assert_int_equal(h.reads + h.writes, 0);
+    }
+}
+
 /* --- a loop over it --- */
 
 static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -446,6 +457,7 @@ int main(void) {
         cmocka_unit_test(what_cannot_be_reopened_stays_lost),
         cmocka_unit_test(a_loop_plays_its_forces_on_it),
         cmocka_unit_test(what_blocks_cannot_be_stepped_and_what_does_not_can),
+        cmocka_unit_test(it_is_started_before_it_is_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
