@@ -101,8 +101,9 @@ typedef struct knurl_device_functions {
     /** Prepares for being read so often; or null. The first time before anything is read; later, where blocking, while
      * the I/O thread goes on reading. [game thread] */
     knurl_result (*start)(void *user, double update_rate_hz);
-    /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time) or
-     * KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5 ms] */
+    /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time: the one before holds for
+     * 10 ms, then the device is silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it
+     * should return within 5 ms, and after 1 s without a position the device counts as lost] */
     knurl_result (*read)(void *user, knurl_device_sample *sample);
     /** Plays a force, finite and at most max_force. Required. KNURL_OK or KNURL_ERROR_DEVICE_LOST.
      * [as read; also once at the end, on the thread that closes] */

@@ -236,6 +236,51 @@ TEST(halted_it_gets_no_force_until_the_halt_is_released) {
     knurl_device_close(device);
 }
 
+/* A device may be read faster than it measures: the latest position holds for 10 ms. Then it is silent, and is told so
+ * once, until it is heard again. */
+TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent) {
+    for (int i = 0; i < 2; i++) {
+        knurl_device_event event;
+        knurl_device_sample sample;
+        knurl_device *device = home_open(&h, 0);
+        home_place(&h, 0.01, 0.0, 0.0);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        h.read_gives = i == 0 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_ERROR_IO; /* whatever else it may say */
+        home_place(&h, 0.02, 0.0, 0.0);
+        for (int k = 0; k < 10; k++) {
+            assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+            CHECK_SAME(sample.position[0], (long double)0.01);
+        }
+        assert_int_equal(knurl_device_next_event(device, &event), 0);
+        memset(&sample, 0x55, sizeof sample);
+        const knurl_device_sample before = sample;
+        for (int k = 0; k < 100; k++) {
+            assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+            assert_memory_equal(&sample, &before, sizeof sample);
+            assert_int_equal(knurl_device_is_halted(device), 1);
+        }
+        assert_int_equal(knurl_device_next_event(device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_SILENT);
+        CHECK_CLOSE(event.value, 0.0105, 0.00051);
+        assert_int_equal(knurl_device_next_event(device, &event), 0);
+        h.read_gives = KNURL_OK;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        CHECK_SAME(sample.position[0], (long double)0.02);
+        knurl_device_close(device);
+    }
+}
+
+TEST(before_its_first_position_there_is_none_to_hold) {
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 0);
+    h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+    h.read_gives = KNURL_OK;
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    assert_int_equal(next_code(device, 0), 0);
+    knurl_device_close(device);
+}
+
 /* --- blocking --- */
 
 TEST(what_blocks_is_read_and_written_in_turn_on_one_other_thread) {
@@ -458,6 +503,8 @@ int main(void) {
         cmocka_unit_test(a_loop_plays_its_forces_on_it),
         cmocka_unit_test(what_blocks_cannot_be_stepped_and_what_does_not_can),
         cmocka_unit_test(it_is_started_before_it_is_read),
+        cmocka_unit_test(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent),
+        cmocka_unit_test(before_its_first_position_there_is_none_to_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
