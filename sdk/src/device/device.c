@@ -117,7 +117,6 @@ static knurl_result check_position(knurl_device *device, const double position[3
         check->settle = KNURL_SETTLE_TIME;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
-    check->not_finite = 0;
     if (check->has_last && device->max_speed > 0.0) {
         double moved[3];
         vec3_sub(position, check->last, moved);
@@ -136,6 +135,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
         check->settle -= device->period;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
+    check->not_finite = 0;
     return KNURL_OK;
 }
 

@@ -74,6 +74,24 @@ TEST(a_first_position_that_is_not_finite_is_none) {
     knurl_device_close(device);
 }
 
+/* Every second position: a converter with a loose contact, say. The ring of events has 64 places. */
+TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
+    knurl_device_event event;
+    knurl_device *device = open_at(1000.0);
+    assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
+    for (int k = 0; k < 200; k++) {
+        assert_int_equal(read_at(device, k % 2 ? 0.0 : (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
+    }
+    assert_int_equal(drain(device, &event), 1);
+    for (int k = 0; k < 40; k++) {
+        (void)read_at(device, 0.0, 0.0, 0.0);
+    }
+    assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
+    assert_int_equal(read_at(device, (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
+    assert_int_equal(drain(device, &event), 1); /* a new one */
+    knurl_device_close(device);
+}
+
 /* --- jumps --- */
 
 /* As far as a hand can go at 10 m/s since the position before, but 20 mm at least: a device that measures at 1 kHz
@@ -290,6 +308,7 @@ int main(void) {
         cmocka_unit_test(a_device_of_1_khz_in_a_fast_hand_is_believed_however_often_it_is_read),
         cmocka_unit_test(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick),
         cmocka_unit_test(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one),
+        cmocka_unit_test(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
