@@ -15,7 +15,7 @@ static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_d
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
 /* How far a position may be off after however short a gap, s at the greatest speed: devices that bring positions at
- * 1 kHz move in steps when they are read faster. */
+ * 1 kHz move in steps when they are read faster. Slower ones move further. */
 #define LEAST_GAP 0.002
 
 void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
@@ -94,6 +94,15 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
+/* Positions of before say nothing about those that come now. */
+static void begin_check(knurl_device *device) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    device->driver->get_info(device, &info);
+    memset(&device->check, 0, sizeof device->check);
+    device->check.least_gap = info.native_rate > 0.0 ? fmax(LEAST_GAP, 2.0 / info.native_rate) : LEAST_GAP;
+}
+
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
@@ -101,7 +110,7 @@ knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     const knurl_result result = device->driver->start(device, update_rate_hz);
     if (!result) {
         device->period = 1.0 / update_rate_hz;
-        memset(&device->check, 0, sizeof device->check);
+        begin_check(device);
     }
     return result;
 }
@@ -121,7 +130,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
         double moved[3];
         vec3_sub(position, check->last, moved);
         const double distance = vec3_length(moved);
-        if (!(distance <= device->max_speed * fmax(check->gap, LEAST_GAP))) {
+        if (!(distance <= device->max_speed * fmax(check->gap, check->least_gap))) {
             if (check->settle <= 0.0) {
                 knurl_events_report(&device->events, KNURL_FAULT_JUMP, distance);
             }
@@ -204,7 +213,7 @@ knurl_result knurl_device_reopen(knurl_device *device) {
     }
     const knurl_result result = device->driver->reopen(device);
     if (!result) {
-        memset(&device->check, 0, sizeof device->check);
+        begin_check(device);
         knurl_events_report(&device->events, KNURL_FAULT_RECONNECTED, 0.0);
         knurl_store_release(&device->lost, 0u);
     }

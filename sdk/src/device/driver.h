@@ -41,9 +41,10 @@ typedef struct knurl_driver {
 
 /* Positions are held against the last one. */
 typedef struct knurl_position_check {
-    double last[3]; /* m */
-    double gap;     /* s since then */
-    double settle;  /* s for which positions still have to stay believable */
+    double last[3];   /* m */
+    double gap;       /* s since then */
+    double least_gap; /* s */
+    double settle;    /* s for which positions still have to stay believable */
     uint32_t has_last;
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;

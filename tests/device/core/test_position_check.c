@@ -184,6 +184,33 @@ TEST(a_device_of_1_khz_in_a_fast_hand_is_believed_however_often_it_is_read) {
     }
 }
 
+static double native; /* Hz, that the next one tells */
+
+static void tell_native(void *user, knurl_device_info *info) {
+    home_info(user, info);
+    info->native_rate = native;
+}
+
+/* Its steps are longer than those of one that measures at 1 kHz, and it says so. */
+TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
+    static const double natives[] = {100.0, 125.0, 300.0, 3000.0};
+    for (size_t i = 0; i < COUNT_OF(natives); i++) {
+        knurl_device_event event;
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, 0);
+        f.get_info = tell_native;
+        native = natives[i];
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+        assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+        for (int k = 0; k < 1000; k++) {
+            assert_int_equal(read_at(device, measured(k / 1000.0, 1.0 / native, 4.0), 0.0, 0.0), KNURL_OK);
+        }
+        assert_int_equal(drain(device, &event), 0);
+        knurl_device_close(device);
+    }
+}
+
 /* --- what a loop makes of it --- */
 
 typedef struct record {
@@ -309,6 +336,7 @@ int main(void) {
         cmocka_unit_test(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick),
         cmocka_unit_test(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one),
         cmocka_unit_test(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled),
+        cmocka_unit_test(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
