@@ -82,6 +82,7 @@ static knurl_result read_now(custom *c, knurl_device_sample *sample) {
     if (result == KNURL_OK) {
         c->latest = *sample;
         c->has_latest = 1;
+        c->base.check.gap += (double)c->without * c->base.period; /* what held was no new position */
         c->without = 0;
     }
     if (result == KNURL_OK || result == KNURL_ERROR_DEVICE_LOST) {

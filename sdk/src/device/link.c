@@ -134,6 +134,7 @@ knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     }
     if (knurl_mailbox_take(&link->positions)) {
         link->has_sample = 1;
+        link->device->check.gap += (double)link->stale * link->device->period; /* what held was no new position */
         link->stale = 0;
         link->watched = knurl_load_relaxed(&link->turns);
     } else if (++link->stale == link->patience && knurl_load_relaxed(&link->turns) == link->watched) {

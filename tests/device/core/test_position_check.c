@@ -4,7 +4,7 @@
 #include "support/scenes.h"
 
 #include "base/vec3.h"
-#include "device/driver.h"
+#include "device/link.h"
 
 #include <knurl/loop.h>
 
@@ -211,6 +211,64 @@ TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
     }
 }
 
+/* Nine times out of ten there is no position, and the one before holds. */
+TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
+    knurl_device_event event;
+    knurl_device *device = open_at(1000.0);
+    for (int k = 0; k < 1000; k++) {
+        knurl_device_sample sample;
+        h.read_gives = k % 10 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_OK;
+        home_place(&h, 4.0 * k / 1000.0, 0.0, 0.0);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    }
+    assert_int_equal(drain(device, &event), 0);
+    knurl_device_close(device);
+}
+
+/* The same of an I/O thread whose exchanges took that long: a link without its thread, and positions posted by hand. */
+static knurl_link io;
+
+static knurl_result read_io(knurl_device *device, knurl_device_sample *sample) {
+    (void)device;
+    return knurl_link_read(&io, sample);
+}
+
+static knurl_result start_io(knurl_device *device, double rate) {
+    (void)device;
+    knurl_link_start(&io, rate);
+    return KNURL_OK;
+}
+
+static void tell_io(const knurl_device *device, knurl_device_info *info) {
+    (void)device;
+    info->native_rate = 1000.0;
+}
+
+TEST(exchanges_that_take_long_do_not_make_a_hand_jump) {
+    static const knurl_driver driver = {.uri = "io", .start = start_io, .read = read_io, .get_info = tell_io};
+    knurl_device device;
+    memset(&io, 0, sizeof io);
+    memset(&device, 0, sizeof device);
+    device.driver = &driver;
+    device.max_speed = KNURL_HAND_SPEED;
+    device.is_linked = 1;
+    io.device = &device;
+    io.native_rate = 1000.0;
+    knurl_mailbox_init(&io.positions);
+    assert_int_equal(knurl_device_start(&device, 1000.0), KNURL_OK);
+    for (int k = 0; k < 1000; k++) {
+        knurl_device_sample sample;
+        if (k % 10 == 0) {
+            io.samples[io.positions.back].position[0] = 4.0 * k / 1000.0;
+            knurl_mailbox_post(&io.positions);
+        }
+        io.turns++;
+        assert_int_equal(knurl_device_read(&device, &sample), KNURL_OK);
+        CHECK_SAME(sample.position[0], (long double)(4.0 * (k - k % 10) / 1000.0));
+    }
+    assert_true(device.events.head == 0);
+}
+
 /* --- what a loop makes of it --- */
 
 typedef struct record {
@@ -337,6 +395,8 @@ int main(void) {
         cmocka_unit_test(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one),
         cmocka_unit_test(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled),
         cmocka_unit_test(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often),
+        cmocka_unit_test(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can),
+        cmocka_unit_test(exchanges_that_take_long_do_not_make_a_hand_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
