@@ -148,6 +148,14 @@ static knurl_result check_position(knurl_device *device, const double position[3
     return KNURL_OK;
 }
 
+static void lose(knurl_device *device) {
+    knurl_device_halt(device);
+    if (!device->is_linked) { /* an I/O thread has told already */
+        knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+    }
+    knurl_store_release(&device->lost, 1u);
+}
+
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
@@ -160,14 +168,10 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
         *sample = found;
         return KNURL_OK;
     }
-    if (result != KNURL_ERROR_STATE) {
-        knurl_device_halt(device);
-    }
     if (result == KNURL_ERROR_DEVICE_LOST) {
-        if (!device->is_linked) { /* an I/O thread has told already */
-            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-        }
-        knurl_store_release(&device->lost, 1u);
+        lose(device);
+    } else if (result != KNURL_ERROR_STATE) {
+        knurl_device_halt(device);
     }
     return result;
 }
@@ -186,10 +190,7 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
         knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {
-        if (!device->is_linked) {
-            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-        }
-        knurl_store_release(&device->lost, 1u);
+        lose(device);
     }
     return result;
 }

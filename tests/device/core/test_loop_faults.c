@@ -239,6 +239,22 @@ TEST(a_loop_can_be_destroyed_in_every_state) {
     }
 }
 
+/* What is noticed while writing is no other loss than what is noticed while reading. */
+TEST(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes) {
+    init();
+    r.desc.reconnect = 1;
+    r.writes_left = 70;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 71), KNURL_OK);
+    rig_check_let_go(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 99), KNURL_OK);
+    check_ramp_up(70);
+    assert_int_equal(next_event(), KNURL_FAULT_LOST);
+    assert_int_equal(next_event(), KNURL_FAULT_RECONNECTED);
+    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+    assert_int_equal(next_event(), 0);
+}
+
 /* --- beats without a position --- */
 
 TEST(before_the_first_tick_nothing_is_resumed) {
@@ -408,6 +424,7 @@ int main(void) {
         cmocka_unit_test_teardown(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, end_rig),
         cmocka_unit_test_teardown(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, end_rig),
         cmocka_unit_test_teardown(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, end_rig),
+        cmocka_unit_test_teardown(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
