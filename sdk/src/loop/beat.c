@@ -161,7 +161,12 @@ int knurl_loop_beat(knurl_loop *loop) {
 }
 
 void knurl_loop_end(knurl_loop *loop, int32_t state) {
-    knurl_device_halt(loop->desc.device);
+    static const double none[3] = {0.0, 0.0, 0.0};
+    knurl_device *device = loop->desc.device;
+    knurl_device_halt(device);
+    if (device->is_linked || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
+        (void)knurl_device_write(device, none);
+    }
     knurl_store_release(&loop->state, state);
 }
 

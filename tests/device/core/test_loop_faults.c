@@ -287,6 +287,29 @@ TEST(a_beat_without_a_position_writes_no_force_and_asks_for_none) {
     assert_int_equal(rig_stats(&r).absent, 0);
 }
 
+/* A device that does not let go by itself plays its last force for ever. */
+TEST(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that) {
+    for (int i = 0; i < 6; i++) {
+        init();
+        r.desc.ramp_s = i % 2 ? 0.02 : 0.0;
+        r.desc.tick_limit = i < 4 ? 50 : 0;
+        extra.not_ready_from = i < 2 ? 1000 : 53; /* in the middle of the ramp, at its beginning */
+        extra.not_ready_from = i >= 4 ? 50 : extra.not_ready_from;
+        extra.not_ready_to = 2000;
+        rig_create(&r);
+        assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+        if (i >= 4) {
+            knurl_loop_stop(r.loop);
+            assert_int_equal(knurl_loop_step(r.loop, 1), KNURL_OK);
+        }
+        assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
+        CHECK_SAME(r.written[49][1], 1.0L);
+        CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
+        rig_check_let_go(&r);
+        rig_destroy(&r);
+    }
+}
+
 /* --- heartbeat --- */
 
 /* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
@@ -425,6 +448,7 @@ int main(void) {
         cmocka_unit_test_teardown(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, end_rig),
         cmocka_unit_test_teardown(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, end_rig),
         cmocka_unit_test_teardown(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, end_rig),
+        cmocka_unit_test_teardown(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
