@@ -53,8 +53,8 @@ static int game_lives(knurl_loop *loop) {
     loop->signs_seen = signs;
     const double silence = (double)loop->since_sign / loop->desc.update_rate_hz;
     const int lives = silence <= loop->desc.heartbeat_s;
-    if (loop->game_lives != lives) {
-        report(loop, lives ? KNURL_FAULT_RESUMED : KNURL_FAULT_HEARTBEAT, lives ? 0.0 : silence);
+    if (loop->game_lives && !lives) {
+        report(loop, KNURL_FAULT_HEARTBEAT, silence);
     }
     loop->game_lives = lives;
     return lives;
@@ -62,15 +62,16 @@ static int game_lives(knurl_loop *loop) {
 
 /* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it. */
 static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
+    const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
+    const int was_down = knurl_device_is_halted(loop->desc.device) || !loop->game_lives;
+    const int lives = game_lives(loop);
     if (knurl_device_is_halted(loop->desc.device)) {
         knurl_device_release_halt(loop->desc.device);
         loop->gain = 0.0;
-        if (loop->ticks > 0) {
-            report(loop, KNURL_FAULT_RESUMED, 0.0);
-        }
     }
-    const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
-    const int lives = game_lives(loop);
+    if (was_down && lives && loop->ticks > 0) {
+        report(loop, KNURL_FAULT_RESUMED, 0.0);
+    }
     if (!lives) {
         loop->gain = fmax(0.0, loop->gain - step);
     }

@@ -383,6 +383,24 @@ TEST(a_game_that_dies_and_comes_back_half_way_is_taken_from_there) {
     assert_true(r.written[24][1] > low);
 }
 
+/* The force comes back when the game does, and that is when it is told. */
+TEST(while_the_game_gives_no_sign_of_life_nothing_is_resumed) {
+    init();
+    r.desc.heartbeat_s = 0.02;
+    extra.not_ready_from = 100;
+    extra.not_ready_to = 110;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 200), KNURL_OK);
+    assert_int_equal(next_event(), KNURL_FAULT_HEARTBEAT);
+    assert_int_equal(next_event(), 0);
+    CHECK_SAME(r.written[199][1], 0.0L);
+    knurl_loop_heartbeat(r.loop);
+    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+    assert_int_equal(next_event(), 0);
+    assert_true(r.written[209][1] > 0.3);
+}
+
 /* --- lateness --- */
 
 TEST(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness) {
@@ -449,6 +467,7 @@ int main(void) {
         cmocka_unit_test_teardown(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, end_rig),
         cmocka_unit_test_teardown(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, end_rig),
         cmocka_unit_test_teardown(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, end_rig),
+        cmocka_unit_test_teardown(while_the_game_gives_no_sign_of_life_nothing_is_resumed, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
