@@ -60,15 +60,15 @@ static int game_lives(knurl_loop *loop) {
     return lives;
 }
 
-/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it. */
-static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
+/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it.
+ * Returns 1 where they were let go of, which lasts until this force is written: what an I/O thread has until then is
+ * from before. */
+static int apply_gain(knurl_loop *loop, knurl_tick_output *output) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
-    const int was_down = knurl_device_is_halted(loop->desc.device) || !loop->game_lives;
+    const int was_halted = knurl_device_is_halted(loop->desc.device) != 0;
+    const int was_down = was_halted || !loop->game_lives;
     const int lives = game_lives(loop);
-    if (knurl_device_is_halted(loop->desc.device)) {
-        knurl_device_release_halt(loop->desc.device);
-        loop->gain = 0.0;
-    }
+    loop->gain = was_halted ? 0.0 : loop->gain;
     if (was_down && lives && loop->ticks > 0) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
@@ -83,6 +83,7 @@ static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
     if (lives) {
         loop->gain = fmin(1.0, loop->gain + step);
     }
+    return was_halted;
 }
 
 /* A beat without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
@@ -121,7 +122,7 @@ static int run_tick(knurl_loop *loop) {
     const int64_t before = loop->clock.now_ns(loop->clock.user);
     make_force(loop, &sample, &output);
     knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
-    apply_gain(loop, &output);
+    const int was_halted = apply_gain(loop, &output);
     if (loop->desc.scene && loop->desc.tick_callback) {
         loop->desc.tick_callback(&output, loop->desc.user);
     }
@@ -129,6 +130,9 @@ static int run_tick(knurl_loop *loop) {
     knurl_count_up(&loop->ticks);
     knurl_count_up(&loop->beats);
     result = knurl_device_write(loop->desc.device, loop->force);
+    if (was_halted && result == KNURL_OK) {
+        knurl_device_release_halt(loop->desc.device);
+    }
     return result == KNURL_OK || be_absent(loop, result);
 }
 

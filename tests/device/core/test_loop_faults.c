@@ -310,6 +310,32 @@ TEST(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that) {
     }
 }
 
+static uint32_t halts; /* bit k: the motors were let go of when the force of tick k was about to be written */
+
+static void see_halt(const knurl_tick_output *output, void *user) {
+    rig *self = user;
+    halts |= knurl_device_is_halted(&self->device) << (output->tick % 32);
+}
+
+/* What an I/O thread still has is the force from before: it must not be played between the halt and the ramp. */
+TEST(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written) {
+    init();
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    halts = 0;
+    r.desc.scene = scene;
+    r.desc.force_callback = NULL;
+    r.desc.tick_callback = see_halt;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    knurl_device_halt(&r.device);
+    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    assert_int_equal(halts, 1u << 10);
+    assert_int_equal(knurl_device_is_halted(&r.device), 0);
+    rig_destroy(&r);
+    knurl_scene_destroy(scene);
+}
+
 /* --- heartbeat --- */
 
 /* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
@@ -468,6 +494,7 @@ int main(void) {
         cmocka_unit_test_teardown(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, end_rig),
         cmocka_unit_test_teardown(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, end_rig),
         cmocka_unit_test_teardown(while_the_game_gives_no_sign_of_life_nothing_is_resumed, end_rig),
+        cmocka_unit_test_teardown(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
