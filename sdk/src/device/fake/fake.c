@@ -89,6 +89,7 @@ static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     knurl_hand_target(&f->hand, 0.0, f->dt, f->target);
     vec3_copy(still, f->target_velocity);
     knurl_plant_init(&f->plant, &config, f->target);
+    knurl_store_release(&device->lost, 0u); /* a new world, with the device in it */
     return KNURL_OK;
 }
 
