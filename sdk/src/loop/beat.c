@@ -177,6 +177,9 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
 
 /* A beat that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
+    if (overrun) {
+        loop->desc.device->check.gap += 1e-9 * (double)late; /* the hand did not wait */
+    }
     if (knurl_loop_at_end(loop)) {
         return;
     }

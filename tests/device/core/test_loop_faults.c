@@ -455,6 +455,23 @@ TEST(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness) {
     assert_int_equal(rig_stats(&r).overruns, 6);
 }
 
+/* While nobody read, the hand went on. */
+TEST(after_a_late_tick_a_hand_may_have_moved_on) {
+    static int64_t late[100];
+    memset(late, 0, sizeof late);
+    late[50] = 60000000;
+    init();
+    r.device.max_speed = KNURL_HAND_SPEED;
+    extra.speed = 1.0; /* m/s: 60 mm meanwhile */
+    r.late = late;
+    r.late_count = COUNT_OF(late);
+    r.desc.tick_limit = 90;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(rig_stats(&r).absences, 0);
+    assert_int_equal(next_event(), 0);
+}
+
 static void stall(rig *self) {
     sleep_ns(150000000);
     self->seen = knurl_device_is_halted(self->desc.device);
@@ -495,6 +512,7 @@ int main(void) {
         cmocka_unit_test_teardown(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, end_rig),
         cmocka_unit_test_teardown(while_the_game_gives_no_sign_of_life_nothing_is_resumed, end_rig),
         cmocka_unit_test_teardown(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, end_rig),
+        cmocka_unit_test_teardown(after_a_late_tick_a_hand_may_have_moved_on, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
