@@ -106,6 +106,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
                                                                       thread that would see to it */
         return 1;
     }
+    loop->served_at = 0; /* from its return on, calls are a new row, maybe on a new thread */
     loop->is_lost = why != KNURL_ERROR_DEVICE_LOST || !loop->desc.reconnect;
     return !loop->is_lost;
 }

@@ -60,7 +60,7 @@ static void look_for_device(knurl_loop *loop, keeper *k, int64_t now) {
         knurl_loop_end(loop, KNURL_LOOP_DONE); /* nobody calls the tick of a device that is away */
     } else if (now - k->tried_at > RECONNECT_NS) {
         (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = knurl_system_now_ns();
+        k->tried_at = k->seen_at = knurl_system_now_ns(); /* nobody could have beaten meanwhile */
     }
 }
 

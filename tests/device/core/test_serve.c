@@ -19,9 +19,10 @@ typedef struct servo {
     uint32_t unplugged;
 
     int64_t stall_ns; /* before the next tick */
-    uint64_t ticks, reads, writes, strangers, reopens, refuse_reopens;
+    uint64_t generation, ticks, reads, writes, strangers, reopens, refuse_reopens;
     int64_t reopen_takes_ns;
-    uintptr_t inside; /* the thread that is in a tick */
+    uint32_t changes_thread; /* 1: reopened, it has another one */
+    uintptr_t inside;        /* the thread that is in a tick */
     double motor;
     uint32_t tells_loss; /* 1: called once more since it was unplugged */
 } servo;
@@ -51,8 +52,9 @@ static void serve_once(servo *self) {
 
 static void *scheduler(void *argument) {
     servo *self = argument;
+    const uint64_t mine = knurl_load_acquire(&self->generation);
     int64_t next = now_ns();
-    while (!knurl_load_acquire(&self->quit)) {
+    while (!knurl_load_acquire(&self->quit) && knurl_load_acquire(&self->generation) == mine) {
         if (knurl_load_acquire(&self->calls_it)) {
             serve_once(self);
         }
@@ -103,6 +105,12 @@ static knurl_result servo_reopen(knurl_device *device) {
     sleep_ns(knurl_load_relaxed(&self->reopen_takes_ns));
     if (self->reopens <= self->refuse_reopens) {
         return KNURL_ERROR_DEVICE_LOST;
+    }
+    if (self->changes_thread) { /* both live for a moment: else they would be the same to those who ask */
+        const pthread_t old = self->thread;
+        knurl_count_up(&self->generation);
+        (void)pthread_create(&self->thread, NULL, scheduler, self);
+        (void)pthread_join(old, NULL);
     }
     knurl_store_release(&self->unplugged, 0u);
     return KNURL_OK;
@@ -284,6 +292,40 @@ TEST(a_loss_with_reconnect_is_waited_out) {
     check_silence();
 }
 
+/* The time without a device is no lateness, nor does a reopening that takes long make the haptic thread one that stands
+ * still. */
+TEST(the_time_that_it_was_away_is_no_fault_of_the_loops) {
+    knurl_device_event event;
+    begin();
+    t.desc.reconnect = 1;
+    t.desc.watchdog_s = 0.1;
+    s.reopen_takes_ns = 300000000;
+    start();
+    wait_for_ticks(20);
+    knurl_store_release(&s.unplugged, 1u);
+    wait_until_absent();
+    wait_for_ticks(stats().ticks + 50);
+    knurl_loop_stop(t.loop);
+    while (knurl_device_next_event(&s.device, &event)) {
+        assert_int_not_equal(event.code, KNURL_FAULT_WATCHDOG);
+        assert_true(event.code != KNURL_FAULT_OVERRUN || event.value < 0.25);
+    }
+    assert_true(stats().jitter_ns.max < 0.25e9);
+}
+
+TEST(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then) {
+    begin();
+    t.desc.reconnect = 1;
+    s.changes_thread = 1;
+    t.stop_at = 60;
+    start();
+    wait_for_ticks(20);
+    knurl_store_release(&s.unplugged, 1u);
+    assert_int_equal(knurl_loop_wait(t.loop, 5.0), 1);
+    assert_int_equal(stats().ticks, 61);
+    assert_int_equal(s.reopens, 1);
+}
+
 TEST(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick) {
     for (int i = 0; i < 6; i++) {
         begin();
@@ -331,6 +373,9 @@ int main(void) {
         cmocka_unit_test_teardown(a_loss_with_reconnect_is_waited_out, end),
         cmocka_unit_test_teardown(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, end),
         cmocka_unit_test_teardown(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, end),
+        cmocka_unit_test_teardown(the_time_that_it_was_away_is_no_fault_of_the_loops, end),
+        cmocka_unit_test_teardown(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then,
+                                  end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
