@@ -220,6 +220,7 @@ void knurl_loop_haptic_thread(void *argument) {
 uint32_t knurl_loop_serve(void *argument) {
     knurl_loop *loop = argument;
     const double period = 1e9 / loop->desc.update_rate_hz;
+    knurl_store_release(&loop->is_served, 1u); /* before the device can be found lost */
     const int64_t now = loop->clock.now_ns(loop->clock.user);
     if (loop->served_at == 0) {
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
@@ -229,6 +230,7 @@ uint32_t knurl_loop_serve(void *argument) {
     }
     loop->served_at = now;
     if (knurl_loop_beat(loop)) {
+        knurl_store_release(&loop->is_served, 0u);
         return 1;
     }
     knurl_loop_end(loop, state_at_end(loop)); /* the loop may be gone now */

@@ -21,6 +21,7 @@ typedef struct servo {
     int64_t stall_ns; /* before the next tick */
     uint64_t generation, ticks, reads, writes, strangers, reopens, refuse_reopens;
     int64_t reopen_takes_ns;
+    int64_t lingers_ns;      /* in the tick that finds it lost */
     uint32_t changes_thread; /* 1: reopened, it has another one */
     uintptr_t inside;        /* the thread that is in a tick */
     double motor;
@@ -88,6 +89,10 @@ static knurl_result servo_read(knurl_device *device, knurl_device_sample *sample
     self->strangers += knurl_load_acquire(&self->inside) != knurl_system_thread_id();
     knurl_count_up(&self->reads);
     memset(sample, 0, sizeof *sample);
+    if (knurl_load_acquire(&self->unplugged) && self->lingers_ns > 0) {
+        knurl_store_release(&device->lost, 1u); /* what its caller does next, and then the thread is held up */
+        sleep_ns(self->lingers_ns);
+    }
     return knurl_load_acquire(&self->unplugged) ? KNURL_ERROR_DEVICE_LOST : KNURL_OK;
 }
 
@@ -351,6 +356,23 @@ TEST(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick) {
     begin();
 }
 
+/* Whoever waited for the end may give the loop back. */
+TEST(a_loop_is_not_over_while_its_device_is_still_in_a_tick) {
+    begin();
+    t.desc.reconnect = 1;
+    s.refuse_reopens = UINT64_MAX;
+    s.lingers_ns = 300000000;
+    start();
+    wait_for_ticks(20);
+    knurl_store_release(&s.unplugged, 1u);
+    while (!knurl_load_acquire(&s.device.lost)) {
+        sleep_ns(100000);
+    }
+    knurl_loop_stop(t.loop);
+    assert_true(knurl_load_acquire(&s.inside) == 0);
+    check_silence();
+}
+
 TEST(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it) {
     begin();
     for (int turn = 0; turn < 10; turn++) {
@@ -376,6 +398,7 @@ int main(void) {
         cmocka_unit_test_teardown(the_time_that_it_was_away_is_no_fault_of_the_loops, end),
         cmocka_unit_test_teardown(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then,
                                   end),
+        cmocka_unit_test_teardown(a_loop_is_not_over_while_its_device_is_still_in_a_tick, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
