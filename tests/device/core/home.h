@@ -24,6 +24,7 @@ typedef struct home {
     uint32_t buttons;
     knurl_result read_gives, write_gives, start_gives, reopen_gives;
     int64_t hangs_for; /* ns, at most, with DOUBLE_HANG */
+    int64_t mute_ns;   /* of a read that nothing comes of */
     /* what was asked of it; atomics */
     uint64_t infos, starts, reads, writes, reopens, closes;
     uint64_t order;       /* calls so far */
@@ -136,7 +137,7 @@ static inline knurl_result home_read(void *user, knurl_device_sample *sample) {
         home_hang(h);
         return home_leave(h, KNURL_ERROR_DEVICE_NOT_READY);
     case DOUBLE_MUTE:
-        sleep_ns(4000000);
+        sleep_ns(knurl_load_relaxed(&h->mute_ns));
         return home_leave(h, KNURL_ERROR_DEVICE_NOT_READY);
     case DOUBLE_LATE:
         sleep_ns(20000000);
@@ -213,6 +214,7 @@ static inline knurl_device *home_open(home *h, uint32_t blocking) {
     memset(h, 0, sizeof *h);
     h->limp_since = now_ns();
     h->hangs_for = 300000000;
+    h->mute_ns = 4000000;
     const knurl_device_functions f = home_functions(h, blocking);
     const knurl_result result = knurl_device_open_functions(&f, &device);
     if (result) {
