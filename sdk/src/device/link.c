@@ -171,6 +171,7 @@ knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
 }
 
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
+    status->lost |= knurl_load_acquire(&link->lost); /* also where nobody has read it since */
     status->exchanges = knurl_load_relaxed(&link->exchanges);
     status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
     status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);

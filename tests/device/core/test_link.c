@@ -289,6 +289,20 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
     assert_true(resumed <= 1); /* a thread that is held up in between */
 }
 
+TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
+    knurl_device_event event;
+    knurl_device_status status;
+    knurl_device *device = home_open(&h, 1);
+    home_inject(&h, DOUBLE_UNPLUG);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+    sleep_ns(2000000);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    assert_int_equal(status.lost, 1);
+    assert_int_equal(status.halted, 1);
+    knurl_device_close(device);
+}
+
 /* --- an exchange that hangs --- */
 
 TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
@@ -428,6 +442,7 @@ int main(void) {
         cmocka_unit_test(a_hang_that_ends_without_an_answer_is_still_one_silence),
         cmocka_unit_test(a_hang_is_seen_whatever_was_counted_before_it),
         cmocka_unit_test(a_loop_does_not_resume_while_the_device_is_silent),
+        cmocka_unit_test(a_status_says_that_it_is_lost_though_nobody_reads_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
