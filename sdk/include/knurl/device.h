@@ -186,7 +186,8 @@ KNURL_API const char *knurl_fault_name(int32_t code);
 KNURL_API const char *knurl_fault_string(int32_t code);
 
 /** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew.
- * Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep). [game thread] */
+ * Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep; with an I/O thread
+ * below 200 Hz). [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
 /** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls

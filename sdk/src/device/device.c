@@ -1,5 +1,5 @@
 /* One interface for all devices: finds the driver, guards positions and forces. SPDX-License-Identifier: MIT */
-#include "device/driver.h"
+#include "device/link.h"
 
 #include "base/atomic.h"
 #include "base/base.h"
@@ -106,6 +106,12 @@ static void begin_check(knurl_device *device) {
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
+    }
+    if (device->is_linked && update_rate_hz < 2.0 / KNURL_LINK_PATIENCE) {
+        return knurl_fail(
+            KNURL_ERROR_UNSUPPORTED,
+            "update rate: the device plays a force for %g ms at most, expected %g Hz or more, found %g Hz",
+            1e3 * KNURL_LINK_PATIENCE, 2.0 / KNURL_LINK_PATIENCE, update_rate_hz);
     }
     const knurl_result result = device->driver->start(device, update_rate_hz);
     if (!result) {

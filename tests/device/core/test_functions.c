@@ -43,6 +43,20 @@ TEST(a_function_that_is_required_and_missing_is_named) {
     }
 }
 
+/* A force is played for 10 ms at most, which two ticks have to fit into. */
+TEST(what_blocks_wants_200_ticks_a_second) {
+    knurl_device *device = home_open(&h, 1);
+    char nothing = 0;
+    CHECK_REFUSED(knurl_device_start(device, 199.0), KNURL_ERROR_UNSUPPORTED, nothing);
+    check_message("200");
+    assert_int_equal(h.starts, 1); /* nobody was bothered with it */
+    assert_int_equal(knurl_device_start(device, 200.0), KNURL_OK);
+    knurl_device_close(device);
+    device = home_open(&h, 0);
+    assert_int_equal(knurl_device_start(device, 100.0), KNURL_OK);
+    knurl_device_close(device);
+}
+
 static double told_force; /* what the next one says of its motors */
 
 static void tell_force(void *user, knurl_device_info *info) {
@@ -505,6 +519,7 @@ int main(void) {
         cmocka_unit_test(it_is_started_before_it_is_read),
         cmocka_unit_test(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent),
         cmocka_unit_test(before_its_first_position_there_is_none_to_hold),
+        cmocka_unit_test(what_blocks_wants_200_ticks_a_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
