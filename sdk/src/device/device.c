@@ -188,12 +188,15 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     }
     double safe[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(force);
-    if (isfinite(length) && !knurl_load_acquire(&device->halted) && !knurl_device_ends()) {
+    if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
         vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
+    }
+    if (!device->is_linked) {
+        knurl_device_before_force(device, safe);
     }
     const knurl_result result = device->driver->write(device, safe);
     if (!device->is_linked) {
-        knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
+        knurl_device_after_force(device, safe);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {
         lose(device);

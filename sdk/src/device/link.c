@@ -25,8 +25,8 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
-    const int let_go = is_late || knurl_load_acquire(&device->halted) || knurl_device_ends();
-    vec3_copy(let_go ? none : newest, force);
+    vec3_copy(is_late || knurl_load_acquire(&device->halted) ? none : newest, force);
+    knurl_device_before_force(device, force);
 }
 
 static void publish(knurl_link *link, const knurl_device_sample *sample) {
@@ -74,7 +74,7 @@ static int turn(knurl_link *link) {
         knurl_histogram_add(&link->durations, now - before);
         publish(link, &sample);
     }
-    knurl_store_release(&link->device->quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
+    knurl_device_after_force(link->device, force);
     knurl_count_up(&link->turns);
     judge(link, outcome, now);
     return !knurl_load_relaxed(&link->lost);

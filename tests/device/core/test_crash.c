@@ -243,6 +243,30 @@ TEST(a_device_that_hangs_is_waited_for_20_ms_and_no_longer) {
     assert_true(took < 60000000);
 }
 
+/* --- devices --- */
+
+/* The first force of all, and while the device still answers to it: what was sent before was none. */
+static void crash_in_an_exchange(int number) {
+    const double force[3] = {0.0, 1.0, 0.0};
+    knurl_device *device = open_device(1);
+    knurl_store_relaxed(&m->device.takes_ns, INT64_C(4000000));
+    install();
+    wait_for_count(&m->device.reads, 3);
+    if (knurl_device_write(device, force)) {
+        _exit(104);
+    }
+    while (knurl_load_acquire(&m->device.limp_since) > 0) {}
+    crash_by(number);
+}
+
+TEST(an_exchange_under_way_is_waited_for) {
+    for (int k = 0; k < 5; k++) {
+        memset(m, 0, sizeof *m);
+        check_ended_by(run(crash_in_an_exchange, SIGTERM), SIGTERM);
+        check_limp();
+    }
+}
+
 /* --- handlers from before --- */
 
 static void on_plain(int number) {
@@ -340,6 +364,7 @@ int main(void) {
                                         unshare),
         cmocka_unit_test_setup_teardown(what_was_ignored_stays_ignored, share, unshare),
         cmocka_unit_test_setup_teardown(installing_it_twice_is_fine, share, unshare),
+        cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
