@@ -39,6 +39,9 @@ void knurl_device_after_force(knurl_device *device, const double force[3]) {
 }
 
 void knurl_device_register(knurl_device *device) {
+    if (!device->is_linked) { /* an I/O thread tells by itself */
+        knurl_store_release(&device->quiet, 1u);
+    }
     for (int i = 0; i < DEVICE_ROOM; i++) {
         knurl_device *none = NULL;
         if (__atomic_compare_exchange_n(&open_devices[i], &none, device, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
@@ -57,7 +60,7 @@ void knurl_device_unregister(knurl_device *device) {
 static int all_quiet(void) {
     for (int i = 0; i < DEVICE_ROOM; i++) {
         const knurl_device *device = knurl_load_acquire(&open_devices[i]);
-        if (device && !__atomic_load_n(&device->quiet, __ATOMIC_SEQ_CST)) {
+        if (device && !__atomic_load_n(&device->quiet, __ATOMIC_SEQ_CST) && !knurl_load_acquire(&device->lost)) {
             return 0;
         }
     }

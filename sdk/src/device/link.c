@@ -90,6 +90,7 @@ static void io_thread(void *argument) {
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
         if (!turn(link)) {
+            knurl_store_release(&link->device->quiet, 1u); /* there is nobody to be told */
             return;
         }
         const int64_t now = knurl_system_now_ns();

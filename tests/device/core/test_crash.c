@@ -267,6 +267,38 @@ TEST(an_exchange_under_way_is_waited_for) {
     }
 }
 
+/* Nothing pulls: opened and never written to; lost. */
+static void crash_with_nothing_to_let_go(int which) {
+    knurl_device *device = NULL;
+    if (which == 0) {
+        (void)open_device(0);
+    } else if (which == 1 && knurl_device_open("fake", &device)) {
+        _exit(105);
+    } else if (which > 1) {
+        knurl_device_sample sample;
+        device = open_and_push((uint32_t)which - 2);
+        home_inject(&m->device, DOUBLE_UNPLUG);
+        while (knurl_device_read(device, &sample) != KNURL_ERROR_DEVICE_LOST) {
+            sleep_ns(200000);
+        }
+    }
+    install();
+    crash_by(SIGTERM);
+}
+
+TEST(a_device_that_has_no_force_or_is_gone_is_not_waited_for) {
+    for (int which = 0; which < 4; which++) {
+        int64_t best = INT64_MAX;
+        for (int k = 0; k < 5; k++) {
+            memset(m, 0, sizeof *m);
+            check_ended_by(run(crash_with_nothing_to_let_go, which), SIGTERM);
+            const int64_t took = now_ns() - m->crashed_at;
+            best = took < best ? took : best;
+        }
+        assert_true(best < 15000000);
+    }
+}
+
 /* --- handlers from before --- */
 
 static void on_plain(int number) {
@@ -365,6 +397,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(what_was_ignored_stays_ignored, share, unshare),
         cmocka_unit_test_setup_teardown(installing_it_twice_is_fine, share, unshare),
         cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
+        cmocka_unit_test_setup_teardown(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
