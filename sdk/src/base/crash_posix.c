@@ -34,13 +34,28 @@ static void on_signal(int number, siginfo_t *info, void *context) {
     }
 }
 
+/* A stack that overflowed is no place for a handler. Of the calling thread; whoever gave it one has provided already.
+ */
+static void give_a_stack(void) {
+    static char room[64 * 1024]; /* more than a handler from before has been used to */
+    stack_t found;
+    stack_t mine;
+    memset(&mine, 0, sizeof mine);
+    mine.ss_sp = room;
+    mine.ss_size = sizeof room;
+    if (sigaltstack(NULL, &found) == 0 && found.ss_flags & SS_DISABLE) {
+        (void)sigaltstack(&mine, NULL);
+    }
+}
+
 static int installed;
 
 static void install(void) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_sigaction = on_signal;
-    action.sa_flags = SA_SIGINFO | SA_ONSTACK; /* a stack that overflowed is no place for a handler */
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    give_a_stack();
     (void)sigemptyset(&action.sa_mask);
     installed = 1;
     for (size_t i = 0; i < SIGNAL_COUNT; i++) {

@@ -195,6 +195,29 @@ TEST(a_fault_in_the_exchange_itself_ends_it_after_the_wait) {
     check_ended_by(run(fault_with_force, 2), SIGSEGV);
 }
 
+static char noise;
+
+static int overflow(volatile char *below, int64_t depth) {
+    volatile char here[4096];
+    here[0] = (char)(*below + 1);
+    here[4095] = here[0];
+    return depth == 0 ? 0 : overflow(here, depth - 1) + here[4095]; /* not a tail call */
+}
+
+static void overflow_the_stack(int number) {
+    (void)number;
+    (void)open_and_push(1);
+    install();
+    knurl_store_release(&m->crashed_at, now_ns());
+    m->reached = (uint32_t)overflow(&noise, INT64_MAX);
+}
+
+/* A handler needs a stack, too. */
+TEST(a_stack_that_overflows_lets_go) {
+    check_ended_by(run(overflow_the_stack, 0), SIGSEGV);
+    check_limp();
+}
+
 static void crash_without_blocking(int number) {
     (void)open_and_push(0);
     install();
@@ -398,6 +421,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(installing_it_twice_is_fine, share, unshare),
         cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
         cmocka_unit_test_setup_teardown(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare),
+        cmocka_unit_test_setup_teardown(a_stack_that_overflows_lets_go, share, unshare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
