@@ -93,8 +93,9 @@ typedef struct knurl_device_status {
 /** A caller's own device, so that one that was built at home needs no change of Knurl. All are called with `user`. */
 typedef struct knurl_device_functions {
     uint32_t struct_size; /**< set by knurl_device_functions_init() */
-    uint32_t blocking;    /**< 1: read and write may wait; they are called on a thread of their own, in turn, and the
-                             haptic    thread gets the newest position and leaves the newest force. Default 0 */
+    uint32_t blocking; /**< 1: read and write may wait; they are called in turn on a thread of their own, and the haptic
+                            thread gets the newest position and leaves the newest force. 0 (default): they are called
+                            on the haptic thread, and while that one stands still nobody lets go of the motors */
     void *user;
     /** What the device is; `info` comes with defaults that promise nothing. Required: max_force > 0. [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
@@ -213,9 +214,11 @@ KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
 /** Opt-in: when the process crashes or is told to end (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGHUP,
  * SIGINT), all open devices are told to let go, up to 20 ms are waited until they have, and the signal goes on to
- * whatever handled it before. What cannot be caught (SIGKILL, power) is left to the device itself. A runtime that uses
- * these signals for its own ends (mono: null references) installs its handlers after this call, or does without. Twice
- * is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
+ * whatever handled it before. From then on no force goes out, also where that handler lets the process live. The thread
+ * that writes to a device has to be alive for it: an I/O thread, or the haptic one where there is none. What cannot be
+ * caught (SIGKILL, power) is left to the device itself. A runtime that uses these signals for its own ends (mono: null
+ * references) installs its handlers after this call, or does without. The calling thread gets a stack for handlers
+ * where it has none. Twice is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
 KNURL_API knurl_result knurl_device_let_go_on_crash(void);
 
 /** The keys of a fake URI, their units, defaults and meaning, a line each; static. [any thread] */

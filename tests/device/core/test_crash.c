@@ -371,6 +371,67 @@ TEST(a_handler_from_before_is_called_with_the_motors_let_go_and_decides) {
     }
 }
 
+/* A default that was installed with the flag of another kind of handler. */
+static void crash_by_default(int number) {
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = SIG_DFL;
+    action.sa_flags = SA_SIGINFO;
+    (void)sigaction(number, &action, NULL);
+    (void)open_and_push(1);
+    install();
+    crash_by(number);
+}
+
+TEST(a_default_is_a_default_whatever_its_flags) {
+    check_ended_by(run(crash_by_default, SIGTERM), SIGTERM);
+    check_limp();
+}
+
+static void read_through_a_signal(int flags) {
+    int ends_of_pipe[2];
+    char byte = 0;
+    handle(SIGTERM, flags, on_plain);
+    install();
+    if (pipe(ends_of_pipe)) {
+        _exit(106);
+    }
+    const pid_t parent = getpid();
+    if (fork() == 0) {
+        sleep_ns(30000000);
+        (void)kill(parent, SIGTERM);
+        sleep_ns(60000000);
+        _exit(write(ends_of_pipe[1], "x", 1) != 1);
+    }
+    m->reached = read(ends_of_pipe[0], &byte, 1) == 1;
+}
+
+/* Else a game's reads and waits fail that never failed before. */
+TEST(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted) {
+    for (int restarts = 0; restarts < 2; restarts++) {
+        memset(m, 0, sizeof *m);
+        assert_int_equal(run(read_through_a_signal, restarts ? SA_RESTART : 0), 0);
+        assert_int_equal(m->handled, 1);
+        assert_int_equal(m->reached, restarts);
+    }
+}
+
+static void end_at_the_second_signal(int number) {
+    handle(number, (int)SA_RESETHAND, on_plain);
+    (void)open_and_push(1);
+    install();
+    crash_by(number);
+    m->reached = 1;
+    crash_by(number);
+}
+
+TEST(a_handler_for_one_time_is_called_one_time) {
+    check_ended_by(run(end_at_the_second_signal, SIGINT), SIGINT);
+    assert_int_equal(m->handled, 1);
+    assert_int_equal(m->reached, 1);
+    CHECK_SAME(m->device.motor[1], 0.0L);
+}
+
 static void ignore_some(int number) {
     (void)signal(SIGHUP, SIG_IGN);
     (void)signal(SIGINT, SIG_IGN);
@@ -422,6 +483,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
         cmocka_unit_test_setup_teardown(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare),
         cmocka_unit_test_setup_teardown(a_stack_that_overflows_lets_go, share, unshare),
+        cmocka_unit_test_setup_teardown(a_default_is_a_default_whatever_its_flags, share, unshare),
+        cmocka_unit_test_setup_teardown(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted, share,
+                                        unshare),
+        cmocka_unit_test_setup_teardown(a_handler_for_one_time_is_called_one_time, share, unshare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
