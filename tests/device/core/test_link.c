@@ -38,7 +38,7 @@ static int count_events(knurl_device *device, int32_t code) {
 
 TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
     knurl_device *device = home_open(&h, 1);
-    h.takes_ns = 1500000; /* slower than they are written */
+    knurl_store_relaxed(&h.takes_ns, (int64_t)1500000); /* slower than they are written */
     int64_t next = now_ns();
     for (int k = 1; k <= 300; k++) {
         const double f[3] = {0.0, 0.001 * k, 0.0};
@@ -162,7 +162,7 @@ TEST(exchanges_are_no_more_frequent_than_the_device_brings_positions) {
 
 TEST(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst) {
     knurl_device *device = home_open(&h, 1);
-    h.takes_ns = 3000000;
+    knurl_store_relaxed(&h.takes_ns, (int64_t)3000000);
     sleep_ns(60000000);
     knurl_store_relaxed(&h.takes_ns, (int64_t)0);
     const uint64_t from = knurl_load_acquire(&h.writes) + 1;
@@ -344,7 +344,7 @@ TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
         knurl_device *device = home_open(&h, 1);
         tick_for(device, 5, 1.0);
         (void)next_code(device, -1);
-        h.hangs_for = 60000000;
+        knurl_store_relaxed(&h.hangs_for, (int64_t)60000000);
         home_inject(&h, DOUBLE_HANG);
         tick_for(device, 150, 1.0); /* it hangs two times and a half */
         once += count_events(device, KNURL_FAULT_SILENT) == 1;
