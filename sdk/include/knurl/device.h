@@ -93,15 +93,18 @@ typedef struct knurl_device_status {
 /** A caller's own device, so that one that was built at home needs no change of Knurl. All are called with `user`. */
 typedef struct knurl_device_functions {
     uint32_t struct_size; /**< set by knurl_device_functions_init() */
-    uint32_t blocking;    /**< 1: read and write may wait; they are called on a thread of their own, in turn, and the
-                             haptic    thread gets the newest position and leaves the newest force. Default 0 */
+    uint32_t blocking; /**< 1: read and write may wait; they are called in turn on a thread of their own, and the haptic
+                            thread gets the newest position and leaves the newest force. 0 (default): they are called
+                            on the haptic thread, and while that one stands still nobody lets go of the motors */
     void *user;
     /** What the device is; `info` comes with defaults that promise nothing. Required: max_force > 0. [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
-    /** Prepares for being read so often; or null. [game thread] */
+    /** Prepares for being read so often; or null. The first time before anything is read; later, where blocking, while
+     * the I/O thread goes on reading. [game thread] */
     knurl_result (*start)(void *user, double update_rate_hz);
-    /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time) or
-     * KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5 ms] */
+    /** The newest position. Required. KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (none this time: the one before holds for
+     * 10 ms, then the device is silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it
+     * should return within 5 ms, and after 1 s without a position the device counts as lost] */
     knurl_result (*read)(void *user, knurl_device_sample *sample);
     /** Plays a force, finite and at most max_force. Required. KNURL_OK or KNURL_ERROR_DEVICE_LOST.
      * [as read; also once at the end, on the thread that closes] */
@@ -186,9 +189,9 @@ KNURL_API uint32_t knurl_device_next_event(knurl_device *device, knurl_device_ev
 KNURL_API const char *knurl_fault_name(int32_t code);
 KNURL_API const char *knurl_fault_string(int32_t code);
 
-/** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew. A
- * lost device is looked for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device
- * cannot keep), KNURL_ERROR_DEVICE_LOST. [game thread] */
+/** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew. A lost device is
+ * looked for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep;
+ * with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST. [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
 /** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls
@@ -214,9 +217,11 @@ KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
 /** Opt-in: when the process crashes or is told to end (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGHUP,
  * SIGINT), all open devices are told to let go, up to 20 ms are waited until they have, and the signal goes on to
- * whatever handled it before. What cannot be caught (SIGKILL, power) is left to the device itself. A runtime that uses
- * these signals for its own ends (mono: null references) installs its handlers after this call, or does without. Twice
- * is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
+ * whatever handled it before. From then on no force goes out, also where that handler lets the process live. The thread
+ * that writes to a device has to be alive for it: an I/O thread, or the haptic one where there is none. What cannot be
+ * caught (SIGKILL, power) is left to the device itself. A runtime that uses these signals for its own ends (mono: null
+ * references) installs its handlers after this call, or does without. The calling thread gets a stack for handlers
+ * where it has none. Twice is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
 KNURL_API knurl_result knurl_device_let_go_on_crash(void);
 
 /** The keys of a fake URI, their units, defaults and meaning, a line each; static. [any thread] */

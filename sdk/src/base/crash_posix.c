@@ -12,16 +12,21 @@ static const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM,
 static struct sigaction before[SIGNAL_COUNT];
 static void (*let_go)(void);
 
+/* Defaults are told by their address, whatever the flags: Linux keeps both kinds of handlers in one place. */
+static int is_plain(const struct sigaction *action, void (*handler)(int)) {
+    return action->sa_handler == handler;
+}
+
 /* Hands the signal on: to the handler from before, or to the default, which comes when this handler returns. */
 static void hand_on(size_t which, int number, siginfo_t *info, void *context) {
     const struct sigaction *old = &before[which];
-    if (old->sa_flags & SA_SIGINFO) {
-        old->sa_sigaction(number, info, context);
-    } else if (old->sa_handler != SIG_DFL && old->sa_handler != SIG_IGN) {
-        old->sa_handler(number);
-    } else {
+    if (is_plain(old, SIG_DFL) || is_plain(old, SIG_IGN)) {
         (void)sigaction(number, old, NULL);
         (void)raise(number); /* held back until the handler has returned */
+    } else if (old->sa_flags & SA_SIGINFO) {
+        old->sa_sigaction(number, info, context);
+    } else {
+        old->sa_handler(number);
     }
 }
 
@@ -34,18 +39,33 @@ static void on_signal(int number, siginfo_t *info, void *context) {
     }
 }
 
+/* A stack that overflowed is no place for a handler. For the calling thread, unless it has such a stack. */
+static void give_a_stack(void) {
+    static char room[64 * 1024]; /* the handlers from before run there too */
+    stack_t found;
+    stack_t mine;
+    memset(&mine, 0, sizeof mine);
+    mine.ss_sp = room;
+    mine.ss_size = sizeof room;
+    if (sigaltstack(NULL, &found) == 0 && found.ss_flags & SS_DISABLE) {
+        (void)sigaltstack(&mine, NULL);
+    }
+}
+
 static int installed;
 
 static void install(void) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_sigaction = on_signal;
-    action.sa_flags = SA_SIGINFO | SA_ONSTACK; /* a stack that overflowed is no place for a handler */
-    (void)sigemptyset(&action.sa_mask);
+    give_a_stack();
     installed = 1;
     for (size_t i = 0; i < SIGNAL_COUNT; i++) {
         installed &= sigaction(signals[i], NULL, &before[i]) == 0;
-        const int ignored = !(before[i].sa_flags & SA_SIGINFO) && before[i].sa_handler == SIG_IGN;
+        const int ignored = is_plain(&before[i], SIG_IGN);
+        /* as the one from before: whether calls are restarted, what is held back, whether it is for one time */
+        action.sa_flags = SA_SIGINFO | SA_ONSTACK | (before[i].sa_flags & (SA_RESTART | (int)SA_RESETHAND));
+        action.sa_mask = before[i].sa_mask;
         installed &= ignored || sigaction(signals[i], &action, NULL) == 0; /* what does not end it is left alone */
     }
 }

@@ -14,10 +14,34 @@ static knurl_device *open_devices[DEVICE_ROOM]; /* atomics */
 static uint32_t ends;                           /* atomic */
 
 uint32_t knurl_device_ends(void) {
-    return knurl_load_acquire(&ends);
+    return __atomic_load_n(&ends, __ATOMIC_SEQ_CST);
+}
+
+static int is_none(const double force[3]) {
+    return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+}
+
+/* Whoever sends looks at `ends` after having cleared `quiet`, and the signal looks at `quiet` after having set `ends`:
+ * one of them sees the other. */
+void knurl_device_before_force(knurl_device *device, double force[3]) {
+    if (!is_none(force)) {
+        __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
+        if (knurl_device_ends()) {
+            force[0] = force[1] = force[2] = 0.0;
+        }
+    }
+}
+
+void knurl_device_after_force(knurl_device *device, const double force[3]) {
+    if (is_none(force)) {
+        knurl_store_release(&device->quiet, 1u);
+    }
 }
 
 void knurl_device_register(knurl_device *device) {
+    if (!device->is_linked) { /* an I/O thread tells by itself */
+        knurl_store_release(&device->quiet, 1u);
+    }
     for (int i = 0; i < DEVICE_ROOM; i++) {
         knurl_device *none = NULL;
         if (__atomic_compare_exchange_n(&open_devices[i], &none, device, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
@@ -36,7 +60,7 @@ void knurl_device_unregister(knurl_device *device) {
 static int all_quiet(void) {
     for (int i = 0; i < DEVICE_ROOM; i++) {
         const knurl_device *device = knurl_load_acquire(&open_devices[i]);
-        if (device && !knurl_load_acquire(&device->quiet)) {
+        if (device && !__atomic_load_n(&device->quiet, __ATOMIC_SEQ_CST) && !knurl_load_acquire(&device->lost)) {
             return 0;
         }
     }
@@ -46,7 +70,7 @@ static int all_quiet(void) {
 /* In a signal handler: nothing but atomics, the clock and naps. */
 static void let_go(void) {
     const int64_t until = knurl_system_now_ns() + WAIT_NS;
-    knurl_store_release(&ends, 1u);
+    __atomic_store_n(&ends, 1u, __ATOMIC_SEQ_CST);
     while (!all_quiet() && knurl_system_now_ns() < until) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
     }

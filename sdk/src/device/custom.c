@@ -9,6 +9,10 @@ typedef struct custom {
     knurl_device base;
     knurl_device_functions functions;
     knurl_link link; /* where they block */
+    /* where they do not */
+    knurl_device_sample latest;
+    uint64_t without; /* reads since then that brought nothing */
+    uint32_t has_latest;
 } custom;
 
 static custom *of(knurl_device *device) {
@@ -66,15 +70,35 @@ static void custom_status(const knurl_device *device, knurl_device_status *statu
 static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
     const knurl_device_functions *f = &of(device)->functions;
     const knurl_result result = f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
-    if (!result && f->blocking) {
+    if (!result && of(device)->link.thread) {
         knurl_link_start(&of(device)->link, update_rate_hz);
     }
     return result;
 }
 
+/* As an I/O thread's: the latest position holds for a while where there is none this time. */
+static knurl_result read_now(custom *c, knurl_device_sample *sample) {
+    const knurl_result result = c->functions.read(c->functions.user, sample);
+    if (result == KNURL_OK) {
+        c->latest = *sample;
+        c->has_latest = 1;
+        c->base.check.gap += (double)c->without * c->base.period; /* what held was no new position */
+        c->without = 0;
+    }
+    if (result == KNURL_OK || result == KNURL_ERROR_DEVICE_LOST) {
+        return result;
+    }
+    const uint64_t patience = (uint64_t)(KNURL_LINK_PATIENCE / c->base.period + 0.5);
+    if (++c->without == patience + 1) {
+        knurl_events_report(&c->base.events, KNURL_FAULT_SILENT, (double)c->without * c->base.period);
+    }
+    *sample = c->latest;
+    return c->has_latest && c->without <= patience ? KNURL_OK : KNURL_ERROR_DEVICE_NOT_READY;
+}
+
 static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
-    const knurl_device_functions *f = &of(device)->functions;
-    return f->blocking ? knurl_link_read(&of(device)->link, sample) : f->read(f->user, sample);
+    custom *c = of(device);
+    return c->functions.blocking ? knurl_link_read(&c->link, sample) : read_now(c, sample);
 }
 
 static knurl_result custom_write(knurl_device *device, const double force[3]) {
@@ -91,6 +115,7 @@ static knurl_result custom_reopen(knurl_device *device) {
         knurl_link_close(&c->link); /* its thread has ended by itself */
     }
     const knurl_result result = c->functions.reopen(c->functions.user);
+    c->has_latest = 0;
     return result || !c->functions.blocking ? result : knurl_link_open(&c->link, device, exchange, rate_of(c));
 }
 
@@ -144,10 +169,9 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
     made->base.max_force = info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;
-    result = f.blocking ? knurl_link_open(&made->link, &made->base, exchange, rate_of(made)) : KNURL_OK;
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    result = knurl_device_start(&made->base, 1000.0);
+    result = result || !f.blocking ? result : knurl_link_open(&made->link, &made->base, exchange, rate_of(made));
     if (result) {
-        knurl_link_close(&made->link);
         free(made);
         return result;
     }

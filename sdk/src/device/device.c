@@ -1,5 +1,5 @@
 /* One interface for all devices: finds the driver, guards positions and forces. SPDX-License-Identifier: MIT */
-#include "device/driver.h"
+#include "device/link.h"
 
 #include "base/atomic.h"
 #include "base/base.h"
@@ -15,7 +15,7 @@ static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_d
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
 /* How far a position may be off after however short a gap, s at the greatest speed: devices that bring positions at
- * 1 kHz move in steps when they are read faster. */
+ * 1 kHz move in steps when they are read faster. Slower ones move further. */
 #define LEAST_GAP 0.002
 
 void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
@@ -94,9 +94,24 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
+/* Positions of before say nothing about those that come now. */
+static void begin_check(knurl_device *device) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    device->driver->get_info(device, &info);
+    memset(&device->check, 0, sizeof device->check);
+    device->check.least_gap = info.native_rate > 0.0 ? fmax(LEAST_GAP, 2.0 / info.native_rate) : LEAST_GAP;
+}
+
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
+    }
+    if (device->is_linked && update_rate_hz < 2.0 / KNURL_LINK_PATIENCE) {
+        return knurl_fail(
+            KNURL_ERROR_UNSUPPORTED,
+            "update rate: the device plays a force for %g ms at most, expected %g Hz or more, found %g Hz",
+            1e3 * KNURL_LINK_PATIENCE, 2.0 / KNURL_LINK_PATIENCE, update_rate_hz);
     }
     if (knurl_load_acquire(&device->lost) && knurl_device_reopen(device)) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and is not to be found",
@@ -105,7 +120,7 @@ knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     const knurl_result result = device->driver->start(device, update_rate_hz);
     if (!result) {
         device->period = 1.0 / update_rate_hz;
-        memset(&device->check, 0, sizeof device->check);
+        begin_check(device);
     }
     return result;
 }
@@ -121,12 +136,11 @@ static knurl_result check_position(knurl_device *device, const double position[3
         check->settle = KNURL_SETTLE_TIME;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
-    check->not_finite = 0;
     if (check->has_last && device->max_speed > 0.0) {
         double moved[3];
         vec3_sub(position, check->last, moved);
         const double distance = vec3_length(moved);
-        if (!(distance <= device->max_speed * fmax(check->gap, LEAST_GAP))) {
+        if (!(distance <= device->max_speed * fmax(check->gap, check->least_gap))) {
             if (check->settle <= 0.0) {
                 knurl_events_report(&device->events, KNURL_FAULT_JUMP, distance);
             }
@@ -140,20 +154,16 @@ static knurl_result check_position(knurl_device *device, const double position[3
         check->settle -= device->period;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
+    check->not_finite = 0;
     return KNURL_OK;
 }
 
-/* A reading or a writing that failed: let go of the motors, until somebody takes them up again. */
-static void note_failure(knurl_device *device, knurl_result result) {
-    if (result != KNURL_ERROR_STATE) {
-        knurl_device_halt(device);
+static void lose(knurl_device *device) {
+    knurl_device_halt(device);
+    if (!device->is_linked) { /* an I/O thread has told already */
+        knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
     }
-    if (result == KNURL_ERROR_DEVICE_LOST) {
-        if (!device->is_linked) { /* an I/O thread has told already */
-            knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-        }
-        knurl_store_release(&device->lost, 1u);
-    }
+    knurl_store_release(&device->lost, 1u);
 }
 
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
@@ -168,7 +178,11 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
         *sample = found;
         return KNURL_OK;
     }
-    note_failure(device, result);
+    if (result == KNURL_ERROR_DEVICE_LOST) {
+        lose(device);
+    } else if (result != KNURL_ERROR_STATE) {
+        knurl_device_halt(device);
+    }
     return result;
 }
 
@@ -178,15 +192,18 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     }
     double safe[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(force);
-    if (isfinite(length) && !knurl_load_acquire(&device->halted) && !knurl_device_ends()) {
+    if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
         vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
+    }
+    if (!device->is_linked) {
+        knurl_device_before_force(device, safe);
     }
     const knurl_result result = device->driver->write(device, safe);
     if (!device->is_linked && !device->driver->serve) { /* else the thread that sends it says so when it is out */
-        knurl_store_release(&device->quiet, vec3_dot(safe, safe) > 0.0 ? 0u : 1u);
+        knurl_device_after_force(device, safe);
     }
-    if (result) {
-        note_failure(device, result);
+    if (result == KNURL_ERROR_DEVICE_LOST) {
+        lose(device);
     }
     return result;
 }
@@ -210,7 +227,7 @@ knurl_result knurl_device_reopen(knurl_device *device) {
     }
     const knurl_result result = device->driver->reopen(device);
     if (!result) {
-        memset(&device->check, 0, sizeof device->check);
+        begin_check(device);
         knurl_events_report(&device->events, KNURL_FAULT_RECONNECTED, 0.0);
         knurl_store_release(&device->lost, 0u);
     }

@@ -44,9 +44,10 @@ typedef struct knurl_driver {
 
 /* Positions are held against the last one. */
 typedef struct knurl_position_check {
-    double last[3]; /* m */
-    double gap;     /* s since then */
-    double settle;  /* s for which positions still have to stay believable */
+    double last[3];   /* m */
+    double gap;       /* s since then */
+    double least_gap; /* s */
+    double settle;    /* s for which positions still have to stay believable */
     uint32_t has_last;
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
@@ -63,7 +64,7 @@ struct knurl_device {
     /* atomics */
     uint32_t halted;
     uint32_t lost;  /* nobody but reopen() may call the driver any more */
-    uint32_t quiet; /* 1: the latest force that went out was 0 */
+    uint32_t quiet; /* 1: the latest force that went out was 0, and none is on its way */
 };
 
 /* s without a tick after which a device that owns the servo thread counts as lost. */
@@ -80,6 +81,11 @@ knurl_result knurl_device_reopen(knurl_device *device);
 
 /* 1: the process is about to end, and no force may go out any more (crash.c). [any thread] */
 uint32_t knurl_device_ends(void);
+
+/* Around sending a force, on the thread that sends it: the device is not quiet from before a force goes out until after
+ * none has; a force that would go out while the process ends becomes none. */
+void knurl_device_before_force(knurl_device *device, double force[3]);
+void knurl_device_after_force(knurl_device *device, const double force[3]);
 
 /* Open devices, for crash.c. [game thread] */
 void knurl_device_register(knurl_device *device);

@@ -4,10 +4,18 @@
 #include "base/atomic.h"
 #include "base/system.h"
 
+/* A slot is one writer's at a time. One that was held up since the ring went round, or that finds another one still
+ * inside, drops its event: waiting is not allowed, and what two write at once is torn. */
 void knurl_events_report(knurl_events *events, int32_t code, double value) {
     const uint64_t number = __atomic_fetch_add(&events->head, 1, __ATOMIC_RELAXED);
     const size_t at = number % KNURL_EVENT_ROOM;
-    knurl_store_release(&events->slots[at].sequence, 2 * number + 1);
+    uint64_t found = knurl_load_acquire(&events->slots[at].sequence);
+    if (found % 2 != 0 || found > 2 * number ||
+        !__atomic_compare_exchange_n(&events->slots[at].sequence, &found, 2 * number + 1, 0, __ATOMIC_ACQ_REL,
+                                     __ATOMIC_RELAXED)) {
+        knurl_store_release(&events->slots[at].dropped, number + 1);
+        return;
+    }
     __atomic_store_n(&events->slots[at].time_ns, knurl_system_now_ns(), __ATOMIC_RELEASE);
     __atomic_store(&events->slots[at].value, &value, __ATOMIC_RELEASE);
     __atomic_store_n(&events->slots[at].code, code, __ATOMIC_RELEASE);
@@ -28,6 +36,13 @@ static int read_slot(knurl_events *events, knurl_device_event *event) {
     return knurl_load_relaxed(&events->slots[at].sequence) == whole;
 }
 
+/* 1: number `next` will still be written, or has been by now. */
+static int is_on_its_way(const knurl_events *events) {
+    const size_t at = events->next % KNURL_EVENT_ROOM;
+    return knurl_load_acquire(&events->slots[at].sequence) <= 2 * events->next + 2 &&
+           knurl_load_acquire(&events->slots[at].dropped) != events->next + 1;
+}
+
 uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
     knurl_device_event found;
     const uint64_t head = knurl_load_acquire(&events->head);
@@ -35,16 +50,15 @@ uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
         events->next = head - KNURL_EVENT_ROOM;
     }
     while (events->next < head) { /* 64 at most */
-        const size_t at = events->next % KNURL_EVENT_ROOM;
         if (read_slot(events, &found)) {
             events->next++;
             *event = found;
             return 1;
         }
-        if (knurl_load_acquire(&events->slots[at].sequence) < 2 * events->next + 2) {
-            return 0; /* on its way: next time */
+        if (is_on_its_way(events)) {
+            return 0; /* next time */
         }
-        events->next++; /* overwritten */
+        events->next++; /* overwritten, or dropped */
     }
     return 0;
 }

@@ -12,6 +12,7 @@ typedef struct knurl_events {
     uint64_t next; /* the reader's */
     struct {
         uint64_t sequence; /* atomic: 2 * number + 2 when whole, odd while it is written */
+        uint64_t dropped;  /* atomic: number + 1 of the latest that found the slot taken */
         int64_t time_ns;   /* these three as atomics */
         double value;
         int32_t code;

@@ -25,8 +25,8 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
-    const int let_go = is_late || knurl_load_acquire(&device->halted) || knurl_device_ends();
-    vec3_copy(let_go ? none : newest, force);
+    vec3_copy(is_late || knurl_load_acquire(&device->halted) ? none : newest, force);
+    knurl_device_before_force(device, force);
 }
 
 static void publish(knurl_link *link, const knurl_device_sample *sample) {
@@ -35,18 +35,24 @@ static void publish(knurl_link *link, const knurl_device_sample *sample) {
     knurl_count_up(&link->exchanges);
 }
 
+/* By whoever notices it first: once, until the device is heard again. */
+static void tell_silence(knurl_link *link, double seconds) {
+    if (!knurl_load_relaxed(&link->is_silent) && !__atomic_exchange_n(&link->is_silent, 1, __ATOMIC_ACQ_REL)) {
+        knurl_store_release(&link->device->halted, 1u);
+        knurl_events_report(&link->device->events, KNURL_FAULT_SILENT, seconds);
+    }
+}
+
 /* What the outcome of an exchange means for the hand on the device. */
 static void judge(knurl_link *link, int outcome, int64_t now) {
     knurl_device *device = link->device;
     if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION) {
         link->heard_at = now;
-        link->is_silent = 0;
+        knurl_store_release(&link->is_silent, 0u); /* the position has been posted */
     }
     const int64_t silence = now - link->heard_at;
-    if (silence > patience_ns() && !link->is_silent && outcome != KNURL_LINK_LOST) {
-        link->is_silent = 1;
-        knurl_store_release(&device->halted, 1u);
-        knurl_events_report(&device->events, KNURL_FAULT_SILENT, 1e-9 * (double)silence);
+    if (silence > patience_ns() && outcome != KNURL_LINK_LOST) {
+        tell_silence(link, 1e-9 * (double)silence);
     }
     if (outcome == KNURL_LINK_LOST || (double)silence > 1e9 * KNURL_LINK_GIVE_UP) {
         knurl_store_release(&device->halted, 1u);
@@ -68,7 +74,7 @@ static int turn(knurl_link *link) {
         knurl_histogram_add(&link->durations, now - before);
         publish(link, &sample);
     }
-    knurl_store_release(&link->device->quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
+    knurl_device_after_force(link->device, force);
     knurl_count_up(&link->turns);
     judge(link, outcome, now);
     return !knurl_load_relaxed(&link->lost);
@@ -84,6 +90,7 @@ static void io_thread(void *argument) {
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
         if (!turn(link)) {
+            knurl_store_release(&link->device->quiet, 1u); /* there is nobody to be told */
             return;
         }
         const int64_t now = knurl_system_now_ns();
@@ -104,7 +111,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);
     link->has_sample = link->is_silent = link->is_late = 0;
-    link->stale = link->watched = 0;
+    link->stale = link->watched = link->stuck = 0;
     link->turns = 0;
     knurl_store_release(&link->stop, 0u);
     knurl_store_release(&link->lost, 0u);
@@ -132,15 +139,22 @@ knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     if (knurl_load_acquire(&link->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
+    const uint64_t turns = knurl_load_relaxed(&link->turns);
+    link->stuck = turns == link->watched ? link->stuck + 1 : 0;
+    link->watched = turns;
     if (knurl_mailbox_take(&link->positions)) {
         link->has_sample = 1;
+        link->device->check.gap += (double)link->stale * link->device->period; /* what held was no new position */
         link->stale = 0;
-        link->watched = knurl_load_relaxed(&link->turns);
-    } else if (++link->stale == link->patience && knurl_load_relaxed(&link->turns) == link->watched) {
-        /* the I/O thread itself hangs, so that nobody else tells; motors go on until the device's own watchdog acts */
-        knurl_events_report(&link->device->events, KNURL_FAULT_SILENT, (double)link->stale * link->device->period);
+        *sample = link->samples[link->positions.front];
+        return KNURL_OK;
     }
-    if (!link->has_sample || link->stale >= link->patience) {
+    link->stale++;
+    if (link->stuck >= link->patience) {
+        /* the I/O thread itself hangs, so that nobody else tells; motors go on until the device's own watchdog acts */
+        tell_silence(link, (double)link->stuck * link->device->period);
+    }
+    if (!link->has_sample || link->stale >= link->patience || knurl_load_acquire(&link->is_silent)) {
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
     *sample = link->samples[link->positions.front];
@@ -158,6 +172,7 @@ knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
 }
 
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
+    status->lost |= knurl_load_acquire(&link->lost); /* also where nobody has read it since */
     status->exchanges = knurl_load_relaxed(&link->exchanges);
     status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
     status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);

@@ -34,8 +34,9 @@ typedef struct knurl_link {
     /* to the haptic thread */
     knurl_mailbox positions;
     knurl_device_sample samples[3];
-    uint64_t stale;   /* reads since the latest position; the haptic thread's */
-    uint64_t watched; /* `turns` at the latest position; the haptic thread's */
+    uint64_t stale;   /* reads since the latest position; these four are the haptic thread's */
+    uint64_t stuck;   /* reads since the latest turn of the I/O thread */
+    uint64_t watched; /* `turns` at the latest read */
     uint32_t has_sample;
     /* from the haptic thread */
     knurl_mailbox orders;
@@ -45,9 +46,9 @@ typedef struct knurl_link {
     } forces[3];
     /* the I/O thread's */
     int64_t heard_at;
-    uint32_t is_silent; /* reported */
-    uint32_t is_late;   /* reported */
+    uint32_t is_late; /* reported */
     /* atomics */
+    uint32_t is_silent; /* reported, by either thread */
     uint32_t stop;
     uint32_t lost;
     uint64_t turns;     /* of the I/O thread */

@@ -21,8 +21,8 @@ static knurl_result refuse(const char *driver, const char *pair, size_t length, 
         const size_t used = strlen(known);
         (void)snprintf(known + used, sizeof known - used, "%s%s=", i > 0 ? " or " : "", keys[i].key);
     }
-    return knurl_fail(KNURL_ERROR_ARGUMENT, "device '%s': expected %s, found '%.*s'", driver, known,
-                      (int)(length < 200 ? length : 200), pair);
+    return knurl_fail(KNURL_ERROR_ARGUMENT, "device '%s': expected %s, found '%.*s'", driver,
+                      key_count > 0 ? known : "a name and no keys", (int)(length < 200 ? length : 200), pair);
 }
 
 knurl_result knurl_uri_parse(const char *driver, const char *options, char *name, const knurl_uri_key *keys,

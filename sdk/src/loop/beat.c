@@ -53,24 +53,25 @@ static int game_lives(knurl_loop *loop) {
     loop->signs_seen = signs;
     const double silence = (double)loop->since_sign / loop->desc.update_rate_hz;
     const int lives = silence <= loop->desc.heartbeat_s;
-    if (loop->game_lives != lives) {
-        report(loop, lives ? KNURL_FAULT_RESUMED : KNURL_FAULT_HEARTBEAT, lives ? 0.0 : silence);
+    if (loop->game_lives && !lives) {
+        report(loop, KNURL_FAULT_HEARTBEAT, silence);
     }
     loop->game_lives = lives;
     return lives;
 }
 
-/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it. */
-static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
-    if (knurl_device_is_halted(loop->desc.device)) {
-        knurl_device_release_halt(loop->desc.device);
-        loop->gain = 0.0;
-        if (loop->ticks > 0) {
-            report(loop, KNURL_FAULT_RESUMED, 0.0);
-        }
-    }
+/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it.
+ * Returns 1 where they were let go of, which lasts until this force is written: what an I/O thread has until then is
+ * from before. */
+static int apply_gain(knurl_loop *loop, knurl_tick_output *output) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
+    const int was_halted = knurl_device_is_halted(loop->desc.device) != 0;
+    const int was_down = was_halted || !loop->game_lives;
     const int lives = game_lives(loop);
+    loop->gain = was_halted ? 0.0 : loop->gain;
+    if (was_down && lives && loop->ticks > 0) {
+        report(loop, KNURL_FAULT_RESUMED, 0.0);
+    }
     if (!lives) {
         loop->gain = fmax(0.0, loop->gain - step);
     }
@@ -82,6 +83,7 @@ static void apply_gain(knurl_loop *loop, knurl_tick_output *output) {
     if (lives) {
         loop->gain = fmin(1.0, loop->gain + step);
     }
+    return was_halted;
 }
 
 /* A beat without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
@@ -104,6 +106,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
                                                                       thread that would see to it */
         return 1;
     }
+    loop->served_at = 0; /* from its return on, calls are a new row, maybe on a new thread */
     loop->is_lost = why != KNURL_ERROR_DEVICE_LOST || !loop->desc.reconnect;
     return !loop->is_lost;
 }
@@ -120,7 +123,7 @@ static int run_tick(knurl_loop *loop) {
     const int64_t before = loop->clock.now_ns(loop->clock.user);
     make_force(loop, &sample, &output);
     knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
-    apply_gain(loop, &output);
+    const int was_halted = apply_gain(loop, &output);
     if (loop->desc.scene && loop->desc.tick_callback) {
         loop->desc.tick_callback(&output, loop->desc.user);
     }
@@ -128,6 +131,9 @@ static int run_tick(knurl_loop *loop) {
     knurl_count_up(&loop->ticks);
     knurl_count_up(&loop->beats);
     result = knurl_device_write(loop->desc.device, loop->force);
+    if (was_halted && result == KNURL_OK) {
+        knurl_device_release_halt(loop->desc.device);
+    }
     return result == KNURL_OK || be_absent(loop, result);
 }
 
@@ -161,12 +167,20 @@ int knurl_loop_beat(knurl_loop *loop) {
 }
 
 void knurl_loop_end(knurl_loop *loop, int32_t state) {
-    knurl_device_halt(loop->desc.device);
+    static const double none[3] = {0.0, 0.0, 0.0};
+    knurl_device *device = loop->desc.device;
+    knurl_device_halt(device);
+    if (device->is_linked || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
+        (void)knurl_device_write(device, none);
+    }
     knurl_store_release(&loop->state, state);
 }
 
 /* A beat that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
+    if (overrun) {
+        loop->desc.device->check.gap += 1e-9 * (double)late; /* the hand did not wait */
+    }
     if (knurl_loop_at_end(loop)) {
         return;
     }
@@ -206,6 +220,7 @@ void knurl_loop_haptic_thread(void *argument) {
 uint32_t knurl_loop_serve(void *argument) {
     knurl_loop *loop = argument;
     const double period = 1e9 / loop->desc.update_rate_hz;
+    knurl_store_release(&loop->is_served, 1u); /* before the device can be found lost */
     const int64_t now = loop->clock.now_ns(loop->clock.user);
     if (loop->served_at == 0) {
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
@@ -215,6 +230,7 @@ uint32_t knurl_loop_serve(void *argument) {
     }
     loop->served_at = now;
     if (knurl_loop_beat(loop)) {
+        knurl_store_release(&loop->is_served, 0u);
         return 1;
     }
     knurl_loop_end(loop, state_at_end(loop)); /* the loop may be gone now */

@@ -13,6 +13,9 @@
 /* How often a lost device is looked for. */
 #define RECONNECT_NS 250000000
 
+/* How long after its latest call a lost device with a servo thread counts as one that calls no more. */
+#define LAST_CALL_NS 50000000
+
 /* A tick needs some kilobytes; callbacks get the rest. */
 #define STACK_BYTES ((size_t)256 * 1024)
 
@@ -44,10 +47,11 @@ static void watch(knurl_loop *loop, keeper *k, int64_t now) {
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
     const uint64_t beats = knurl_load_relaxed(&loop->beats);
     knurl_device *device = loop->desc.device;
-    if (beats != k->seen || knurl_load_acquire(&device->lost)) {
+    if (beats != k->seen) {
         k->seen = beats;
         k->seen_at = now;
-    } else if (limit > 0 && now - k->seen_at > limit && is_running(loop) && !knurl_device_is_halted(device)) {
+    } else if (limit > 0 && !knurl_load_acquire(&device->lost) && now - k->seen_at > limit && is_running(loop) &&
+               !knurl_device_is_halted(device)) {
         knurl_device_halt(device);
         knurl_events_report(&device->events, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
         knurl_count_up(&loop->watchdogs);
@@ -80,10 +84,13 @@ static void look_for_device(knurl_loop *loop, keeper *k, int64_t now) {
         return;
     }
     if (knurl_loop_at_end(loop) && loop->desc.device->driver->serve) {
-        knurl_loop_end(loop, KNURL_LOOP_DONE); /* nobody calls the tick of a device that is away */
+        /* nobody calls the tick of a device that is away; but it may be in its last call, and use the loop */
+        if (!knurl_load_acquire(&loop->is_served) && now - k->seen_at > LAST_CALL_NS) {
+            knurl_loop_end(loop, KNURL_LOOP_DONE);
+        }
     } else if (now - k->tried_at > RECONNECT_NS) {
         (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = knurl_system_now_ns();
+        k->tried_at = k->seen_at = knurl_system_now_ns(); /* nobody could have beaten meanwhile */
     }
 }
 

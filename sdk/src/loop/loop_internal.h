@@ -54,6 +54,7 @@ struct knurl_loop {
     uint64_t signs; /* of life, from the game */
     uint64_t absences;
     uint32_t absent;
+    uint32_t is_served; /* 1: a device that owns the servo thread is in a call */
     uint32_t realtime;
     uint32_t scene_locked; /* the scene's and the loop's own memory */
     uint32_t stack_locked;

@@ -1,0 +1,525 @@
+/* A device of a caller's functions: what must be there, what is called when, and what a loop gets from it.
+ * SPDX-License-Identifier: MIT */
+#include "home.h"
+
+#include "device/driver.h"
+
+#include <knurl/loop.h>
+#include <pthread.h>
+
+static home h; /* set up anew by each test */
+
+/* --- what the system may refuse; linked with --wrap --- */
+
+static int refuse_memory;
+static int refuse_threads;
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuse_memory ? NULL : __real_calloc(count, size);
+}
+
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument) {
+    return refuse_threads ? 11 /* EAGAIN */ : __real_pthread_create(thread, how, entry, argument);
+}
+
+/* --- what must be there --- */
+
+TEST(a_function_that_is_required_and_missing_is_named) {
+    static const char *const names[] = {"get_info", "read", "write"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, (uint32_t)i % 2);
+        f.get_info = i == 0 ? NULL : f.get_info;
+        f.read = i == 1 ? NULL : f.read;
+        f.write = i == 2 ? NULL : f.write;
+        CHECK_REFUSED(knurl_device_open_functions(&f, &device), KNURL_ERROR_ARGUMENT, device);
+        check_message(names[i]);
+        assert_int_equal(h.order, 0); /* nothing was called */
+    }
+}
+
+/* A force is played for 10 ms at most, which two ticks have to fit into. */
+TEST(what_blocks_wants_200_ticks_a_second) {
+    knurl_device *device = home_open(&h, 1);
+    char nothing = 0;
+    CHECK_REFUSED(knurl_device_start(device, 199.0), KNURL_ERROR_UNSUPPORTED, nothing);
+    check_message("200");
+    assert_int_equal(h.starts, 1); /* nobody was bothered with it */
+    assert_int_equal(knurl_device_start(device, 200.0), KNURL_OK);
+    knurl_device_close(device);
+    device = home_open(&h, 0);
+    assert_int_equal(knurl_device_start(device, 100.0), KNURL_OK);
+    knurl_device_close(device);
+}
+
+static double told_force; /* what the next one says of its motors */
+
+static void tell_force(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = told_force;
+}
+
+TEST(a_force_must_be_promised) {
+    static const double wrong[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, 1);
+        f.get_info = tell_force;
+        told_force = wrong[i];
+        CHECK_REFUSED(knurl_device_open_functions(&f, &device), KNURL_ERROR_ARGUMENT, device);
+        check_message("max_force");
+        assert_int_equal(h.order, 0);
+    }
+}
+
+TEST(a_struct_that_nobody_filled_in_is_refused) {
+    knurl_device *device = NULL;
+    struct {
+        knurl_device_functions functions;
+        uint64_t beyond;
+    } newer;
+    memset(&h, 0, sizeof h);
+    memset(&newer, 0, sizeof newer);
+    CHECK_REFUSED(knurl_device_open_functions(NULL, &device), KNURL_ERROR_ARGUMENT, device);
+    CHECK_REFUSED(knurl_device_open_functions(&newer.functions, &device), KNURL_ERROR_ARGUMENT, device);
+    newer.functions = home_functions(&h, 0);
+    newer.functions.struct_size = sizeof newer;
+    newer.beyond = 1;
+    CHECK_REFUSED(knurl_device_open_functions(&newer.functions, &device), KNURL_ERROR_UNSUPPORTED, device);
+}
+
+TEST(without_memory_or_threads_it_is_an_error_and_nothing_is_left_behind) {
+    for (int i = 0; i < 2; i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        const knurl_device_functions f = home_functions(&h, 1);
+        refuse_memory = i == 0;
+        refuse_threads = i == 1;
+        const knurl_result result = knurl_device_open_functions(&f, &device);
+        refuse_memory = refuse_threads = 0;
+        assert_int_equal(result, i == 0 ? KNURL_ERROR_MEMORY : KNURL_ERROR_SYSTEM);
+        assert_null(device);
+        assert_int_equal(h.reads + h.writes + h.closes, 0); /* the functions stay the caller's */
+    }
+}
+
+TEST(a_start_that_fails_is_passed_on) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        const knurl_device_functions f = home_functions(&h, blocking);
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_ERROR_UNSUPPORTED);
+        assert_null(device);
+        assert_int_equal(h.starts, 1);
+        const uint64_t order = h.order;
+        sleep_ns(5000000);
+        assert_int_equal(knurl_load_acquire(&h.order), order); /* no thread goes on with it */
+        device = home_open(&h, blocking);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        assert_int_equal(knurl_device_start(device, 3000.0), KNURL_ERROR_UNSUPPORTED);
+        CHECK_SAME(h.rate, 3000.0L);
+        knurl_device_close(device);
+    }
+}
+
+/* --- what it is --- */
+
+static void tell_little(void *user, knurl_device_info *info) {
+    (void)user;
+    memset(info->name, 'x', sizeof info->name); /* and no end */
+    info->max_force = 1.0;
+}
+
+TEST(what_its_owner_does_not_say_promises_nothing) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device *device = NULL;
+        knurl_device_info info;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, blocking);
+        f.get_info = tell_little;
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+        knurl_device_info_init(&info, sizeof info);
+        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        assert_int_equal(strlen(info.name), sizeof info.name - 1);
+        CHECK_SAME(info.max_force, 1.0L);
+        assert_true(isinf(info.continuous_force) && isinf(info.max_stiffness) && isinf(info.max_damping));
+        assert_true(info.heat_time > 0.0);
+        CHECK_SAME(info.resolution, 0.0L);
+        CHECK_SAME(info.native_rate, blocking ? 1000.0L : 0.0L);
+        knurl_device_close(device);
+    }
+}
+
+static void tell_much(void *user, knurl_device_info *info) {
+    tell_little(user, info);
+    (void)strcpy(info->name, "ours");
+    info->native_rate = 500.0;
+    info->resolution = 0.001;
+    info->continuous_force = 0.5;
+    info->delay = 3.0;
+    info->workspace_min[2] = -0.25;
+}
+
+TEST(what_its_owner_says_is_passed_on) {
+    knurl_device *device = NULL;
+    knurl_device_info info;
+    memset(&h, 0, sizeof h);
+    knurl_device_functions f = home_functions(&h, 1);
+    f.get_info = tell_much;
+    assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "ours");
+    CHECK_SAME(info.native_rate, 500.0L);
+    CHECK_SAME(info.resolution, (long double)0.001);
+    CHECK_SAME(info.continuous_force, 0.5L);
+    CHECK_SAME(info.delay, 3.0L);
+    CHECK_SAME(info.workspace_min[2], -0.25L);
+    assert_int_equal(info.struct_size, sizeof info);
+    knurl_device_close(device);
+}
+
+TEST(outputs_whose_size_nobody_set_are_refused_and_untouched) {
+    knurl_device *device = home_open(&h, 0);
+    knurl_device_info info;
+    knurl_device_status status;
+    memset(&info, 0, sizeof info);
+    memset(&status, 0, sizeof status);
+    CHECK_REFUSED(knurl_device_get_info(device, &info), KNURL_ERROR_ARGUMENT, info);
+    CHECK_REFUSED(knurl_device_get_status(device, &status), KNURL_ERROR_ARGUMENT, status);
+    knurl_device_close(device);
+}
+
+/* --- not blocking --- */
+
+TEST(what_does_not_block_is_read_and_written_here_and_now) {
+    knurl_device *device = home_open(&h, 0);
+    knurl_device_sample sample;
+    const double force[3] = {0.5, -1.0, 2.0};
+    for (int i = 0; i < 20; i++) {
+        home_place(&h, 0.001 * i, 0.0, -0.002 * i);
+        h.buttons = (uint32_t)i;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        CHECK_SAME(sample.position[0], (long double)(0.001 * i));
+        CHECK_SAME(sample.position[2], (long double)(-0.002 * i));
+        assert_int_equal(sample.buttons, i);
+        assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+        assert_memory_equal(h.motor, force, sizeof force);
+    }
+    assert_int_equal(h.reads, 20);
+    assert_int_equal(h.writes, 20);
+    assert_int_equal(h.strangers, 0);
+    knurl_device_close(device);
+}
+
+TEST(forces_are_finite_and_at_most_what_it_can_play) {
+    static const struct {
+        double written[3], played[3];
+    } cases[] = {
+        {{3.0, 0.0, 4.0}, {3.0, 0.0, 4.0}},        {{6.0, 0.0, -8.0}, {3.0, 0.0, -4.0}},
+        {{0.0, 1e6, 0.0}, {0.0, HOME_FORCE, 0.0}}, {{NAN, 1.0, 0.0}, {0.0, 0.0, 0.0}},
+        {{0.0, INFINITY, 0.0}, {0.0, 0.0, 0.0}},   {{1.0, -INFINITY, NAN}, {0.0, 0.0, 0.0}},
+    };
+    knurl_device *device = home_open(&h, 0);
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        assert_int_equal(knurl_device_write(device, cases[i].written), KNURL_OK);
+        for (int axis = 0; axis < 3; axis++) {
+            CHECK_CLOSE(h.motor[axis], cases[i].played[axis], 1e-12);
+        }
+    }
+    knurl_device_close(device);
+}
+
+TEST(halted_it_gets_no_force_until_the_halt_is_released) {
+    knurl_device *device = home_open(&h, 0);
+    const double force[3] = {1.0, 0.0, 0.0};
+    knurl_device_halt(device);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+    CHECK_SAME(h.motor[0], 0.0L);
+    knurl_device_release_halt(device);
+    assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+    CHECK_SAME(h.motor[0], 1.0L);
+    knurl_device_close(device);
+}
+
+/* A device may be read faster than it measures: the latest position holds for 10 ms. Then it is silent, and is told so
+ * once, until it is heard again. */
+TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent) {
+    for (int i = 0; i < 2; i++) {
+        knurl_device_event event;
+        knurl_device_sample sample;
+        knurl_device *device = home_open(&h, 0);
+        home_place(&h, 0.01, 0.0, 0.0);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        h.read_gives = i == 0 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_ERROR_IO; /* whatever else it may say */
+        home_place(&h, 0.02, 0.0, 0.0);
+        for (int k = 0; k < 10; k++) {
+            assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+            CHECK_SAME(sample.position[0], (long double)0.01);
+        }
+        assert_int_equal(knurl_device_next_event(device, &event), 0);
+        memset(&sample, 0x55, sizeof sample);
+        const knurl_device_sample before = sample;
+        for (int k = 0; k < 100; k++) {
+            assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+            assert_memory_equal(&sample, &before, sizeof sample);
+            assert_int_equal(knurl_device_is_halted(device), 1);
+        }
+        assert_int_equal(knurl_device_next_event(device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_SILENT);
+        CHECK_CLOSE(event.value, 0.0105, 0.00051);
+        assert_int_equal(knurl_device_next_event(device, &event), 0);
+        h.read_gives = KNURL_OK;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        CHECK_SAME(sample.position[0], (long double)0.02);
+        knurl_device_close(device);
+    }
+}
+
+TEST(before_its_first_position_there_is_none_to_hold) {
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 0);
+    h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+    h.read_gives = KNURL_OK;
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    assert_int_equal(next_code(device, 0), 0);
+    knurl_device_close(device);
+}
+
+/* --- blocking --- */
+
+TEST(what_blocks_is_read_and_written_in_turn_on_one_other_thread) {
+    const double force[3] = {0.5, -1.0, 2.0};
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 1);
+    home_place(&h, 0.01, 0.02, 0.03);
+    knurl_store_relaxed(&h.buttons, 5u);
+    wait_for_count(&h.reads, 3);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    CHECK_SAME(sample.position[1], (long double)0.02);
+    assert_int_equal(sample.buttons, 5);
+    assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+    wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
+    assert_true(knurl_load_relaxed(&h.thread) != knurl_system_thread_id());
+    knurl_device_close(device);
+    int played = 0;
+    for (uint64_t i = 0; i < h.writes; i++) {
+        played += h.log[i].force[0] == 0.5 && h.log[i].force[1] == -1.0 && h.log[i].force[2] == 2.0;
+    }
+    assert_true(played >= 1);
+    assert_int_equal(h.strangers, 0);
+    assert_int_equal(h.crowds, 0);
+    assert_in_range(h.reads, h.writes - 1, h.writes);
+}
+
+TEST(statuses_count_what_an_io_thread_does_and_are_zero_without_one) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device_status status;
+        knurl_device_sample sample;
+        knurl_device *device = home_open(&h, blocking);
+        if (blocking) {
+            knurl_store_relaxed(&h.takes_ns, (int64_t)300000);
+            wait_for_count(&h.reads, 60);
+        }
+        (void)knurl_device_read(device, &sample);
+        knurl_device_status_init(&status, sizeof status);
+        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        assert_int_equal(status.lost, 0);
+        assert_int_equal(status.events, 0);
+        if (blocking) {
+            assert_in_range(status.exchanges, 58, knurl_load_acquire(&h.reads));
+            assert_true(status.exchange_ns_p50 >= 0.97 * 300000.0);
+            assert_true(status.exchange_ns_p99 >= status.exchange_ns_p50);
+        } else {
+            assert_int_equal(status.exchanges, 0);
+            CHECK_SAME(status.exchange_ns_p50, 0.0L);
+        }
+        knurl_device_close(device);
+    }
+}
+
+/* --- the end --- */
+
+TEST(closing_lets_go_of_the_motors_and_then_closes_once) {
+    const double force[3] = {1.0, 1.0, 1.0};
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device *device = home_open(&h, blocking);
+        assert_int_equal(knurl_device_write(device, force), KNURL_OK);
+        knurl_device_close(device);
+        assert_int_equal(h.closes, 1);
+        assert_true(h.write_order > 0 && h.write_order < h.close_order);
+        assert_true(h.order == h.close_order); /* nothing comes after it */
+        assert_true(h.limp_since > 0);
+    }
+    knurl_device_close(NULL);
+}
+
+TEST(of_a_lost_device_nothing_is_asked_but_to_close) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device_event event;
+        knurl_device_sample sample;
+        knurl_device *device = home_open(&h, blocking);
+        const double force[3] = {1.0, 0.0, 0.0};
+        home_inject(&h, DOUBLE_UNPLUG);
+        if (blocking) {
+            assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+        }
+        memset(&sample, 0x55, sizeof sample);
+        const knurl_device_sample before = sample;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+        assert_memory_equal(&sample, &before, sizeof sample);
+        const uint64_t order = h.order;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+        assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
+        assert_true(h.order == order);
+        assert_int_equal(knurl_device_is_halted(device), 1);
+        assert_int_equal(next_code(device, 0), blocking ? 0 : KNURL_FAULT_LOST); /* told once */
+        assert_int_equal(next_code(device, 0), 0);
+        knurl_device_close(device);
+        assert_true(h.order == order + 1 && h.closes == 1);
+    }
+}
+
+TEST(a_lost_device_comes_back_only_by_being_reopened) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device_event event;
+        knurl_device_sample sample;
+        knurl_device *device = home_open(&h, blocking);
+        home_inject(&h, DOUBLE_UNPLUG);
+        if (blocking) {
+            assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+        }
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+        assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+        home_inject(&h, DOUBLE_WELL);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+        assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_RECONNECTED, &event), 1);
+        wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3 * blocking);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        assert_int_equal(h.reopens, 2);
+        knurl_device_close(device);
+        assert_int_equal(h.crowds, 0);
+    }
+}
+
+TEST(what_cannot_be_reopened_stays_lost) {
+    knurl_device *device = NULL;
+    knurl_device_sample sample;
+    memset(&h, 0, sizeof h);
+    knurl_device_functions f = home_functions(&h, 0);
+    f.reopen = NULL;
+    f.close = NULL;
+    f.start = NULL;
+    assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+    assert_int_equal(knurl_device_start(device, 500.0), KNURL_OK);
+    home_inject(&h, DOUBLE_UNPLUG);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+    home_inject(&h, DOUBLE_WELL);
+    assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+    knurl_device_close(device);
+}
+
+TEST(it_is_started_before_it_is_read) {
+    for (int turn = 0; turn < 20; turn++) { /* the order of threads is not given */
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        const knurl_device_functions f = home_functions(&h, 1);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_ERROR_UNSUPPORTED);
+        assert_int_equal(h.reads + h.writes, 0);
+    }
+}
+
+/* --- a loop over it --- */
+
+static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    const double *wanted = user;
+    (void)tick;
+    (void)sample;
+    force[1] = *wanted;
+}
+
+TEST(a_loop_plays_its_forces_on_it) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        double wanted = 9.0; /* of 5 */
+        knurl_loop_desc desc;
+        knurl_loop *loop = NULL;
+        knurl_device *device = home_open(&h, blocking);
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.device = device;
+        desc.force_callback = push;
+        desc.user = &wanted;
+        desc.tick_limit = 200;
+        desc.update_rate_hz = 2000.0;
+        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+        CHECK_SAME(knurl_load_double(&h.rate), 2000.0L);
+        if (blocking) {
+            wait_for_count(&h.reads, 2);
+        }
+        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        assert_int_equal(knurl_loop_wait(loop, 10.0), 1);
+        knurl_loop_destroy(loop);
+        knurl_device_close(device);
+        CHECK_CLOSE(h.strongest, HOME_FORCE, 1e-9);
+        assert_true(h.limp_since > 0);
+        assert_int_equal(h.crowds, 0);
+    }
+}
+
+TEST(what_blocks_cannot_be_stepped_and_what_does_not_can) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        double wanted = 1.0;
+        knurl_loop_desc desc;
+        knurl_loop *loop = NULL;
+        knurl_device *device = home_open(&h, blocking);
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.device = device;
+        desc.force_callback = push;
+        desc.user = &wanted;
+        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+        assert_int_equal(knurl_loop_step(loop, 50), blocking ? KNURL_ERROR_UNSUPPORTED : KNURL_OK);
+        assert_true(blocking || (h.reads == 50 && h.writes == 50));
+        knurl_loop_destroy(loop);
+        knurl_device_close(device);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_function_that_is_required_and_missing_is_named),
+        cmocka_unit_test(a_force_must_be_promised),
+        cmocka_unit_test(a_struct_that_nobody_filled_in_is_refused),
+        cmocka_unit_test(without_memory_or_threads_it_is_an_error_and_nothing_is_left_behind),
+        cmocka_unit_test(a_start_that_fails_is_passed_on),
+        cmocka_unit_test(what_its_owner_does_not_say_promises_nothing),
+        cmocka_unit_test(what_its_owner_says_is_passed_on),
+        cmocka_unit_test(outputs_whose_size_nobody_set_are_refused_and_untouched),
+        cmocka_unit_test(what_does_not_block_is_read_and_written_here_and_now),
+        cmocka_unit_test(forces_are_finite_and_at_most_what_it_can_play),
+        cmocka_unit_test(halted_it_gets_no_force_until_the_halt_is_released),
+        cmocka_unit_test(what_blocks_is_read_and_written_in_turn_on_one_other_thread),
+        cmocka_unit_test(statuses_count_what_an_io_thread_does_and_are_zero_without_one),
+        cmocka_unit_test(closing_lets_go_of_the_motors_and_then_closes_once),
+        cmocka_unit_test(of_a_lost_device_nothing_is_asked_but_to_close),
+        cmocka_unit_test(a_lost_device_comes_back_only_by_being_reopened),
+        cmocka_unit_test(what_cannot_be_reopened_stays_lost),
+        cmocka_unit_test(a_loop_plays_its_forces_on_it),
+        cmocka_unit_test(what_blocks_cannot_be_stepped_and_what_does_not_can),
+        cmocka_unit_test(it_is_started_before_it_is_read),
+        cmocka_unit_test(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent),
+        cmocka_unit_test(before_its_first_position_there_is_none_to_hold),
+        cmocka_unit_test(what_blocks_wants_200_ticks_a_second),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

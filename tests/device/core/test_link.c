@@ -1,0 +1,448 @@
+/* The I/O thread: the newest force out, the newest position in, in real time. Times are upper bounds that a machine
+ * which stands still now and then may miss: each is tried several times, and once is enough.
+ * SPDX-License-Identifier: MIT */
+#include "home.h"
+
+#include "device/link.h"
+
+#include <knurl/loop.h>
+
+static home h; /* set up anew by each test */
+
+#define TRIES 5
+
+/* Reads and writes once a millisecond for `ms`, as a loop would without a loop's own care. */
+static void tick_for(knurl_device *device, int ms, double force) {
+    const double f[3] = {0.0, force, 0.0};
+    int64_t next = now_ns();
+    for (int k = 0; k < ms; k++) {
+        knurl_device_sample sample;
+        next += 1000000;
+        knurl_system_sleep_until_ns(next);
+        (void)knurl_device_read(device, &sample);
+        (void)knurl_device_write(device, f);
+    }
+}
+
+/* How many events of a code there are now, of all. */
+static int count_events(knurl_device *device, int32_t code) {
+    knurl_device_event event;
+    int count = 0;
+    while (knurl_device_next_event(device, &event)) {
+        count += event.code == code;
+    }
+    return count;
+}
+
+/* --- forces --- */
+
+TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
+    knurl_device *device = home_open(&h, 1);
+    knurl_store_relaxed(&h.takes_ns, (int64_t)1500000); /* slower than they are written */
+    int64_t next = now_ns();
+    for (int k = 1; k <= 300; k++) {
+        const double f[3] = {0.0, 0.001 * k, 0.0};
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        next += 500000;
+        knurl_system_sleep_until_ns(next);
+    }
+    knurl_device_close(device);
+    double last = 0.0;
+    int different = 0;
+    for (uint64_t i = 0; i < h.writes; i++) {
+        const double force = h.log[i].force[1];
+        assert_true(force >= last || force == 0.0); /* 0: a machine that stood still made it too old */
+        different += force > last;
+        last = fmax(force, last);
+    }
+    assert_true(different >= 20);
+    assert_true(different <= 200); /* some were never played: newer ones were there */
+}
+
+TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
+    int64_t best = INT64_MAX;
+    knurl_device *device = home_open(&h, 1);
+    for (int k = 0; k < 40; k++) {
+        const double f[3] = {0.0, 0.0, 1.0 + 0.01 * k};
+        const int64_t written = now_ns();
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        const uint64_t writes = knurl_load_acquire(&h.writes);
+        while (knurl_load_double(&h.motor[2]) != f[2] && now_ns() - written < 20000000) {}
+        best = now_ns() - written < best ? now_ns() - written : best;
+        wait_for_count(&h.writes, writes + 1);
+    }
+    knurl_device_close(device);
+    assert_true(best <= 5000000); /* a period, and what a busy machine makes of it */
+}
+
+TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_let_go_of) {
+    int64_t played = INT64_MAX;
+    int64_t after_event = INT64_MAX;
+    for (int k = 0; k < TRIES; k++) {
+        const double f[3] = {1.0, 0.0, 0.0};
+        knurl_device_event event;
+        knurl_device *device = home_open(&h, 1);
+        wait_for_count(&h.reads, 3);
+        const int64_t written = now_ns();
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_LATE, &event), 1);
+        sleep_ns(5000000);
+        assert_true(event.value >= 0.01);
+        assert_int_equal(knurl_device_is_halted(device), 1);
+        const int64_t limp = knurl_load_acquire(&h.limp_since);
+        assert_true(limp > 0);
+        assert_true(limp - written >= 10000000);
+        played = limp - written < played ? limp - written : played;
+        after_event = limp - event.time_ns < after_event ? limp - event.time_ns : after_event;
+        assert_int_equal(next_code(device, 0), 0); /* told once */
+        knurl_device_close(device);
+        uint64_t forces = 0;
+        for (uint64_t i = 0; i < h.writes; i++) {
+            assert_true(!(h.log[i].force[0] > 0.0) || h.log[i].at - written <= 10000000 + 2000000 * (int64_t)(k + 1));
+            forces += h.log[i].force[0] > 0.0;
+        }
+        assert_true(forces > 0);
+    }
+    assert_true(played <= 15000000);
+    assert_true(after_event <= 5000000);
+}
+
+TEST(no_force_is_no_force_however_old_it_is) {
+    const double none[3] = {0.0, 0.0, 0.0};
+    knurl_device *device = home_open(&h, 1);
+    assert_int_equal(knurl_device_write(device, none), KNURL_OK);
+    sleep_ns(40000000);
+    assert_int_equal(next_code(device, 0), 0);
+    assert_int_equal(knurl_device_is_halted(device), 0);
+    knurl_device_close(device);
+}
+
+TEST(a_halt_reaches_the_motors_with_the_next_exchange) {
+    int64_t best = INT64_MAX;
+    for (int k = 0; k < TRIES; k++) {
+        const double f[3] = {1.0, 0.0, 0.0};
+        knurl_device *device = home_open(&h, 1);
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
+        knurl_device_halt(device);
+        const int64_t halted = now_ns();
+        wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
+        const int64_t limp = knurl_load_acquire(&h.limp_since);
+        assert_true(limp > 0);
+        best = limp - halted < best ? limp - halted : best;
+        knurl_device_close(device);
+    }
+    assert_true(best <= 5000000);
+}
+
+/* --- pace --- */
+
+static void tell_rate(void *user, knurl_device_info *info) {
+    home_info(user, info);
+    info->native_rate = 250.0;
+}
+
+TEST(exchanges_are_no_more_frequent_than_the_device_brings_positions) {
+    for (int i = 0; i < 2; i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, 1);
+        f.get_info = i ? tell_rate : home_info;
+        const int64_t period = i ? 4000000 : 1000000;
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+        sleep_ns(60 * period);
+        knurl_device_close(device);
+        const uint64_t writes = h.writes - 2; /* the last two come at once */
+        for (uint64_t k = 9; k < writes; k++) {
+            assert_true(h.log[k].at - h.log[k - 9].at >= 8 * period); /* one may wake up late, and the next in time */
+        }
+        assert_true(writes >= 20);
+    }
+}
+
+TEST(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst) {
+    knurl_device *device = home_open(&h, 1);
+    knurl_store_relaxed(&h.takes_ns, (int64_t)3000000);
+    sleep_ns(60000000);
+    knurl_store_relaxed(&h.takes_ns, (int64_t)0);
+    const uint64_t from = knurl_load_acquire(&h.writes) + 1;
+    sleep_ns(20000000);
+    knurl_device_close(device);
+    for (uint64_t k = from + 9; k < h.writes - 2; k++) {
+        assert_true(h.log[k].at - h.log[k - 9].at >= 8000000);
+    }
+}
+
+/* --- silence --- */
+
+TEST(a_mute_device_is_silent_after_10_ms_and_its_motors_are_let_go) {
+    int64_t seen = INT64_MAX;
+    int64_t limp = INT64_MAX;
+    int once = 0;
+    for (int k = 0; k < TRIES; k++) {
+        knurl_device_event event;
+        knurl_device *device = home_open(&h, 1);
+        tick_for(device, 20, 1.0);
+        (void)next_code(device, -1);
+        home_inject(&h, DOUBLE_MUTE);
+        const int64_t injected = now_ns();
+        tick_for(device, 30, 1.0);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
+        assert_true(event.value >= 0.01);
+        const int64_t since = knurl_load_acquire(&h.limp_since);
+        assert_true(since > 0);
+        seen = event.time_ns - injected < seen ? event.time_ns - injected : seen;
+        limp = since - event.time_ns < limp ? since - event.time_ns : limp;
+        knurl_device_sample sample;
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+        once += count_events(device, KNURL_FAULT_SILENT) == 0;
+        knurl_device_close(device);
+    }
+    assert_true(once > 0);
+    assert_true(seen <= 20000000);
+    assert_true(limp <= 5000000);
+}
+
+TEST(a_second_of_silence_is_a_loss) {
+    knurl_device_event event;
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 1);
+    tick_for(device, 20, 1.0);
+    home_inject(&h, DOUBLE_MUTE);
+    const int64_t injected = now_ns();
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+    assert_true(event.time_ns - injected >= 980000000);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+    const uint64_t writes = h.writes;
+    sleep_ns(10000000);
+    assert_true(h.writes == writes); /* its thread has ended */
+    knurl_device_close(device);
+    assert_true(h.writes == writes && h.closes == 1);
+}
+
+TEST(a_device_that_is_heard_again_is_read_again) {
+    knurl_device_event event;
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 1);
+    home_place(&h, 0.01, 0.0, 0.0);
+    tick_for(device, 10, 1.0);
+    home_inject(&h, DOUBLE_MUTE);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
+    home_inject(&h, DOUBLE_WELL);
+    wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    CHECK_SAME(sample.position[0], (long double)0.01);
+    home_inject(&h, DOUBLE_MUTE); /* and its next silence is a new one */
+    tick_for(device, 10, 0.0);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
+    knurl_device_close(device);
+}
+
+TEST(an_unplugged_device_is_lost_at_once) {
+    int64_t best = INT64_MAX;
+    for (int k = 0; k < TRIES; k++) {
+        knurl_device_event event;
+        knurl_device *device = home_open(&h, 1);
+        tick_for(device, 5, 1.0);
+        home_inject(&h, DOUBLE_UNPLUG);
+        const int64_t injected = now_ns();
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+        best = event.time_ns - injected < best ? event.time_ns - injected : best;
+        knurl_device_close(device);
+    }
+    assert_true(best <= 10000000);
+}
+
+static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[0] = 1.0;
+}
+
+/* As long as it is silent: the latest position still held when the motors had been let go, and the loop came back. */
+TEST(a_loop_does_not_resume_while_the_device_is_silent) {
+    int resumed = 0;
+    for (int k = 0; k < TRIES; k++) {
+        knurl_loop_desc desc;
+        knurl_loop *loop = NULL;
+        knurl_device_event event;
+        knurl_device *device = home_open(&h, 1);
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.device = device;
+        desc.force_callback = pull;
+        desc.watchdog_s = 0.0;
+        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        knurl_store_relaxed(&h.mute_ns, (int64_t)1000000); /* noticed as early as can be */
+        sleep_ns(30000000 + 300000 * k);
+        (void)next_code(device, -1);
+        home_inject(&h, DOUBLE_MUTE);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
+        sleep_ns(20000000);
+        resumed += count_events(device, KNURL_FAULT_RESUMED) > 0;
+        home_inject(&h, DOUBLE_WELL);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_RESUMED, &event), 1);
+        knurl_loop_destroy(loop);
+        knurl_device_close(device);
+    }
+    assert_true(resumed <= 1); /* a thread that is held up in between */
+}
+
+TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
+    knurl_device_event event;
+    knurl_device_status status;
+    knurl_device *device = home_open(&h, 1);
+    home_inject(&h, DOUBLE_UNPLUG);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+    sleep_ns(2000000);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    assert_int_equal(status.lost, 1);
+    assert_int_equal(status.halted, 1);
+    knurl_device_close(device);
+}
+
+/* --- an exchange that hangs --- */
+
+TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
+    int64_t slowest = INT64_MAX;
+    int once = 0;
+    for (int k = 0; k < TRIES; k++) {
+        const double f[3] = {1.0, 0.0, 0.0};
+        knurl_device_sample sample;
+        int64_t worst = 0;
+        int not_ready = 0;
+        knurl_device *device = home_open(&h, 1);
+        tick_for(device, 5, 1.0);
+        home_inject(&h, DOUBLE_HANG);
+        for (int ms = 0; ms < 100; ms++) {
+            const int64_t before = now_ns();
+            not_ready += knurl_device_read(device, &sample) == KNURL_ERROR_DEVICE_NOT_READY;
+            assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+            const int64_t took = now_ns() - before;
+            worst = took > worst ? took : worst;
+            sleep_ns(1000000);
+        }
+        assert_true(not_ready >= 50); /* 100 ms but the 12 or so that the latest position holds; sleeps are longer */
+        once += count_events(device, KNURL_FAULT_SILENT) == 1;
+        assert_int_equal(knurl_device_is_halted(device), 1);
+        home_inject(&h, DOUBLE_WELL);
+        wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+        knurl_device_close(device);
+        slowest = worst < slowest ? worst : slowest;
+    }
+    assert_true(once > 0);
+    assert_true(slowest < 1000000); /* ns; the exchange hung for 300 ms */
+}
+
+/* Reader and I/O thread both notice it, the reader while it lasts. */
+TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
+    int once = 0;
+    for (int k = 0; k < TRIES; k++) {
+        knurl_device *device = home_open(&h, 1);
+        tick_for(device, 5, 1.0);
+        (void)next_code(device, -1);
+        knurl_store_relaxed(&h.hangs_for, (int64_t)60000000);
+        home_inject(&h, DOUBLE_HANG);
+        tick_for(device, 150, 1.0); /* it hangs two times and a half */
+        once += count_events(device, KNURL_FAULT_SILENT) == 1;
+        home_inject(&h, DOUBLE_WELL);
+        knurl_device_close(device);
+    }
+    assert_true(once > 0);
+}
+
+/* A link without its thread, as the reader finds it when the exchange after the latest position was counted, and the
+ * next one hangs. */
+TEST(a_hang_is_seen_whatever_was_counted_before_it) {
+    static knurl_link link;
+    for (uint64_t counted = 0; counted < 4; counted++) {
+        knurl_device_sample sample;
+        knurl_device device;
+        memset(&link, 0, sizeof link);
+        memset(&device, 0, sizeof device);
+        link.device = &device;
+        link.native_rate = 1000.0;
+        device.period = 0.001;
+        knurl_mailbox_init(&link.positions);
+        knurl_link_start(&link, 1000.0);
+        knurl_mailbox_post(&link.positions);
+        assert_int_equal(knurl_link_read(&link, &sample), KNURL_OK);
+        for (int k = 0; k < 100; k++) {
+            link.turns += (uint64_t)k < counted;
+            (void)knurl_link_read(&link, &sample);
+        }
+        assert_int_equal(knurl_link_read(&link, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+        knurl_device_event event;
+        assert_int_equal(knurl_events_next(&device.events, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_SILENT);
+        assert_int_equal(knurl_events_next(&device.events, &event), 0);
+    }
+}
+
+/* --- the end --- */
+
+TEST(the_last_exchange_carries_no_force) {
+    for (int k = 0; k < TRIES; k++) {
+        knurl_device *device = home_open(&h, 1);
+        tick_for(device, 5 + k, 2.0);
+        knurl_device_close(device);
+        assert_true(h.writes >= 2);
+        for (uint64_t i = h.writes - 2; i < h.writes; i++) {
+            CHECK_SAME(h.log[i].force[1], 0.0L);
+        }
+        assert_int_equal(h.crowds, 0);
+        assert_int_equal(h.strangers, 0);
+    }
+}
+
+TEST(after_a_reconnect_no_force_from_before_is_played) {
+    const double f[3] = {3.0, 0.0, 0.0};
+    knurl_device_event event;
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 1);
+    for (int k = 0; k < 5; k++) {
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        home_inject(&h, DOUBLE_UNPLUG);
+        assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+        while (knurl_device_read(device, &sample) != KNURL_ERROR_DEVICE_LOST) {
+            sleep_ns(100000);
+        }
+        home_inject(&h, DOUBLE_WELL);
+        const uint64_t from = h.writes;
+        assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+        knurl_device_release_halt(device);
+        wait_for_count(&h.writes, from + 4);
+        for (uint64_t i = from; i < from + 4; i++) {
+            CHECK_SAME(h.log[i].force[0], 0.0L);
+        }
+        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    }
+    knurl_device_close(device);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_arrive_newest_first_and_none_comes_after_a_newer_one),
+        cmocka_unit_test(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one),
+        cmocka_unit_test(a_force_that_nobody_renews_is_played_for_10_ms_and_then_let_go_of),
+        cmocka_unit_test(no_force_is_no_force_however_old_it_is),
+        cmocka_unit_test(a_halt_reaches_the_motors_with_the_next_exchange),
+        cmocka_unit_test(exchanges_are_no_more_frequent_than_the_device_brings_positions),
+        cmocka_unit_test(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst),
+        cmocka_unit_test(a_mute_device_is_silent_after_10_ms_and_its_motors_are_let_go),
+        cmocka_unit_test(a_second_of_silence_is_a_loss),
+        cmocka_unit_test(a_device_that_is_heard_again_is_read_again),
+        cmocka_unit_test(an_unplugged_device_is_lost_at_once),
+        cmocka_unit_test(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once),
+        cmocka_unit_test(the_last_exchange_carries_no_force),
+        cmocka_unit_test(after_a_reconnect_no_force_from_before_is_played),
+        cmocka_unit_test(a_hang_that_ends_without_an_answer_is_still_one_silence),
+        cmocka_unit_test(a_hang_is_seen_whatever_was_counted_before_it),
+        cmocka_unit_test(a_loop_does_not_resume_while_the_device_is_silent),
+        cmocka_unit_test(a_status_says_that_it_is_lost_though_nobody_reads_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,173 @@
+/* What the haptic thread does with a device that has an I/O thread asks for no memory, takes no lock, waits for nobody,
+ * and asks the kernel for nothing. Linked with --wrap for the functions that would (CMakeLists.txt), and run where the
+ * kernel kills whoever asks. SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE 1 /* syscall() */
+
+#include "home.h"
+
+#include "device/link.h"
+
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED 1
+#else
+#define SANITIZED 0
+#endif
+
+/* Of what is wrapped, by this thread; and looks at the clock, apart: the newest force carries its time. */
+static __thread uint64_t calls;
+static __thread uint64_t looks;
+
+#define WRAP(type, name, parameters, arguments)                                                                        \
+    type __real_##name parameters;                                                                                     \
+    type __wrap_##name parameters;                                                                                     \
+    type __wrap_##name parameters {                                                                                    \
+        calls++;                                                                                                       \
+        return __real_##name arguments;                                                                                \
+    }
+
+WRAP(void *, malloc, (size_t size), (size))
+WRAP(void *, calloc, (size_t count, size_t size), (count, size))
+WRAP(int, pthread_mutex_lock, (pthread_mutex_t * mutex), (mutex))
+WRAP(int, pthread_cond_signal, (pthread_cond_t * condition), (condition))
+WRAP(int, clock_nanosleep, (clockid_t clock, int how, const struct timespec *wanted, struct timespec *left),
+     (clock, how, wanted, left))
+WRAP(int, vsnprintf, (char *text, size_t size, const char *format, va_list arguments), (text, size, format, arguments))
+
+int __real_clock_gettime(clockid_t clock, struct timespec *now);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now) {
+    looks++;
+    return __real_clock_gettime(clock, now);
+}
+
+static home h;
+
+/* Every second read finds a position; now and then there is an event. */
+static void read_and_write(knurl_device *device, int count) {
+    for (int k = 0; k < count; k++) {
+        const double force[3] = {0.1 * (k % 7), (double)(k % 11 ? 0.0 : (double)NAN), 20.0};
+        knurl_device_sample sample;
+        (void)knurl_device_read(device, &sample);
+        (void)knurl_device_write(device, force);
+    }
+}
+
+TEST(reading_and_writing_ask_for_nothing_but_the_time) {
+    static const int faults[] = {DOUBLE_WELL, DOUBLE_MUTE, DOUBLE_NAN, DOUBLE_JUMP, DOUBLE_HANG, DOUBLE_UNPLUG};
+    for (size_t i = 0; i < COUNT_OF(faults); i++) {
+        knurl_device *device = home_open(&h, 1);
+        for (int round = 0; round < 40; round++) {
+            if (round == 10) {
+                home_inject(&h, faults[i]);
+            }
+            const uint64_t calls_before = calls;
+            const uint64_t looks_before = looks;
+            read_and_write(device, 100);
+            assert_true(calls == calls_before);
+            assert_true(looks - looks_before <= 120); /* one a force, and one an event */
+            sleep_ns(500000);
+        }
+        assert_true(calls >= 40); /* the sleeps: the wrapping works */
+        home_inject(&h, DOUBLE_WELL);
+        knurl_device_close(device);
+    }
+}
+
+/* A link without its thread, for a child that may not ask the kernel for anything. */
+static knurl_link io;
+static knurl_device linked;
+
+static knurl_result read_io(knurl_device *device, knurl_device_sample *sample) {
+    (void)device;
+    return knurl_link_read(&io, sample);
+}
+
+static knurl_result write_io(knurl_device *device, const double force[3]) {
+    (void)device;
+    return knurl_link_write(&io, force);
+}
+
+static const knurl_driver io_driver = {.uri = "io", .read = read_io, .write = write_io};
+
+static void strictly(int ask_for_something) {
+    for (int k = 0; k < 5000; k++) {
+        if (k % 3 == 0 && k < 3000) { /* later it is silent */
+            io.samples[io.positions.back].position[0] = k % 500 ? 0.0 : (double)NAN;
+            knurl_mailbox_post(&io.positions);
+            io.turns++;
+        }
+        read_and_write(&linked, 1);
+    }
+    if (ask_for_something) {
+        (void)syscall(SYS_getppid);
+    }
+}
+
+/* The kernel kills whoever asks for anything but the end. (Its own strict mode takes the clock's counter away, too.) */
+static int be_strict(void) {
+    struct sock_filter rules[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL),
+    };
+    const struct sock_fprog program = {(unsigned short)COUNT_OF(rules), rules};
+    return prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) == 0 &&
+           prctl(PR_SET_SECCOMP, (unsigned long)SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+TEST(the_kernel_is_asked_for_nothing) {
+    if (SANITIZED) {
+        print_message("skipped: sanitizers make system calls of their own\n");
+        skip();
+    }
+    (void)now_ns(); /* the vDSO is found by now */
+    for (int ask = 0; ask < 2; ask++) {
+        int status = -1;
+        memset(&io, 0, sizeof io);
+        memset(&linked, 0, sizeof linked);
+        linked.driver = &io_driver;
+        linked.max_force = HOME_FORCE;
+        linked.max_speed = 10.0;
+        linked.is_linked = 1;
+        linked.period = 0.001;
+        io.device = &linked;
+        io.native_rate = 1000.0;
+        knurl_mailbox_init(&io.positions);
+        knurl_mailbox_init(&io.orders);
+        knurl_link_start(&io, 1000.0);
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            if (!be_strict()) {
+                (void)syscall(SYS_exit, 77);
+            }
+            strictly(ask);
+            (void)syscall(SYS_exit, io.is_silent ? 0 : 1);
+        }
+        assert_true(waitpid(child, &status, 0) == child);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+            print_message("skipped: this kernel refuses seccomp\n");
+            skip();
+        }
+        assert_true(ask ? WIFSIGNALED(status) : WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reading_and_writing_ask_for_nothing_but_the_time),
+        cmocka_unit_test(the_kernel_is_asked_for_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,277 @@
+/* What threads hand each other without waiting: the newest of something, and the latest events.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "base/atomic.h"
+#include "base/mailbox.h"
+#include "base/system.h"
+#include "device/events.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+#define POSTS   200000
+#define REPORTS 40000 /* of each writer */
+
+/* --- mailbox --- */
+
+/* Long enough to be torn; every word says the same. */
+typedef struct letter {
+    uint64_t words[16];
+} letter;
+
+static struct {
+    knurl_mailbox box;
+    letter slots[3];
+    uint32_t is_done; /* atomic */
+} post;
+
+static void write_letter(uint64_t number) {
+    for (size_t i = 0; i < COUNT_OF(post.slots[0].words); i++) {
+        post.slots[post.box.back].words[i] = number;
+    }
+    knurl_mailbox_post(&post.box);
+}
+
+TEST(a_mailbox_gives_the_newest_once) {
+    memset(&post, 0, sizeof post);
+    knurl_mailbox_init(&post.box);
+    assert_int_equal(knurl_mailbox_take(&post.box), 0);
+    for (uint64_t burst = 1; burst < 10; burst++) {
+        for (uint64_t number = 1; number <= burst; number++) {
+            write_letter(100 * burst + number);
+        }
+        assert_int_equal(knurl_mailbox_take(&post.box), 1);
+        assert_int_equal(post.slots[post.box.front].words[0], 101 * burst);
+        assert_int_equal(knurl_mailbox_take(&post.box), 0); /* what was taken stays readable */
+        assert_int_equal(post.slots[post.box.front].words[15], 101 * burst);
+    }
+}
+
+/* Whatever is posted and taken, in whatever order, writer, reader and middle have a slot each. */
+TEST(the_three_slots_are_never_shared) {
+    uint64_t random = 5;
+    memset(&post, 0, sizeof post);
+    knurl_mailbox_init(&post.box);
+    for (int i = 0; i < 10000; i++) {
+        if (random_bits(&random) % 2) {
+            write_letter((uint64_t)i);
+        } else {
+            (void)knurl_mailbox_take(&post.box);
+        }
+        assert_int_equal((1u << post.box.back) | (1u << post.box.front) | (1u << (post.box.middle & 3u)), 7);
+    }
+}
+
+static void *post_many(void *unused) {
+    for (uint64_t number = 1; number <= POSTS; number++) {
+        write_letter(number);
+    }
+    knurl_store_release(&post.is_done, 1u);
+    return unused;
+}
+
+TEST(between_threads_nothing_is_torn_and_nothing_older_comes_after_something_newer) {
+    pthread_t writer;
+    uint64_t latest = 0;
+    uint32_t was_done;
+    memset(&post, 0, sizeof post);
+    knurl_mailbox_init(&post.box);
+    assert_int_equal(pthread_create(&writer, NULL, post_many, NULL), 0);
+    do {
+        was_done = knurl_load_acquire(&post.is_done);
+        if (knurl_mailbox_take(&post.box)) {
+            const letter found = post.slots[post.box.front];
+            for (size_t i = 1; i < COUNT_OF(found.words); i++) {
+                assert_true(found.words[i] == found.words[0]);
+            }
+            assert_true(found.words[0] > latest);
+            latest = found.words[0];
+        }
+    } while (!was_done);
+    assert_int_equal(pthread_join(writer, NULL), 0);
+    assert_int_equal(latest, POSTS);
+}
+
+/* --- events --- */
+
+static knurl_events ring;
+
+static void report_numbers(int from, int to) {
+    for (int i = from; i < to; i++) {
+        knurl_events_report(&ring, i % 7, i);
+    }
+}
+
+TEST(events_come_oldest_first_with_the_time_at_which_they_were_seen) {
+    knurl_device_event event;
+    memset(&ring, 0, sizeof ring);
+    memset(&event, 0xaa, sizeof event);
+    assert_int_equal(knurl_events_next(&ring, &event), 0);
+    assert_int_equal((uint32_t)event.code, 0xaaaaaaaau); /* untouched */
+    const int64_t before = knurl_system_now_ns();
+    report_numbers(0, 30);
+    const int64_t after = knurl_system_now_ns();
+    int64_t last = before;
+    for (int i = 0; i < 30; i++) {
+        assert_int_equal(knurl_events_next(&ring, &event), 1);
+        assert_int_equal(event.code, i % 7);
+        CHECK_SAME(event.value, (long double)i);
+        assert_int_equal(event.reserved, 0);
+        assert_true(event.time_ns >= last && event.time_ns <= after);
+        last = event.time_ns;
+    }
+    assert_int_equal(knurl_events_next(&ring, &event), 0);
+}
+
+TEST(the_ring_keeps_the_latest_64_and_counts_all) {
+    static const int bursts[] = {1, 63, 64, 65, 127, 128, 1000, 12345};
+    for (size_t i = 0; i < COUNT_OF(bursts); i++) {
+        knurl_device_event event;
+        const int first = bursts[i] > 64 ? bursts[i] - 64 : 0;
+        memset(&ring, 0, sizeof ring);
+        report_numbers(0, bursts[i]);
+        assert_int_equal(ring.head, bursts[i]);
+        for (int number = first; number < bursts[i]; number++) {
+            assert_int_equal(knurl_events_next(&ring, &event), 1);
+            CHECK_SAME(event.value, (long double)number);
+        }
+        assert_int_equal(knurl_events_next(&ring, &event), 0);
+        report_numbers(-5, -4);
+        assert_int_equal(knurl_events_next(&ring, &event), 1);
+        CHECK_SAME(event.value, -5.0L);
+    }
+}
+
+static uint32_t writers; /* atomic: at work */
+
+/* Values tell writer and number, codes the number: what is torn does not fit together. */
+static void *report_many(void *which) {
+    const int32_t base = *(const int32_t *)which;
+    for (int32_t i = 0; i < REPORTS; i++) {
+        knurl_events_report(&ring, base + i, base + i);
+    }
+    (void)__atomic_fetch_sub(&writers, 1, __ATOMIC_RELEASE);
+    return NULL;
+}
+
+TEST(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order) {
+    static const int32_t bases[] = {0, 1000000};
+    int32_t latest[] = {-1, -1};
+    pthread_t threads[2];
+    knurl_device_event event;
+    uint32_t at_work;
+    memset(&ring, 0, sizeof ring);
+    writers = 2;
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(pthread_create(&threads[i], NULL, report_many, (void *)(uintptr_t)&bases[i]), 0);
+    }
+    uint64_t seen = 0;
+    do {
+        at_work = __atomic_load_n(&writers, __ATOMIC_ACQUIRE);
+        while (knurl_events_next(&ring, &event)) {
+            const int which = event.code >= bases[1];
+            CHECK_SAME(event.value, (long double)event.code);
+            assert_true(event.code - bases[which] > latest[which]);
+            latest[which] = event.code - bases[which];
+            seen++;
+        }
+    } while (at_work > 0);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+    }
+    assert_true(ring.head == 2 * (uint64_t)REPORTS);
+    assert_true(seen >= 60); /* the last 64, but for one that a writer was held up in */
+    assert_true(latest[0] == REPORTS - 1 || latest[1] == REPORTS - 1);
+}
+
+/* A thread may be held up anywhere, also between taking its number and writing its event down, while others report more
+ * than the ring has room for. What it writes in the end must not be taken for theirs, nor hold up what comes after. */
+TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
+    for (int is_inside = 0; is_inside < 2; is_inside++) {
+        knurl_device_event event;
+        memset(&ring, 0, sizeof ring);
+        report_numbers(0, 10);
+        const uint64_t held_up = ring.head++;
+        const size_t at = held_up % KNURL_EVENT_ROOM;
+        if (is_inside) {
+            ring.slots[at].sequence = 2 * held_up + 1;
+        }
+        report_numbers(11, 100);
+        ring.slots[at].code = is_inside ? -77 : ring.slots[at].code;
+        if (is_inside) {
+            ring.slots[at].sequence = 2 * held_up + 2;
+        }
+        int count = 0;
+        for (double last = 0.0; knurl_events_next(&ring, &event); last = event.value) {
+            assert_int_equal(event.code, (int)event.value % 7);
+            assert_true(event.value > last);
+            count++;
+        }
+        assert_in_range(count, 63, 64);
+        CHECK_SAME(event.value, 99.0L);
+        report_numbers(100, 300); /* the slot is as good as ever */
+        for (int number = 236; number < 300; number++) {
+            assert_int_equal(knurl_events_next(&ring, &event), 1);
+            CHECK_SAME(event.value, (long double)number);
+        }
+    }
+}
+
+/* --- names --- */
+
+/* From the header's documentation, written out anew: a constant that moves breaks callers that were compiled before. */
+static const struct {
+    int32_t code;
+    int32_t number;
+    const char *name;
+    const char *word; /* of its sentence */
+} faults[] = {
+    {KNURL_FAULT_LOST, 1, "lost", "unplugged"},
+    {KNURL_FAULT_SILENT, 2, "silent", "no position"},
+    {KNURL_FAULT_CORRUPT, 3, "corrupt", "thrown away"},
+    {KNURL_FAULT_NOT_FINITE, 4, "not_finite", "not a number"},
+    {KNURL_FAULT_JUMP, 5, "jump", "hand"},
+    {KNURL_FAULT_LATE, 6, "late", "too old"},
+    {KNURL_FAULT_OVERRUN, 7, "overrun", "late"},
+    {KNURL_FAULT_WATCHDOG, 8, "watchdog", "haptic thread"},
+    {KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "game"},
+    {KNURL_FAULT_REFUSED, 10, "refused", "refused"},
+    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "homing"},
+    {KNURL_FAULT_RESUMED, 32, "resumed", "no fault"},
+    {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault"},
+};
+
+TEST(every_fault_has_its_number_its_name_and_a_sentence) {
+    for (size_t i = 0; i < COUNT_OF(faults); i++) {
+        assert_int_equal(faults[i].code, faults[i].number);
+        assert_string_equal(knurl_fault_name(faults[i].code), faults[i].name);
+        assert_non_null(strstr(knurl_fault_string(faults[i].code), faults[i].word));
+        for (size_t k = 0; k < i; k++) {
+            assert_string_not_equal(knurl_fault_string(faults[i].code), knurl_fault_string(faults[k].code));
+        }
+    }
+}
+
+TEST(codes_that_nobody_knows_have_texts_too) {
+    static const int32_t unknown[] = {0, -1, 12, 31, 34, INT32_MAX, INT32_MIN};
+    for (size_t i = 0; i < COUNT_OF(unknown); i++) {
+        assert_string_equal(knurl_fault_name(unknown[i]), "unknown");
+        assert_true(strlen(knurl_fault_string(unknown[i])) > 10);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mailbox_gives_the_newest_once),
+        cmocka_unit_test(the_three_slots_are_never_shared),
+        cmocka_unit_test(between_threads_nothing_is_torn_and_nothing_older_comes_after_something_newer),
+        cmocka_unit_test(events_come_oldest_first_with_the_time_at_which_they_were_seen),
+        cmocka_unit_test(the_ring_keeps_the_latest_64_and_counts_all),
+        cmocka_unit_test(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order),
+        cmocka_unit_test(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none),
+        cmocka_unit_test(every_fault_has_its_number_its_name_and_a_sentence),
+        cmocka_unit_test(codes_that_nobody_knows_have_texts_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
