@@ -10,7 +10,7 @@ using namespace builder;
 
 namespace {
 
-const std::string odd_name = "Gr\xC3\xB6\xC3\x9F"
+const char *const odd_name = "Gr\xC3\xB6\xC3\x9F"
                              "e-\xE8\xA7\xA6"; // in no one code page
 
 /// A fresh folder of that name.
@@ -55,9 +55,9 @@ void assert_uri_fails(const Folder &folder, const std::string &uri, knurl_result
 void paths_are_utf8(void **) {
     const Folder folder;
     const Loaded loaded;
-    const std::string there = folder.write(odd_name + ".glb", quad().glb());
+    const std::string there = folder.write(std::string(odd_name) + ".glb", quad().glb());
     assert_int_equal(knurl_gltf_load_file(loaded.scene, there.c_str(), nullptr), KNURL_OK);
-    const std::string none = (folder.root / fs::u8path("no-" + odd_name + ".glb")).u8string();
+    const std::string none = (folder.root / fs::u8path("no-" + std::string(odd_name) + ".glb")).u8string();
     assert_int_equal(knurl_gltf_load_file(loaded.scene, none.c_str(), nullptr), KNURL_ERROR_IO);
     assert_message(none.c_str(), {"no such file"});
     assert_int_not_equal(knurl_gltf_load_file(loaded.scene, "bad \xC3\x28.glb", nullptr), KNURL_OK);
@@ -65,10 +65,10 @@ void paths_are_utf8(void **) {
 
 void a_buffer_of_any_name_lies_in_the_files_folder_or_below_it(void **) {
     const Folder folder;
-    folder.write("in/" + odd_name + ".bin", quad().bin);
+    folder.write(std::string("in/") + odd_name + ".bin", quad().bin);
     folder.write("in/sub/a.bin", quad().bin);
     folder.write("secret.bin", quad().bin);
-    assert_uri_loads(folder, odd_name + ".bin");
+    assert_uri_loads(folder, std::string(odd_name) + ".bin");
     assert_uri_loads(folder, "Gr%C3%B6%C3%9Fe-%E8%A7%A6.bin");
     assert_uri_loads(folder, "sub/a.bin");
     assert_uri_loads(folder, "sub%5Ca.bin");

@@ -144,6 +144,7 @@ knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *arg
     thread->entry = entry;
     thread->argument = argument;
     thread->timer = make_timer();
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): so the C library has it */
     thread->handle = (HANDLE)_beginthreadex(NULL, (unsigned)stack_bytes, run_thread, thread,
                                             STACK_SIZE_PARAM_IS_A_RESERVATION, NULL);
     if (!thread->handle) {
