@@ -27,7 +27,7 @@
 static inline void check_close(long double actual, long double expected, long double tolerance, const char *file,
                                int line) {
     if (!(fabsl(actual - expected) <= tolerance)) {
-        print_error("%.17Lg is not %.17Lg to within %.3Lg\n", actual, expected, tolerance);
+        print_error("%.17g is not %.17g to within %.3g\n", (double)actual, (double)expected, (double)tolerance);
         _fail(file, line);
     }
 }

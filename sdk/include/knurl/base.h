@@ -22,7 +22,9 @@
 #define KNURL_API
 #endif
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__) && !defined(__clang__) /* its own `printf` means Microsoft's old one */
+#define KNURL_PRINTF(format_index, first) __attribute__((format(gnu_printf, format_index, first)))
+#elif defined(__GNUC__)
 #define KNURL_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
 #else
 #define KNURL_PRINTF(format_index, first)

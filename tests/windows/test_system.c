@@ -1,0 +1,176 @@
+/* What base asks of Windows beyond what test_base sees: real-time threads, libraries, and letting go when a process
+ * ends. The last starts this program again, which then dies as it is told. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "base/system.h"
+
+#include <windows.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* --- real-time threads --- */
+
+#define WAITS 100
+
+typedef struct beats {
+    int realtime;
+    int priority;
+    int early;
+} beats;
+
+static void keep_time(void *argument) {
+    beats *b = argument;
+    b->realtime = knurl_system_make_realtime();
+    b->priority = GetThreadPriority(GetCurrentThread());
+    const int64_t start = knurl_system_now_ns();
+    for (int i = 1; i <= WAITS; i++) {
+        const int64_t deadline = start + i * (int64_t)1000000;
+        knurl_system_sleep_until_ns(deadline);
+        b->early += knurl_system_now_ns() < deadline;
+    }
+}
+
+TEST(a_real_time_thread_is_time_critical_and_never_wakes_before_its_deadline) {
+    beats b = {0, 0, 0};
+    knurl_thread *thread = knurl_system_start_thread(keep_time, &b, (size_t)64 * 1024);
+    assert_non_null(thread);
+    knurl_system_join_thread(thread);
+    assert_int_equal(b.realtime, 1);
+    assert_int_equal(b.priority, THREAD_PRIORITY_TIME_CRITICAL);
+    assert_int_equal(b.early, 0);
+}
+
+/* --- libraries --- */
+
+#define NAME                                                                                                           \
+    "Gr\xC3\xB6\xC3\x9F"                                                                                               \
+    "e-\xE8\xA7\xA6.dll" /* in no one code page */
+#define WIDE_NAME L"Gr\u00f6\u00dfe-\u89e6.dll"
+
+TEST(a_library_is_loaded_by_a_path_in_utf8) {
+    char why[256] = "";
+    int (*answer)(void) = NULL;
+    void *other = &why;
+    assert_true(CopyFileA(KNURL_TEST_LIBRARY, KNURL_TEST_TMP "/library.dll", FALSE));
+    (void)SetCurrentDirectoryA(KNURL_TEST_TMP);
+    assert_true(MoveFileExW(L"library.dll", WIDE_NAME, MOVEFILE_REPLACE_EXISTING));
+    knurl_library *library = knurl_system_load_library(KNURL_TEST_TMP "/" NAME, why, sizeof why);
+    assert_string_equal(why, "");
+    assert_non_null(library);
+    assert_int_equal(knurl_system_find_function(library, "knurl_test_answer", &answer), 1);
+    assert_int_equal(answer(), 42);
+    assert_int_equal(knurl_system_find_function(library, "knurl_test_question", &other), 0);
+    assert_ptr_equal(other, &why);
+    knurl_system_unload_library(library);
+    assert_true(DeleteFileW(WIDE_NAME)); /* no one holds it any more */
+}
+
+TEST(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line) {
+    static const char *const paths[] = {"C:/none/" NAME, KNURL_TEST_ASSETS "/plate_1d.glb", "bad \xC3\x28.dll"};
+    for (size_t i = 0; i < COUNT_OF(paths); i++) {
+        char why[256] = "";
+        assert_null(knurl_system_load_library(paths[i], why, sizeof why));
+        assert_true(strlen(why) > 5);
+        assert_null(strpbrk(why, "\r\n"));
+        char cut[8];
+        assert_null(knurl_system_load_library(paths[i], cut, sizeof cut)); /* too short for a sentence */
+        assert_non_null(memchr(cut, '\0', sizeof cut));
+    }
+}
+
+/* --- letting go --- */
+
+static HANDLE told;
+
+static void let_go(void) {
+    (void)SetEvent(told);
+}
+
+static LONG WINAPI hosts_filter(EXCEPTION_POINTERS *what) {
+    (void)what;
+    TerminateProcess(GetCurrentProcess(), 43);
+    return EXCEPTION_CONTINUE_SEARCH;
+}
+
+static void read_nothing(void *argument) {
+    volatile int *volatile nothing = argument;
+    (void)*nothing; /* NOLINT(clang-analyzer-core.NullDereference): that is what it is for */
+}
+
+/* The child. */
+static int die(const char *how, const char *event) {
+    (void)SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);
+    told = OpenEventA(EVENT_MODIFY_STATE, FALSE, event);
+    if (strcmp(how, "filter") == 0) {
+        (void)SetUnhandledExceptionFilter(hosts_filter);
+    }
+    if (!told || !knurl_system_on_crash(let_go) || !knurl_system_on_crash(let_go)) {
+        return 1;
+    }
+    if (strcmp(how, "abort") == 0) {
+        abort();
+    } else if (strcmp(how, "ctrl-c") == 0) {
+        (void)GenerateConsoleCtrlEvent(CTRL_C_EVENT, 0); /* to all on this console: itself */
+        Sleep(10000);
+        return 1;
+    } else if (strcmp(how, "thread") == 0) {
+        knurl_system_join_thread(knurl_system_start_thread(read_nothing, NULL, (size_t)64 * 1024));
+    } else if (strcmp(how, "return") != 0) {
+        read_nothing(NULL);
+    }
+    return 0;
+}
+
+/* How the child ended, and whether it let go before. */
+static DWORD end_of(const char *how, int *let_gone) {
+    char program[1024];
+    char line[2048];
+    char event[64];
+    STARTUPINFOA startup;
+    PROCESS_INFORMATION child;
+    DWORD code = 0;
+    memset(&startup, 0, sizeof startup);
+    startup.cb = sizeof startup;
+    (void)snprintf(event, sizeof event, "knurl-let-go-%lu", (unsigned long)GetCurrentProcessId());
+    HANDLE let = CreateEventA(NULL, TRUE, FALSE, event);
+    assert_true(GetModuleFileNameA(NULL, program, sizeof program) < sizeof program);
+    (void)snprintf(line, sizeof line, "\"%s\" %s %s", program, how, event);
+    assert_true(CreateProcessA(NULL, line, NULL, NULL, FALSE, CREATE_NO_WINDOW, NULL, NULL, &startup, &child));
+    assert_int_equal(WaitForSingleObject(child.hProcess, 30000), WAIT_OBJECT_0);
+    assert_true(GetExitCodeProcess(child.hProcess, &code));
+    *let_gone = WaitForSingleObject(let, 0) == WAIT_OBJECT_0;
+    (void)CloseHandle(child.hThread);
+    (void)CloseHandle(child.hProcess);
+    (void)CloseHandle(let);
+    return code;
+}
+
+TEST(a_process_lets_go_before_it_ends_as_it_would_have) {
+    static const struct {
+        const char *how;
+        DWORD code;
+        int lets_go;
+    } cases[] = {
+        {"return", 0, 0},  {"fault", (DWORD)STATUS_ACCESS_VIOLATION, 1}, {"thread", (DWORD)STATUS_ACCESS_VIOLATION, 1},
+        {"filter", 43, 1}, /* the host's own filter comes next */
+        {"abort", 3, 1},   {"ctrl-c", (DWORD)STATUS_CONTROL_C_EXIT, 1}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        int let_gone = -1;
+        const DWORD code = end_of(cases[i].how, &let_gone);
+        const int by_wine = code == 0 && cases[i].code == (DWORD)STATUS_CONTROL_C_EXIT; /* it tells no more */
+        if ((code != cases[i].code && !by_wine) || let_gone != cases[i].lets_go) {
+            fail_msg("%s: ended with %#lx, let go: %d", cases[i].how, (unsigned long)code, let_gone);
+        }
+    }
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_real_time_thread_is_time_critical_and_never_wakes_before_its_deadline),
+        cmocka_unit_test(a_library_is_loaded_by_a_path_in_utf8),
+        cmocka_unit_test(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line),
+        cmocka_unit_test(a_process_lets_go_before_it_ends_as_it_would_have),
+    };
+    return argc == 3 ? die(argv[1], argv[2]) : cmocka_run_group_tests(tests, NULL, NULL);
+}
