@@ -1,0 +1,63 @@
+extends Node3D
+## Three gratings side by side, felt with a device, or with the mouse where there is none.
+##
+## Arguments after "--":
+## [codeblock]
+## --device URI    touch, falcon, rawhid, fake, mouse (default)
+## --stroke        the fake device, and its simulated hand strokes the first surface for 2 s; then the demo ends
+## --shot PATH     a picture of the window is saved at the end of the stroke
+## [/codeblock]
+
+const Overlay := preload("res://addons/knurl/overlay.gd")
+const Gltf := preload("res://addons/knurl/import.gd")
+const HANDLE := "res://knurled_handle.glb"
+const HANDLE_SCALE := 0.65 # its 110 mm on a plate of 70
+const STROKE_SECONDS := 2.0
+
+@onready var _device: KnurlDevice = $KnurlDevice
+
+
+func _ready() -> void:
+	_add_handle()
+	Overlay.set_shown(self, true)
+	var stroke: bool = OS.get_cmdline_user_args().has("--stroke")
+	_device.device = "fake" if stroke else _argument("--device", "mouse")
+	if stroke:
+		_device.stroke = "sweep"
+	if _device.start() != OK:
+		return # the device said why
+	if stroke:
+		_end_after_stroke()
+
+
+## A glTF file whose material is tagged, read while the game runs: its surface is made of the tag.
+func _add_handle() -> void:
+	Gltf.register()
+	var document := GLTFDocument.new()
+	var state := GLTFState.new()
+	if document.append_from_file(HANDLE, state) != OK:
+		return
+	var handle := document.generate_scene(state) as Node3D
+	handle.name = "Handle"
+	handle.scale = Vector3.ONE * HANDLE_SCALE
+	handle.rotation.y = 0.5 * PI
+	handle.position = Vector3(0.056, 0.0, 0.0)
+	$Surfaces.add_child(handle)
+
+
+func _end_after_stroke() -> void:
+	await get_tree().create_timer(STROKE_SECONDS).timeout
+	var path: String = _argument("--shot", "")
+	var status: int = OK
+	if not path.is_empty():
+		await RenderingServer.frame_post_draw
+		status = get_viewport().get_texture().get_image().save_png(path)
+	print("stroke: %d ticks, %d overruns, in contact: %s" % [_device.ticks, _device.overruns, _device.in_contact])
+	_device.stop()
+	get_tree().quit(0 if status == OK else 1)
+
+
+func _argument(name: String, default: String) -> String:
+	var arguments: PackedStringArray = OS.get_cmdline_user_args()
+	var at: int = arguments.find(name)
+	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default
