@@ -47,15 +47,16 @@ func _read_all(key: String, kind: String) -> Array[Tags.Tag]:
 
 
 func _refuse_lost_tags() -> void:
-	_tags.refuse(_json, "the file", "tag a material, mesh or node")
+	_tags.refuse(_json, "", "tag a material, mesh or node")
 	var scenes: Array = _array(_json, "scenes")
 	for index: int in scenes.size():
 		_tags.refuse(scenes[index], _label("scene", scenes[index], index), "tag a material, mesh or node")
 	var meshes: Array = _array(_json, "meshes")
 	for index: int in meshes.size():
-		for primitive: Dictionary in _array(meshes[index], "primitives"):
-			_tags.refuse(primitive, _label("mesh", meshes[index], index) + ", a primitive",
-				"tag the mesh, its node or a material")
+		var primitives: Array = _array(meshes[index], "primitives")
+		for i: int in primitives.size():
+			_tags.refuse(primitives[i], _label("mesh", meshes[index], index), "tag the mesh, its node or a material",
+				"primitives[%d].extras" % i)
 	var nodes: Array = _array(_json, "nodes")
 	for index: int in nodes.size():
 		if not nodes[index].has("mesh"):
@@ -102,18 +103,24 @@ func _tag_of(node_index: int, mesh_index: int, primitive_index: int, primitive: 
 			merged.override_with(tag)
 	if merged == null or merged.broken:
 		return null
-	var why: String = _why_not(merged, node_index, primitive)
+	var why: String = _why_not(merged, node_index, mesh_index, primitive)
 	if why.is_empty():
 		return merged
 	_tags.errors.append("%s, primitive %d: %s" % [_place(node_index, mesh_index), primitive_index, why])
 	return null
 
 
-func _why_not(tag: Tags.Tag, node_index: int, primitive: Dictionary) -> String:
+func _why_not(tag: Tags.Tag, node_index: int, mesh_index: int, primitive: Dictionary) -> String:
 	var missing: String = tag.missing_key()
 	var attributes: Dictionary = primitive.get("attributes", {})
 	if not missing.is_empty():
-		return "knurl.%s: missing: expected in extras of its material, mesh or node" % missing
+		var material: String = ""
+		if primitive.has("material"):
+			material = _label("material", _material_of(primitive), int(primitive["material"])) + ", "
+		return "knurl.%s: missing: expected in extras of %s%s or %s" % [
+			missing, material, _label("mesh", _array(_json, "meshes")[mesh_index], mesh_index),
+			_label("node", _array(_json, "nodes")[node_index], node_index),
+		]
 	if _array(_json, "nodes")[node_index].has("skin"):
 		return "skin: a tagged mesh cannot be skinned"
 	if not _array(primitive, "targets").is_empty():

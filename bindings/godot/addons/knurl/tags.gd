@@ -59,11 +59,11 @@ func read(owner: Dictionary, where: String) -> Tag:
 
 
 ## Refuses a tag on what cannot carry one, where it would be lost in silence.
-func refuse(owner: Dictionary, where: String, instead: String) -> void:
+func refuse(owner: Dictionary, where: String, instead: String, at: String = "extras") -> void:
 	var extras: Variant = owner.get("extras")
 	if extras is Dictionary and (extras.has("knurl") or not _flat_keys(extras).is_empty()):
 		_where = where
-		_refuse("extras", "a knurl tag would be lost here: " + instead)
+		_refuse(at, "a knurl tag would be lost here: " + instead)
 
 
 static func _flat_keys(extras: Dictionary) -> Array[String]:
@@ -105,7 +105,9 @@ func _read_entry(tag: Tag, prefix: String, key: String, value: Variant) -> void:
 		"axis":
 			_read_axis(tag, at, value)
 		"method":
-			if value is String and METHODS.has(value):
+			if not value is String:
+				_refuse_value(at, "a string: 'S1', 'S2' or 'locked'", value)
+			elif METHODS.has(value):
 				tag.values[key] = METHODS[value]
 			else:
 				_refuse_value(at, "'S1', 'S2' or 'locked'", value)
@@ -156,4 +158,4 @@ func _refuse_value(at: String, expected: String, found: Variant) -> void:
 
 
 func _refuse(at: String, what: String) -> void:
-	errors.append("%s: %s: %s" % [_where, at, what])
+	errors.append("%s%s: %s" % [_where + ": " if not _where.is_empty() else "", at, what])
