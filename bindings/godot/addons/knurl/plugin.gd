@@ -27,7 +27,7 @@ func _enter_tree() -> void:
 	_button = Button.new()
 	_button.text = "Gratings"
 	_button.tooltip_text = "Draw the ridges of Knurl's surfaces where they will be felt."
-	_button.icon = load(FOLDER + "icons/KnurlGrating.svg")
+	_button.icon = _load_icon("KnurlGrating")
 	_button.toggle_mode = true
 	_button.flat = true
 	_button.toggled.connect(_show_gratings)
@@ -49,6 +49,14 @@ func _exit_tree() -> void:
 	remove_inspector_plugin(_inspector)
 	remove_node_3d_gizmo_plugin(_gizmo)
 	_gltf.unregister()
+
+
+## From its text: when a project is opened for the first time, plugins start before pictures are imported.
+static func _load_icon(name: String) -> Texture2D:
+	var image := Image.new()
+	image.load_svg_from_string(FileAccess.get_file_as_string("%sicons/%s.svg" % [FOLDER, name]),
+		EditorInterface.get_editor_scale())
+	return ImageTexture.create_from_image(image)
 
 
 func _show_gratings(shown: bool) -> void:
