@@ -13,17 +13,23 @@ const Gltf := preload("res://addons/knurl/import.gd")
 const HANDLE := "res://knurled_handle.glb"
 const HANDLE_SCALE := 0.65 # its 110 mm on a plate of 70
 const STROKE_SECONDS := 2.0
+const WARM_UP_FRAMES := 5 # shaders are compiled: late frames, and a device lets go of the hand when a game hangs
 
 @onready var _device: KnurlDevice = $KnurlDevice
 
 
 func _ready() -> void:
 	_add_handle()
+	$Hud.name_meshes()
 	Overlay.set_shown(self, true)
+	if _is_drawn_by_cpu():
+		get_viewport().msaa_3d = Viewport.MSAA_DISABLED # or frames are so late that the device lets go of the hand
 	var stroke: bool = OS.get_cmdline_user_args().has("--stroke")
 	_device.device = "fake" if stroke else _argument("--device", "mouse")
 	if stroke:
 		_device.stroke = "sweep"
+	for i: int in WARM_UP_FRAMES:
+		await get_tree().process_frame
 	if _device.start() != OK:
 		return # the device said why
 	if stroke:
@@ -46,15 +52,21 @@ func _add_handle() -> void:
 
 
 func _end_after_stroke() -> void:
-	await get_tree().create_timer(STROKE_SECONDS).timeout
+	while _device.running and _device.ticks < STROKE_SECONDS * _device.rate:
+		await get_tree().process_frame
 	var path: String = _argument("--shot", "")
 	var status: int = OK
 	if not path.is_empty():
+		get_viewport().msaa_3d = Viewport.MSAA_4X
 		await RenderingServer.frame_post_draw
 		status = get_viewport().get_texture().get_image().save_png(path)
 	print("stroke: %d ticks, %d overruns, in contact: %s" % [_device.ticks, _device.overruns, _device.in_contact])
 	_device.stop()
 	get_tree().quit(0 if status == OK else 1)
+
+
+func _is_drawn_by_cpu() -> bool:
+	return RenderingServer.get_video_adapter_name().contains("llvmpipe")
 
 
 func _argument(name: String, default: String) -> String:

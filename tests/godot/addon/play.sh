@@ -7,7 +7,7 @@ set -euo pipefail
 [ $# -eq 3 ] || { echo "usage: play.sh CASE ENGINE BUILD_DIR" >&2; exit 2; }
 case=$1
 engine=$2
-build=$3
+build=$(cd "$3" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../../.." && pwd)
 library=$build/godot/libknurl_godot.linux.x86_64.so

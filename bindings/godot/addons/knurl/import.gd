@@ -9,13 +9,13 @@ extends GLTFDocumentExtension
 
 const Builder := preload("surface_builder.gd")
 
-static var _registered: KnurlGltf
+static var _registered: GLTFDocumentExtension
 
 
 ## From now on, GLTFDocument makes surfaces of tags. Calling it twice is fine.
 static func register() -> void:
 	if _registered == null:
-		_registered = KnurlGltf.new()
+		_registered = new()
 		# First, because the engine's own extension replaces the nodes that the builder works on.
 		GLTFDocument.register_gltf_document_extension(_registered, true)
 
