@@ -59,8 +59,9 @@ struct knurl_device {
     knurl_events events;
     /* atomics */
     uint32_t halted;
-    uint32_t lost;  /* nobody but reopen() may call the driver any more */
-    uint32_t quiet; /* 1: the latest force that went out was 0 */
+    uint32_t lost;    /* nobody but reopen() may call the driver any more */
+    uint32_t quiet;   /* 1: the latest force that went out was 0 */
+    uint32_t buttons; /* of the latest reading */
 };
 
 /* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
