@@ -5,7 +5,7 @@ const PAPER := Color(0.09, 0.1, 0.13, 0.85)
 const INK := Color(0.9, 0.93, 0.97)
 const FAINT := Color(0.6, 0.66, 0.74)
 const AMBER := Color(1.0, 0.75, 0.35)
-const FAULTS_SHOWN := 3
+const FAULTS_SHOWN := 2
 const PANEL_WIDTH := 310.0
 const MARGIN := 20.0
 

@@ -21,9 +21,10 @@ const WARM_UP_FRAMES := 5 # shaders are compiled: late frames, and a device lets
 func _ready() -> void:
 	_add_handle()
 	$Hud.name_meshes()
+	$Mouse.add_shapes()
 	Overlay.set_shown(self, true)
 	if _is_drawn_by_cpu():
-		get_viewport().msaa_3d = Viewport.MSAA_DISABLED # or frames are so late that the device lets go of the hand
+		_draw_coarsely(true)
 	var stroke: bool = OS.get_cmdline_user_args().has("--stroke")
 	_device.device = "fake" if stroke else _argument("--device", "mouse")
 	if stroke:
@@ -54,15 +55,21 @@ func _add_handle() -> void:
 func _end_after_stroke() -> void:
 	while _device.running and _device.ticks < STROKE_SECONDS * _device.rate:
 		await get_tree().process_frame
+	print("stroke: %d ticks, %d overruns, in contact: %s" % [_device.ticks, _device.overruns, _device.in_contact])
 	var path: String = _argument("--shot", "")
 	var status: int = OK
 	if not path.is_empty():
-		get_viewport().msaa_3d = Viewport.MSAA_4X
+		_draw_coarsely(false)
 		await RenderingServer.frame_post_draw
 		status = get_viewport().get_texture().get_image().save_png(path)
-	print("stroke: %d ticks, %d overruns, in contact: %s" % [_device.ticks, _device.overruns, _device.in_contact])
 	_device.stop()
 	get_tree().quit(0 if status == OK else 1)
+
+
+## Where the CPU draws, frames would else be so late that the device, which takes the game to hang, lets go of the hand.
+func _draw_coarsely(coarsely: bool) -> void:
+	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
+	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0
 
 
 func _is_drawn_by_cpu() -> bool:

@@ -13,8 +13,8 @@ var _depth := 0.0006
 @onready var _camera: Camera3D = $"../Camera"
 
 
-func _ready() -> void:
-	# What the pointer is on, the engine's physics tells.
+## What the pointer is on, the engine's physics tells.
+func add_shapes() -> void:
 	for mesh: Node in $"../Surfaces".find_children("*", "MeshInstance3D", true, false):
 		(mesh as MeshInstance3D).create_trimesh_collision()
 

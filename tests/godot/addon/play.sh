@@ -153,6 +153,10 @@ demo) # the sample, its stroke and its picture
     grep -E '^stroke: [1-9][0-9]{2,} ticks, [0-9]+ overruns, in contact: true$' "$log"
     [ "$(head -c 8 "$project/shot.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ]
     ;;
+pointer) # the sample, felt with the mouse
+    "$root/bindings/godot/demo.sh" "$library" "$project"
+    play_script "$case" xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720
+    ;;
 *)
     echo "play: unknown case '$case'" >&2
     exit 2
