@@ -5,34 +5,44 @@ extends Node
 const HOVER := 0.004 # m above the surface
 const DEEPEST := 0.002 # m
 const STEP := 0.0001 # m a notch of the wheel
-const LAYER := 1
+const MM_PER_M := 1000.0
 
 var _depth := 0.0006
+var _pointer := Vector2.ZERO
 
 @onready var _device: KnurlDevice = $"../KnurlDevice"
 @onready var _camera: Camera3D = $"../Camera"
 
 
-## What the pointer is on, the engine's physics tells.
+## What the pointer is on, the engine's physics tells. In metres it overlooks triangles of a millimetre, so its world is
+## in millimetres, apart from what is seen.
 func add_shapes() -> void:
-	for mesh: Node in $"../Surfaces".find_children("*", "MeshInstance3D", true, false):
-		(mesh as MeshInstance3D).create_trimesh_collision()
+	var body := StaticBody3D.new()
+	for mesh: MeshInstance3D in $"../Surfaces".find_children("*", "MeshInstance3D", true, false):
+		var shape := ConcavePolygonShape3D.new()
+		shape.set_faces(mesh.global_transform.scaled(Vector3.ONE * MM_PER_M) * mesh.mesh.get_faces())
+		var holder := CollisionShape3D.new()
+		holder.shape = shape
+		body.add_child(holder)
+	add_child(body)
 
 
 func _physics_process(_delta: float) -> void:
 	if not _device.running or _device.device != "mouse":
 		return
-	var pointer: Vector2 = _camera.get_viewport().get_mouse_position()
-	var from: Vector3 = _camera.project_ray_origin(pointer)
-	var query := PhysicsRayQueryParameters3D.create(from, from + _camera.project_ray_normal(pointer), LAYER)
+	var from: Vector3 = _camera.project_ray_origin(_pointer)
+	var to: Vector3 = from + _camera.project_ray_normal(_pointer)
+	var query := PhysicsRayQueryParameters3D.create(from * MM_PER_M, to * MM_PER_M)
 	var hit: Dictionary = _camera.get_world_3d().direct_space_state.intersect_ray(query)
 	if hit.is_empty():
 		return
 	var pressed: bool = Input.is_mouse_button_pressed(MOUSE_BUTTON_LEFT)
-	_device.move_hip(hit.position + hit.normal * (-_depth if pressed else HOVER))
+	_device.move_hip(hit.position / MM_PER_M + hit.normal * (-_depth if pressed else HOVER))
 
 
 func _unhandled_input(event: InputEvent) -> void:
+	if event is InputEventMouseMotion:
+		_pointer = (event as InputEventMouseMotion).position
 	var button := event as InputEventMouseButton
 	if button == null or not button.pressed:
 		return

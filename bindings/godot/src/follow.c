@@ -79,7 +79,8 @@ void follow_add(device *d, surface *s) {
     s->changed &= others;
     s->made_anew &= others;
     const GDExtensionObjectPtr mesh = mesh_of(s, &held);
-    if (mesh && s->enabled && s->grating && pose_of(s, &at)) {
+    s->flat = (uint8_t)(pose_of(s, &at) ? s->flat & others : s->flat | (1u << d->slot));
+    if (mesh && s->enabled && s->grating && !(s->flat & ~others)) {
         knurl_surface id = 0;
         const int fits = mesh_read(mesh, at.rest, &data);
         const knurl_result result = !fits ? knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with")
@@ -113,6 +114,7 @@ static void move(device *d, surface *s, uint64_t tick) {
     pose at;
     if (!pose_of(s, &at)) {
         follow_remove(d, s);
+        s->flat |= (uint8_t)(1u << slot);
         return;
     }
     if (!pose_same_rest(at.rest, s->rest[slot])) {
@@ -146,7 +148,7 @@ void follow_all(device *d, uint64_t tick) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
     for (surface *s = surfaces; s; s = s->next) {
-        if (s->made_anew & bit) {
+        if ((s->made_anew | (s->flat & s->moved)) & bit) {
             follow_remove(d, s);
             follow_add(d, s);
         }

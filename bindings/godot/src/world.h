@@ -21,6 +21,7 @@ typedef struct surface {
     float axis[3];
     struct surface *next, *previous;   /* of those in a tree */
     uint8_t moved, changed, made_anew; /* masks: which running device has yet to be told */
+    uint8_t flat;                      /* mask: scaled to nothing, so not in that device's scene */
     knurl_surface ids[DEVICE_SLOTS];   /* in each running device's scene, or 0 */
     uint64_t moved_at[DEVICE_SLOTS];   /* the device's tick */
     double rest[DEVICE_SLOTS][9];      /* scale that is baked in */
