@@ -140,8 +140,9 @@ overlay)
 package) # what a user downloads, in a project that has nothing else
     rm -rf "$project"
     mkdir -p "$project"
-    "$root/bindings/godot/package.sh" "$project.zip" "$library"
-    (cd "$project" && cmake -E tar xf "$project.zip")
+    package=${KNURL_GODOT_PACKAGE:-$project.zip} # one that is to be shipped, or one of this build's
+    [ -n "${KNURL_GODOT_PACKAGE:-}" ] || "$root/bindings/godot/package.sh" "$package" "$library"
+    (cd "$project" && cmake -E tar xf "$package")
     settle_project
     play 120 "${headless[@]}" --path . --import
     play_script "$case" "${headless[@]}"
