@@ -1,8 +1,9 @@
 extends Node3D
-## Where the HIP is (the ball), the proxy that the surface holds back (the ring), and the force on the hand (the rod).
+## Where the HIP is (the ball), the proxy that the surface holds back (the ring), and the force on
+## the hand (the rod).
 
 const METRES_PER_NEWTON := 0.03
-const SHORTEST := 1e-4 # m
+const SHORTEST := 1e-4  # m
 
 @onready var _device: KnurlDevice = $"../KnurlDevice"
 
@@ -13,5 +14,9 @@ func _process(_delta: float) -> void:
 	# The rod is 1 m long and stands along y; its foot is put on the proxy.
 	var length: float = maxf(METRES_PER_NEWTON * _device.force.length(), SHORTEST)
 	var up: Vector3 = _device.force.normalized() if length > SHORTEST else Vector3.UP
-	var aside: Vector3 = up.cross(Vector3.RIGHT if absf(up.x) < 0.9 else Vector3.FORWARD).normalized()
-	$Force.global_transform = Transform3D(Basis(aside, up * length, aside.cross(up)), _device.proxy_position + 0.5 * length * up)
+	var aside: Vector3 = (
+		up.cross(Vector3.RIGHT if absf(up.x) < 0.9 else Vector3.FORWARD).normalized()
+	)
+	$Force.global_transform = Transform3D(
+		Basis(aside, up * length, aside.cross(up)), _device.proxy_position + 0.5 * length * up
+	)

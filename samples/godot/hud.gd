@@ -21,9 +21,15 @@ var _told: PackedStringArray = []
 
 
 func _ready() -> void:
-	_add_panel(false, [
-		_touched, _row("temporal frequency", _frequency), _row("height", _height), _row("force", _force),
-	])
+	_add_panel(
+		false,
+		[
+			_touched,
+			_row("temporal frequency", _frequency),
+			_row("height", _height),
+			_row("force", _force),
+		]
+	)
 	_add_panel(true, [_about, _faults])
 	_touched.add_theme_font_size_override(&"font_size", 24)
 	_about.add_theme_color_override(&"font_color", FAINT)
@@ -47,9 +53,16 @@ func _process(_delta: float) -> void:
 		_about.text = "no device is running"
 		return
 	var how: String = "\npress: left button, deeper: wheel" if _device.device == "mouse" else ""
-	_about.text = "%s\n%.0f Hz, %d ticks, %d late%s" % [
-		_device.device_name, _device.rate, _device.ticks, _device.overruns, how,
-	]
+	_about.text = (
+		"%s\n%.0f Hz, %d ticks, %d late%s"
+		% [
+			_device.device_name,
+			_device.rate,
+			_device.ticks,
+			_device.overruns,
+			how,
+		]
+	)
 
 
 func _touched_name() -> String:
@@ -75,7 +88,7 @@ func _name_mesh(mesh: MeshInstance3D) -> void:
 	label.outline_size = 12
 	label.modulate = INK
 	label.billboard = BaseMaterial3D.BILLBOARD_ENABLED
-	label.top_level = true # its size is not the mesh's
+	label.top_level = true  # its size is not the mesh's
 	mesh.add_child(label)
 	label.global_position = Vector3(box.get_center().x, 0.004, box.end.z + 0.005)
 
@@ -95,7 +108,9 @@ func _row(title: String, value: Label) -> Control:
 func _dress(label: Label) -> void:
 	label.add_theme_color_override(&"font_color", INK)
 	label.add_theme_font_size_override(&"font_size", 16)
-	label.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART if label in [_about, _faults] else TextServer.AUTOWRAP_OFF
+	label.autowrap_mode = (
+		TextServer.AUTOWRAP_WORD_SMART if label in [_about, _faults] else TextServer.AUTOWRAP_OFF
+	)
 
 
 func _add_panel(right: bool, lines: Array[Control]) -> void:

@@ -4,16 +4,16 @@ extends Node3D
 ## Arguments after "--":
 ## [codeblock]
 ## --device URI    touch, falcon, rawhid, fake, mouse (default)
-## --stroke        the fake device, and its simulated hand strokes the first surface for 2 s; then the demo ends
+## --stroke        the fake device, whose simulated hand strokes the first surface; ends after 2 s
 ## --shot PATH     a picture of the window is saved at the end of the stroke
 ## [/codeblock]
 
 const Overlay := preload("res://addons/knurl/overlay.gd")
 const Gltf := preload("res://addons/knurl/import.gd")
 const HANDLE := "res://knurled_handle.glb"
-const HANDLE_SCALE := 0.65 # its 110 mm on a plate of 70
+const HANDLE_SCALE := 0.65  # its 110 mm on a plate of 70
 const STROKE_SECONDS := 2.0
-const WARM_UP_FRAMES := 5 # shaders are compiled: late frames, and a device lets go of the hand when a game hangs
+const WARM_UP_FRAMES := 5  # late, for shaders are compiled; a device lets go when a game hangs
 
 @onready var _device: KnurlDevice = $KnurlDevice
 
@@ -32,7 +32,7 @@ func _ready() -> void:
 	for i: int in WARM_UP_FRAMES:
 		await get_tree().process_frame
 	if _device.start() != OK:
-		return # the device said why
+		return  # the device said why
 	if stroke:
 		_end_after_stroke()
 
@@ -55,7 +55,12 @@ func _add_handle() -> void:
 func _end_after_stroke() -> void:
 	while _device.running and _device.ticks < STROKE_SECONDS * _device.rate:
 		await get_tree().process_frame
-	print("stroke: %d ticks, %d overruns, in contact: %s" % [_device.ticks, _device.overruns, _device.in_contact])
+	print(
+		(
+			"stroke: %d ticks, %d overruns, in contact: %s"
+			% [_device.ticks, _device.overruns, _device.in_contact]
+		)
+	)
 	var path: String = _argument("--shot", "")
 	var status: int = OK
 	if not path.is_empty():
@@ -66,7 +71,8 @@ func _end_after_stroke() -> void:
 	get_tree().quit(0 if status == OK else 1)
 
 
-## Where the CPU draws, frames would else be so late that the device, which takes the game to hang, lets go of the hand.
+## Where the CPU draws, frames would else be so late that the device, which takes the game to hang,
+## lets go of the hand.
 func _draw_coarsely(coarsely: bool) -> void:
 	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
 	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0

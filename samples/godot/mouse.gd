@@ -1,10 +1,10 @@
 extends Node
-## The mouse as a HIP: it hovers over what the pointer is on, and presses while the left button is down. The wheel sets
-## how deep.
+## The mouse as a HIP: it hovers over what the pointer is on, and presses while the left button is
+## down. The wheel sets how deep.
 
-const HOVER := 0.004 # m above the surface
-const DEEPEST := 0.002 # m
-const STEP := 0.0001 # m a notch of the wheel
+const HOVER := 0.004  # m above the surface
+const DEEPEST := 0.002  # m
+const STEP := 0.0001  # m a notch of the wheel
 const MM_PER_M := 1000.0
 
 var _depth := 0.0006
@@ -14,13 +14,15 @@ var _pointer := Vector2.ZERO
 @onready var _camera: Camera3D = $"../Camera"
 
 
-## What the pointer is on, the engine's physics tells. In metres it overlooks triangles of a millimetre, so its world is
-## in millimetres, apart from what is seen.
+## What the pointer is on, the engine's physics tells. In metres it overlooks triangles of a
+## millimetre, so its world is in millimetres, apart from what is seen.
 func add_shapes() -> void:
 	var body := StaticBody3D.new()
 	for mesh: MeshInstance3D in $"../Surfaces".find_children("*", "MeshInstance3D", true, false):
 		var shape := ConcavePolygonShape3D.new()
-		shape.set_faces(mesh.global_transform.scaled(Vector3.ONE * MM_PER_M) * mesh.mesh.get_faces())
+		shape.set_faces(
+			mesh.global_transform.scaled(Vector3.ONE * MM_PER_M) * mesh.mesh.get_faces()
+		)
 		var holder := CollisionShape3D.new()
 		holder.shape = shape
 		body.add_child(holder)

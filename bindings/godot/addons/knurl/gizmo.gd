@@ -1,12 +1,14 @@
 @tool
 extends EditorNode3DGizmoPlugin
-## A [KnurlDevice] in the editor: the box that its stylus reaches, its axes, and the HIP at its origin.
+## A [KnurlDevice] in the editor: the box that its stylus reaches, its axes, and the HIP at its
+## origin.
 
-## m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a Falcon's a cube of 4 inches.
+## m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a
+## Falcon's a cube of 4 inches.
 const WORKSPACES: Dictionary = {
 	"touch": Vector3(0.160, 0.120, 0.070),
 	"falcon": Vector3(0.1016, 0.1016, 0.1016),
-	"fake": Vector3(0.160, 0.120, 0.070), # a simulated Touch
+	"fake": Vector3(0.160, 0.120, 0.070),  # a simulated Touch
 }
 const HIP_RADIUS := 0.002
 

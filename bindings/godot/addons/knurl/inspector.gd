@@ -1,7 +1,7 @@
 @tool
 extends EditorInspectorPlugin
-## Shows a [KnurlSurface]'s warnings above its properties. (A script cannot add configuration warnings to a native
-## class, and those of a native class cannot change with what a device says.)
+## Shows a [KnurlSurface]'s warnings above its properties. (A script cannot add configuration
+## warnings to a native class, and those of a native class cannot change with what a device says.)
 
 
 func _can_handle(object: Object) -> bool:
@@ -31,7 +31,9 @@ class Warnings:
 		_refresh()
 
 	func _refresh() -> void:
-		var warnings: PackedStringArray = _surface.get_warnings() if is_instance_valid(_surface) else PackedStringArray()
+		var warnings: PackedStringArray = (
+			_surface.get_warnings() if is_instance_valid(_surface) else PackedStringArray()
+		)
 		if warnings == _shown:
 			return
 		_shown = warnings

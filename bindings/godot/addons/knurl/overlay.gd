@@ -1,23 +1,26 @@
 @tool
 class_name KnurlOverlay
 extends Node
-## Draws the ridges of a [KnurlSurface] over its mesh, so that one sees what one will feel: period, orientation, grid.
+## Draws the ridges of a [KnurlSurface] over its mesh, so that one sees what one will feel: period,
+## orientation, grid.
 ##
 ## [codeblock]
 ## KnurlOverlay.set_shown(get_tree().root, true) # on all surfaces below; false takes it off again
 ## [/codeblock]
-## It is an internal child of its surface: not saved, and gone with it. It draws through the rendering server, so the
-## mesh's own materials and [member GeometryInstance3D.material_overlay] stay as they are.
+## It is an internal child of its surface: not saved, and gone with it. It draws through the
+## rendering server, so the mesh's own materials and [member GeometryInstance3D.material_overlay]
+## stay as they are.
 
 const SHADER := preload("overlay.gdshader")
 const NAME := &"KnurlOverlay"
-## Of more triangles than this only a share is measured, to keep the editor swift: the uv scale is a mean.
+## Of more triangles than this only a share is measured, to keep the editor swift: the uv scale is a
+## mean.
 const MEASURED_TRIANGLES := 50000
 
 var _material := ShaderMaterial.new()
 var _drawn_on := RID()
-var _measured: Array = [] # the mesh and the basis that uv_scale was measured on
-var _shown: Array = [] # what the material was last told
+var _measured: Array = []  # the mesh and the basis that uv_scale was measured on
+var _shown: Array = []  # what the material was last told
 
 
 ## Puts an overlay on every surface at and below [param root], or takes them off.
@@ -25,7 +28,7 @@ static func set_shown(root: Node, shown: bool) -> void:
 	if root is KnurlSurface:
 		var overlay: Node = find_on(root)
 		if shown and overlay == null:
-			overlay = new() # by no name: a game that no editor has seen has no list of global classes
+			overlay = new()  # by no name: a game that no editor has seen has no list of global classes
 			overlay.name = NAME
 			root.add_child(overlay, false, Node.INTERNAL_MODE_BACK)
 		elif not shown and overlay != null:
@@ -40,7 +43,8 @@ static func find_on(surface: KnurlSurface) -> Node:
 	return surface.get_node_or_null(NodePath(NAME))
 
 
-## Metres per u and v: the area-weighted means of |dP/du| and |dP/dv| over all triangles, as Knurl has them.
+## Metres per u and v: the area-weighted means of |dP/du| and |dP/dv| over all triangles, as Knurl
+## has them.
 ## [param basis] is what scales the mesh; zero where there are no uvs.
 static func measure_uvs(mesh: Mesh, basis: Basis) -> Vector2:
 	var sum := Vector2.ZERO
@@ -51,7 +55,9 @@ static func measure_uvs(mesh: Mesh, basis: Basis) -> Vector2:
 			continue
 		var places: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
 		var uvs: PackedVector2Array = arrays[Mesh.ARRAY_TEX_UV]
-		var corners: PackedInt32Array = arrays[Mesh.ARRAY_INDEX] if arrays[Mesh.ARRAY_INDEX] else range(places.size())
+		var corners: PackedInt32Array = (
+			arrays[Mesh.ARRAY_INDEX] if arrays[Mesh.ARRAY_INDEX] else range(places.size())
+		)
 		@warning_ignore("integer_division")
 		var stride: int = 3 * (1 + corners.size() / 3 / MEASURED_TRIANGLES)
 		for at: int in range(0, corners.size() - 2, stride):
@@ -82,7 +88,8 @@ func _exit_tree() -> void:
 	_draw_on(null)
 
 
-## What is shown is looked at each frame and not followed by signals: a surface's mesh, scale and grating all change.
+## What is shown is looked at each frame and not followed by signals: a surface's mesh, scale and
+## grating all change.
 func _process(_delta: float) -> void:
 	var surface := get_parent() as KnurlSurface
 	var parent := surface.get_parent() as MeshInstance3D
@@ -94,11 +101,17 @@ func _process(_delta: float) -> void:
 		_measured = [parent.mesh, basis]
 		_material.set_shader_parameter(&"uv_scale", measure_uvs(parent.mesh, basis))
 	var by_axis: bool = not surface.axis.is_zero_approx()
-	var has_coordinates: bool = by_axis or _material.get_shader_parameter(&"uv_scale") != Vector2.ZERO
+	var has_coordinates: bool = (
+		by_axis or _material.get_shader_parameter(&"uv_scale") != Vector2.ZERO
+	)
 	_draw_on(parent if has_coordinates else null)
 	var grating: KnurlGrating = surface.grating
 	var values: Array = [
-		grating.spatial_frequency, grating.orientation, surface.axis, surface.double_sided, parent.material_overlay,
+		grating.spatial_frequency,
+		grating.orientation,
+		surface.axis,
+		surface.double_sided,
+		parent.material_overlay,
 	]
 	if values == _shown:
 		return
@@ -108,7 +121,7 @@ func _process(_delta: float) -> void:
 	_material.set_shader_parameter(&"axis", surface.axis)
 	_material.set_shader_parameter(&"by_axis", by_axis)
 	_material.set_shader_parameter(&"double_sided", surface.double_sided)
-	_material.next_pass = parent.material_overlay # the mesh's own stays, drawn after
+	_material.next_pass = parent.material_overlay  # the mesh's own stays, drawn after
 	if _drawn_on.is_valid():
 		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, _material.get_rid())
 
@@ -119,7 +132,9 @@ func _draw_on(parent: MeshInstance3D) -> void:
 		return
 	if _drawn_on.is_valid() and _owner_of_drawn() != null:
 		var own: Material = _owner_of_drawn().material_overlay
-		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, own.get_rid() if own != null else RID())
+		RenderingServer.instance_geometry_set_material_overlay(
+			_drawn_on, own.get_rid() if own != null else RID()
+		)
 	_drawn_on = instance
 	if instance.is_valid():
 		RenderingServer.instance_geometry_set_material_overlay(instance, _material.get_rid())

@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
-## Knurl in the editor: glTF tags become surfaces, devices show their workspace, surfaces their warnings, and a button
-## in the 3D view draws what will be felt.
+## Knurl in the editor: glTF tags become surfaces, devices show their workspace, surfaces their
+## warnings, and a button in the 3D view draws what will be felt.
 
 const FOLDER := "res://addons/knurl/"
 
@@ -15,7 +15,9 @@ var _overlay: GDScript
 
 func _enter_tree() -> void:
 	if not ClassDB.class_exists(&"KnurlSurface"):
-		push_error("Knurl: its library is not loaded: expected one for this platform in %sbin" % FOLDER)
+		push_error(
+			"Knurl: its library is not loaded: expected one for this platform in %sbin" % FOLDER
+		)
 		return
 	_gltf = load(FOLDER + "import.gd")
 	_overlay = load(FOLDER + "overlay.gd")
@@ -51,11 +53,14 @@ func _exit_tree() -> void:
 	_gltf.unregister()
 
 
-## From its text: when a project is opened for the first time, plugins start before pictures are imported.
+## From its text: when a project is opened for the first time, plugins start before pictures are
+## imported.
 static func _load_icon(name: String) -> Texture2D:
 	var image := Image.new()
-	image.load_svg_from_string(FileAccess.get_file_as_string("%sicons/%s.svg" % [FOLDER, name]),
-		EditorInterface.get_editor_scale())
+	image.load_svg_from_string(
+		FileAccess.get_file_as_string("%sicons/%s.svg" % [FOLDER, name]),
+		EditorInterface.get_editor_scale()
+	)
 	return ImageTexture.create_from_image(image)
 
 

@@ -1,11 +1,20 @@
 @tool
 extends RefCounted
-## A grating's tag in glTF [code]extras[/code], nested or flat: read, checked, merged. What is wrong is told as Knurl's
-## own loader tells it: which object, which key, what was expected, what was found.
+## A grating's tag in glTF [code]extras[/code], nested or flat: read, checked, merged. What is wrong
+## is told as Knurl's own loader tells it: which object, which key, what was expected, what was
+## found.
 
 const METHODS: Dictionary = {"S1": 1, "S2": 2, "locked": 3}
 const KEYS: Array[String] = [
-	"version", "spatial_frequency", "amplitude", "stiffness", "damping", "friction", "orientation", "axis", "method",
+	"version",
+	"spatial_frequency",
+	"amplitude",
+	"stiffness",
+	"damping",
+	"friction",
+	"orientation",
+	"axis",
+	"method",
 ]
 const REQUIRED: Array[String] = ["spatial_frequency", "amplitude", "stiffness"]
 const FLAT_PREFIX := "knurl_"
@@ -15,7 +24,7 @@ const FLAT_PREFIX := "knurl_"
 class Tag:
 	extends RefCounted
 	var values: Dictionary = {}
-	var broken := false ## something in it is wrong, and was told
+	var broken := false  ## something in it is wrong, and was told
 
 	## Takes each key that [param other] has from it.
 	func override_with(other: Tag) -> void:
@@ -40,7 +49,7 @@ var _where := ""
 func read(owner: Dictionary, where: String) -> Tag:
 	var extras: Variant = owner.get("extras")
 	if not extras is Dictionary:
-		return null # extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
+		return null  # extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
 	_where = where
 	var nested: bool = extras.has("knurl")
 	var flat: Array[String] = _flat_keys(extras)
@@ -49,7 +58,13 @@ func read(owner: Dictionary, where: String) -> Tag:
 	var tag := Tag.new()
 	var count: int = errors.size()
 	if nested and not flat.is_empty():
-		_refuse("extras", "holds both an object 'knurl' and flat keys such as '%s': expected one form of the tag" % flat[0])
+		_refuse(
+			"extras",
+			(
+				"holds both an object 'knurl' and flat keys such as '%s': expected one form of the tag"
+				% flat[0]
+			)
+		)
 	elif nested:
 		_read_nested(tag, extras["knurl"])
 	for key: String in flat:
@@ -112,10 +127,18 @@ func _read_entry(tag: Tag, prefix: String, key: String, value: Variant) -> void:
 			else:
 				_refuse_value(at, "'S1', 'S2' or 'locked'", value)
 		_:
-			_refuse(at, "unknown key; known are " + ", ".join(KEYS.map(func(name: String) -> String: return prefix + name)))
+			_refuse(
+				at,
+				(
+					"unknown key; known are "
+					+ ", ".join(KEYS.map(func(name: String) -> String: return prefix + name))
+				)
+			)
 
 
-func _read_number(tag: Tag, key: String, at: String, expected: String, value: Variant, allowed: Callable) -> void:
+func _read_number(
+	tag: Tag, key: String, at: String, expected: String, value: Variant, allowed: Callable
+) -> void:
 	if allowed.call(value):
 		tag.values[key] = float(value)
 	else:
@@ -138,7 +161,9 @@ func _read_axis(tag: Tag, at: String, value: Variant) -> void:
 		if largest > 0.0:
 			tag.values["axis"] = Vector3(value[0] / largest, value[1] / largest, value[2] / largest)
 			return
-	_refuse_value(at, "an array of 3 numbers that are not all 0 (a direction in object space)", value)
+	_refuse_value(
+		at, "an array of 3 numbers that are not all 0 (a direction in object space)", value
+	)
 
 
 static func _is_number(value: Variant) -> bool:

@@ -1,21 +1,27 @@
 extends SceneTree
-## The assets: as many surfaces as Knurl's own loader finds, with its materials; loaded at run time and by the editor.
+## The assets: as many surfaces as Knurl's own loader finds, with its materials; loaded at run time
+## and by the editor.
 
 var checks: RefCounted
 
 
 func _initialize() -> void:
 	checks = load("res://checks.gd").new()
-	load("res://addons/knurl/import.gd").register()
+	var gltf: GDScript = load("res://addons/knurl/import.gd")
+	gltf.register()
 	var seen := 0
 	for name: String in DirAccess.get_files_at("res://"):
 		if name.get_extension() == "glb" or name.get_extension() == "gltf":
 			seen += 1
-			var inspected: Dictionary = JSON.parse_string(FileAccess.get_file_as_string("res://%s.json" % name))
+			var inspected: Dictionary = JSON.parse_string(
+				FileAccess.get_file_as_string("res://%s.json" % name)
+			)
 			compare(name + " at run time", load_now(name), inspected)
-			compare(name + " imported", (load("res://" + name) as PackedScene).instantiate(), inspected)
+			compare(
+				name + " imported", (load("res://" + name) as PackedScene).instantiate(), inspected
+			)
 	checks.check(seen >= 3, "there are assets")
-	load("res://addons/knurl/import.gd").unregister()
+	gltf.unregister()
 	checks.finish(self)
 
 

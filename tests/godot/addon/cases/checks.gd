@@ -18,7 +18,10 @@ func equal(found: Variant, expected: Variant, sentence: String) -> void:
 
 
 func close(found: float, expected: float, tolerance: float, sentence: String) -> void:
-	check(absf(found - expected) <= tolerance, "%s: expected %s, found %s" % [sentence, expected, found])
+	check(
+		absf(found - expected) <= tolerance,
+		"%s: expected %s, found %s" % [sentence, expected, found]
+	)
 
 
 func finish(tree: SceneTree) -> void:

@@ -1,10 +1,11 @@
 extends SceneTree
-## The overlay, drawn: stripes where Eq. 11 has ridges, on uvs and on an axis, turned, as a grid; and off again without
-## a trace. A camera looks straight down on a square plate, a known number of pixels to the millimetre.
+## The overlay, drawn: stripes where Eq. 11 has ridges, on uvs and on an axis, turned, as a grid;
+## and off again without a trace. A camera looks straight down on a square plate, a known number of
+## pixels to the millimetre.
 
 const PIXELS_PER_MM := 10.0
-const HEIGHT := 360 # pixels of the window
-const PLATE := 0.03 # m
+const HEIGHT := 360  # pixels of the window
+const PLATE := 0.03  # m
 const DARK := Color.BLACK
 const BRIGHT := Color.WHITE
 
@@ -27,7 +28,7 @@ func build_stage() -> void:
 	camera.projection = Camera3D.PROJECTION_ORTHOGONAL
 	camera.size = HEIGHT / PIXELS_PER_MM * 1e-3
 	camera.position = Vector3(0.0, 0.1, 0.0)
-	camera.rotation.x = -0.5 * PI # looks along -y; the picture's right is +x, its upper edge -z
+	camera.rotation.x = -0.5 * PI  # looks along -y; the picture's right is +x, its upper edge -z
 	camera.near = 0.01
 	root.add_child(camera)
 	var mesh := PlaneMesh.new()
@@ -59,17 +60,28 @@ func run() -> void:
 	await expect("a grid", Vector2(300, 200), 0.0, Vector3.ZERO, corner)
 	await expect("a turned grid", Vector2(300, 200), 0.6, Vector3.ZERO, corner)
 	await expect("on an axis", Vector2(500, 0), 0.0, Vector3(2, 0, 0), Vector2.ZERO)
-	await expect("on an axis that is turned", Vector2(250, 400), 0.3, Vector3(1, 0, 1), Vector2.ZERO)
+	await expect(
+		"on an axis that is turned", Vector2(250, 400), 0.3, Vector3(1, 0, 1), Vector2.ZERO
+	)
 	plate.scale = Vector3(0.5, 1.0, 0.8)
-	await expect("on a plate that is scaled", Vector2(600, 400), 0.0, Vector3.ZERO, corner * Vector2(0.5, 0.8))
+	await expect(
+		"on a plate that is scaled",
+		Vector2(600, 400),
+		0.0,
+		Vector3.ZERO,
+		corner * Vector2(0.5, 0.8)
+	)
 	await expect("scaled, on an axis", Vector2(600, 400), 0.2, Vector3(1, 0, 0), Vector2.ZERO)
 	plate.scale = Vector3.ONE
 	await expect_fade()
 	await expect_off(before)
 
 
-## Every pixel of the plate that is not within one of an edge is bright where Eq. 11 is +A, else dark.
-func expect(what: String, frequency: Vector2, orientation: float, axis: Vector3, corner: Vector2) -> void:
+## Every pixel of the plate that is not within one of an edge is bright where Eq. 11 is +A, else
+## dark.
+func expect(
+	what: String, frequency: Vector2, orientation: float, axis: Vector3, corner: Vector2
+) -> void:
 	surface.grating.spatial_frequency = frequency
 	surface.grating.orientation = orientation
 	surface.axis = axis
@@ -80,7 +92,7 @@ func expect(what: String, frequency: Vector2, orientation: float, axis: Vector3,
 	var seen := 0
 	for row: int in range(0, image.get_height(), 3):
 		for column: int in range(0, image.get_width(), 3):
-			var p: Vector2 = (Vector2(column + 0.5, row + 0.5) - middle) * 1e-3 / PIXELS_PER_MM # x, z
+			var p: Vector2 = (Vector2(column + 0.5, row + 0.5) - middle) * 1e-3 / PIXELS_PER_MM  # x, z
 			if absf(p.x) > half.x or absf(p.y) > half.y:
 				continue
 			var cycles: Vector2 = coordinates(p, axis, corner).rotated(-orientation) * frequency
@@ -94,10 +106,11 @@ func expect(what: String, frequency: Vector2, orientation: float, axis: Vector3,
 	checks.equal(wrong, 0, "%s: pixels of %d that are not as Eq. 11 has them" % [what, seen])
 
 
-## m along x and y = n x x, as the design has them: n is +y here, and the world's z runs down the picture.
+## m along x and y = n x x, as the design has them: n is +y here, and the world's z runs down the
+## picture.
 func coordinates(p: Vector2, axis: Vector3, corner: Vector2) -> Vector2:
 	if axis == Vector3.ZERO:
-		return Vector2(p.x + corner.x, -(p.y + corner.y)) # v runs down: y against it
+		return Vector2(p.x + corner.x, -(p.y + corner.y))  # v runs down: y against it
 	var along: Vector3 = (plate.global_basis * axis).normalized()
 	var y: Vector3 = Vector3.UP.cross(along)
 	var place := Vector3(p.x, 0.0, p.y)
@@ -106,7 +119,9 @@ func coordinates(p: Vector2, axis: Vector3, corner: Vector2) -> Vector2:
 
 func near_edge(cycles: Vector2, frequency: Vector2) -> bool:
 	for i: int in 2:
-		var pixels: float = absf(fposmod(cycles[i], 0.5) - 0.25) / maxf(frequency[i], 1e-6) * 1e3 * PIXELS_PER_MM
+		var pixels: float = (
+			absf(fposmod(cycles[i], 0.5) - 0.25) / maxf(frequency[i], 1e-6) * 1e3 * PIXELS_PER_MM
+		)
 		if frequency[i] > 0.0 and pixels < 1.5:
 			return true
 	return false
@@ -133,7 +148,7 @@ func expect_off(before: Image) -> void:
 	overlay.set_shown(root, false)
 	var after: Image = await picture()
 	checks.check(overlay.find_on(surface) == null, "the overlay is gone")
-	checks.equal(after.get_data(), before.get_data(), "what was drawn before is drawn again")
+	checks.check(after.get_data() == before.get_data(), "what was drawn before is drawn again")
 	checks.check(plate.material_overlay == null, "the mesh kept its own overlay")
 	var own := StandardMaterial3D.new()
 	own.albedo_color = Color.RED
@@ -143,11 +158,16 @@ func expect_off(before: Image) -> void:
 	overlay.set_shown(root, true)
 	await picture()
 	overlay.set_shown(root, false)
-	checks.equal((await picture()).get_data(), red.get_data(), "a user's overlay is drawn as before")
+	checks.check(
+		(await picture()).get_data() == red.get_data(), "a user's overlay is drawn as before"
+	)
 	overlay.set_shown(root, true)
 	await picture()
 	plate.remove_child(surface)
-	checks.equal((await picture()).get_data(), red.get_data(), "a surface that leaves takes its overlay along")
+	checks.check(
+		(await picture()).get_data() == red.get_data(),
+		"a surface that leaves takes its overlay along"
+	)
 	surface.free()
 
 

@@ -1,12 +1,13 @@
 extends SceneTree
-## What was unpacked works: the classes are there, a preset loads, and the fake device is played a trace on a plate.
+## What was unpacked works: the classes are there, a preset loads, and the fake device is played a
+## trace on a plate.
 
-const K := 700.0 # N/m, of the preset
-const DEPTH := 0.001 # m
+const K := 700.0  # N/m, of the preset
+const DEPTH := 0.001  # m
 
 
 func _initialize() -> void:
-	run() # in a function of its own: a mistake in it ends it, and the frames below end the game
+	run()  # in a function of its own: a mistake in it ends it, and the frames below end the game
 
 
 func _process(_delta: float) -> bool:
@@ -23,7 +24,7 @@ func run() -> void:
 	plate.mesh = mesh
 	var surface: Node3D = ClassDB.instantiate(&"KnurlSurface")
 	surface.set("grating", load("res://addons/knurl/presets/paper_1mm.tres").duplicate())
-	surface.get("grating").set("amplitude", 0.0) # smooth: Hooke's law is what is expected
+	surface.get("grating").set("amplitude", 0.0)  # smooth: Hooke's law is what is expected
 	plate.add_child(surface)
 	root.add_child(plate)
 	var device: Node3D = ClassDB.instantiate(&"KnurlDevice")

@@ -1,7 +1,8 @@
 extends SceneTree
-## The demo with its default device, the mouse: hovering touches nothing, pressing does; each surface under the pointer.
+## The demo with its default device, the mouse: hovering touches nothing, pressing does; each
+## surface under the pointer.
 
-const FRAMES := 60 # at most, for the HIP to follow
+const FRAMES := 60  # at most, for the HIP to follow
 
 var checks: RefCounted
 
@@ -20,12 +21,18 @@ func _initialize() -> void:
 		var pointer: Vector2 = (main.get_node("Camera") as Camera3D).unproject_position(top)
 		point(pointer, false)
 		await until(func() -> bool: return not device.get("in_contact") and over(device, box))
-		checks.check(over(device, box) and not device.get("in_contact"), "%s: hovering touches nothing" % mesh.name)
+		checks.check(
+			over(device, box) and not device.get("in_contact"),
+			"%s: hovering touches nothing" % mesh.name
+		)
 		point(pointer, true)
 		await until(surface.call.bind("is_touched"))
 		checks.equal(surface.call("is_touched"), true, "%s: pressing touches" % mesh.name)
 		checks.equal(device.get("in_contact"), true, "%s: and the device knows" % mesh.name)
-		checks.check((device.get("force") as Vector3).y > 0.0, "%s: it pushes up (%s N)" % [mesh.name, device.get("force")])
+		checks.check(
+			(device.get("force") as Vector3).y > 0.0,
+			"%s: it pushes up (%s N)" % [mesh.name, device.get("force")]
+		)
 	main.queue_free()
 	await process_frame
 	checks.finish(self)
@@ -45,7 +52,12 @@ func point(at: Vector2, pressed: bool) -> void:
 
 func over(device: Node, box: AABB) -> bool:
 	var hip: Vector3 = device.get("hip_position")
-	return hip.x > box.position.x and hip.x < box.end.x and hip.z > box.position.z and hip.z < box.end.z
+	return (
+		hip.x > box.position.x
+		and hip.x < box.end.x
+		and hip.z > box.position.z
+		and hip.z < box.end.z
+	)
 
 
 func until(holds: Callable) -> void:
