@@ -42,7 +42,7 @@ func devices() -> void:
 	await seconds(0.1)
 	check("100 starts and stops leave no thread and no handle", [threads(), handles()] == before, [threads(), handles(), before])
 	print("note: 100 starts and stops: %d KiB more" % (memory_kib() - kib))
-	check("and little memory", memory_kib() - kib < 2048, memory_kib() - kib)
+	check("and little memory", memory_kib() - kib < 1024, memory_kib() - kib)
 
 
 func extensions() -> void:
@@ -65,7 +65,7 @@ func extensions() -> void:
 	await seconds(0.1)
 	check("leave no thread and no handle", [threads(), handles()] == before, [threads(), handles(), before])
 	print("note: 100 loads and unloads: %d KiB more" % (memory_kib() - kib))
-	check("and little memory", memory_kib() - kib < 8192, memory_kib() - kib)
+	check("and little memory", memory_kib() - kib < 2048, memory_kib() - kib)
 
 
 func tests() -> void:

@@ -162,7 +162,7 @@ char *gd_string_copy(const void *string) {
 
 gd_variant gd_wrap(GDExtensionVariantType type, const void *value) {
     gd_variant variant;
-    gd_types[type].to_variant(&variant, (void *)(uintptr_t)value);
+    gd_types[type].to_variant(&variant, gd_unconst(value));
     return variant;
 }
 
@@ -225,7 +225,7 @@ void gd_dictionary_set(void *dictionary, const char *key, GDExtensionVariantType
     gd_variant wrapped = gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING, &string);
     GDExtensionVariantPtr to = gd.dictionary_operator_index(dictionary, &wrapped);
     gd.variant_destroy(to);
-    gd_types[type].to_variant(to, (void *)(uintptr_t)value);
+    gd_types[type].to_variant(to, gd_unconst(value));
     gd.variant_destroy(&wrapped);
     gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
 }

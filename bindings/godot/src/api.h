@@ -6,6 +6,8 @@
 #include <gdextension_interface.h>
 #include <knurl/base.h>
 
+#include <string.h>
+
 /* Interface functions: the part of their type's name that differs, and the name that they are asked for by. */
 #define GD_FUNCTIONS(X)                                                                                                \
     X(PrintErrorWithMessage, print_error_with_message)                                                                 \
@@ -142,6 +144,13 @@ extern gd_methods gd_method;
 extern gd_builtins gd_builtin;
 extern gd_type gd_types[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
 extern GDExtensionClassLibraryPtr gd_library;
+
+/* The engine's types do not say what is only read. */
+static inline void *gd_unconst(const void *pointer) {
+    void *copy;
+    memcpy(&copy, &pointer, sizeof copy);
+    return copy;
+}
 
 /* Fills the table of functions: 1, or 0 with an error that names what is missing. */
 int gd_load(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library);

@@ -166,7 +166,7 @@ static int take_arguments(const gd_argument *expected, uint32_t count, const GDE
         }
     }
     for (uint32_t i = 0; i < count; i++) {
-        gd_types[expected[i].type].from_variant(&values[i], (void *)(uintptr_t)given[i]);
+        gd_types[expected[i].type].from_variant(&values[i], gd_unconst(given[i]));
     }
     return 1;
 }

@@ -54,7 +54,7 @@ static knurl_result take_slot(device *d) {
             return KNURL_OK;
         }
     }
-    return knurl_fail(KNURL_ERROR_FULL, "expected at most %d devices that run at once", (int)DEVICE_SLOTS);
+    return knurl_fail(KNURL_ERROR_FULL, "expected at most %d devices that run at once", DEVICE_SLOTS);
 }
 
 /* Where the node stands, the workspace is; its scale is a property, not the node's. */

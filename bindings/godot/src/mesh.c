@@ -56,7 +56,11 @@ static double determinant(const double m[9]) {
 static void add_positions(const float *from, uint32_t count, const double baked[9], mesh_data *data) {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     float *to = data->positions + 3 * (size_t)data->vertex_count;
-    if (memcmp(baked, identity, sizeof identity) == 0) {
+    int is_identity = 1;
+    for (int i = 0; i < 9; i++) {
+        is_identity = is_identity && baked[i] == identity[i];
+    }
+    if (is_identity) {
         memcpy(to, from, 3 * (size_t)count * sizeof *to);
         return;
     }
@@ -126,7 +130,7 @@ static int add_indices(const void *arrays, uint32_t count, int is_mirrored, mesh
 
 static int add_surface(const void *arrays, const double baked[9], mesh_data *data) {
     int64_t array_count = 0;
-    gd_builtin.ARRAY_size((void *)(uintptr_t)arrays, NULL, &array_count, 0);
+    gd_builtin.ARRAY_size(gd_unconst(arrays), NULL, &array_count, 0);
     if (array_count < ARRAY_MAX) {
         return 1;
     }

@@ -87,7 +87,7 @@ static void register_accessors(const gd_class *class, const gd_property *propert
                                const char *setter) {
     const gd_argument value = {"value", property->type, class_of(property)};
     const gd_argument nothing = {"", GDEXTENSION_VARIANT_TYPE_NIL, NULL};
-    void *row = (void *)(uintptr_t)property;
+    void *row = gd_unconst(property);
     const method_entry get = {getter, row, gd_getter_call, gd_getter_ptrcall, value, NULL, 0, 1};
     const method_entry set = {setter, row, gd_setter_call, gd_setter_ptrcall, nothing, &value, 1, 0};
     register_method(class, &get);
@@ -155,7 +155,7 @@ void gd_register(const gd_class *class) {
     info.free_instance_func = gd_free;
     info.notification_func = gd_notify;
     info.get_virtual_func = gd_find_virtual;
-    info.class_userdata = (void *)(uintptr_t)class;
+    info.class_userdata = gd_unconst(class);
     gd.classdb_register_extension_class3(gd_library, &name, &base, &info);
     for (uint32_t i = 0; i < class->property_count; i++) {
         register_property(class, &class->properties[i]);
@@ -163,7 +163,7 @@ void gd_register(const gd_class *class) {
     for (uint32_t i = 0; i < class->method_count; i++) {
         const gd_method_row *m = &class->methods[i];
         const method_entry entry = {m->name,
-                                    (void *)(uintptr_t)m,
+                                    gd_unconst(m),
                                     gd_method_call,
                                     gd_method_ptrcall,
                                     {"", m->result, NULL},

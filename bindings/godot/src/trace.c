@@ -36,7 +36,7 @@ static knurl_result play(device *d, const void *rows, int64_t ticks) {
     if (ticks < 1 || ticks > 100000000) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "ticks: expected 1 to 1e8, found %lld", (long long)ticks);
     }
-    gd_builtin.PACKED_FLOAT64_ARRAY_size((void *)(uintptr_t)rows, NULL, &size, 0);
+    gd_builtin.PACKED_FLOAT64_ARRAY_size(gd_unconst(rows), NULL, &size, 0);
     knurl_result result = device_prepare(d);
     result = result ? result : lay(d, rows, size);
     result = result ? result : device_make_loop(d, 0.0);
