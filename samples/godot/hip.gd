@@ -2,7 +2,7 @@ extends Node3D
 ## Where the HIP is (the ball), the proxy that the surface holds back (the ring), and the force on
 ## the hand (the rod).
 
-const METRES_PER_NEWTON := 0.03
+const METRES_PER_NEWTON := 0.05
 const SHORTEST := 1e-4  # m
 
 @onready var _device: KnurlDevice = $"../KnurlDevice"
