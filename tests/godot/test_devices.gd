@@ -178,6 +178,42 @@ func stopped_by_its_own_signals() -> void:
 	clear()
 
 
+func handlers_that_free_surfaces() -> void:
+	var all := []
+	for i in 5:
+		all.append(make_surface(plate()))
+	var d := make_device("fake", "rest")
+	var ended := [0]
+	d.contact_ended.connect(func(_surface: Node) -> void:
+		ended[0] += 1
+		for s in all:
+			if is_instance_valid(s) and s.get_parent().is_inside_tree():
+				s.get_parent().free())
+	d.start()
+	check("touched", await until(func() -> bool: return d.in_contact))
+	await frames(2)
+	for s in all:
+		s.enabled = false
+	check("all are freed by the handler", await until(func() -> bool: return ended[0] > 0 and d.get_status().surfaces == 0))
+	await frames(2)
+	check("the device goes on", d.running and ended[0] == 1, ended[0])
+	clear()
+	var s := make_surface(plate())
+	var e := make_device("fake", "rest")
+	var told := []
+	e.contact_started.connect(func(_surface: Node) -> void: told.append(1))
+	e.contact_ended.connect(func(what: Node) -> void: told.append(what == s))
+	e.start()
+	check("touched again", await until(func() -> bool: return told == [1]))
+	s.enabled = false
+	check("switched off while touched: ended", await until(func() -> bool: return told == [1, true]), told)
+	s.grating.stiffness = 300.0
+	s.grating = null
+	await frames(2)
+	check("and no grating is no crash", e.running)
+	clear()
+
+
 func tests() -> void:
 	await runs_and_stops()
 	await starts_by_itself()
@@ -188,3 +224,4 @@ func tests() -> void:
 	await lets_go()
 	await leaves_with_its_scene()
 	await stopped_by_its_own_signals()
+	await handlers_that_free_surfaces()

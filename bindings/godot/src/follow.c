@@ -102,10 +102,7 @@ void follow_remove(device *d, surface *s) {
     const knurl_surface id = s->ids[d->slot];
     if (id) {
         s->ids[d->slot] = 0;
-        (void)knurl_scene_remove_surface(d->scene, id);
-        if (d->touched == id) {
-            signals_let_go(d);
-        }
+        (void)knurl_scene_remove_surface(d->scene, id); /* what that ended is told by signals.c */
     }
 }
 
@@ -144,27 +141,49 @@ static void feel(device *d, surface *s) {
     }
 }
 
-void follow_all(device *d, uint64_t tick) {
+static void tell(device *d, surface *s, uint64_t tick) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
-    for (surface *s = surfaces; s; s = s->next) {
-        if ((s->made_anew | (s->flat & s->moved)) & bit) {
-            follow_remove(d, s);
-            follow_add(d, s);
-        }
-        if (!s->ids[d->slot]) {
-            continue;
-        }
-        if ((s->changed & bit) || s->grating->changed_at > d->gratings_seen) {
-            s->changed &= others;
+    if ((s->made_anew | (s->flat & s->moved)) & bit) {
+        follow_remove(d, s);
+        follow_add(d, s);
+    }
+    if (s->ids[d->slot] && s->changed & bit) {
+        feel(d, s);
+    }
+    if (s->ids[d->slot] && s->moved & bit) {
+        move(d, s, tick);
+    }
+    s->changed &= others;
+    s->moved &= others;
+}
+
+static uint8_t running_slots(void) {
+    unsigned running = 0;
+    for (unsigned i = 0; i < DEVICE_SLOTS; i++) {
+        running |= devices[i] ? 1u << i : 0u;
+    }
+    return (uint8_t)running;
+}
+
+void follow_all(device *d, uint64_t tick) {
+    const uint8_t running = running_slots();
+    for (surface *s = d->gratings_seen < grating_changes ? surfaces : NULL; s; s = s->next) {
+        if (s->ids[d->slot] && s->grating && s->grating->changed_at > d->gratings_seen) {
             feel(d, s);
-        }
-        if (s->moved & bit) {
-            s->moved &= others;
-            move(d, s, tick);
         }
     }
     d->gratings_seen = grating_changes;
+    for (surface **at = &marked_surfaces; *at;) {
+        surface *s = *at;
+        tell(d, s, tick);
+        if ((s->moved | s->changed | s->made_anew) & running) {
+            at = &s->next_marked;
+        } else {
+            *at = s->next_marked;
+            s->is_marked = 0;
+        }
+    }
 }
 
 /* 1 where some of the surface lies where the device can go. */

@@ -37,7 +37,7 @@ void signals_let_go(device *d) {
 static void touch(device *d, knurl_surface id) {
     signals_let_go(d);
     const char *name;
-    if (id && d->loop && !knurl_scene_surface_name(d->scene, id, &name)) { /* a tick may lag behind a removal */
+    if (id && d->loop && !knurl_scene_surface_name(d->scene, id, &name)) {
         d->touched = id;
         d->touched_node = node_of(d, id);
         emit_contact(d, "contact_started", d->touched_node);
@@ -54,7 +54,10 @@ static void tell_contacts(device *d) {
         return;
     }
     board_read(d->board, &sent);
-    const knurl_surface last = now.flags & KNURL_TICK_ABSENT ? 0 : sent.surface;
+    const char *name; /* a tick may lag behind a removal */
+    const int is_there =
+        !(now.flags & KNURL_TICK_ABSENT) && sent.surface && !knurl_scene_surface_name(d->scene, sent.surface, &name);
+    const knurl_surface last = is_there ? sent.surface : 0;
     for (uint32_t i = 0; i < count && d->loop; i++) {
         int is_new = met[i] != 0 && met[i] != d->touched && met[i] != last;
         for (uint32_t j = 0; j < i; j++) {

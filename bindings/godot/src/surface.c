@@ -4,6 +4,16 @@
 #include <string.h>
 
 surface *surfaces;
+surface *marked_surfaces;
+
+/* Surfaces outside of a tree have nothing to tell. */
+void surface_mark(surface *s) {
+    if (!s->is_marked && (s->previous || surfaces == s)) {
+        s->is_marked = 1;
+        s->next_marked = marked_surfaces;
+        marked_surfaces = s;
+    }
+}
 
 static int init(void *self) {
     surface *s = self;
@@ -17,7 +27,9 @@ static void finish(void *self) {
 }
 
 static void make_anew(void *self) {
-    ((surface *)self)->made_anew = ALL_SLOTS;
+    surface *s = self;
+    s->made_anew = ALL_SLOTS;
+    surface_mark(s);
 }
 
 static void explain_again(const surface *s) {
@@ -51,6 +63,7 @@ static void set_grating(void *self, const void *value) {
     }
     s->grating = given;
     s->changed = ALL_SLOTS;
+    surface_mark(s);
     explain_again(s);
 }
 
@@ -103,16 +116,11 @@ static void enter(surface *s) {
     }
     s->previous = last;
     *(last ? &last->next : &surfaces) = s;
-    s->made_anew = ALL_SLOTS;
+    make_anew(s);
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
-static void leave(surface *s) {
-    for (int i = 0; i < DEVICE_SLOTS; i++) {
-        if (devices[i]) {
-            follow_remove(devices[i], s);
-        }
-    }
+static void unlink_surface(surface *s) {
     if (s->next) {
         s->next->previous = s->previous;
     }
@@ -120,6 +128,29 @@ static void leave(surface *s) {
         *(s->previous ? &s->previous->next : &surfaces) = s->next;
     }
     s->next = s->previous = NULL;
+    surface **at = &marked_surfaces;
+    while (s->is_marked && *at != s) {
+        at = &(*at)->next_marked;
+    }
+    if (s->is_marked) {
+        *at = s->next_marked;
+        s->is_marked = 0;
+    }
+}
+
+/* Told at once: a frame later there may be no node any more to tell of. */
+static void leave(surface *s) {
+    for (int i = 0; i < DEVICE_SLOTS; i++) {
+        if (devices[i]) {
+            follow_remove(devices[i], s);
+        }
+    }
+    unlink_surface(s);
+    for (int i = 0; i < DEVICE_SLOTS; i++) { /* last: a handler may do what it likes */
+        if (devices[i] && devices[i]->touched_node == s->base.object) {
+            signals_let_go(devices[i]);
+        }
+    }
 }
 
 static void notify(void *self, int32_t what) {
@@ -132,6 +163,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_TRANSFORM_CHANGED:
         s->moved = ALL_SLOTS;
+        surface_mark(s);
         break;
     case GD_EXIT_TREE:
         leave(s);

@@ -19,6 +19,8 @@ typedef struct surface {
     grating *grating;
     uint8_t double_sided, enabled;
     float axis[3];
+    struct surface *next_marked;
+    uint8_t is_marked;
     struct surface *next, *previous;   /* of those in a tree */
     uint8_t moved, changed, made_anew; /* masks: which running device has yet to be told */
     uint8_t flat;                      /* mask: scaled to nothing, so not in that device's scene */
@@ -54,6 +56,11 @@ extern const gd_class device_class;
 
 /* Those in a tree, in the order of entering. */
 extern surface *surfaces;
+
+/* Those of which some running device may have yet to be told something, by next_marked. Most surfaces stand still: they
+ * are not even looked at. */
+extern surface *marked_surfaces;
+void surface_mark(surface *s);
 
 /* Running devices, or null. */
 extern device *devices[DEVICE_SLOTS];
