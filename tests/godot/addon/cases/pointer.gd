@@ -29,6 +29,7 @@ func _initialize() -> void:
 		await until(surface.call.bind("is_touched"))
 		checks.equal(surface.call("is_touched"), true, "%s: pressing touches" % mesh.name)
 		checks.equal(device.get("in_contact"), true, "%s: and the device knows" % mesh.name)
+		await until(func() -> bool: return (device.get("force") as Vector3).y > 0.0)  # by a ramp
 		checks.check(
 			(device.get("force") as Vector3).y > 0.0,
 			"%s: it pushes up (%s N)" % [mesh.name, device.get("force")]
