@@ -120,7 +120,7 @@ warnings) # what a wrong tag says when the editor imports it
     new_project
     cp "$here/cases/wrong_tag.gltf" "$project/"
     play 120 "${headless[@]}" --path . --import
-    grep -F "Knurl: wrong_tag: material 'Hard' (0): knurl_stiffness: expected a number > 0 (N/m), found -1" "$log"
+    grep -F "WARNING: Knurl: wrong_tag: material 'Hard' (0): knurl_stiffness: expected a number > 0 (N/m), found -1" "$log"
     ;;
 editor) # the plugin's parts, in the editor's process
     new_project
