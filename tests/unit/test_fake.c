@@ -272,6 +272,20 @@ TEST(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again)
     knurl_device_close(device);
 }
 
+TEST(a_press_of_its_button_lasts_a_tenth_of_a_second_and_is_told_by_the_status) {
+    knurl_device *device = open_device("fake:?press_at=0.0505");
+    assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
+    for (int tick = 0; tick < 300; tick++) {
+        knurl_device_status status;
+        const uint32_t pressed = tick > 50 && tick <= 150;
+        knurl_device_status_init(&status, sizeof status);
+        assert_int_equal(read_one(device).buttons, pressed);
+        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        assert_int_equal(status.buttons, pressed);
+    }
+    knurl_device_close(device);
+}
+
 /* --- the plant behind the device --- */
 
 TEST(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness) {
@@ -324,6 +338,7 @@ int main(void) {
         cmocka_unit_test(while_halted_a_force_counts_nothing_until_it_is_released),
         cmocka_unit_test(a_halt_lets_go_of_the_motors_at_once),
         cmocka_unit_test(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again),
+        cmocka_unit_test(a_press_of_its_button_lasts_a_tenth_of_a_second_and_is_told_by_the_status),
         cmocka_unit_test(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness),
         cmocka_unit_test(positions_are_multiples_of_the_resolution),
     };

@@ -83,6 +83,43 @@ TEST(heap_memory_is_zeroed_aligned_and_counted) {
     assert_int_equal(knurl_heap_size(NULL), 0);
 }
 
+/* Whether the system grants the lock or not. */
+TEST(a_locked_heap_keeps_small_blocks_for_the_next_of_their_size_and_gives_all_back_with_the_last) {
+    static books b;
+    const knurl_allocator allocator = {book_allocate, book_release, &b};
+    knurl_heap heap;
+    void *blocks[200];
+    memset(&b, 0, sizeof b);
+    knurl_heap_init(&heap, &allocator);
+    void *last = knurl_heap_alloc(&heap, 1, 8);
+    (void)knurl_heap_lock(&heap);
+    for (int turn = 0; turn < 100; turn++) { /* as records of a surface that moves come and go */
+        char *next = knurl_heap_alloc(&heap, 1, 500);
+        assert_non_null(next);
+        assert_true(next[0] == 0 && next[499] == 0);
+        memset(next, 0x77, 500);
+        knurl_heap_free(&heap, next);
+    }
+    assert_int_equal(b.calls, 2);
+    assert_int_equal(b.bytes, heap.bytes);
+    knurl_heap_free(&heap, knurl_heap_alloc(&heap, 1, 400));
+    assert_int_equal(b.calls, 3); /* another size */
+    knurl_heap_free(&heap, knurl_heap_alloc(&heap, 1, 1000000));
+    assert_int_equal(b.count, 3); /* large ones go back at once */
+    for (size_t i = 0; i < COUNT_OF(blocks); i++) {
+        blocks[i] = knurl_heap_alloc(&heap, 1, 500);
+    }
+    for (size_t i = 0; i < COUNT_OF(blocks); i++) {
+        knurl_heap_free(&heap, blocks[i]);
+    }
+    assert_int_equal(b.count, 1 + 64); /* and so many spares */
+    assert_int_equal(b.bytes, heap.bytes);
+    knurl_heap_free(&heap, last);
+    assert_int_equal(b.count, 0);
+    assert_int_equal(b.wrong, 0);
+    assert_int_equal(heap.bytes, 0);
+}
+
 TEST(freeing_nothing_is_allowed) {
     knurl_heap heap;
     knurl_heap_init(&heap, NULL);
@@ -174,6 +211,7 @@ TEST(wherever_memory_runs_out_a_scene_says_so_and_leaks_nothing) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heap_memory_is_zeroed_aligned_and_counted),
+        cmocka_unit_test(a_locked_heap_keeps_small_blocks_for_the_next_of_their_size_and_gives_all_back_with_the_last),
         cmocka_unit_test(freeing_nothing_is_allowed),
         cmocka_unit_test(a_size_that_overflows_is_refused_before_the_allocator_sees_it),
         cmocka_unit_test(a_scene_takes_all_its_memory_from_its_allocator_and_counts_it),

@@ -88,6 +88,8 @@ typedef struct knurl_device_status {
     uint64_t events;        /**< reported so far, see knurl_device_next_event() */
     double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
     double exchange_ns_p99; /**< the same, 99th percentile */
+    uint32_t buttons;       /**< of the latest reading; bit 0: first button */
+    uint32_t reserved_too;  /**< 0 */
 } knurl_device_status;
 
 /** A caller's own device, so that one that was built at home needs no change of Knurl. All are called with `user`. */

@@ -8,6 +8,11 @@
 
 #define ALIGNMENT 64 /* a cache line */
 
+/* Locking costs a system call, some microseconds, and a surface that moves has a new record in every frame: small
+ * blocks of a locked heap are kept for the next. */
+#define SPARE_BYTES ((size_t)2048)
+#define SPARES      64u
+
 struct knurl_block {
     knurl_block *next;
     knurl_block *previous;
@@ -60,27 +65,66 @@ static void leave(const knurl_heap *heap) {
     }
 }
 
-static void link_block(knurl_heap *heap, knurl_block *block, size_t bytes) {
-    block->size = bytes;
+static knurl_block *take_spare(knurl_heap *heap, size_t bytes) {
+    for (knurl_block **at = &heap->spares; *at; at = &(*at)->next) {
+        if ((*at)->size == bytes) {
+            knurl_block *block = *at;
+            *at = block->next;
+            heap->spare_count--;
+            return block;
+        }
+    }
+    return NULL;
+}
+
+static void link_block(knurl_heap *heap, knurl_block *block) {
     block->next = heap->first;
     block->previous = NULL;
     if (heap->first) {
         heap->first->previous = block;
     }
     heap->first = block;
-    heap->bytes += bytes;
-    if (heap->locked) {
-        (void)knurl_system_lock_memory(block, bytes); /* where it is refused, the tick may wait for a page */
+}
+
+/* Of the caller's memory, when there is no spare one. */
+static knurl_block *make_block(knurl_heap *heap, size_t bytes) {
+    knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
+    if (block) {
+        block->size = bytes;
+        heap->bytes += bytes;
+        if (heap->locked) {
+            (void)knurl_system_lock_memory(block, bytes); /* where it is refused, the tick may wait for a page */
+        }
     }
+    return block;
+}
+
+static void release_block(knurl_heap *heap, knurl_block *block) {
+    heap->bytes -= block->size;
+    if (heap->locked) { /* whole pages: a neighbour that lives on in one of them is unlocked with it */
+        knurl_system_unlock_memory(block, block->size);
+    }
+    heap->allocator.release(block, block->size, heap->allocator.user);
+}
+
+/* With the last block in use, the spares go as well. */
+static void release_spares(knurl_heap *heap) {
+    while (heap->spares) {
+        knurl_block *block = heap->spares;
+        heap->spares = block->next;
+        release_block(heap, block);
+    }
+    heap->spare_count = 0;
 }
 
 void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
     const uint64_t limit = (SIZE_MAX - ALIGNMENT) / (size ? size : 1);
     const size_t bytes = count > limit ? 0 : ALIGNMENT + (size_t)count * size;
     enter(heap);
-    knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
+    knurl_block *block = take_spare(heap, bytes);
+    block = block ? block : make_block(heap, bytes);
     if (block) {
-        link_block(heap, block, bytes);
+        link_block(heap, block);
     }
     leave(heap);
     if (!block) {
@@ -106,11 +150,16 @@ void knurl_heap_free(knurl_heap *heap, void *memory) {
     if (block->next) {
         block->next->previous = block->previous;
     }
-    heap->bytes -= block->size;
-    if (heap->locked) { /* whole pages: a neighbour that lives on in one of them is unlocked with it */
-        knurl_system_unlock_memory(block, block->size);
+    if (heap->locked && block->size <= SPARE_BYTES && heap->spare_count < SPARES && heap->first) {
+        block->next = heap->spares;
+        heap->spares = block;
+        heap->spare_count++;
+    } else {
+        release_block(heap, block);
     }
-    heap->allocator.release(block, block->size, heap->allocator.user);
+    if (!heap->first) {
+        release_spares(heap);
+    }
     leave(heap);
 }
 

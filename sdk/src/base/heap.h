@@ -12,7 +12,10 @@ typedef struct knurl_block knurl_block;
 typedef struct knurl_heap {
     knurl_allocator allocator;
     knurl_block *first;
-    uint64_t bytes;    /* held now, headers included */
+    knurl_block *spares; /* locked blocks that were given back and wait for another of their size */
+    uint32_t spare_count;
+    uint32_t reserved;
+    uint64_t bytes;    /* held now, headers and spares included */
     uint64_t locked;   /* 1: locked into RAM, what comes later too; unlocked when given back */
     knurl_mutex *lock; /* null: one thread at a time. The caller's functions are called under it */
 } knurl_heap;

@@ -83,6 +83,7 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
     knurl_device_status_init(&made, sizeof made);
     made.lost = knurl_load_acquire(&device->lost);
     made.halted = knurl_device_is_halted(device);
+    made.buttons = knurl_load_relaxed(&device->buttons);
     made.events = knurl_load_acquire(&device->events.head);
     if (device->driver->get_status) {
         device->driver->get_status(device, &made);
@@ -176,6 +177,7 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
     result = result ? result : check_position(device, found.position);
     if (!result) {
         *sample = found;
+        knurl_store_relaxed(&device->buttons, found.buttons);
         return KNURL_OK;
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

@@ -63,8 +63,9 @@ struct knurl_device {
     knurl_events events;
     /* atomics */
     uint32_t halted;
-    uint32_t lost;  /* nobody but reopen() may call the driver any more */
-    uint32_t quiet; /* 1: the latest force that went out was 0, and none is on its way */
+    uint32_t lost;    /* nobody but reopen() may call the driver any more */
+    uint32_t quiet;   /* 1: the latest force that went out was 0, and none is on its way */
+    uint32_t buttons; /* of the latest reading */
 };
 
 /* s without a tick after which a device that owns the servo thread counts as lost. */

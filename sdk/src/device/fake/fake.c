@@ -141,6 +141,8 @@ static knurl_result fake_read(knurl_device *device, knurl_device_sample *sample)
     } else {
         move_hand(f, t, sample->position);
     }
+    const double pressed_for = t - f->settings.press_at;
+    sample->buttons = f->settings.press_at > 0.0 && pressed_for >= 0.0 && pressed_for < 0.1;
     f->ticks++;
     return KNURL_OK;
 }

@@ -28,7 +28,8 @@
     X(exact, 0, 0.0, 1.0, "", "1: exact motion, 0: four steps a tick where they are stable")                           \
     X(tremor, 0.00002, 0.0, 0.01, "m", "rms of the hand's 10 Hz tremor")                                               \
     X(seed, 1, 0.0, 4294967295.0, "", "of the tremor's noise, a whole number")                                         \
-    X(lose_at, 0, 0.0, 1e9, "s", "when the cable is pulled, until it is looked for; 0 for never")
+    X(lose_at, 0, 0.0, 1e9, "s", "when the cable is pulled, until it is looked for; 0 for never")                      \
+    X(press_at, 0, 0.0, 1e9, "s", "when its button is pressed for 0.1 s; 0 for never")
 
 /* Every preset: name, what it is, and the keys in which it differs from the defaults.
  *

@@ -1,0 +1,85 @@
+@tool
+extends EditorPlugin
+## Knurl in the editor: glTF tags become surfaces, devices show their workspace, surfaces their
+## warnings, and a button in the 3D view draws what will be felt.
+
+const FOLDER := "res://addons/knurl/"
+
+var _gizmo: EditorNode3DGizmoPlugin
+var _inspector: EditorInspectorPlugin
+var _button: Button
+# The scripts below name Knurl's classes, so they are loaded only where those are there.
+var _gltf: GDScript
+var _overlay: GDScript
+
+
+func _enter_tree() -> void:
+	if not ClassDB.class_exists(&"KnurlSurface"):
+		push_error(
+			"Knurl: its library is not loaded: expected one for this platform in %sbin" % FOLDER
+		)
+		return
+	_gltf = load(FOLDER + "import.gd")
+	_overlay = load(FOLDER + "overlay.gd")
+	_gltf.register()
+	_gizmo = load(FOLDER + "gizmo.gd").new()
+	add_node_3d_gizmo_plugin(_gizmo)
+	_inspector = load(FOLDER + "inspector.gd").new()
+	add_inspector_plugin(_inspector)
+	_button = Button.new()
+	_button.text = "Gratings"
+	_button.tooltip_text = "Draw the ridges of Knurl's surfaces where they will be felt."
+	_button.icon = _load_icon("KnurlGrating")
+	_button.toggle_mode = true
+	_button.flat = true
+	_button.toggled.connect(_show_gratings)
+	add_control_to_container(CONTAINER_SPATIAL_EDITOR_MENU, _button)
+	scene_changed.connect(_on_scene_changed)
+	get_tree().node_added.connect(_on_node_added)
+	EditorInterface.get_inspector().property_edited.connect(_on_property_edited)
+
+
+func _exit_tree() -> void:
+	if _gltf == null:
+		return
+	EditorInterface.get_inspector().property_edited.disconnect(_on_property_edited)
+	get_tree().node_added.disconnect(_on_node_added)
+	scene_changed.disconnect(_on_scene_changed)
+	_show_gratings(false)
+	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _button)
+	_button.queue_free()
+	remove_inspector_plugin(_inspector)
+	remove_node_3d_gizmo_plugin(_gizmo)
+	_gltf.unregister()
+
+
+## From its text: when a project is opened for the first time, plugins start before pictures are
+## imported.
+static func _load_icon(name: String) -> Texture2D:
+	var image := Image.new()
+	image.load_svg_from_string(
+		FileAccess.get_file_as_string("%sicons/%s.svg" % [FOLDER, name]),
+		EditorInterface.get_editor_scale()
+	)
+	return ImageTexture.create_from_image(image)
+
+
+func _show_gratings(shown: bool) -> void:
+	var root: Node = EditorInterface.get_edited_scene_root()
+	if root != null:
+		_overlay.set_shown(root, shown)
+
+
+func _on_scene_changed(_root: Node) -> void:
+	_show_gratings(_button.button_pressed)
+
+
+func _on_node_added(node: Node) -> void:
+	if _button.button_pressed and node.is_class("KnurlSurface"):
+		_show_gratings.call_deferred(true)
+
+
+func _on_property_edited(_property: String) -> void:
+	var edited: Object = EditorInterface.get_inspector().get_edited_object()
+	if edited != null and edited.is_class("KnurlDevice"):
+		edited.update_gizmos()

@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# Fetches the real Godot 4 with software rendering and a virtual display into DIR/root, for the tests and the demo.
+# Debian's testing packages, downloaded by an apt of their own and unpacked: nothing is installed on the host.
+# usage: fetch.sh DIR     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt).
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+[ $# -eq 1 ] || { echo "usage: fetch.sh DIR" >&2; exit 2; }
+EXIT_SETUP=3
+PACKAGES=(godot libgl1 libglx-mesa0 libgl1-mesa-dri libegl1 libegl-mesa0 xvfb xkb-data x11-xkb-utils
+    fontconfig-config fonts-dejavu-core dash coreutils)
+SUITES=(forky sid) # testing cannot be installed on some days; then the next
+STAMP="1 ${PACKAGES[*]}"
+
+mkdir -p "$1"
+dir=$(cd "$1" && pwd)
+exec 9>"$dir/lock" # two test runs at once fetch it once
+flock 9
+if [ "$(cat "$dir/root/.stamp" 2>/dev/null || true)" = "$STAMP" ]; then
+    install -m 755 "$here/xvfb-do" "$dir/root/usr/bin/xvfb-do"
+    exit 0
+fi
+
+give_up() {
+    echo "fetch: Godot cannot be fetched: $1" >&2
+    exit $EXIT_SETUP
+}
+
+for tool in apt-get dpkg-deb tar; do
+    command -v $tool >/dev/null || give_up "there is no $tool"
+done
+
+# The mirror and the key that this host trusts already, in either of apt's notations.
+find_mirror() {
+    local sources=/etc/apt/sources.list.d/debian.sources
+    mirror=''
+    keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+    if [ -r $sources ]; then
+        mirror=$(sed -n 's/^URIs:[[:space:]]*\([^[:space:]]*\).*/\1/p' $sources | grep -v -e '-security' | head -n 1 || true)
+        local key
+        key=$(sed -n 's/^Signed-By:[[:space:]]*\(\/.*\)/\1/p' $sources | head -n 1)
+        keyring=${key:-$keyring}
+    elif [ -r /etc/apt/sources.list ]; then
+        mirror=$(sed -n 's/^deb \(\[[^]]*\] \)\?\([^ ]*debian[^ ]*\) .*/\2/p' /etc/apt/sources.list |
+            grep -v -e security -e updates | head -n 1 || true)
+    fi
+    mirror=${mirror:-http://deb.debian.org/debian}
+    [ -r "$keyring" ] || give_up "Debian's keys are not here ($keyring; package debian-archive-keyring)"
+}
+
+# An apt that knows of nothing installed, so that it downloads the whole closure, the C library included. Testing's
+# Release file is often older than it promises to be; its signature is checked all the same.
+apt_apart() {
+    local apt=$dir/apt
+    apt-get -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$apt/sources" \
+        -o Dir::Etc::preferences=/dev/null -o Dir::Etc::preferencesparts="$apt/preferences" \
+        -o Dir::State="$apt/state" -o Dir::State::status="$apt/status" \
+        -o Dir::Cache="$apt/cache" -o Dir::Log="$apt/log" -o APT::Sandbox::User=root \
+        -o APT::Install-Recommends=0 -o Acquire::Languages=none -o Acquire::Check-Valid-Until=false \
+        -o Acquire::Retries=3 -o Acquire::http::Timeout=20 \
+        -o Acquire::IndexTargets::deb::DEP-11::DefaultEnabled=false -o APT::Update::Error-Mode=any "$@"
+}
+
+download() {
+    local suite=$1 apt=$dir/apt
+    rm -rf "$apt"
+    mkdir -p "$apt"/{sources,preferences,log,state/lists/partial,cache/archives/partial}
+    : >"$apt/status"
+    printf 'Types: deb\nURIs: %s\nSuites: %s\nComponents: main\nSigned-By: %s\n' "$mirror" "$suite" "$keyring" \
+        >"$apt/sources/debian.sources"
+    apt_apart -qq update && apt_apart -qq -y --download-only install "${PACKAGES[@]}"
+}
+
+unpack() {
+    local root=$1 link deb
+    rm -rf "$root"
+    mkdir -p "$root"/usr/{bin,sbin,lib,lib64} "$root"/{proc,dev,sys,tmp,run,root,etc/ssl/certs}
+    for link in bin sbin lib lib64; do
+        ln -s usr/$link "$root/$link"
+    done
+    for deb in "$dir"/apt/cache/archives/*.deb; do
+        dpkg-deb --fsys-tarfile "$deb" | tar -C "$root" -x --keep-directory-symlink \
+            --exclude='./usr/share/doc/*' --exclude='./usr/share/locale/*' --exclude='./usr/share/man/*' \
+            --exclude='./usr/share/icons/*'
+    done
+    # What the packages' own scripts would have left, had they run.
+    printf 'root:x:0:0:root:/root:/bin/sh\n' >"$root/etc/passwd"
+    printf 'root:x:0:\n' >"$root/etc/group"
+    ln -sf dash "$root/usr/bin/sh"
+    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # else Godot prints an error
+    install -m 755 "$here/xvfb-do" "$root/usr/bin/xvfb-do"
+}
+
+find_mirror
+echo "fetch: downloading Godot and software rendering (160 MB) from $mirror"
+log=$dir/fetch.log
+fetched=''
+for suite in "${SUITES[@]}"; do
+    if download "$suite" >"$log" 2>&1; then
+        fetched=$suite
+        break
+    fi
+done
+if [ -z "$fetched" ]; then
+    grep '^[EW]:' "$log" | head -n 3 >&2 || true
+    give_up "$mirror could not be read (is there a network?); all of it is in $log"
+fi
+new=$dir/root.new
+unpack "$new"
+rm -rf "$dir/apt"
+rm -rf "$dir/root"
+mv "$new" "$dir/root"
+version=$("$here/run.sh" "$dir" godot --headless --version | tail -n 1) || give_up 'what was unpacked does not run'
+case $version in
+4.*) echo "$STAMP" >"$dir/root/.stamp" ;;
+*) give_up "expected a Godot 4, found '$version'" ;;
+esac
+echo "fetch: Godot $version from Debian $fetched in $dir"

@@ -1,0 +1,91 @@
+/* From the haptic thread to the game thread. SPDX-License-Identifier: MIT */
+#include "board.h"
+
+#include <string.h>
+
+static void publish(board *b, const board_tick *tick) {
+    const uint64_t sequence = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
+    uint64_t words[BOARD_WORDS];
+    memcpy(words, tick, sizeof words);
+    __atomic_store_n(&b->sequence, sequence + 1, __ATOMIC_RELAXED);
+    for (int i = 0; i < BOARD_WORDS; i++) {
+        __atomic_store_n(&b->words[i], words[i], __ATOMIC_RELEASE);
+    }
+    __atomic_store_n(&b->sequence, sequence + 2, __ATOMIC_RELEASE);
+}
+
+void board_take(const knurl_tick_output *output, void *user) {
+    board *b = user;
+    board_tick tick;
+    memcpy(tick.hip, output->hip, sizeof tick.hip);
+    memcpy(tick.proxy, output->proxy, sizeof tick.proxy);
+    memcpy(tick.force, output->force, sizeof tick.force);
+    tick.height = output->height;
+    tick.temporal_frequency = output->temporal_frequency;
+    tick.surface = output->surface;
+    tick.tick = output->tick + 1;
+    publish(b, &tick);
+    float row[2] = {(float)output->height, 0.0F};
+    for (int i = 0; i < 3; i++) {
+        row[1] += (float)(output->force[i] * output->normal[i]);
+    }
+    uint64_t packed;
+    memcpy(&packed, row, sizeof packed);
+    const uint64_t written = __atomic_load_n(&b->written, __ATOMIC_RELAXED);
+    __atomic_store_n(&b->history[written % BOARD_TICKS], packed, __ATOMIC_RELEASE);
+    __atomic_store_n(&b->written, written + 1, __ATOMIC_RELEASE);
+    if (output->surface != b->last) {
+        const uint64_t changes = __atomic_load_n(&b->changes, __ATOMIC_RELAXED);
+        b->last = output->surface;
+        __atomic_store_n(&b->changed[changes % BOARD_CHANGES], output->surface, __ATOMIC_RELEASE);
+        __atomic_store_n(&b->changes, changes + 1, __ATOMIC_RELEASE);
+    }
+    if (b->force_count < b->force_capacity) {
+        memcpy(b->forces + 3 * b->force_count++, output->force, 3 * sizeof *b->forces);
+    }
+}
+
+void board_read(const board *b, board_tick *tick) {
+    uint64_t words[BOARD_WORDS];
+    uint64_t before;
+    uint64_t after;
+    do { /* the writer is inside for some ten nanoseconds a tick */
+        before = __atomic_load_n(&b->sequence, __ATOMIC_ACQUIRE);
+        for (int i = 0; i < BOARD_WORDS; i++) {
+            words[i] = __atomic_load_n(&b->words[i], __ATOMIC_ACQUIRE);
+        }
+        after = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
+    } while (before != after || before % 2 != 0);
+    memcpy(tick, words, sizeof words);
+}
+
+/* What was overwritten while it was copied is left out. */
+uint32_t board_history(const board *b, uint32_t count, float *rows) {
+    const uint64_t end = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE);
+    uint64_t begin = end > count ? end - count : 0;
+    begin = end - begin > BOARD_TICKS ? end - BOARD_TICKS : begin;
+    for (uint64_t i = begin; i < end; i++) {
+        const uint64_t packed = __atomic_load_n(&b->history[i % BOARD_TICKS], __ATOMIC_ACQUIRE);
+        memcpy(rows + 2 * (i - begin), &packed, sizeof packed);
+    }
+    /* the row that is being written now may be torn off the oldest: one more is given up */
+    const uint64_t now = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE) + 1;
+    const uint64_t oldest = now > BOARD_TICKS ? now - BOARD_TICKS : 0;
+    if (oldest > begin) {
+        const uint64_t lost = oldest - begin < end - begin ? oldest - begin : end - begin;
+        memmove(rows, rows + 2 * lost, 2 * (size_t)(end - begin - lost) * sizeof *rows);
+        begin += lost;
+    }
+    return (uint32_t)(end - begin);
+}
+
+uint32_t board_changes(board *b, knurl_surface *surfaces) {
+    const uint64_t end = __atomic_load_n(&b->changes, __ATOMIC_ACQUIRE);
+    uint64_t begin = b->seen;
+    b->seen = end;
+    begin = end - begin > BOARD_CHANGES ? end - BOARD_CHANGES : begin;
+    for (uint64_t i = begin; i < end; i++) {
+        surfaces[i - begin] = __atomic_load_n(&b->changed[i % BOARD_CHANGES], __ATOMIC_ACQUIRE);
+    }
+    return (uint32_t)(end - begin);
+}

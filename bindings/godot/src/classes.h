@@ -1,0 +1,80 @@
+/* Classes as tables: properties, methods and signals in rows, registered and served by one piece of code.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_GODOT_CLASSES_H
+#define KNURL_GODOT_CLASSES_H
+
+#include "api.h"
+
+typedef struct gd_class gd_class;
+
+/* First member of every instance's own struct. */
+typedef struct gd_instance {
+    const gd_class *of;
+    GDExtensionObjectPtr object;
+} gd_instance;
+
+/* Values travel as the engine's own call convention has them: a pointer to a bool, int64, double, float[2] or [3],
+ * String, object pointer, packed array; a result is initialised. */
+typedef void (*gd_function)(void *self, const void *const *arguments, void *result);
+
+typedef struct gd_argument {
+    const char *name;
+    GDExtensionVariantType type;
+    const char *class_name; /* of an object; or null */
+} gd_argument;
+
+/* A property is kept at `offset` in the instance (a String as malloc'ed UTF-8), unless it has a `get`. Without `get`
+ * it can be set; with both, `set` says how. Numbers have to be finite and, where `most` is above `least`, within: above
+ * `most` only with or_greater in `hints`. */
+typedef struct gd_property {
+    const char *name;
+    GDExtensionVariantType type;
+    size_t offset;
+    double least, most, step;
+    const char *hints; /* what follows the range in the hint; the whole hint of what has no range; or null */
+    uint32_t hint;     /* PROPERTY_HINT_ of what has no range */
+    void (*get)(void *self, void *value);
+    void (*set)(void *self, const void *value);
+    void (*changed)(void *self); /* or null */
+} gd_property;
+
+typedef struct gd_method_row {
+    const char *name;
+    GDExtensionVariantType result; /* NIL: none */
+    gd_function call;
+    uint32_t argument_count;
+    gd_argument arguments[2];
+} gd_method_row;
+
+typedef struct gd_signal_row {
+    const char *name;
+    uint32_t argument_count;
+    gd_argument arguments[2];
+} gd_signal_row;
+
+struct gd_class {
+    const char *name, *base;
+    size_t size;             /* of an instance, which is zeroed before init() */
+    int (*init)(void *self); /* 0: no memory */
+    void (*finish)(void *self);
+    void (*notify)(void *self, int32_t what); /* or null */
+    gd_function warnings;                     /* _get_configuration_warnings(), or null */
+    const gd_property *properties;
+    uint32_t property_count;
+    const gd_method_row *methods;
+    uint32_t method_count;
+    const gd_signal_row *signals;
+    uint32_t signal_count;
+};
+
+enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_RESOURCE_TYPE = 17 };
+
+enum { GD_PREDELETE = 1, GD_ENTER_TREE = 10, GD_EXIT_TREE = 11, GD_INTERNAL_PROCESS = 25, GD_TRANSFORM_CHANGED = 2000 };
+
+void gd_register(const gd_class *class);
+void gd_unregister(const gd_class *class);
+
+/* The instance of that class behind an object, or null. */
+void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class);
+
+#endif

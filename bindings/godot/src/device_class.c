@@ -1,0 +1,281 @@
+/* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
+#include "world.h"
+
+#include <knurl/gltf.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static char *copy(const char *text) {
+    char *made = malloc(strlen(text) + 1);
+    if (made) {
+        memcpy(made, text, strlen(text) + 1);
+    }
+    return made;
+}
+
+static int init(void *self) {
+    device *d = self;
+    d->uri = copy("fake");
+    d->stroke = copy("");
+    d->rate = 1000.0;
+    d->workspace_scale = 1.0;
+    d->autostart = d->reconnect = d->clamp = 1;
+    d->slot = -1;
+    return d->uri && d->stroke;
+}
+
+static void finish(void *self) {
+    device *d = self;
+    d->has_files = 0;
+    device_release(d);
+    free(d->uri);
+    free(d->stroke);
+}
+
+static void set_processing(device *d, uint8_t on) {
+    gd_call(gd_method.Node_set_process_internal, d->base.object, &on, NULL);
+}
+
+static void notify(void *self, int32_t what) {
+    device *d = self;
+    switch (what) {
+    case GD_ENTER_TREE:
+        if (!gd_is_in_editor()) {
+            d->wants_start = d->autostart; /* in the first frame, when all of the scene is there */
+            set_processing(d, 1);
+        }
+        break;
+    case GD_EXIT_TREE:
+        device_stop(d);
+        break;
+    case GD_INTERNAL_PROCESS:
+        device_process(d);
+        break;
+    default:
+        break;
+    }
+}
+
+/* The latest tick as it was sent; 0 where there is none. A device without a position plays nothing. */
+static int look(const device *d, board_tick *sent) {
+    knurl_tick_output now;
+    if (!d->loop) {
+        return 0;
+    }
+    board_read(d->board, sent);
+    if (sent->tick > 0 && !knurl_scene_get_tick(d->scene, 0, &now, NULL) && now.flags & KNURL_TICK_ABSENT) {
+        memset(sent->force, 0, sizeof sent->force);
+        memcpy(sent->proxy, sent->hip, sizeof sent->proxy);
+        sent->height = sent->temporal_frequency = 0.0;
+        sent->surface = 0;
+    }
+    return sent->tick > 0;
+}
+
+static void give_vector(const double *from, void *to) {
+    const float vector[3] = {(float)from[0], (float)from[1], (float)from[2]};
+    memcpy(to, vector, sizeof vector);
+}
+
+/* Before the first tick, the HIP stands where the workspace does. */
+static void get_hip_position(void *self, void *value) {
+    const device *d = self;
+    board_tick sent;
+    give_vector(look(d, &sent) ? sent.hip : d->workspace.origin, value);
+}
+
+static void get_proxy_position(void *self, void *value) {
+    const device *d = self;
+    board_tick sent;
+    give_vector(look(d, &sent) ? sent.proxy : d->workspace.origin, value);
+}
+
+static void get_force(void *self, void *value) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    board_tick sent;
+    give_vector(look(self, &sent) ? sent.force : none, value);
+}
+
+static void get_running(void *self, void *value) {
+    *(uint8_t *)value = ((const device *)self)->loop != NULL;
+}
+
+static void get_in_contact(void *self, void *value) {
+    board_tick sent;
+    *(uint8_t *)value = look(self, &sent) && sent.surface != 0;
+}
+
+static void get_temporal_frequency(void *self, void *value) {
+    board_tick sent;
+    *(double *)value = look(self, &sent) ? sent.temporal_frequency : 0.0;
+}
+
+static void get_height(void *self, void *value) {
+    board_tick sent;
+    *(double *)value = look(self, &sent) ? sent.height : 0.0;
+}
+
+static void get_device_name(void *self, void *value) {
+    const device *d = self;
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    if (d->device) {
+        (void)knurl_device_get_info(d->device, &info);
+    }
+    gd_string_set(value, info.name);
+}
+
+static void get_ticks(void *self, void *value) {
+    const device *d = self;
+    *(int64_t *)value = d->board ? (int64_t)__atomic_load_n(&d->board->written, __ATOMIC_ACQUIRE) : 0;
+}
+
+static void get_overruns(void *self, void *value) {
+    const device *d = self;
+    knurl_loop_stats stats;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    if (d->loop) {
+        (void)knurl_loop_get_stats(d->loop, &stats);
+    }
+    *(int64_t *)value = (int64_t)stats.overruns;
+}
+
+static void start(void *self, const void *const *arguments, void *result) {
+    (void)arguments;
+    *(int64_t *)result = device_start(self);
+}
+
+static void stop(void *self, const void *const *arguments, void *result) {
+    (void)arguments;
+    (void)result;
+    device_stop(self);
+}
+
+static void move_hip(void *self, const void *const *arguments, void *result) {
+    device *d = self;
+    const float *given = arguments[0];
+    const double global[3] = {(double)given[0], (double)given[1], (double)given[2]};
+    double position[3];
+    (void)result;
+    if (d->loop && d->mouse) {
+        knurl_workspace_to_device(&d->workspace, global, position);
+        mouse_move(d->mouse, position);
+    }
+}
+
+static void get_history(void *self, const void *const *arguments, void *result) {
+    const device *d = self;
+    int64_t count;
+    int64_t ignored = 0;
+    memcpy(&count, arguments[0], sizeof count);
+    count = count < 0 || !d->board ? 0 : count > BOARD_TICKS ? BOARD_TICKS : count;
+    int64_t size = 2 * count;
+    const void *given[1] = {&size};
+    gd_builtin.PACKED_FLOAT32_ARRAY_resize(result, given, &ignored, 1);
+    if (count > 0) {
+        size = 2 * (int64_t)board_history(d->board, (uint32_t)count, gd.packed_float32_array_operator_index(result, 0));
+        gd_builtin.PACKED_FLOAT32_ARRAY_resize(result, given, &ignored, 1);
+    }
+}
+
+/* A path on the disk of one in the project; to be freed, or null. */
+static char *globalise(const void *path) {
+    gd_name name = gd_name_new("ProjectSettings");
+    gd_string global;
+    gd.string_new_with_utf8_chars(&global, "");
+    gd_call(gd_method.ProjectSettings_globalize_path, gd.global_get_singleton(&name), path, &global);
+    char *text = gd_string_copy(&global);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&global);
+    gd_name_end(&name);
+    return text;
+}
+
+static void load_gltf(void *self, const void *const *arguments, void *result) {
+    device *d = self;
+    knurl_gltf_report report;
+    int64_t count = -1;
+    char *path = globalise(arguments[0]);
+    knurl_gltf_report_init(&report, sizeof report);
+    knurl_result failed = path ? device_open_scene(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
+    failed = failed ? failed : knurl_gltf_load_file(d->scene, path, &report);
+    if (failed) {
+        (void)device_fail("KnurlDevice.load_gltf", failed);
+        if (!d->loop && !d->has_files) {
+            knurl_scene_destroy(d->scene);
+            d->scene = NULL;
+        }
+    } else {
+        d->has_files = 1;
+        count = (int64_t)report.surfaces;
+    }
+    free(path);
+    memcpy(result, &count, sizeof count);
+}
+
+#define FLOAT   GDEXTENSION_VARIANT_TYPE_FLOAT
+#define INT     GDEXTENSION_VARIANT_TYPE_INT
+#define BOOL    GDEXTENSION_VARIANT_TYPE_BOOL
+#define STRING  GDEXTENSION_VARIANT_TYPE_STRING
+#define VECTOR3 GDEXTENSION_VARIANT_TYPE_VECTOR3
+#define OBJECT  GDEXTENSION_VARIANT_TYPE_OBJECT
+#define NOTHING GDEXTENSION_VARIANT_TYPE_NIL
+#define FLOATS  GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY
+#define DOUBLES GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT64_ARRAY
+
+static const gd_property properties[] = {
+    {.name = "device", .type = STRING, .offset = offsetof(device, uri)},
+    {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, NULL},
+    {"workspace_scale", FLOAT, offsetof(device, workspace_scale), 0.001, 100.0, 0.001, "or_greater,exp", 0, NULL, NULL,
+     NULL},
+    {.name = "autostart", .type = BOOL, .offset = offsetof(device, autostart)},
+    {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},
+    {.name = "clamp", .type = BOOL, .offset = offsetof(device, clamp)},
+    {.name = "stroke",
+     .type = STRING,
+     .offset = offsetof(device, stroke),
+     .hint = GD_HINT_ENUM,
+     .hints = ",line,sweep,circle,press,rest"},
+    {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},
+    {.name = "proxy_position", .type = VECTOR3, .get = get_proxy_position},
+    {.name = "force", .type = VECTOR3, .get = get_force},
+    {.name = "running", .type = BOOL, .get = get_running},
+    {.name = "in_contact", .type = BOOL, .get = get_in_contact},
+    {.name = "temporal_frequency", .type = FLOAT, .get = get_temporal_frequency},
+    {.name = "height", .type = FLOAT, .get = get_height},
+    {.name = "device_name", .type = STRING, .get = get_device_name},
+    {.name = "ticks", .type = INT, .get = get_ticks},
+    {.name = "overruns", .type = INT, .get = get_overruns},
+};
+
+static const gd_method_row methods[] = {
+    {"start", INT, start, 0, {{NULL}}},
+    {"stop", NOTHING, stop, 0, {{NULL}}},
+    {"move_hip", NOTHING, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
+    {"get_history", FLOATS, get_history, 1, {{"count", INT, NULL}}},
+    {"load_gltf", INT, load_gltf, 1, {{"path", STRING, NULL}}},
+    {"play_trace", DOUBLES, trace_play, 2, {{"rows", DOUBLES, NULL}, {"ticks", INT, NULL}}},
+    {"get_status", GDEXTENSION_VARIANT_TYPE_DICTIONARY, status_tell, 0, {{NULL}}},
+};
+
+static const gd_signal_row signals[] = {
+    {"contact_started", 1, {{"surface", OBJECT, "KnurlSurface"}}},
+    {"contact_ended", 1, {{"surface", OBJECT, "KnurlSurface"}}},
+    {"button_changed", 2, {{"index", INT, NULL}, {"pressed", BOOL, NULL}}},
+    {"fault", 2, {{"code", INT, NULL}, {"text", STRING, NULL}}},
+};
+
+const gd_class device_class = {
+    .name = "KnurlDevice",
+    .base = "Node3D",
+    .size = sizeof(device),
+    .init = init,
+    .finish = finish,
+    .notify = notify,
+    .properties = properties,
+    .property_count = sizeof properties / sizeof *properties,
+    .methods = methods,
+    .method_count = sizeof methods / sizeof *methods,
+    .signals = signals,
+    .signal_count = sizeof signals / sizeof *signals,
+};

@@ -1,0 +1,110 @@
+/* The device "mouse". SPDX-License-Identifier: MIT */
+#include "mouse.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* s: how far a steady motion lags behind. A critically damped filter of 2/LAG rad/s leaves 9 % (peak, by its transfer
+ * function) of ripple in the velocity of steps that come at 60 Hz: less than what a finger can tell. */
+#define LAG    0.025
+#define OMEGA  (2.0 / LAG)
+#define SPEED  5.0 /* m/s: a leap becomes a move at this speed; devices' positions are believed up to 10 m/s */
+#define BOUNDS 1e3 /* m: it has no workspace */
+
+static void get_info(void *user, knurl_device_info *info) {
+    (void)user;
+    (void)snprintf(info->name, sizeof info->name, "mouse (moved by the game)");
+    for (int axis = 0; axis < 3; axis++) {
+        info->workspace_min[axis] = -BOUNDS;
+        info->workspace_max[axis] = BOUNDS;
+    }
+    info->max_force = 3.3; /* a Touch's: what is shown is what could be felt */
+}
+
+static knurl_result start(void *user, double update_rate_hz) {
+    mouse *m = user;
+    m->period = 1.0 / update_rate_hz;
+    m->decay = exp(-OMEGA * m->period);
+    m->is_there = 0;
+    return KNURL_OK;
+}
+
+/* The latest target: 1, or 0 where there is none, or none to be had in this tick (the game is just writing it). */
+static int look(const mouse *m, double target[3]) {
+    const uint64_t before = __atomic_load_n(&m->sequence, __ATOMIC_ACQUIRE);
+    for (int i = 0; i < 3; i++) {
+        __atomic_load(&m->target[i], &target[i], __ATOMIC_ACQUIRE);
+    }
+    return before != 0 && before % 2 == 0 && __atomic_load_n(&m->sequence, __ATOMIC_RELAXED) == before;
+}
+
+/* Exact for a target that stands still over the tick. */
+static void follow(mouse *m, const double target[3]) {
+    double step[3];
+    double length = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double error = m->position[i] - target[i];
+        const double pull = (m->velocity[i] + OMEGA * error) * m->period;
+        step[i] = target[i] + (error + pull) * m->decay - m->position[i];
+        m->velocity[i] = (m->velocity[i] - OMEGA * pull) * m->decay;
+        length += step[i] * step[i];
+    }
+    length = sqrt(length);
+    const double most = SPEED * m->period;
+    const double share = length > most ? most / length : 1.0;
+    for (int i = 0; i < 3; i++) {
+        m->position[i] += share * step[i];
+        m->velocity[i] = share < 1.0 ? share * step[i] / m->period : m->velocity[i];
+    }
+}
+
+static knurl_result read(void *user, knurl_device_sample *sample) {
+    mouse *m = user;
+    double target[3];
+    const int is_fresh = look(m, target);
+    if (!m->is_there) {
+        if (!is_fresh) {
+            return KNURL_ERROR_DEVICE_NOT_READY;
+        }
+        memcpy(m->position, target, sizeof target);
+        memset(m->velocity, 0, sizeof m->velocity);
+        m->is_there = 1;
+    } else if (is_fresh) {
+        follow(m, target);
+    } else {
+        for (int i = 0; i < 3; i++) {
+            m->position[i] += m->velocity[i] * m->period;
+        }
+    }
+    memset(sample, 0, sizeof *sample);
+    memcpy(sample->position, m->position, sizeof sample->position);
+    return KNURL_OK;
+}
+
+static knurl_result write(void *user, const double force[3]) {
+    (void)user;
+    (void)force;
+    return KNURL_OK;
+}
+
+knurl_result mouse_open(mouse *m, knurl_device **device) {
+    knurl_device_functions functions;
+    knurl_device_functions_init(&functions, sizeof functions);
+    functions.user = m;
+    functions.get_info = get_info;
+    functions.start = start;
+    functions.read = read;
+    functions.write = write;
+    return knurl_device_open_functions(&functions, device);
+}
+
+void mouse_move(mouse *m, const double position[3]) {
+    const uint64_t sequence = __atomic_load_n(&m->sequence, __ATOMIC_RELAXED);
+    __atomic_store_n(&m->sequence, sequence + 1, __ATOMIC_RELAXED);
+    for (int i = 0; i < 3; i++) {
+        double copy = position[i];
+        __atomic_store(&m->target[i], &copy, __ATOMIC_RELEASE);
+    }
+    __atomic_store_n(&m->sequence, sequence + 2, __ATOMIC_RELEASE);
+}

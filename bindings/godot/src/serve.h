@@ -1,0 +1,32 @@
+/* Between classes.c, which serves instances, and register.c, which tells the engine of them.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_GODOT_SERVE_H
+#define KNURL_GODOT_SERVE_H
+
+#include "classes.h"
+
+/* What the engine calls of an instance; class_userdata is the gd_class. */
+GDExtensionObjectPtr gd_create(void *class_userdata);
+void gd_free(void *class_userdata, GDExtensionClassInstancePtr instance);
+void gd_notify(GDExtensionClassInstancePtr instance, int32_t what, GDExtensionBool reversed);
+GDExtensionClassCallVirtual gd_find_virtual(void *class_userdata, GDExtensionConstStringNamePtr name);
+
+void gd_property_get(void *self, const gd_property *property, void *result);
+void gd_property_set(void *self, const gd_property *property, const void *value);
+
+/* What the engine calls of a method, by Variants and by pointers; `row` is a gd_method_row or a gd_property. */
+#define GD_CALL(name)                                                                                                  \
+    void name(void *row, GDExtensionClassInstancePtr self, const GDExtensionConstVariantPtr *arguments,                \
+              GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError *error)
+#define GD_PTRCALL(name)                                                                                               \
+    void name(void *row, GDExtensionClassInstancePtr self, const GDExtensionConstTypePtr *arguments,                   \
+              GDExtensionTypePtr result)
+
+GD_CALL(gd_method_call);
+GD_CALL(gd_getter_call);
+GD_CALL(gd_setter_call);
+GD_PTRCALL(gd_method_ptrcall);
+GD_PTRCALL(gd_getter_ptrcall);
+GD_PTRCALL(gd_setter_ptrcall);
+
+#endif

@@ -1,0 +1,80 @@
+/* KnurlDevice.get_status(): everything that counts, in one Dictionary. SPDX-License-Identifier: MIT */
+#include "world.h"
+
+#include <string.h>
+
+static void number(void *dictionary, const char *key, double value) {
+    gd_dictionary_set(dictionary, key, GDEXTENSION_VARIANT_TYPE_FLOAT, &value);
+}
+
+static void whole(void *dictionary, const char *key, uint64_t value) {
+    const int64_t copy = (int64_t)value;
+    gd_dictionary_set(dictionary, key, GDEXTENSION_VARIANT_TYPE_INT, &copy);
+}
+
+static void truth(void *dictionary, const char *key, int value) {
+    const uint8_t copy = value != 0;
+    gd_dictionary_set(dictionary, key, GDEXTENSION_VARIANT_TYPE_BOOL, &copy);
+}
+
+static void tell_loop(const knurl_loop_stats *stats, void *to) {
+    whole(to, "ticks", stats->ticks);
+    whole(to, "overruns", stats->overruns);
+    whole(to, "watchdogs", stats->watchdogs);
+    whole(to, "absences", stats->absences);
+    truth(to, "absent", stats->absent != 0);
+    truth(to, "realtime", stats->realtime != 0);
+    truth(to, "memory_locked", stats->memory_locked != 0);
+    number(to, "tick_us_p50", 1e-3 * stats->tick_ns.p50);
+    number(to, "tick_us_p99", 1e-3 * stats->tick_ns.p99);
+    number(to, "tick_us_max", 1e-3 * stats->tick_ns.max);
+    number(to, "jitter_us_p50", 1e-3 * stats->jitter_ns.p50);
+    number(to, "jitter_us_p99", 1e-3 * stats->jitter_ns.p99);
+    number(to, "jitter_us_max", 1e-3 * stats->jitter_ns.max);
+}
+
+static void tell_device(const knurl_device *opened, void *to) {
+    knurl_device_info info;
+    knurl_device_status status;
+    knurl_device_info_init(&info, sizeof info);
+    knurl_device_status_init(&status, sizeof status);
+    (void)knurl_device_get_info(opened, &info);
+    (void)knurl_device_get_status(opened, &status);
+    number(to, "max_force", info.max_force);
+    truth(to, "lost", status.lost != 0);
+    truth(to, "halted", status.halted != 0);
+    whole(to, "faults", status.events);
+}
+
+static void tell_hip(const knurl_scene *scene, void *to) {
+    knurl_hip_counts counts;
+    memset(&counts, 0, sizeof counts);
+    (void)knurl_scene_get_tick(scene, 0, NULL, &counts);
+    whole(to, "contact_ticks", counts.contact_ticks);
+    whole(to, "events", counts.events);
+    whole(to, "force_limits", counts.force_limits);
+    whole(to, "frequency_saturations", counts.frequency_saturations);
+    whole(to, "not_finite", counts.not_finite);
+    whole(to, "entries", counts.entries);
+    whole(to, "slews", counts.slews);
+    whole(to, "heats", counts.heats);
+    whole(to, "passivities", counts.passivities);
+    number(to, "force_max", counts.force_max);
+    number(to, "heat", counts.heat);
+    whole(to, "surfaces", knurl_scene_surface_count(scene));
+    whole(to, "scene_bytes", knurl_scene_bytes(scene));
+}
+
+void status_tell(void *self, const void *const *arguments, void *result) {
+    const device *d = self;
+    knurl_loop_stats stats;
+    (void)arguments;
+    truth(result, "running", d->loop != NULL);
+    if (d->loop) {
+        knurl_loop_stats_init(&stats, sizeof stats);
+        (void)knurl_loop_get_stats(d->loop, &stats);
+        tell_loop(&stats, result);
+        tell_device(d->device, result);
+        tell_hip(d->scene, result);
+    }
+}

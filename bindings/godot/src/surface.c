@@ -1,0 +1,212 @@
+/* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
+#include "world.h"
+
+#include <string.h>
+
+surface *surfaces;
+surface *marked_surfaces;
+
+/* Surfaces outside of a tree have nothing to tell. */
+void surface_mark(surface *s) {
+    if (!s->is_marked && (s->previous || surfaces == s)) {
+        s->is_marked = 1;
+        s->next_marked = marked_surfaces;
+        marked_surfaces = s;
+    }
+}
+
+static int init(void *self) {
+    surface *s = self;
+    s->enabled = 1;
+    gd.variant_new_nil(&s->held);
+    return 1;
+}
+
+static void finish(void *self) {
+    gd.variant_destroy(&((surface *)self)->held);
+}
+
+static void make_anew(void *self) {
+    surface *s = self;
+    s->made_anew = ALL_SLOTS;
+    surface_mark(s);
+}
+
+static void explain_again(const surface *s) {
+    gd_call(gd_method.Node_update_configuration_warnings, s->base.object, NULL, NULL);
+}
+
+static void get_grating(void *self, void *result) {
+    const surface *s = self;
+    if (s->grating) {
+        gd.ref_set_object(result, s->grating->base.object);
+    }
+}
+
+static void set_grating(void *self, const void *value) {
+    surface *s = self;
+    GDExtensionObjectPtr object;
+    memcpy(&object, value, sizeof object);
+    grating *given = gd_instance_of(object, &grating_class);
+    if (object && !given) {
+        gd_error("KnurlSurface", "KnurlSurface.grating: expected a KnurlGrating, found another object");
+        return;
+    }
+    gd.variant_destroy(&s->held);
+    if (object) {
+        s->held = gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &object);
+    } else {
+        gd.variant_new_nil(&s->held);
+    }
+    if (!s->grating != !given) {
+        s->made_anew = ALL_SLOTS;
+    }
+    s->grating = given;
+    s->changed = ALL_SLOTS;
+    surface_mark(s);
+    explain_again(s);
+}
+
+/* For the first device that feels it. */
+static void get_triangle_count(void *self, const void *const *arguments, void *result) {
+    const surface *s = self;
+    int64_t count = 0;
+    knurl_surface_info info;
+    (void)arguments;
+    knurl_surface_info_init(&info, sizeof info);
+    for (int i = 0; i < DEVICE_SLOTS && count == 0; i++) {
+        if (devices[i] && s->ids[i] && !knurl_scene_surface_info(devices[i]->scene, s->ids[i], &info)) {
+            count = (int64_t)info.triangle_count;
+        }
+    }
+    memcpy(result, &count, sizeof count);
+}
+
+static void get_warnings(void *self, const void *const *arguments, void *result) {
+    static char text[8192];
+    (void)arguments;
+    follow_explain(self, text, sizeof text);
+    for (char *line = text, *end; *line; line = end) {
+        gd_string string;
+        int64_t failed = 0;
+        const void *given[1] = {&string};
+        end = line + strcspn(line, "\n");
+        end += *end == '\n' ? (*end = '\0', 1) : 0;
+        gd.string_new_with_utf8_chars(&string, line);
+        gd_builtin.PACKED_STRING_ARRAY_append(result, given, &failed, 1);
+        gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
+    }
+}
+
+static void is_touched(void *self, const void *const *arguments, void *result) {
+    const surface *s = self;
+    uint8_t touched = 0;
+    (void)arguments;
+    for (int i = 0; i < DEVICE_SLOTS; i++) {
+        touched |= devices[i] && s->ids[i] && devices[i]->touched == s->ids[i];
+    }
+    memcpy(result, &touched, sizeof touched);
+}
+
+static void enter(surface *s) {
+    const uint8_t notify = 1;
+    surface *last = surfaces;
+    while (last && last->next) {
+        last = last->next;
+    }
+    s->previous = last;
+    *(last ? &last->next : &surfaces) = s;
+    make_anew(s);
+    gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
+}
+
+static void unlink_surface(surface *s) {
+    if (s->next) {
+        s->next->previous = s->previous;
+    }
+    if (s->previous || surfaces == s) {
+        *(s->previous ? &s->previous->next : &surfaces) = s->next;
+    }
+    s->next = s->previous = NULL;
+    surface **at = &marked_surfaces;
+    while (s->is_marked && *at != s) {
+        at = &(*at)->next_marked;
+    }
+    if (s->is_marked) {
+        *at = s->next_marked;
+        s->is_marked = 0;
+    }
+}
+
+/* Told at once: a frame later there may be no node any more to tell of. */
+static void leave(surface *s) {
+    for (int i = 0; i < DEVICE_SLOTS; i++) {
+        if (devices[i]) {
+            follow_remove(devices[i], s);
+        }
+    }
+    unlink_surface(s);
+    for (int i = 0; i < DEVICE_SLOTS; i++) { /* last: a handler may do what it likes */
+        if (devices[i] && devices[i]->touched_node == s->base.object) {
+            signals_let_go(devices[i]);
+        }
+    }
+}
+
+static void notify(void *self, int32_t what) {
+    surface *s = self;
+    switch (what) {
+    case GD_ENTER_TREE:
+        if (!gd_is_in_editor()) {
+            enter(s);
+        }
+        break;
+    case GD_TRANSFORM_CHANGED:
+        s->moved = ALL_SLOTS;
+        surface_mark(s);
+        break;
+    case GD_EXIT_TREE:
+        leave(s);
+        break;
+    default:
+        break;
+    }
+}
+
+static const gd_property properties[] = {
+    {.name = "grating",
+     .type = GDEXTENSION_VARIANT_TYPE_OBJECT,
+     .hint = GD_HINT_RESOURCE_TYPE,
+     .hints = "KnurlGrating",
+     .get = get_grating,
+     .set = set_grating},
+    {.name = "double_sided",
+     .type = GDEXTENSION_VARIANT_TYPE_BOOL,
+     .offset = offsetof(surface, double_sided),
+     .changed = make_anew},
+    {.name = "axis", .type = GDEXTENSION_VARIANT_TYPE_VECTOR3, .offset = offsetof(surface, axis), .changed = make_anew},
+    {.name = "enabled",
+     .type = GDEXTENSION_VARIANT_TYPE_BOOL,
+     .offset = offsetof(surface, enabled),
+     .changed = make_anew},
+};
+
+static const gd_method_row methods[] = {
+    {"get_triangle_count", GDEXTENSION_VARIANT_TYPE_INT, get_triangle_count, 0, {{NULL}}},
+    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, get_warnings, 0, {{NULL}}},
+    {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, is_touched, 0, {{NULL}}},
+};
+
+const gd_class surface_class = {
+    .name = "KnurlSurface",
+    .base = "Node3D",
+    .size = sizeof(surface),
+    .init = init,
+    .finish = finish,
+    .notify = notify,
+    .warnings = get_warnings,
+    .properties = properties,
+    .property_count = sizeof properties / sizeof *properties,
+    .methods = methods,
+    .method_count = sizeof methods / sizeof *methods,
+};

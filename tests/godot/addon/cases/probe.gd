@@ -1,0 +1,77 @@
+@tool
+extends EditorPlugin
+## Looks at Knurl's plugin from inside the editor: button, gizmo, warnings; then ends it. Not while
+## it only imports.
+
+const FOLDER := "res://addons/knurl/"
+
+var checks: RefCounted
+
+
+func _enter_tree() -> void:
+	if not OS.get_cmdline_args().has("--import"):
+		probe.call_deferred()
+
+
+func probe() -> void:
+	checks = load("res://addons/probe/checks.gd").new()
+	while EditorInterface.get_resource_filesystem().is_scanning():
+		await get_tree().process_frame
+	await get_tree().create_timer(1.0).timeout
+	checks.check(EditorInterface.is_plugin_enabled("knurl"), "the plugin is on")
+	EditorInterface.open_scene_from_path("res://stage.tscn")
+	await get_tree().create_timer(0.5).timeout
+	var stage: Node = EditorInterface.get_edited_scene_root()
+	checks.check(stage != null, "the scene is open")
+	if stage != null:
+		probe_button(stage)
+		probe_gizmo(stage.get_node("KnurlDevice"))
+		await probe_warnings(stage.get_node("KnurlSurface"))
+		checks.equal(
+			stage.get_node("KnurlDevice").get("running"), false, "no device runs in the editor"
+		)
+	checks.finish(get_tree())
+
+
+func probe_button(stage: Node) -> void:
+	var overlay: GDScript = load(FOLDER + "overlay.gd")
+	var surface: Node = stage.get_node("Plate/KnurlSurface")
+	var base: Control = EditorInterface.get_base_control()
+	var buttons: Array[Node] = base.find_children("*", "Button", true, false).filter(
+		func(button: Node) -> bool: return (button as Button).text == "Gratings"
+	)
+	checks.equal(buttons.size(), 1, "buttons")
+	if buttons.size() != 1:
+		return
+	buttons[0].button_pressed = true
+	checks.check(overlay.find_on(surface) != null, "the button draws")
+	var packed := PackedScene.new()
+	packed.pack(stage)
+	checks.check(
+		not packed.get_state().get_node_name(packed.get_state().get_node_count() - 1).contains(
+			"Overlay"
+		),
+		"what it draws is not saved"
+	)
+	buttons[0].button_pressed = false
+	checks.check(overlay.find_on(surface) == null, "and takes it off")
+
+
+func probe_gizmo(device: Node3D) -> void:
+	checks.check(device.get_gizmos().size() >= 1, "the device has a gizmo")
+	var gizmo: GDScript = load(FOLDER + "gizmo.gd")
+	checks.equal(
+		gizmo.workspace_of(device), 2.0 * Vector3(0.16, 0.12, 0.07), "its workspace, scaled by 2"
+	)
+	checks.equal(gizmo.edges_of(AABB(Vector3.ZERO, Vector3.ONE)).size(), 24, "a box has 12 edges")
+
+
+func probe_warnings(surface: Node) -> void:
+	EditorInterface.inspect_object(surface)
+	await get_tree().create_timer(1.5).timeout
+	var warning: String = surface.get_warnings()[0]
+	var inspector: Control = EditorInterface.get_inspector()
+	var labels: Array[Node] = inspector.find_children("*", "Label", true, false).filter(
+		func(label: Node) -> bool: return (label as Label).text == warning
+	)
+	checks.equal(labels.size(), 1, "the inspector shows '%s'" % warning)

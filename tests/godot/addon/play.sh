@@ -1,0 +1,165 @@
+#!/usr/bin/env bash
+# Plays one case of the add-on's tests in the real engine.
+# usage: play.sh CASE ENGINE BUILD_DIR     Exit 77, with the reason: the engine is not there.
+# A script that goes wrong leaves the engine's exit status as it was, or hangs: so every call has an end, a line that
+# tells of an error fails, and the line with the counts has to be there.
+set -euo pipefail
+[ $# -eq 3 ] || { echo "usage: play.sh CASE ENGINE BUILD_DIR" >&2; exit 2; }
+case=$1
+engine=$2
+build=$(cd "$3" && pwd)
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../../.." && pwd)
+library=$build/godot/libknurl_godot.linux.x86_64.so
+project=$build/godot/tests/$case
+log=$project.log
+
+if [ ! -e "$engine/root/.stamp" ]; then
+    echo "skipped: addon_$case: there is no Godot in $engine (./run test godot fetches it)"
+    exit 77
+fi
+[ -e "$library" ] || { echo "play: expected the extension at $library" >&2; exit 1; }
+engine=$(cd "$engine" && pwd)
+
+# An empty project with the add-on. The list is the editor's; without it the first import crashes as it ends
+# (godotengine/godot#111048).
+new_project() {
+    rm -rf "$project"
+    mkdir -p "$project/.godot" "$project/addons"
+    cp -r "$root/bindings/godot/addons/knurl" "$project/addons/"
+    install -D "$library" "$project/addons/knurl/bin/$(basename "$library")"
+    settle_project
+}
+
+settle_project() {
+    mkdir -p "$project/.godot"
+    echo 'res://addons/knurl/knurl.gdextension' >"$project/.godot/extension_list.cfg"
+    [ -e "$project/project.godot" ] || cat >"$project/project.godot" <<'CFG'
+config_version=5
+
+[application]
+
+config/name="Knurl's tests"
+
+[editor_plugins]
+
+enabled=PackedStringArray("res://addons/knurl/plugin.cfg")
+
+[rendering]
+
+renderer/rendering_method="gl_compatibility"
+CFG
+}
+
+# The assets, and beside each what Knurl's own loader makes of it.
+add_assets() {
+    local asset
+    for asset in "$root"/assets/*.glb "$root"/assets/*.gltf; do
+        [ -e "$asset" ] || continue
+        cp "$asset" "$project/"
+        "$build/knurl" inspect "$asset" >"$project/$(basename "$asset").json"
+    done
+}
+
+# play SECONDS CMD ARGS...: in the project, with an end.
+play() {
+    local seconds=$1 status=0
+    shift
+    (cd "$project" && timeout --kill-after=5 "$seconds" "$root/bindings/godot/engine/run.sh" "$engine" "$@") \
+        >"$log" 2>&1 </dev/null || status=$?
+    cat "$log"
+    if [ $status -ne 0 ]; then
+        echo "play: exit status $status (124: no end within $seconds s)" >&2
+        exit 1
+    fi
+    if grep -E '^(SCRIPT ERROR|ERROR|USER ERROR)|^ *(USER )?ERROR:|WARNING: [0-9]+ ObjectDB|Resources still in use' "$log" >/dev/null; then
+        echo "play: the engine told of errors" >&2
+        exit 1
+    fi
+}
+
+play_script() {
+    local script=$1
+    shift
+    cp "$here/cases/checks.gd" "$here/cases/$script.gd" "$project/"
+    play 60 "$@" --path . --script "res://$script.gd" "${arguments[@]}"
+    if ! grep -qE '^[1-9][0-9]* passed, 0 failed$' "$log"; then
+        echo "play: expected a line 'N passed, 0 failed'" >&2
+        exit 1
+    fi
+}
+
+arguments=() # what a script is given
+headless=(godot --headless)
+display=(xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 640x360)
+
+case $case in
+presets)
+    new_project
+    play_script "$case" "${headless[@]}"
+    ;;
+tags) # the case writes files, Knurl's own loader says what they are
+    new_project
+    mkdir "$project/files"
+    cp "$here/cases/collector.gd" "$project/"
+    arguments=(-- write)
+    play_script "$case" "${headless[@]}"
+    for file in "$project"/files/*.gltf; do
+        "$build/knurl" inspect "$file" >"${file%.gltf}.said" 2>"$file.refused" || cp "$file.refused" "${file%.gltf}.said"
+    done
+    arguments=()
+    play_script "$case" "${headless[@]}"
+    ;;
+assets) # loaded while the game runs, and imported by the editor with the plugin on
+    new_project
+    add_assets
+    play 120 "${headless[@]}" --path . --import
+    play_script "$case" "${headless[@]}"
+    ;;
+warnings) # what a wrong tag says when the editor imports it
+    new_project
+    cp "$here/cases/wrong_tag.gltf" "$project/"
+    play 120 "${headless[@]}" --path . --import
+    grep -F "WARNING: Knurl: wrong_tag: material 'Hard' (0): knurl_stiffness: expected a number > 0 (N/m), found -1" "$log"
+    ;;
+editor) # the plugin's parts, in the editor's process
+    new_project
+    mkdir -p "$project/addons/probe"
+    cp "$here/cases/probe.cfg" "$project/addons/probe/plugin.cfg"
+    cp "$here/cases/probe.gd" "$here/cases/checks.gd" "$project/addons/probe/"
+    cp "$here/cases/stage.tscn" "$project/"
+    sed -i 's,plugin.cfg"),plugin.cfg"\, "res://addons/probe/plugin.cfg"),' "$project/project.godot"
+    play 120 "${headless[@]}" --path . --import
+    play 120 "${headless[@]}" --path . --editor
+    grep -qE '^[1-9][0-9]* passed, 0 failed$' "$log" || { echo "play: no counts" >&2; exit 1; }
+    ;;
+overlay)
+    new_project
+    play_script "$case" "${display[@]}"
+    ;;
+package) # what a user downloads, in a project that has nothing else
+    rm -rf "$project"
+    mkdir -p "$project"
+    package=${KNURL_GODOT_PACKAGE:-$project.zip} # one that is to be shipped, or one of this build's
+    [ -n "${KNURL_GODOT_PACKAGE:-}" ] || "$root/bindings/godot/package.sh" "$package" "$library"
+    (cd "$project" && cmake -E tar xf "$package")
+    settle_project
+    play 120 "${headless[@]}" --path . --import
+    play_script "$case" "${headless[@]}"
+    ;;
+demo) # the sample, its stroke and its picture
+    "$root/bindings/godot/demo.sh" "$library" "$project"
+    play 60 xvfb-do godot --path . --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720 -- \
+        --stroke --shot "$project/shot.png"
+    grep -E '^stroke: [1-9][0-9]{2,} ticks, [0-9]+ overruns, in contact: true$' "$log"
+    [ "$(head -c 8 "$project/shot.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ]
+    ;;
+pointer) # the sample, felt with the mouse
+    "$root/bindings/godot/demo.sh" "$library" "$project"
+    play_script "$case" xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720
+    ;;
+*)
+    echo "play: unknown case '$case'" >&2
+    exit 2
+    ;;
+esac
