@@ -22,6 +22,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #else
 
 #include "base/system.h"
+#include "device/borrow.h"
 
 #include <libusb.h>
 #include <stdlib.h>
@@ -35,6 +36,47 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #define CONTROL_MS   1000
 #define ROOM         16u  /* packets that have come and were not read yet; the oldest give way */
 #define CLOSE_MS     1000 /* for what is under way to end */
+
+/* What is borrowed of libusb. */
+#define FUNCTIONS(X)                                                                                                   \
+    X(alloc_transfer)                                                                                                  \
+    X(cancel_transfer)                                                                                                 \
+    X(claim_interface)                                                                                                 \
+    X(close)                                                                                                           \
+    X(control_transfer)                                                                                                \
+    X(exit)                                                                                                            \
+    X(free_device_list)                                                                                                \
+    X(free_transfer)                                                                                                   \
+    X(get_device_descriptor)                                                                                           \
+    X(get_device_list)                                                                                                 \
+    X(handle_events_timeout_completed)                                                                                 \
+    X(init)                                                                                                            \
+    X(open)                                                                                                            \
+    X(release_interface)                                                                                               \
+    X(set_auto_detach_kernel_driver)                                                                                   \
+    X(strerror)                                                                                                        \
+    X(submit_transfer)
+
+static struct {
+#define FIELD(name) __typeof__(&libusb_##name) name;
+    FUNCTIONS(FIELD)
+#undef FIELD
+} lib;
+
+static int borrow(char *why, size_t why_size) {
+#if defined(_WIN32)
+    static const char *const files[] = {"libusb-1.0.dll"};
+#else
+    static const char *const files[] = {"libusb-1.0.so.0", "libusb-1.0.so"};
+#endif
+#define FUNCTION(name) {"libusb_" #name, &lib.name},
+    static const knurl_borrowed functions[] = {FUNCTIONS(FUNCTION)};
+#undef FUNCTION
+    return lib.init || knurl_borrow(files, sizeof files / sizeof *files, functions,
+                                    sizeof functions / sizeof *functions, why, why_size);
+}
+
+#define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
 
 static const char permission[] =
     "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
@@ -73,7 +115,7 @@ static void LIBUSB_CALL on_in(struct libusb_transfer *transfer) {
         if (transfer->actual_length > (int)KNURL_FALCON_STATUS) {
             keep(u, u->in_bytes, transfer->actual_length);
         }
-        u->is_in_pending = libusb_submit_transfer(transfer) == 0; /* else the next read tries, and sees why */
+        u->is_in_pending = lib.submit_transfer(transfer) == 0; /* else the next read tries, and sees why */
     }
 }
 
@@ -98,7 +140,7 @@ static void wait_for_events(usb *u, int64_t deadline) {
         time.tv_sec = (time_t)(left / 1000000000);
         time.tv_usec = (long)(left % 1000000000 / 1000);
     }
-    (void)libusb_handle_events_timeout_completed(u->context, &time, NULL);
+    (void)lib.handle_events_timeout_completed(u->context, &time, NULL);
 }
 
 static int64_t after_ms(uint32_t ms) {
@@ -107,7 +149,7 @@ static int64_t after_ms(uint32_t ms) {
 
 static int usb_control(void *self, uint8_t request, uint16_t value) {
     usb *u = self;
-    return outcome_of(u, libusb_control_transfer(u->handle, REQUEST_TYPE, request, value, 0, NULL, 0, CONTROL_MS));
+    return outcome_of(u, lib.control_transfer(u->handle, REQUEST_TYPE, request, value, 0, NULL, 0, CONTROL_MS));
 }
 
 static int begin_in(usb *u) {
@@ -115,7 +157,7 @@ static int begin_in(usb *u) {
         return u->is_gone ? KNURL_FALCON_GONE : KNURL_FALCON_DONE;
     }
     libusb_fill_bulk_transfer(u->in, u->handle, END_IN, u->in_bytes, sizeof u->in_bytes, on_in, u, 0);
-    const int code = libusb_submit_transfer(u->in);
+    const int code = lib.submit_transfer(u->in);
     u->is_in_pending = code == 0;
     return outcome_of(u, code);
 }
@@ -139,7 +181,7 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
     const int had_failed = u->has_failed; /* told one write late: nobody waits for the end of this one */
     memcpy(u->out_bytes, bytes, count);
     libusb_fill_bulk_transfer(u->out, u->handle, END_OUT, u->out_bytes, (int)count, on_out, u, 0);
-    const int code = libusb_submit_transfer(u->out);
+    const int code = lib.submit_transfer(u->out);
     u->is_out_pending = code == 0;
     u->has_failed = 0;
     return had_failed && code == 0 ? KNURL_FALCON_NOTHING : outcome_of(u, code);
@@ -174,21 +216,21 @@ static void usb_close(void *self) {
         wait_for_events(u, deadline); /* the last frame: it lets go of the motors */
     }
     if (u->is_in_pending) {
-        (void)libusb_cancel_transfer(u->in);
+        (void)lib.cancel_transfer(u->in);
     }
     if (u->is_out_pending) {
-        (void)libusb_cancel_transfer(u->out);
+        (void)lib.cancel_transfer(u->out);
     }
     while ((u->is_in_pending || u->is_out_pending) && knurl_system_now_ns() < deadline) {
         wait_for_events(u, deadline);
     }
     if (u->handle) {
-        (void)libusb_release_interface(u->handle, 0);
-        libusb_close(u->handle); /* forgets transfers that are still under way */
+        (void)lib.release_interface(u->handle, 0);
+        lib.close(u->handle); /* forgets transfers that are still under way */
     }
-    libusb_free_transfer(u->in);
-    libusb_free_transfer(u->out);
-    libusb_exit(u->context);
+    lib.free_transfer(u->in);
+    lib.free_transfer(u->out);
+    lib.exit(u->context);
     free(u);
 }
 
@@ -208,22 +250,22 @@ static knurl_result refused(const char *doing, int code) {
         return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': libusb got no memory to %s", doing);
     }
     return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': libusb could not %s: %s", doing,
-                      libusb_strerror((enum libusb_error)code));
+                      lib.strerror((enum libusb_error)code));
 }
 
 /* Calls `visit` for every Falcon until it returns 0. Returns how many USB devices there are, or libusb's error. */
 static long visit_falcons(libusb_context *context, int (*visit)(libusb_device *device, void *user), void *user) {
     libusb_device **devices = NULL;
-    const ssize_t count = libusb_get_device_list(context, &devices);
+    const ssize_t count = lib.get_device_list(context, &devices);
     int more = 1;
     for (ssize_t i = 0; i < count && more; i++) {
         struct libusb_device_descriptor d;
-        if (libusb_get_device_descriptor(devices[i], &d) == 0 && d.idVendor == VENDOR && d.idProduct == PRODUCT) {
+        if (lib.get_device_descriptor(devices[i], &d) == 0 && d.idVendor == VENDOR && d.idProduct == PRODUCT) {
             more = visit(devices[i], user);
         }
     }
     if (count >= 0) {
-        libusb_free_device_list(devices, 1);
+        lib.free_device_list(devices, 1);
     }
     return (long)count;
 }
@@ -231,23 +273,28 @@ static long visit_falcons(libusb_context *context, int (*visit)(libusb_device *d
 static int visit_to_list(libusb_device *device, void *user) {
     knurl_listings *listings = user;
     libusb_device_handle *handle = NULL;
-    const int code = libusb_open(device, &handle);
+    const int code = lib.open(device, &handle);
     if (code == 0) {
-        libusb_close(handle);
+        lib.close(handle);
     }
-    const char *why = code == LIBUSB_ERROR_ACCESS ? permission : code ? libusb_strerror((enum libusb_error)code) : "";
+    const char *why = code == LIBUSB_ERROR_ACCESS ? permission : code ? lib.strerror((enum libusb_error)code) : "";
     knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", why);
     return 0; /* the first one is the one that is opened */
 }
 
 static void usb_list(void *user, knurl_listings *listings) {
     (void)user;
+    char why[512];
     libusb_context *context = NULL;
     const uint32_t before = listings->count;
-    const int code = libusb_init(&context);
+    if (!borrow(why, sizeof why)) {
+        knurl_listings_add(listings, "falcon", "Novint Falcon", NO_LIBRARY, why);
+        return;
+    }
+    const int code = lib.init(&context);
     if (code) {
         knurl_listings_add(listings, "falcon", "Novint Falcon", "USB cannot be looked at: libusb says '%s'",
-                           libusb_strerror((enum libusb_error)code));
+                           lib.strerror((enum libusb_error)code));
         return;
     }
     const long count = visit_falcons(context, visit_to_list, listings);
@@ -257,7 +304,7 @@ static void usb_list(void *user, knurl_listings *listings) {
                            "power supply as well",
                            count > 0 ? count : 0);
     }
-    libusb_exit(context);
+    lib.exit(context);
 }
 
 typedef struct search {
@@ -268,13 +315,13 @@ typedef struct search {
 static int visit_to_open(libusb_device *device, void *user) {
     search *s = user;
     s->found = 1;
-    s->code = libusb_open(device, &s->u->handle);
+    s->code = lib.open(device, &s->u->handle);
     return 0;
 }
 
 static knurl_result claim(usb *u) {
     search s = {u, 0, 0};
-    int code = libusb_init(&u->context);
+    int code = lib.init(&u->context);
     if (code) {
         return refused("be started", code);
     }
@@ -288,18 +335,22 @@ static knurl_result claim(usb *u) {
     if (s.code) {
         return refused("open it", s.code);
     }
-    (void)libusb_set_auto_detach_kernel_driver(u->handle, 1); /* where a system has no such thing, there is no need */
-    code = libusb_claim_interface(u->handle, 0);
+    (void)lib.set_auto_detach_kernel_driver(u->handle, 1); /* where a system has no such thing, there is no need */
+    code = lib.claim_interface(u->handle, 0);
     if (code) {
         return refused("claim its interface 0", code);
     }
-    u->in = libusb_alloc_transfer(0);
-    u->out = libusb_alloc_transfer(0);
+    u->in = lib.alloc_transfer(0);
+    u->out = lib.alloc_transfer(0);
     return u->in && u->out ? KNURL_OK : refused("transfer", LIBUSB_ERROR_NO_MEM);
 }
 
 static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     (void)user;
+    char why[512];
+    if (!borrow(why, sizeof why)) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'falcon': " NO_LIBRARY, why);
+    }
     usb *u = calloc(1, sizeof *u);
     if (!u) {
         return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': could not get %lu bytes", (unsigned long)sizeof *u);

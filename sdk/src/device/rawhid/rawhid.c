@@ -345,21 +345,21 @@ static knurl_result rawhid_write(knurl_device *device, const double force[3]) {
     return knurl_link_write(&of(device)->link, force);
 }
 
-#define NO_HIDAPI                                                                                                      \
-    "this build has no hidapi: install it with its headers (Debian: libhidapi-dev), configure and build again"
-
 static void rawhid_list(knurl_listings *listings) {
-    if (knurl_rawhid_hidapi()) {
-        knurl_rawhid_list(knurl_rawhid_hidapi(), listings);
+    char why[512];
+    const knurl_rawhid_bus *bus = knurl_rawhid_hidapi(why, sizeof why);
+    if (bus) {
+        knurl_rawhid_list(bus, listings);
     } else {
-        knurl_listings_add(listings, "rawhid", "raw HID device (WoodenHaptics)", "%s", NO_HIDAPI);
+        knurl_listings_add(listings, "rawhid", "raw HID device (WoodenHaptics)", "%s", why);
     }
 }
 
 static knurl_result rawhid_open(const char *options, knurl_device **device) {
-    const knurl_rawhid_bus *bus = knurl_rawhid_hidapi();
+    char why[512];
+    const knurl_rawhid_bus *bus = knurl_rawhid_hidapi(why, sizeof why);
     return bus ? knurl_rawhid_open(options, bus, device)
-               : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid': %s", NO_HIDAPI);
+               : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid': %s", why);
 }
 
 const knurl_driver knurl_rawhid_driver = {

@@ -33,7 +33,7 @@ typedef struct knurl_rawhid_bus {
     int (*open)(void *user, const knurl_rawhid_found *found, knurl_rawhid_port *port, char *why, size_t why_size);
 } knurl_rawhid_bus;
 
-/* The machine's own, by hidapi; null in a build without. */
-const knurl_rawhid_bus *knurl_rawhid_hidapi(void);
+/* The machine's own, by hidapi; null where that is missing: `why` says what helps. */
+const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size);
 
 #endif

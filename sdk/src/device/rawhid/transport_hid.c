@@ -3,13 +3,18 @@
 
 #ifndef KNURL_HAVE_HIDAPI
 
-const knurl_rawhid_bus *knurl_rawhid_hidapi(void) {
+#include <stdio.h>
+
+const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
+    (void)snprintf(why, why_size,
+                   "this build has no hidapi: install its headers (Debian: libhidapi-dev), configure and build again");
     return NULL;
 }
 
 #else
 
 #include "base/system.h"
+#include "device/borrow.h"
 
 #include <hidapi.h>
 #include <stdio.h>
@@ -19,7 +24,38 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(void) {
 #include <unistd.h>
 #endif
 
-/* hidapi's calls that are about no device share memory, and hid_exit() is for the whole process. */
+/* What is borrowed of hidapi. */
+#define FUNCTIONS(X)                                                                                                   \
+    X(close)                                                                                                           \
+    X(enumerate)                                                                                                       \
+    X(error)                                                                                                           \
+    X(exit)                                                                                                            \
+    X(free_enumeration)                                                                                                \
+    X(init)                                                                                                            \
+    X(open_path)                                                                                                       \
+    X(read_timeout)                                                                                                    \
+    X(write)
+
+static struct {
+#define FIELD(name) __typeof__(&hid_##name) name;
+    FUNCTIONS(FIELD)
+#undef FIELD
+} lib;
+
+static int borrow(char *why, size_t why_size) {
+#if defined(_WIN32)
+    static const char *const files[] = {"hidapi.dll"};
+#else
+    static const char *const files[] = {"libhidapi-hidraw.so.0", "libhidapi-hidraw.so"};
+#endif
+#define FUNCTION(name) {"hid_" #name, &lib.name},
+    static const knurl_borrowed functions[] = {FUNCTIONS(FUNCTION)};
+#undef FUNCTION
+    return lib.init || knurl_borrow(files, sizeof files / sizeof *files, functions,
+                                    sizeof functions / sizeof *functions, why, why_size);
+}
+
+/* hidapi's calls that are about no device share memory, and lib.exit() is for the whole process. */
 static uint32_t locked;
 static uint32_t users;
 
@@ -35,7 +71,7 @@ static void unlock(void) {
 
 /* Both under the lock. */
 static int enter(void) {
-    if (users == 0 && hid_init() != 0) {
+    if (users == 0 && lib.init() != 0) {
         return 0;
     }
     users++;
@@ -44,7 +80,7 @@ static int enter(void) {
 
 static void leave(void) {
     if (--users == 0) {
-        (void)hid_exit();
+        (void)lib.exit();
     }
 }
 
@@ -108,11 +144,11 @@ static size_t hid_look(void *user, uint16_t vendor, uint16_t product, knurl_rawh
     size_t count = 0;
     lock();
     if (enter()) {
-        struct hid_device_info *first = hid_enumerate(vendor, product);
+        struct hid_device_info *first = lib.enumerate(vendor, product);
         for (const struct hid_device_info *info = first; info && count < capacity; info = info->next) {
             describe(info, &found[count++]);
         }
-        hid_free_enumeration(first);
+        lib.free_enumeration(first);
         leave();
     }
     unlock();
@@ -120,16 +156,16 @@ static size_t hid_look(void *user, uint16_t vendor, uint16_t product, knurl_rawh
 }
 
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
-    return hid_write(self, bytes, size) == (int)size;
+    return lib.write(self, bytes, size) == (int)size;
 }
 
 static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
-    return hid_read_timeout(self, bytes, room, milliseconds);
+    return lib.read_timeout(self, bytes, room, milliseconds);
 }
 
 static void port_close(void *self) {
     lock();
-    hid_close(self);
+    lib.close(self);
     leave();
     unlock();
 }
@@ -142,9 +178,9 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     if (!enter()) {
         (void)snprintf(why, why_size, "hidapi could not be started");
     } else {
-        device = hid_open_path(found->path);
+        device = lib.open_path(found->path);
         if (!device) {
-            narrow(hid_error(NULL), why, why_size);
+            narrow(lib.error(NULL), why, why_size);
             leave();
         }
     }
@@ -156,7 +192,12 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     return device != NULL;
 }
 
-const knurl_rawhid_bus *knurl_rawhid_hidapi(void) {
+const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
+    char reason[384];
+    if (!borrow(reason, sizeof reason)) {
+        (void)snprintf(why, why_size, "hidapi cannot be loaded: %s; install it (Debian: libhidapi-hidraw0)", reason);
+        return NULL;
+    }
     static const knurl_rawhid_bus bus = {NULL, hid_look, hid_bus_open};
     return &bus;
 }

@@ -1,0 +1,19 @@
+/* Libraries that a driver borrows from the system at run time, so that Knurl needs none of them to start: a missing one
+ * costs a sentence. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_BORROW_H
+#define KNURL_SRC_BORROW_H
+
+#include <knurl/base.h>
+
+/* One function: its name, and where its address goes (a pointer to a function pointer). */
+typedef struct knurl_borrowed {
+    const char *name;
+    void *function;
+} knurl_borrowed;
+
+/* Loads the first of the named libraries that is there, for the rest of the process, and finds all functions or none.
+ * 0: `why` says what is missing. Again is fine, and cheap where `functions` are set already. [game thread] */
+int knurl_borrow(const char *const *names, size_t name_count, const knurl_borrowed *functions, size_t function_count,
+                 char *why, size_t why_size);
+
+#endif
