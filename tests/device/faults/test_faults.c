@@ -8,6 +8,9 @@
 #include "table.h"
 
 #include "device/core/home.h"
+#include "device/falcon/falcon_double.h"
+#include "device/rawhid/rawhid_double.h"
+#include "device/touch/touch_double.h"
 
 #include <knurl/loop.h>
 #include <signal.h>
@@ -19,6 +22,9 @@
 
 /* A driver's double is added here, and its files in CMakeLists.txt. */
 static const device_double *const doubles[] = {
+    &touch_double,
+    &falcon_double,
+    &rawhid_double,
     &functions_double,
 };
 
