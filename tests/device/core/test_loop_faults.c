@@ -490,7 +490,7 @@ static void stall(rig *self) {
 }
 
 TEST(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes) {
-    knurl_device_event event;
+    knurl_device_event event = {0};
     init_real();
     r.desc.watchdog_s = 0.05;
     r.special_call = 60;
