@@ -93,7 +93,6 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->beats);
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
-    loop->gain = 0.0;
     if (loop->desc.scene) {
         knurl_tick_input input;
         knurl_tick_output output;

@@ -55,7 +55,7 @@ static home h;
 /* Every second read finds a position; now and then there is an event. */
 static void read_and_write(knurl_device *device, int count) {
     for (int k = 0; k < count; k++) {
-        const double force[3] = {0.1 * (k % 7), (double)(k % 11 ? 0.0 : (double)NAN), 20.0};
+        const double force[3] = {0.1 * (k % 7), k % 11 ? 0.0 : (double)NAN, 20.0};
         knurl_device_sample sample;
         (void)knurl_device_read(device, &sample);
         (void)knurl_device_write(device, force);

@@ -336,6 +336,18 @@ TEST(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written) {
     knurl_scene_destroy(scene);
 }
 
+TEST(after_a_halt_the_force_comes_back_by_the_ramp) {
+    init();
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    knurl_device_halt(&r.device);
+    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    CHECK_SAME(r.written[49][1], 1.0L);
+    check_ramp_up(50);
+    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+    assert_int_equal(next_event(), 0);
+}
+
 /* --- heartbeat --- */
 
 /* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
@@ -478,7 +490,7 @@ static void stall(rig *self) {
 }
 
 TEST(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes) {
-    knurl_device_event event;
+    knurl_device_event event = {0};
     init_real();
     r.desc.watchdog_s = 0.05;
     r.special_call = 60;
@@ -513,6 +525,7 @@ int main(void) {
         cmocka_unit_test_teardown(while_the_game_gives_no_sign_of_life_nothing_is_resumed, end_rig),
         cmocka_unit_test_teardown(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, end_rig),
         cmocka_unit_test_teardown(after_a_late_tick_a_hand_may_have_moved_on, end_rig),
+        cmocka_unit_test_teardown(after_a_halt_the_force_comes_back_by_the_ramp, end_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

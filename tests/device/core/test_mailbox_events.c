@@ -156,7 +156,7 @@ static void *report_many(void *which) {
 }
 
 TEST(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order) {
-    static const int32_t bases[] = {0, 1000000};
+    static int32_t bases[] = {0, 1000000};
     int32_t latest[] = {-1, -1};
     pthread_t threads[2];
     knurl_device_event event;
@@ -164,7 +164,7 @@ TEST(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order)
     memset(&ring, 0, sizeof ring);
     writers = 2;
     for (size_t i = 0; i < 2; i++) {
-        assert_int_equal(pthread_create(&threads[i], NULL, report_many, (void *)(uintptr_t)&bases[i]), 0);
+        assert_int_equal(pthread_create(&threads[i], NULL, report_many, &bases[i]), 0);
     }
     uint64_t seen = 0;
     do {

@@ -229,7 +229,7 @@ TEST(it_cannot_be_stepped_and_only_at_its_own_rate) {
 }
 
 TEST(calls_that_come_late_are_counted_and_told) {
-    knurl_device_event event;
+    knurl_device_event event = {0};
     begin();
     start();
     wait_for_ticks(20);
