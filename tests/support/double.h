@@ -32,6 +32,7 @@ typedef struct device_double {
     /** ns on the monotonic clock since when the simulated motors get no force; 0: they get one now. [any thread] */
     int64_t (*limp_since)(void);
     void (*close)(knurl_device *device); /**< driver and double */
+    double alone_ms; /**< for which its firmware plays on by itself when nothing reaches it any more; 0: not at all */
 } device_double;
 
 #endif

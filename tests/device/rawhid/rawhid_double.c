@@ -17,8 +17,16 @@ static knurl_device *double_open(void) {
     return device;
 }
 
+/* Whose place was lost is well again when somebody has pressed its home button. */
 static void double_inject(int fault) {
+    static int latest;
     fake_hid_inject(&hid, fault);
+    if (fault == DOUBLE_WELL && latest == DOUBLE_UNHOMED) {
+        knurl_system_mutex_lock(&hid.mutex);
+        hid.sim.info = 1;
+        knurl_system_mutex_unlock(&hid.mutex);
+    }
+    latest = fault;
 }
 
 static int64_t double_limp_since(void) {
@@ -38,4 +46,5 @@ const device_double rawhid_double = {"rawhid",
                                      double_open,
                                      double_inject,
                                      double_limp_since,
-                                     double_close};
+                                     double_close,
+                                     500.0};
