@@ -246,7 +246,7 @@ TEST(wrong_usage_is_2_and_one_line) {
         check_failed(&p, 2, bad[i].word);
     }
     process p = RUN("1", "--device", "touch");
-    check_failed(&p, 1, "not in this version");
+    check_failed(&p, 1, "libHD.so");
     p = RUN("1", "--fast", "--out", tool_path("no/such/folder.csv"));
     check_failed(&p, 1, "No such file");
     p = RUN("--help");

@@ -28,10 +28,10 @@ static const request load_mode[] = {{LINES, 0x100}, {BAUD, 0x15}};              
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-#define PROBES      10  /* frames */
-#define PROBE_MS    20  /* for an answer to each */
-#define GREETINGS   60  /* 1.5 s in all, as long as libnifalcon waits */
-#define GREETING_MS 25  /* 7 characters at 9600 Bd, and the chip's 16 ms */
+#define PROBES      10 /* frames */
+#define PROBE_MS    20 /* for an answer to each */
+#define GREETINGS   60 /* 1.5 s in all, as long as libnifalcon waits */
+#define GREETING_MS 25 /* 7 characters at 9600 Bd, and the chip's 16 ms */
 #define ECHO_MS     500
 #define WRITE_MS    200
 #define CHUNK       62u
