@@ -43,7 +43,7 @@ find_mirror() {
         mirror=$(sed -n 's/^deb \(\[[^]]*\] \)\?\([^ ]*debian[^ ]*\) .*/\2/p' /etc/apt/sources.list |
             grep -v -e security -e updates | head -n 1 || true)
     fi
-    mirror=${mirror:-http://deb.debian.org/debian}
+    [ -n "${mirror:-}" ] || give_up "apt here names no Debian mirror to fetch it from"
     [ -r "$keyring" ] || give_up "Debian's keys are not here ($keyring; package debian-archive-keyring)"
 }
 

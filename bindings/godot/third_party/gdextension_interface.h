@@ -50,93 +50,93 @@ extern "C" {
 /* VARIANT TYPES */
 
 typedef enum {
-    GDEXTENSION_VARIANT_TYPE_NIL,
+	GDEXTENSION_VARIANT_TYPE_NIL,
 
-    /*  atomic types */
-    GDEXTENSION_VARIANT_TYPE_BOOL,
-    GDEXTENSION_VARIANT_TYPE_INT,
-    GDEXTENSION_VARIANT_TYPE_FLOAT,
-    GDEXTENSION_VARIANT_TYPE_STRING,
+	/*  atomic types */
+	GDEXTENSION_VARIANT_TYPE_BOOL,
+	GDEXTENSION_VARIANT_TYPE_INT,
+	GDEXTENSION_VARIANT_TYPE_FLOAT,
+	GDEXTENSION_VARIANT_TYPE_STRING,
 
-    /* math types */
-    GDEXTENSION_VARIANT_TYPE_VECTOR2,
-    GDEXTENSION_VARIANT_TYPE_VECTOR2I,
-    GDEXTENSION_VARIANT_TYPE_RECT2,
-    GDEXTENSION_VARIANT_TYPE_RECT2I,
-    GDEXTENSION_VARIANT_TYPE_VECTOR3,
-    GDEXTENSION_VARIANT_TYPE_VECTOR3I,
-    GDEXTENSION_VARIANT_TYPE_TRANSFORM2D,
-    GDEXTENSION_VARIANT_TYPE_VECTOR4,
-    GDEXTENSION_VARIANT_TYPE_VECTOR4I,
-    GDEXTENSION_VARIANT_TYPE_PLANE,
-    GDEXTENSION_VARIANT_TYPE_QUATERNION,
-    GDEXTENSION_VARIANT_TYPE_AABB,
-    GDEXTENSION_VARIANT_TYPE_BASIS,
-    GDEXTENSION_VARIANT_TYPE_TRANSFORM3D,
-    GDEXTENSION_VARIANT_TYPE_PROJECTION,
+	/* math types */
+	GDEXTENSION_VARIANT_TYPE_VECTOR2,
+	GDEXTENSION_VARIANT_TYPE_VECTOR2I,
+	GDEXTENSION_VARIANT_TYPE_RECT2,
+	GDEXTENSION_VARIANT_TYPE_RECT2I,
+	GDEXTENSION_VARIANT_TYPE_VECTOR3,
+	GDEXTENSION_VARIANT_TYPE_VECTOR3I,
+	GDEXTENSION_VARIANT_TYPE_TRANSFORM2D,
+	GDEXTENSION_VARIANT_TYPE_VECTOR4,
+	GDEXTENSION_VARIANT_TYPE_VECTOR4I,
+	GDEXTENSION_VARIANT_TYPE_PLANE,
+	GDEXTENSION_VARIANT_TYPE_QUATERNION,
+	GDEXTENSION_VARIANT_TYPE_AABB,
+	GDEXTENSION_VARIANT_TYPE_BASIS,
+	GDEXTENSION_VARIANT_TYPE_TRANSFORM3D,
+	GDEXTENSION_VARIANT_TYPE_PROJECTION,
 
-    /* misc types */
-    GDEXTENSION_VARIANT_TYPE_COLOR,
-    GDEXTENSION_VARIANT_TYPE_STRING_NAME,
-    GDEXTENSION_VARIANT_TYPE_NODE_PATH,
-    GDEXTENSION_VARIANT_TYPE_RID,
-    GDEXTENSION_VARIANT_TYPE_OBJECT,
-    GDEXTENSION_VARIANT_TYPE_CALLABLE,
-    GDEXTENSION_VARIANT_TYPE_SIGNAL,
-    GDEXTENSION_VARIANT_TYPE_DICTIONARY,
-    GDEXTENSION_VARIANT_TYPE_ARRAY,
+	/* misc types */
+	GDEXTENSION_VARIANT_TYPE_COLOR,
+	GDEXTENSION_VARIANT_TYPE_STRING_NAME,
+	GDEXTENSION_VARIANT_TYPE_NODE_PATH,
+	GDEXTENSION_VARIANT_TYPE_RID,
+	GDEXTENSION_VARIANT_TYPE_OBJECT,
+	GDEXTENSION_VARIANT_TYPE_CALLABLE,
+	GDEXTENSION_VARIANT_TYPE_SIGNAL,
+	GDEXTENSION_VARIANT_TYPE_DICTIONARY,
+	GDEXTENSION_VARIANT_TYPE_ARRAY,
 
-    /* typed arrays */
-    GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_INT32_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_INT64_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT64_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_COLOR_ARRAY,
-    GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR4_ARRAY,
+	/* typed arrays */
+	GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_INT32_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_INT64_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT64_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_COLOR_ARRAY,
+	GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR4_ARRAY,
 
-    GDEXTENSION_VARIANT_TYPE_VARIANT_MAX
+	GDEXTENSION_VARIANT_TYPE_VARIANT_MAX
 } GDExtensionVariantType;
 
 typedef enum {
-    /* comparison */
-    GDEXTENSION_VARIANT_OP_EQUAL,
-    GDEXTENSION_VARIANT_OP_NOT_EQUAL,
-    GDEXTENSION_VARIANT_OP_LESS,
-    GDEXTENSION_VARIANT_OP_LESS_EQUAL,
-    GDEXTENSION_VARIANT_OP_GREATER,
-    GDEXTENSION_VARIANT_OP_GREATER_EQUAL,
+	/* comparison */
+	GDEXTENSION_VARIANT_OP_EQUAL,
+	GDEXTENSION_VARIANT_OP_NOT_EQUAL,
+	GDEXTENSION_VARIANT_OP_LESS,
+	GDEXTENSION_VARIANT_OP_LESS_EQUAL,
+	GDEXTENSION_VARIANT_OP_GREATER,
+	GDEXTENSION_VARIANT_OP_GREATER_EQUAL,
 
-    /* mathematic */
-    GDEXTENSION_VARIANT_OP_ADD,
-    GDEXTENSION_VARIANT_OP_SUBTRACT,
-    GDEXTENSION_VARIANT_OP_MULTIPLY,
-    GDEXTENSION_VARIANT_OP_DIVIDE,
-    GDEXTENSION_VARIANT_OP_NEGATE,
-    GDEXTENSION_VARIANT_OP_POSITIVE,
-    GDEXTENSION_VARIANT_OP_MODULE,
-    GDEXTENSION_VARIANT_OP_POWER,
+	/* mathematic */
+	GDEXTENSION_VARIANT_OP_ADD,
+	GDEXTENSION_VARIANT_OP_SUBTRACT,
+	GDEXTENSION_VARIANT_OP_MULTIPLY,
+	GDEXTENSION_VARIANT_OP_DIVIDE,
+	GDEXTENSION_VARIANT_OP_NEGATE,
+	GDEXTENSION_VARIANT_OP_POSITIVE,
+	GDEXTENSION_VARIANT_OP_MODULE,
+	GDEXTENSION_VARIANT_OP_POWER,
 
-    /* bitwise */
-    GDEXTENSION_VARIANT_OP_SHIFT_LEFT,
-    GDEXTENSION_VARIANT_OP_SHIFT_RIGHT,
-    GDEXTENSION_VARIANT_OP_BIT_AND,
-    GDEXTENSION_VARIANT_OP_BIT_OR,
-    GDEXTENSION_VARIANT_OP_BIT_XOR,
-    GDEXTENSION_VARIANT_OP_BIT_NEGATE,
+	/* bitwise */
+	GDEXTENSION_VARIANT_OP_SHIFT_LEFT,
+	GDEXTENSION_VARIANT_OP_SHIFT_RIGHT,
+	GDEXTENSION_VARIANT_OP_BIT_AND,
+	GDEXTENSION_VARIANT_OP_BIT_OR,
+	GDEXTENSION_VARIANT_OP_BIT_XOR,
+	GDEXTENSION_VARIANT_OP_BIT_NEGATE,
 
-    /* logic */
-    GDEXTENSION_VARIANT_OP_AND,
-    GDEXTENSION_VARIANT_OP_OR,
-    GDEXTENSION_VARIANT_OP_XOR,
-    GDEXTENSION_VARIANT_OP_NOT,
+	/* logic */
+	GDEXTENSION_VARIANT_OP_AND,
+	GDEXTENSION_VARIANT_OP_OR,
+	GDEXTENSION_VARIANT_OP_XOR,
+	GDEXTENSION_VARIANT_OP_NOT,
 
-    /* containment */
-    GDEXTENSION_VARIANT_OP_IN,
-    GDEXTENSION_VARIANT_OP_MAX
+	/* containment */
+	GDEXTENSION_VARIANT_OP_IN,
+	GDEXTENSION_VARIANT_OP_MAX
 
 } GDExtensionVariantOperator;
 
@@ -181,217 +181,184 @@ typedef const void *GDExtensionConstRefPtr;
 /* VARIANT DATA I/O */
 
 typedef enum {
-    GDEXTENSION_CALL_OK,
-    GDEXTENSION_CALL_ERROR_INVALID_METHOD,
-    GDEXTENSION_CALL_ERROR_INVALID_ARGUMENT,   // Expected a different variant type.
-    GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS, // Expected lower number of arguments.
-    GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS,  // Expected higher number of arguments.
-    GDEXTENSION_CALL_ERROR_INSTANCE_IS_NULL,
-    GDEXTENSION_CALL_ERROR_METHOD_NOT_CONST, // Used for const call.
+	GDEXTENSION_CALL_OK,
+	GDEXTENSION_CALL_ERROR_INVALID_METHOD,
+	GDEXTENSION_CALL_ERROR_INVALID_ARGUMENT, // Expected a different variant type.
+	GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS, // Expected lower number of arguments.
+	GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS, // Expected higher number of arguments.
+	GDEXTENSION_CALL_ERROR_INSTANCE_IS_NULL,
+	GDEXTENSION_CALL_ERROR_METHOD_NOT_CONST, // Used for const call.
 } GDExtensionCallErrorType;
 
 typedef struct {
-    GDExtensionCallErrorType error;
-    int32_t argument;
-    int32_t expected;
+	GDExtensionCallErrorType error;
+	int32_t argument;
+	int32_t expected;
 } GDExtensionCallError;
 
 typedef void (*GDExtensionVariantFromTypeConstructorFunc)(GDExtensionUninitializedVariantPtr, GDExtensionTypePtr);
 typedef void (*GDExtensionTypeFromVariantConstructorFunc)(GDExtensionUninitializedTypePtr, GDExtensionVariantPtr);
-typedef void (*GDExtensionPtrOperatorEvaluator)(GDExtensionConstTypePtr p_left, GDExtensionConstTypePtr p_right,
-                                                GDExtensionTypePtr r_result);
-typedef void (*GDExtensionPtrBuiltInMethod)(GDExtensionTypePtr p_base, const GDExtensionConstTypePtr *p_args,
-                                            GDExtensionTypePtr r_return, int p_argument_count);
-typedef void (*GDExtensionPtrConstructor)(GDExtensionUninitializedTypePtr p_base,
-                                          const GDExtensionConstTypePtr *p_args);
+typedef void (*GDExtensionPtrOperatorEvaluator)(GDExtensionConstTypePtr p_left, GDExtensionConstTypePtr p_right, GDExtensionTypePtr r_result);
+typedef void (*GDExtensionPtrBuiltInMethod)(GDExtensionTypePtr p_base, const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_return, int p_argument_count);
+typedef void (*GDExtensionPtrConstructor)(GDExtensionUninitializedTypePtr p_base, const GDExtensionConstTypePtr *p_args);
 typedef void (*GDExtensionPtrDestructor)(GDExtensionTypePtr p_base);
 typedef void (*GDExtensionPtrSetter)(GDExtensionTypePtr p_base, GDExtensionConstTypePtr p_value);
 typedef void (*GDExtensionPtrGetter)(GDExtensionConstTypePtr p_base, GDExtensionTypePtr r_value);
-typedef void (*GDExtensionPtrIndexedSetter)(GDExtensionTypePtr p_base, GDExtensionInt p_index,
-                                            GDExtensionConstTypePtr p_value);
-typedef void (*GDExtensionPtrIndexedGetter)(GDExtensionConstTypePtr p_base, GDExtensionInt p_index,
-                                            GDExtensionTypePtr r_value);
-typedef void (*GDExtensionPtrKeyedSetter)(GDExtensionTypePtr p_base, GDExtensionConstTypePtr p_key,
-                                          GDExtensionConstTypePtr p_value);
-typedef void (*GDExtensionPtrKeyedGetter)(GDExtensionConstTypePtr p_base, GDExtensionConstTypePtr p_key,
-                                          GDExtensionTypePtr r_value);
+typedef void (*GDExtensionPtrIndexedSetter)(GDExtensionTypePtr p_base, GDExtensionInt p_index, GDExtensionConstTypePtr p_value);
+typedef void (*GDExtensionPtrIndexedGetter)(GDExtensionConstTypePtr p_base, GDExtensionInt p_index, GDExtensionTypePtr r_value);
+typedef void (*GDExtensionPtrKeyedSetter)(GDExtensionTypePtr p_base, GDExtensionConstTypePtr p_key, GDExtensionConstTypePtr p_value);
+typedef void (*GDExtensionPtrKeyedGetter)(GDExtensionConstTypePtr p_base, GDExtensionConstTypePtr p_key, GDExtensionTypePtr r_value);
 typedef uint32_t (*GDExtensionPtrKeyedChecker)(GDExtensionConstVariantPtr p_base, GDExtensionConstVariantPtr p_key);
-typedef void (*GDExtensionPtrUtilityFunction)(GDExtensionTypePtr r_return, const GDExtensionConstTypePtr *p_args,
-                                              int p_argument_count);
+typedef void (*GDExtensionPtrUtilityFunction)(GDExtensionTypePtr r_return, const GDExtensionConstTypePtr *p_args, int p_argument_count);
 
 typedef GDExtensionObjectPtr (*GDExtensionClassConstructor)();
 
 typedef void *(*GDExtensionInstanceBindingCreateCallback)(void *p_token, void *p_instance);
 typedef void (*GDExtensionInstanceBindingFreeCallback)(void *p_token, void *p_instance, void *p_binding);
-typedef GDExtensionBool (*GDExtensionInstanceBindingReferenceCallback)(void *p_token, void *p_binding,
-                                                                       GDExtensionBool p_reference);
+typedef GDExtensionBool (*GDExtensionInstanceBindingReferenceCallback)(void *p_token, void *p_binding, GDExtensionBool p_reference);
 
 typedef struct {
-    GDExtensionInstanceBindingCreateCallback create_callback;
-    GDExtensionInstanceBindingFreeCallback free_callback;
-    GDExtensionInstanceBindingReferenceCallback reference_callback;
+	GDExtensionInstanceBindingCreateCallback create_callback;
+	GDExtensionInstanceBindingFreeCallback free_callback;
+	GDExtensionInstanceBindingReferenceCallback reference_callback;
 } GDExtensionInstanceBindingCallbacks;
 
 /* EXTENSION CLASSES */
 
 typedef void *GDExtensionClassInstancePtr;
 
-typedef GDExtensionBool (*GDExtensionClassSet)(GDExtensionClassInstancePtr p_instance,
-                                               GDExtensionConstStringNamePtr p_name,
-                                               GDExtensionConstVariantPtr p_value);
-typedef GDExtensionBool (*GDExtensionClassGet)(GDExtensionClassInstancePtr p_instance,
-                                               GDExtensionConstStringNamePtr p_name, GDExtensionVariantPtr r_ret);
+typedef GDExtensionBool (*GDExtensionClassSet)(GDExtensionClassInstancePtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionConstVariantPtr p_value);
+typedef GDExtensionBool (*GDExtensionClassGet)(GDExtensionClassInstancePtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionVariantPtr r_ret);
 typedef uint64_t (*GDExtensionClassGetRID)(GDExtensionClassInstancePtr p_instance);
 
 typedef struct {
-    GDExtensionVariantType type;
-    GDExtensionStringNamePtr name;
-    GDExtensionStringNamePtr class_name;
-    uint32_t hint; // Bitfield of `PropertyHint` (defined in `extension_api.json`).
-    GDExtensionStringPtr hint_string;
-    uint32_t usage; // Bitfield of `PropertyUsageFlags` (defined in `extension_api.json`).
+	GDExtensionVariantType type;
+	GDExtensionStringNamePtr name;
+	GDExtensionStringNamePtr class_name;
+	uint32_t hint; // Bitfield of `PropertyHint` (defined in `extension_api.json`).
+	GDExtensionStringPtr hint_string;
+	uint32_t usage; // Bitfield of `PropertyUsageFlags` (defined in `extension_api.json`).
 } GDExtensionPropertyInfo;
 
 typedef struct {
-    GDExtensionStringNamePtr name;
-    GDExtensionPropertyInfo return_value;
-    uint32_t flags; // Bitfield of `GDExtensionClassMethodFlags`.
-    int32_t id;
+	GDExtensionStringNamePtr name;
+	GDExtensionPropertyInfo return_value;
+	uint32_t flags; // Bitfield of `GDExtensionClassMethodFlags`.
+	int32_t id;
 
-    /* Arguments: `default_arguments` is an array of size `argument_count`. */
-    uint32_t argument_count;
-    GDExtensionPropertyInfo *arguments;
+	/* Arguments: `default_arguments` is an array of size `argument_count`. */
+	uint32_t argument_count;
+	GDExtensionPropertyInfo *arguments;
 
-    /* Default arguments: `default_arguments` is an array of size `default_argument_count`. */
-    uint32_t default_argument_count;
-    GDExtensionVariantPtr *default_arguments;
+	/* Default arguments: `default_arguments` is an array of size `default_argument_count`. */
+	uint32_t default_argument_count;
+	GDExtensionVariantPtr *default_arguments;
 } GDExtensionMethodInfo;
 
-typedef const GDExtensionPropertyInfo *(*GDExtensionClassGetPropertyList)(GDExtensionClassInstancePtr p_instance,
-                                                                          uint32_t *r_count);
-typedef void (*GDExtensionClassFreePropertyList)(GDExtensionClassInstancePtr p_instance,
-                                                 const GDExtensionPropertyInfo *p_list);
-typedef void (*GDExtensionClassFreePropertyList2)(GDExtensionClassInstancePtr p_instance,
-                                                  const GDExtensionPropertyInfo *p_list, uint32_t p_count);
-typedef GDExtensionBool (*GDExtensionClassPropertyCanRevert)(GDExtensionClassInstancePtr p_instance,
-                                                             GDExtensionConstStringNamePtr p_name);
-typedef GDExtensionBool (*GDExtensionClassPropertyGetRevert)(GDExtensionClassInstancePtr p_instance,
-                                                             GDExtensionConstStringNamePtr p_name,
-                                                             GDExtensionVariantPtr r_ret);
-typedef GDExtensionBool (*GDExtensionClassValidateProperty)(GDExtensionClassInstancePtr p_instance,
-                                                            GDExtensionPropertyInfo *p_property);
-typedef void (*GDExtensionClassNotification)(GDExtensionClassInstancePtr p_instance,
-                                             int32_t p_what); // Deprecated. Use GDExtensionClassNotification2 instead.
-typedef void (*GDExtensionClassNotification2)(GDExtensionClassInstancePtr p_instance, int32_t p_what,
-                                              GDExtensionBool p_reversed);
-typedef void (*GDExtensionClassToString)(GDExtensionClassInstancePtr p_instance, GDExtensionBool *r_is_valid,
-                                         GDExtensionStringPtr p_out);
+typedef const GDExtensionPropertyInfo *(*GDExtensionClassGetPropertyList)(GDExtensionClassInstancePtr p_instance, uint32_t *r_count);
+typedef void (*GDExtensionClassFreePropertyList)(GDExtensionClassInstancePtr p_instance, const GDExtensionPropertyInfo *p_list);
+typedef void (*GDExtensionClassFreePropertyList2)(GDExtensionClassInstancePtr p_instance, const GDExtensionPropertyInfo *p_list, uint32_t p_count);
+typedef GDExtensionBool (*GDExtensionClassPropertyCanRevert)(GDExtensionClassInstancePtr p_instance, GDExtensionConstStringNamePtr p_name);
+typedef GDExtensionBool (*GDExtensionClassPropertyGetRevert)(GDExtensionClassInstancePtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionVariantPtr r_ret);
+typedef GDExtensionBool (*GDExtensionClassValidateProperty)(GDExtensionClassInstancePtr p_instance, GDExtensionPropertyInfo *p_property);
+typedef void (*GDExtensionClassNotification)(GDExtensionClassInstancePtr p_instance, int32_t p_what); // Deprecated. Use GDExtensionClassNotification2 instead.
+typedef void (*GDExtensionClassNotification2)(GDExtensionClassInstancePtr p_instance, int32_t p_what, GDExtensionBool p_reversed);
+typedef void (*GDExtensionClassToString)(GDExtensionClassInstancePtr p_instance, GDExtensionBool *r_is_valid, GDExtensionStringPtr p_out);
 typedef void (*GDExtensionClassReference)(GDExtensionClassInstancePtr p_instance);
 typedef void (*GDExtensionClassUnreference)(GDExtensionClassInstancePtr p_instance);
-typedef void (*GDExtensionClassCallVirtual)(GDExtensionClassInstancePtr p_instance,
-                                            const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
+typedef void (*GDExtensionClassCallVirtual)(GDExtensionClassInstancePtr p_instance, const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
 typedef GDExtensionObjectPtr (*GDExtensionClassCreateInstance)(void *p_class_userdata);
 typedef void (*GDExtensionClassFreeInstance)(void *p_class_userdata, GDExtensionClassInstancePtr p_instance);
-typedef GDExtensionClassInstancePtr (*GDExtensionClassRecreateInstance)(void *p_class_userdata,
-                                                                        GDExtensionObjectPtr p_object);
-typedef GDExtensionClassCallVirtual (*GDExtensionClassGetVirtual)(void *p_class_userdata,
-                                                                  GDExtensionConstStringNamePtr p_name);
+typedef GDExtensionClassInstancePtr (*GDExtensionClassRecreateInstance)(void *p_class_userdata, GDExtensionObjectPtr p_object);
+typedef GDExtensionClassCallVirtual (*GDExtensionClassGetVirtual)(void *p_class_userdata, GDExtensionConstStringNamePtr p_name);
 typedef void *(*GDExtensionClassGetVirtualCallData)(void *p_class_userdata, GDExtensionConstStringNamePtr p_name);
-typedef void (*GDExtensionClassCallVirtualWithData)(GDExtensionClassInstancePtr p_instance,
-                                                    GDExtensionConstStringNamePtr p_name, void *p_virtual_call_userdata,
-                                                    const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
+typedef void (*GDExtensionClassCallVirtualWithData)(GDExtensionClassInstancePtr p_instance, GDExtensionConstStringNamePtr p_name, void *p_virtual_call_userdata, const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
 
 typedef struct {
-    GDExtensionBool is_virtual;
-    GDExtensionBool is_abstract;
-    GDExtensionClassSet set_func;
-    GDExtensionClassGet get_func;
-    GDExtensionClassGetPropertyList get_property_list_func;
-    GDExtensionClassFreePropertyList free_property_list_func;
-    GDExtensionClassPropertyCanRevert property_can_revert_func;
-    GDExtensionClassPropertyGetRevert property_get_revert_func;
-    GDExtensionClassNotification notification_func;
-    GDExtensionClassToString to_string_func;
-    GDExtensionClassReference reference_func;
-    GDExtensionClassUnreference unreference_func;
-    GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not
-                                                         // instantiable, consider making it virtual or abstract.
-    GDExtensionClassFreeInstance free_instance_func;     // Destructor; mandatory.
-    GDExtensionClassGetVirtual get_virtual_func; // Queries a virtual function by name and returns a callback to invoke
-                                                 // the requested virtual function.
-    GDExtensionClassGetRID get_rid_func;
-    void *class_userdata;       // Per-class user data, later accessible in instance bindings.
+	GDExtensionBool is_virtual;
+	GDExtensionBool is_abstract;
+	GDExtensionClassSet set_func;
+	GDExtensionClassGet get_func;
+	GDExtensionClassGetPropertyList get_property_list_func;
+	GDExtensionClassFreePropertyList free_property_list_func;
+	GDExtensionClassPropertyCanRevert property_can_revert_func;
+	GDExtensionClassPropertyGetRevert property_get_revert_func;
+	GDExtensionClassNotification notification_func;
+	GDExtensionClassToString to_string_func;
+	GDExtensionClassReference reference_func;
+	GDExtensionClassUnreference unreference_func;
+	GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not instantiable, consider making it virtual or abstract.
+	GDExtensionClassFreeInstance free_instance_func; // Destructor; mandatory.
+	GDExtensionClassGetVirtual get_virtual_func; // Queries a virtual function by name and returns a callback to invoke the requested virtual function.
+	GDExtensionClassGetRID get_rid_func;
+	void *class_userdata; // Per-class user data, later accessible in instance bindings.
 } GDExtensionClassCreationInfo; // Deprecated. Use GDExtensionClassCreationInfo3 instead.
 
 typedef struct {
-    GDExtensionBool is_virtual;
-    GDExtensionBool is_abstract;
-    GDExtensionBool is_exposed;
-    GDExtensionClassSet set_func;
-    GDExtensionClassGet get_func;
-    GDExtensionClassGetPropertyList get_property_list_func;
-    GDExtensionClassFreePropertyList free_property_list_func;
-    GDExtensionClassPropertyCanRevert property_can_revert_func;
-    GDExtensionClassPropertyGetRevert property_get_revert_func;
-    GDExtensionClassValidateProperty validate_property_func;
-    GDExtensionClassNotification2 notification_func;
-    GDExtensionClassToString to_string_func;
-    GDExtensionClassReference reference_func;
-    GDExtensionClassUnreference unreference_func;
-    GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not
-                                                         // instantiable, consider making it virtual or abstract.
-    GDExtensionClassFreeInstance free_instance_func;     // Destructor; mandatory.
-    GDExtensionClassRecreateInstance recreate_instance_func;
-    // Queries a virtual function by name and returns a callback to invoke the requested virtual function.
-    GDExtensionClassGetVirtual get_virtual_func;
-    // Paired with `call_virtual_with_data_func`, this is an alternative to `get_virtual_func` for extensions that
-    // need or benefit from extra data when calling virtual functions.
-    // Returns user data that will be passed to `call_virtual_with_data_func`.
-    // Returning `NULL` from this function signals to Godot that the virtual function is not overridden.
-    // Data returned from this function should be managed by the extension and must be valid until the extension is
-    // deinitialized. You should supply either `get_virtual_func`, or `get_virtual_call_data_func` with
-    // `call_virtual_with_data_func`.
-    GDExtensionClassGetVirtualCallData get_virtual_call_data_func;
-    // Used to call virtual functions when `get_virtual_call_data_func` is not null.
-    GDExtensionClassCallVirtualWithData call_virtual_with_data_func;
-    GDExtensionClassGetRID get_rid_func;
-    void *class_userdata;        // Per-class user data, later accessible in instance bindings.
+	GDExtensionBool is_virtual;
+	GDExtensionBool is_abstract;
+	GDExtensionBool is_exposed;
+	GDExtensionClassSet set_func;
+	GDExtensionClassGet get_func;
+	GDExtensionClassGetPropertyList get_property_list_func;
+	GDExtensionClassFreePropertyList free_property_list_func;
+	GDExtensionClassPropertyCanRevert property_can_revert_func;
+	GDExtensionClassPropertyGetRevert property_get_revert_func;
+	GDExtensionClassValidateProperty validate_property_func;
+	GDExtensionClassNotification2 notification_func;
+	GDExtensionClassToString to_string_func;
+	GDExtensionClassReference reference_func;
+	GDExtensionClassUnreference unreference_func;
+	GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not instantiable, consider making it virtual or abstract.
+	GDExtensionClassFreeInstance free_instance_func; // Destructor; mandatory.
+	GDExtensionClassRecreateInstance recreate_instance_func;
+	// Queries a virtual function by name and returns a callback to invoke the requested virtual function.
+	GDExtensionClassGetVirtual get_virtual_func;
+	// Paired with `call_virtual_with_data_func`, this is an alternative to `get_virtual_func` for extensions that
+	// need or benefit from extra data when calling virtual functions.
+	// Returns user data that will be passed to `call_virtual_with_data_func`.
+	// Returning `NULL` from this function signals to Godot that the virtual function is not overridden.
+	// Data returned from this function should be managed by the extension and must be valid until the extension is deinitialized.
+	// You should supply either `get_virtual_func`, or `get_virtual_call_data_func` with `call_virtual_with_data_func`.
+	GDExtensionClassGetVirtualCallData get_virtual_call_data_func;
+	// Used to call virtual functions when `get_virtual_call_data_func` is not null.
+	GDExtensionClassCallVirtualWithData call_virtual_with_data_func;
+	GDExtensionClassGetRID get_rid_func;
+	void *class_userdata; // Per-class user data, later accessible in instance bindings.
 } GDExtensionClassCreationInfo2; // Deprecated. Use GDExtensionClassCreationInfo3 instead.
 
 typedef struct {
-    GDExtensionBool is_virtual;
-    GDExtensionBool is_abstract;
-    GDExtensionBool is_exposed;
-    GDExtensionBool is_runtime;
-    GDExtensionClassSet set_func;
-    GDExtensionClassGet get_func;
-    GDExtensionClassGetPropertyList get_property_list_func;
-    GDExtensionClassFreePropertyList2 free_property_list_func;
-    GDExtensionClassPropertyCanRevert property_can_revert_func;
-    GDExtensionClassPropertyGetRevert property_get_revert_func;
-    GDExtensionClassValidateProperty validate_property_func;
-    GDExtensionClassNotification2 notification_func;
-    GDExtensionClassToString to_string_func;
-    GDExtensionClassReference reference_func;
-    GDExtensionClassUnreference unreference_func;
-    GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not
-                                                         // instantiable, consider making it virtual or abstract.
-    GDExtensionClassFreeInstance free_instance_func;     // Destructor; mandatory.
-    GDExtensionClassRecreateInstance recreate_instance_func;
-    // Queries a virtual function by name and returns a callback to invoke the requested virtual function.
-    GDExtensionClassGetVirtual get_virtual_func;
-    // Paired with `call_virtual_with_data_func`, this is an alternative to `get_virtual_func` for extensions that
-    // need or benefit from extra data when calling virtual functions.
-    // Returns user data that will be passed to `call_virtual_with_data_func`.
-    // Returning `NULL` from this function signals to Godot that the virtual function is not overridden.
-    // Data returned from this function should be managed by the extension and must be valid until the extension is
-    // deinitialized. You should supply either `get_virtual_func`, or `get_virtual_call_data_func` with
-    // `call_virtual_with_data_func`.
-    GDExtensionClassGetVirtualCallData get_virtual_call_data_func;
-    // Used to call virtual functions when `get_virtual_call_data_func` is not null.
-    GDExtensionClassCallVirtualWithData call_virtual_with_data_func;
-    GDExtensionClassGetRID get_rid_func;
-    void *class_userdata; // Per-class user data, later accessible in instance bindings.
+	GDExtensionBool is_virtual;
+	GDExtensionBool is_abstract;
+	GDExtensionBool is_exposed;
+	GDExtensionBool is_runtime;
+	GDExtensionClassSet set_func;
+	GDExtensionClassGet get_func;
+	GDExtensionClassGetPropertyList get_property_list_func;
+	GDExtensionClassFreePropertyList2 free_property_list_func;
+	GDExtensionClassPropertyCanRevert property_can_revert_func;
+	GDExtensionClassPropertyGetRevert property_get_revert_func;
+	GDExtensionClassValidateProperty validate_property_func;
+	GDExtensionClassNotification2 notification_func;
+	GDExtensionClassToString to_string_func;
+	GDExtensionClassReference reference_func;
+	GDExtensionClassUnreference unreference_func;
+	GDExtensionClassCreateInstance create_instance_func; // (Default) constructor; mandatory. If the class is not instantiable, consider making it virtual or abstract.
+	GDExtensionClassFreeInstance free_instance_func; // Destructor; mandatory.
+	GDExtensionClassRecreateInstance recreate_instance_func;
+	// Queries a virtual function by name and returns a callback to invoke the requested virtual function.
+	GDExtensionClassGetVirtual get_virtual_func;
+	// Paired with `call_virtual_with_data_func`, this is an alternative to `get_virtual_func` for extensions that
+	// need or benefit from extra data when calling virtual functions.
+	// Returns user data that will be passed to `call_virtual_with_data_func`.
+	// Returning `NULL` from this function signals to Godot that the virtual function is not overridden.
+	// Data returned from this function should be managed by the extension and must be valid until the extension is deinitialized.
+	// You should supply either `get_virtual_func`, or `get_virtual_call_data_func` with `call_virtual_with_data_func`.
+	GDExtensionClassGetVirtualCallData get_virtual_call_data_func;
+	// Used to call virtual functions when `get_virtual_call_data_func` is not null.
+	GDExtensionClassCallVirtualWithData call_virtual_with_data_func;
+	GDExtensionClassGetRID get_rid_func;
+	void *class_userdata; // Per-class user data, later accessible in instance bindings.
 } GDExtensionClassCreationInfo3;
 
 typedef void *GDExtensionClassLibraryPtr;
@@ -399,84 +366,75 @@ typedef void *GDExtensionClassLibraryPtr;
 /* Method */
 
 typedef enum {
-    GDEXTENSION_METHOD_FLAG_NORMAL = 1,
-    GDEXTENSION_METHOD_FLAG_EDITOR = 2,
-    GDEXTENSION_METHOD_FLAG_CONST = 4,
-    GDEXTENSION_METHOD_FLAG_VIRTUAL = 8,
-    GDEXTENSION_METHOD_FLAG_VARARG = 16,
-    GDEXTENSION_METHOD_FLAG_STATIC = 32,
-    GDEXTENSION_METHOD_FLAGS_DEFAULT = GDEXTENSION_METHOD_FLAG_NORMAL,
+	GDEXTENSION_METHOD_FLAG_NORMAL = 1,
+	GDEXTENSION_METHOD_FLAG_EDITOR = 2,
+	GDEXTENSION_METHOD_FLAG_CONST = 4,
+	GDEXTENSION_METHOD_FLAG_VIRTUAL = 8,
+	GDEXTENSION_METHOD_FLAG_VARARG = 16,
+	GDEXTENSION_METHOD_FLAG_STATIC = 32,
+	GDEXTENSION_METHOD_FLAGS_DEFAULT = GDEXTENSION_METHOD_FLAG_NORMAL,
 } GDExtensionClassMethodFlags;
 
 typedef enum {
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT8,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT16,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT32,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT64,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT8,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT16,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT32,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT64,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_REAL_IS_FLOAT,
-    GDEXTENSION_METHOD_ARGUMENT_METADATA_REAL_IS_DOUBLE
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT8,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT16,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT32,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT64,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT8,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT16,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT32,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_UINT64,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_REAL_IS_FLOAT,
+	GDEXTENSION_METHOD_ARGUMENT_METADATA_REAL_IS_DOUBLE
 } GDExtensionClassMethodArgumentMetadata;
 
-typedef void (*GDExtensionClassMethodCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance,
-                                           const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count,
-                                           GDExtensionVariantPtr r_return, GDExtensionCallError *r_error);
-typedef void (*GDExtensionClassMethodValidatedCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance,
-                                                    const GDExtensionConstVariantPtr *p_args,
-                                                    GDExtensionVariantPtr r_return);
-typedef void (*GDExtensionClassMethodPtrCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance,
-                                              const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
+typedef void (*GDExtensionClassMethodCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionVariantPtr r_return, GDExtensionCallError *r_error);
+typedef void (*GDExtensionClassMethodValidatedCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance, const GDExtensionConstVariantPtr *p_args, GDExtensionVariantPtr r_return);
+typedef void (*GDExtensionClassMethodPtrCall)(void *method_userdata, GDExtensionClassInstancePtr p_instance, const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
 
 typedef struct {
-    GDExtensionStringNamePtr name;
-    void *method_userdata;
-    GDExtensionClassMethodCall call_func;
-    GDExtensionClassMethodPtrCall ptrcall_func;
-    uint32_t method_flags; // Bitfield of `GDExtensionClassMethodFlags`.
+	GDExtensionStringNamePtr name;
+	void *method_userdata;
+	GDExtensionClassMethodCall call_func;
+	GDExtensionClassMethodPtrCall ptrcall_func;
+	uint32_t method_flags; // Bitfield of `GDExtensionClassMethodFlags`.
 
-    /* If `has_return_value` is false, `return_value_info` and `return_value_metadata` are ignored.
-     *
-     * @todo Consider dropping `has_return_value` and making the other two properties match `GDExtensionMethodInfo` and
-     * `GDExtensionClassVirtualMethod` for consistency in future version of this struct.
-     */
-    GDExtensionBool has_return_value;
-    GDExtensionPropertyInfo *return_value_info;
-    GDExtensionClassMethodArgumentMetadata return_value_metadata;
+	/* If `has_return_value` is false, `return_value_info` and `return_value_metadata` are ignored.
+	 *
+	 * @todo Consider dropping `has_return_value` and making the other two properties match `GDExtensionMethodInfo` and `GDExtensionClassVirtualMethod` for consistency in future version of this struct.
+	 */
+	GDExtensionBool has_return_value;
+	GDExtensionPropertyInfo *return_value_info;
+	GDExtensionClassMethodArgumentMetadata return_value_metadata;
 
-    /* Arguments: `arguments_info` and `arguments_metadata` are array of size `argument_count`.
-     * Name and hint information for the argument can be omitted in release builds. Class name should always be present
-     * if it applies.
-     *
-     * @todo Consider renaming `arguments_info` to `arguments` for consistency in future version of this struct.
-     */
-    uint32_t argument_count;
-    GDExtensionPropertyInfo *arguments_info;
-    GDExtensionClassMethodArgumentMetadata *arguments_metadata;
+	/* Arguments: `arguments_info` and `arguments_metadata` are array of size `argument_count`.
+	 * Name and hint information for the argument can be omitted in release builds. Class name should always be present if it applies.
+	 *
+	 * @todo Consider renaming `arguments_info` to `arguments` for consistency in future version of this struct.
+	 */
+	uint32_t argument_count;
+	GDExtensionPropertyInfo *arguments_info;
+	GDExtensionClassMethodArgumentMetadata *arguments_metadata;
 
-    /* Default arguments: `default_arguments` is an array of size `default_argument_count`. */
-    uint32_t default_argument_count;
-    GDExtensionVariantPtr *default_arguments;
+	/* Default arguments: `default_arguments` is an array of size `default_argument_count`. */
+	uint32_t default_argument_count;
+	GDExtensionVariantPtr *default_arguments;
 } GDExtensionClassMethodInfo;
 
 typedef struct {
-    GDExtensionStringNamePtr name;
-    uint32_t method_flags; // Bitfield of `GDExtensionClassMethodFlags`.
+	GDExtensionStringNamePtr name;
+	uint32_t method_flags; // Bitfield of `GDExtensionClassMethodFlags`.
 
-    GDExtensionPropertyInfo return_value;
-    GDExtensionClassMethodArgumentMetadata return_value_metadata;
+	GDExtensionPropertyInfo return_value;
+	GDExtensionClassMethodArgumentMetadata return_value_metadata;
 
-    uint32_t argument_count;
-    GDExtensionPropertyInfo *arguments;
-    GDExtensionClassMethodArgumentMetadata *arguments_metadata;
+	uint32_t argument_count;
+	GDExtensionPropertyInfo *arguments;
+	GDExtensionClassMethodArgumentMetadata *arguments_metadata;
 } GDExtensionClassVirtualMethodInfo;
 
-typedef void (*GDExtensionCallableCustomCall)(void *callable_userdata, const GDExtensionConstVariantPtr *p_args,
-                                              GDExtensionInt p_argument_count, GDExtensionVariantPtr r_return,
-                                              GDExtensionCallError *r_error);
+typedef void (*GDExtensionCallableCustomCall)(void *callable_userdata, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionVariantPtr r_return, GDExtensionCallError *r_error);
 typedef GDExtensionBool (*GDExtensionCallableCustomIsValid)(void *callable_userdata);
 typedef void (*GDExtensionCallableCustomFree)(void *callable_userdata);
 
@@ -484,143 +442,107 @@ typedef uint32_t (*GDExtensionCallableCustomHash)(void *callable_userdata);
 typedef GDExtensionBool (*GDExtensionCallableCustomEqual)(void *callable_userdata_a, void *callable_userdata_b);
 typedef GDExtensionBool (*GDExtensionCallableCustomLessThan)(void *callable_userdata_a, void *callable_userdata_b);
 
-typedef void (*GDExtensionCallableCustomToString)(void *callable_userdata, GDExtensionBool *r_is_valid,
-                                                  GDExtensionStringPtr r_out);
+typedef void (*GDExtensionCallableCustomToString)(void *callable_userdata, GDExtensionBool *r_is_valid, GDExtensionStringPtr r_out);
 
-typedef GDExtensionInt (*GDExtensionCallableCustomGetArgumentCount)(void *callable_userdata,
-                                                                    GDExtensionBool *r_is_valid);
+typedef GDExtensionInt (*GDExtensionCallableCustomGetArgumentCount)(void *callable_userdata, GDExtensionBool *r_is_valid);
 
 typedef struct {
-    /* Only `call_func` and `token` are strictly required, however, `object_id` should be passed if its not a static
-     * method.
-     *
-     * `token` should point to an address that uniquely identifies the GDExtension (for example, the
-     * `GDExtensionClassLibraryPtr` passed to the entry symbol function.
-     *
-     * `hash_func`, `equal_func`, and `less_than_func` are optional. If not provided both `call_func` and
-     * `callable_userdata` together are used as the identity of the callable for hashing and comparison purposes.
-     *
-     * The hash returned by `hash_func` is cached, `hash_func` will not be called more than once per callable.
-     *
-     * `is_valid_func` is necessary if the validity of the callable can change before destruction.
-     *
-     * `free_func` is necessary if `callable_userdata` needs to be cleaned up when the callable is freed.
-     */
-    void *callable_userdata;
-    void *token;
+	/* Only `call_func` and `token` are strictly required, however, `object_id` should be passed if its not a static method.
+	 *
+	 * `token` should point to an address that uniquely identifies the GDExtension (for example, the
+	 * `GDExtensionClassLibraryPtr` passed to the entry symbol function.
+	 *
+	 * `hash_func`, `equal_func`, and `less_than_func` are optional. If not provided both `call_func` and
+	 * `callable_userdata` together are used as the identity of the callable for hashing and comparison purposes.
+	 *
+	 * The hash returned by `hash_func` is cached, `hash_func` will not be called more than once per callable.
+	 *
+	 * `is_valid_func` is necessary if the validity of the callable can change before destruction.
+	 *
+	 * `free_func` is necessary if `callable_userdata` needs to be cleaned up when the callable is freed.
+	 */
+	void *callable_userdata;
+	void *token;
 
-    GDObjectInstanceID object_id;
+	GDObjectInstanceID object_id;
 
-    GDExtensionCallableCustomCall call_func;
-    GDExtensionCallableCustomIsValid is_valid_func;
-    GDExtensionCallableCustomFree free_func;
+	GDExtensionCallableCustomCall call_func;
+	GDExtensionCallableCustomIsValid is_valid_func;
+	GDExtensionCallableCustomFree free_func;
 
-    GDExtensionCallableCustomHash hash_func;
-    GDExtensionCallableCustomEqual equal_func;
-    GDExtensionCallableCustomLessThan less_than_func;
+	GDExtensionCallableCustomHash hash_func;
+	GDExtensionCallableCustomEqual equal_func;
+	GDExtensionCallableCustomLessThan less_than_func;
 
-    GDExtensionCallableCustomToString to_string_func;
+	GDExtensionCallableCustomToString to_string_func;
 } GDExtensionCallableCustomInfo; // Deprecated. Use GDExtensionCallableCustomInfo2 instead.
 
 typedef struct {
-    /* Only `call_func` and `token` are strictly required, however, `object_id` should be passed if its not a static
-     * method.
-     *
-     * `token` should point to an address that uniquely identifies the GDExtension (for example, the
-     * `GDExtensionClassLibraryPtr` passed to the entry symbol function.
-     *
-     * `hash_func`, `equal_func`, and `less_than_func` are optional. If not provided both `call_func` and
-     * `callable_userdata` together are used as the identity of the callable for hashing and comparison purposes.
-     *
-     * The hash returned by `hash_func` is cached, `hash_func` will not be called more than once per callable.
-     *
-     * `is_valid_func` is necessary if the validity of the callable can change before destruction.
-     *
-     * `free_func` is necessary if `callable_userdata` needs to be cleaned up when the callable is freed.
-     */
-    void *callable_userdata;
-    void *token;
+	/* Only `call_func` and `token` are strictly required, however, `object_id` should be passed if its not a static method.
+	 *
+	 * `token` should point to an address that uniquely identifies the GDExtension (for example, the
+	 * `GDExtensionClassLibraryPtr` passed to the entry symbol function.
+	 *
+	 * `hash_func`, `equal_func`, and `less_than_func` are optional. If not provided both `call_func` and
+	 * `callable_userdata` together are used as the identity of the callable for hashing and comparison purposes.
+	 *
+	 * The hash returned by `hash_func` is cached, `hash_func` will not be called more than once per callable.
+	 *
+	 * `is_valid_func` is necessary if the validity of the callable can change before destruction.
+	 *
+	 * `free_func` is necessary if `callable_userdata` needs to be cleaned up when the callable is freed.
+	 */
+	void *callable_userdata;
+	void *token;
 
-    GDObjectInstanceID object_id;
+	GDObjectInstanceID object_id;
 
-    GDExtensionCallableCustomCall call_func;
-    GDExtensionCallableCustomIsValid is_valid_func;
-    GDExtensionCallableCustomFree free_func;
+	GDExtensionCallableCustomCall call_func;
+	GDExtensionCallableCustomIsValid is_valid_func;
+	GDExtensionCallableCustomFree free_func;
 
-    GDExtensionCallableCustomHash hash_func;
-    GDExtensionCallableCustomEqual equal_func;
-    GDExtensionCallableCustomLessThan less_than_func;
+	GDExtensionCallableCustomHash hash_func;
+	GDExtensionCallableCustomEqual equal_func;
+	GDExtensionCallableCustomLessThan less_than_func;
 
-    GDExtensionCallableCustomToString to_string_func;
+	GDExtensionCallableCustomToString to_string_func;
 
-    GDExtensionCallableCustomGetArgumentCount get_argument_count_func;
+	GDExtensionCallableCustomGetArgumentCount get_argument_count_func;
 } GDExtensionCallableCustomInfo2;
 
 /* SCRIPT INSTANCE EXTENSION */
 
 typedef void *GDExtensionScriptInstanceDataPtr; // Pointer to custom ScriptInstance native implementation.
 
-typedef GDExtensionBool (*GDExtensionScriptInstanceSet)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                        GDExtensionConstStringNamePtr p_name,
-                                                        GDExtensionConstVariantPtr p_value);
-typedef GDExtensionBool (*GDExtensionScriptInstanceGet)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                        GDExtensionConstStringNamePtr p_name,
-                                                        GDExtensionVariantPtr r_ret);
-typedef const GDExtensionPropertyInfo *(*GDExtensionScriptInstanceGetPropertyList)(
-    GDExtensionScriptInstanceDataPtr p_instance, uint32_t *r_count);
-typedef void (*GDExtensionScriptInstanceFreePropertyList)(
-    GDExtensionScriptInstanceDataPtr p_instance,
-    const GDExtensionPropertyInfo *p_list); // Deprecated. Use GDExtensionScriptInstanceFreePropertyList2 instead.
-typedef void (*GDExtensionScriptInstanceFreePropertyList2)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                           const GDExtensionPropertyInfo *p_list, uint32_t p_count);
-typedef GDExtensionBool (*GDExtensionScriptInstanceGetClassCategory)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                     GDExtensionPropertyInfo *p_class_category);
+typedef GDExtensionBool (*GDExtensionScriptInstanceSet)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionConstVariantPtr p_value);
+typedef GDExtensionBool (*GDExtensionScriptInstanceGet)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionVariantPtr r_ret);
+typedef const GDExtensionPropertyInfo *(*GDExtensionScriptInstanceGetPropertyList)(GDExtensionScriptInstanceDataPtr p_instance, uint32_t *r_count);
+typedef void (*GDExtensionScriptInstanceFreePropertyList)(GDExtensionScriptInstanceDataPtr p_instance, const GDExtensionPropertyInfo *p_list); // Deprecated. Use GDExtensionScriptInstanceFreePropertyList2 instead.
+typedef void (*GDExtensionScriptInstanceFreePropertyList2)(GDExtensionScriptInstanceDataPtr p_instance, const GDExtensionPropertyInfo *p_list, uint32_t p_count);
+typedef GDExtensionBool (*GDExtensionScriptInstanceGetClassCategory)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionPropertyInfo *p_class_category);
 
-typedef GDExtensionVariantType (*GDExtensionScriptInstanceGetPropertyType)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                           GDExtensionConstStringNamePtr p_name,
-                                                                           GDExtensionBool *r_is_valid);
-typedef GDExtensionBool (*GDExtensionScriptInstanceValidateProperty)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                     GDExtensionPropertyInfo *p_property);
+typedef GDExtensionVariantType (*GDExtensionScriptInstanceGetPropertyType)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionBool *r_is_valid);
+typedef GDExtensionBool (*GDExtensionScriptInstanceValidateProperty)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionPropertyInfo *p_property);
 
-typedef GDExtensionBool (*GDExtensionScriptInstancePropertyCanRevert)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                      GDExtensionConstStringNamePtr p_name);
-typedef GDExtensionBool (*GDExtensionScriptInstancePropertyGetRevert)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                      GDExtensionConstStringNamePtr p_name,
-                                                                      GDExtensionVariantPtr r_ret);
+typedef GDExtensionBool (*GDExtensionScriptInstancePropertyCanRevert)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name);
+typedef GDExtensionBool (*GDExtensionScriptInstancePropertyGetRevert)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionVariantPtr r_ret);
 
 typedef GDExtensionObjectPtr (*GDExtensionScriptInstanceGetOwner)(GDExtensionScriptInstanceDataPtr p_instance);
-typedef void (*GDExtensionScriptInstancePropertyStateAdd)(GDExtensionConstStringNamePtr p_name,
-                                                          GDExtensionConstVariantPtr p_value, void *p_userdata);
-typedef void (*GDExtensionScriptInstanceGetPropertyState)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                          GDExtensionScriptInstancePropertyStateAdd p_add_func,
-                                                          void *p_userdata);
+typedef void (*GDExtensionScriptInstancePropertyStateAdd)(GDExtensionConstStringNamePtr p_name, GDExtensionConstVariantPtr p_value, void *p_userdata);
+typedef void (*GDExtensionScriptInstanceGetPropertyState)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionScriptInstancePropertyStateAdd p_add_func, void *p_userdata);
 
-typedef const GDExtensionMethodInfo *(*GDExtensionScriptInstanceGetMethodList)(
-    GDExtensionScriptInstanceDataPtr p_instance, uint32_t *r_count);
-typedef void (*GDExtensionScriptInstanceFreeMethodList)(
-    GDExtensionScriptInstanceDataPtr p_instance,
-    const GDExtensionMethodInfo *p_list); // Deprecated. Use GDExtensionScriptInstanceFreeMethodList2 instead.
-typedef void (*GDExtensionScriptInstanceFreeMethodList2)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                         const GDExtensionMethodInfo *p_list, uint32_t p_count);
+typedef const GDExtensionMethodInfo *(*GDExtensionScriptInstanceGetMethodList)(GDExtensionScriptInstanceDataPtr p_instance, uint32_t *r_count);
+typedef void (*GDExtensionScriptInstanceFreeMethodList)(GDExtensionScriptInstanceDataPtr p_instance, const GDExtensionMethodInfo *p_list); // Deprecated. Use GDExtensionScriptInstanceFreeMethodList2 instead.
+typedef void (*GDExtensionScriptInstanceFreeMethodList2)(GDExtensionScriptInstanceDataPtr p_instance, const GDExtensionMethodInfo *p_list, uint32_t p_count);
 
-typedef GDExtensionBool (*GDExtensionScriptInstanceHasMethod)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                              GDExtensionConstStringNamePtr p_name);
+typedef GDExtensionBool (*GDExtensionScriptInstanceHasMethod)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name);
 
-typedef GDExtensionInt (*GDExtensionScriptInstanceGetMethodArgumentCount)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                                          GDExtensionConstStringNamePtr p_name,
-                                                                          GDExtensionBool *r_is_valid);
+typedef GDExtensionInt (*GDExtensionScriptInstanceGetMethodArgumentCount)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionConstStringNamePtr p_name, GDExtensionBool *r_is_valid);
 
-typedef void (*GDExtensionScriptInstanceCall)(GDExtensionScriptInstanceDataPtr p_self,
-                                              GDExtensionConstStringNamePtr p_method,
-                                              const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count,
-                                              GDExtensionVariantPtr r_return, GDExtensionCallError *r_error);
-typedef void (*GDExtensionScriptInstanceNotification)(
-    GDExtensionScriptInstanceDataPtr p_instance,
-    int32_t p_what); // Deprecated. Use GDExtensionScriptInstanceNotification2 instead.
-typedef void (*GDExtensionScriptInstanceNotification2)(GDExtensionScriptInstanceDataPtr p_instance, int32_t p_what,
-                                                       GDExtensionBool p_reversed);
-typedef void (*GDExtensionScriptInstanceToString)(GDExtensionScriptInstanceDataPtr p_instance,
-                                                  GDExtensionBool *r_is_valid, GDExtensionStringPtr r_out);
+typedef void (*GDExtensionScriptInstanceCall)(GDExtensionScriptInstanceDataPtr p_self, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionVariantPtr r_return, GDExtensionCallError *r_error);
+typedef void (*GDExtensionScriptInstanceNotification)(GDExtensionScriptInstanceDataPtr p_instance, int32_t p_what); // Deprecated. Use GDExtensionScriptInstanceNotification2 instead.
+typedef void (*GDExtensionScriptInstanceNotification2)(GDExtensionScriptInstanceDataPtr p_instance, int32_t p_what, GDExtensionBool p_reversed);
+typedef void (*GDExtensionScriptInstanceToString)(GDExtensionScriptInstanceDataPtr p_instance, GDExtensionBool *r_is_valid, GDExtensionStringPtr r_out);
 
 typedef void (*GDExtensionScriptInstanceRefCountIncremented)(GDExtensionScriptInstanceDataPtr p_instance);
 typedef GDExtensionBool (*GDExtensionScriptInstanceRefCountDecremented)(GDExtensionScriptInstanceDataPtr p_instance);
@@ -630,157 +552,154 @@ typedef GDExtensionBool (*GDExtensionScriptInstanceIsPlaceholder)(GDExtensionScr
 
 typedef void *GDExtensionScriptLanguagePtr;
 
-typedef GDExtensionScriptLanguagePtr (*GDExtensionScriptInstanceGetLanguage)(
-    GDExtensionScriptInstanceDataPtr p_instance);
+typedef GDExtensionScriptLanguagePtr (*GDExtensionScriptInstanceGetLanguage)(GDExtensionScriptInstanceDataPtr p_instance);
 
 typedef void (*GDExtensionScriptInstanceFree)(GDExtensionScriptInstanceDataPtr p_instance);
 
 typedef void *GDExtensionScriptInstancePtr; // Pointer to ScriptInstance.
 
 typedef struct {
-    GDExtensionScriptInstanceSet set_func;
-    GDExtensionScriptInstanceGet get_func;
-    GDExtensionScriptInstanceGetPropertyList get_property_list_func;
-    GDExtensionScriptInstanceFreePropertyList free_property_list_func;
+	GDExtensionScriptInstanceSet set_func;
+	GDExtensionScriptInstanceGet get_func;
+	GDExtensionScriptInstanceGetPropertyList get_property_list_func;
+	GDExtensionScriptInstanceFreePropertyList free_property_list_func;
 
-    GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
-    GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
+	GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
+	GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
 
-    GDExtensionScriptInstanceGetOwner get_owner_func;
-    GDExtensionScriptInstanceGetPropertyState get_property_state_func;
+	GDExtensionScriptInstanceGetOwner get_owner_func;
+	GDExtensionScriptInstanceGetPropertyState get_property_state_func;
 
-    GDExtensionScriptInstanceGetMethodList get_method_list_func;
-    GDExtensionScriptInstanceFreeMethodList free_method_list_func;
-    GDExtensionScriptInstanceGetPropertyType get_property_type_func;
+	GDExtensionScriptInstanceGetMethodList get_method_list_func;
+	GDExtensionScriptInstanceFreeMethodList free_method_list_func;
+	GDExtensionScriptInstanceGetPropertyType get_property_type_func;
 
-    GDExtensionScriptInstanceHasMethod has_method_func;
+	GDExtensionScriptInstanceHasMethod has_method_func;
 
-    GDExtensionScriptInstanceCall call_func;
-    GDExtensionScriptInstanceNotification notification_func;
+	GDExtensionScriptInstanceCall call_func;
+	GDExtensionScriptInstanceNotification notification_func;
 
-    GDExtensionScriptInstanceToString to_string_func;
+	GDExtensionScriptInstanceToString to_string_func;
 
-    GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
-    GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
+	GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
+	GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
 
-    GDExtensionScriptInstanceGetScript get_script_func;
+	GDExtensionScriptInstanceGetScript get_script_func;
 
-    GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
+	GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
 
-    GDExtensionScriptInstanceSet set_fallback_func;
-    GDExtensionScriptInstanceGet get_fallback_func;
+	GDExtensionScriptInstanceSet set_fallback_func;
+	GDExtensionScriptInstanceGet get_fallback_func;
 
-    GDExtensionScriptInstanceGetLanguage get_language_func;
+	GDExtensionScriptInstanceGetLanguage get_language_func;
 
-    GDExtensionScriptInstanceFree free_func;
+	GDExtensionScriptInstanceFree free_func;
 
 } GDExtensionScriptInstanceInfo; // Deprecated. Use GDExtensionScriptInstanceInfo3 instead.
 
 typedef struct {
-    GDExtensionScriptInstanceSet set_func;
-    GDExtensionScriptInstanceGet get_func;
-    GDExtensionScriptInstanceGetPropertyList get_property_list_func;
-    GDExtensionScriptInstanceFreePropertyList free_property_list_func;
-    GDExtensionScriptInstanceGetClassCategory
-        get_class_category_func; // Optional. Set to NULL for the default behavior.
+	GDExtensionScriptInstanceSet set_func;
+	GDExtensionScriptInstanceGet get_func;
+	GDExtensionScriptInstanceGetPropertyList get_property_list_func;
+	GDExtensionScriptInstanceFreePropertyList free_property_list_func;
+	GDExtensionScriptInstanceGetClassCategory get_class_category_func; // Optional. Set to NULL for the default behavior.
 
-    GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
-    GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
+	GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
+	GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
 
-    GDExtensionScriptInstanceGetOwner get_owner_func;
-    GDExtensionScriptInstanceGetPropertyState get_property_state_func;
+	GDExtensionScriptInstanceGetOwner get_owner_func;
+	GDExtensionScriptInstanceGetPropertyState get_property_state_func;
 
-    GDExtensionScriptInstanceGetMethodList get_method_list_func;
-    GDExtensionScriptInstanceFreeMethodList free_method_list_func;
-    GDExtensionScriptInstanceGetPropertyType get_property_type_func;
-    GDExtensionScriptInstanceValidateProperty validate_property_func;
+	GDExtensionScriptInstanceGetMethodList get_method_list_func;
+	GDExtensionScriptInstanceFreeMethodList free_method_list_func;
+	GDExtensionScriptInstanceGetPropertyType get_property_type_func;
+	GDExtensionScriptInstanceValidateProperty validate_property_func;
 
-    GDExtensionScriptInstanceHasMethod has_method_func;
+	GDExtensionScriptInstanceHasMethod has_method_func;
 
-    GDExtensionScriptInstanceCall call_func;
-    GDExtensionScriptInstanceNotification2 notification_func;
+	GDExtensionScriptInstanceCall call_func;
+	GDExtensionScriptInstanceNotification2 notification_func;
 
-    GDExtensionScriptInstanceToString to_string_func;
+	GDExtensionScriptInstanceToString to_string_func;
 
-    GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
-    GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
+	GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
+	GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
 
-    GDExtensionScriptInstanceGetScript get_script_func;
+	GDExtensionScriptInstanceGetScript get_script_func;
 
-    GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
+	GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
 
-    GDExtensionScriptInstanceSet set_fallback_func;
-    GDExtensionScriptInstanceGet get_fallback_func;
+	GDExtensionScriptInstanceSet set_fallback_func;
+	GDExtensionScriptInstanceGet get_fallback_func;
 
-    GDExtensionScriptInstanceGetLanguage get_language_func;
+	GDExtensionScriptInstanceGetLanguage get_language_func;
 
-    GDExtensionScriptInstanceFree free_func;
+	GDExtensionScriptInstanceFree free_func;
 
 } GDExtensionScriptInstanceInfo2; // Deprecated. Use GDExtensionScriptInstanceInfo3 instead.
 
 typedef struct {
-    GDExtensionScriptInstanceSet set_func;
-    GDExtensionScriptInstanceGet get_func;
-    GDExtensionScriptInstanceGetPropertyList get_property_list_func;
-    GDExtensionScriptInstanceFreePropertyList2 free_property_list_func;
-    GDExtensionScriptInstanceGetClassCategory
-        get_class_category_func; // Optional. Set to NULL for the default behavior.
+	GDExtensionScriptInstanceSet set_func;
+	GDExtensionScriptInstanceGet get_func;
+	GDExtensionScriptInstanceGetPropertyList get_property_list_func;
+	GDExtensionScriptInstanceFreePropertyList2 free_property_list_func;
+	GDExtensionScriptInstanceGetClassCategory get_class_category_func; // Optional. Set to NULL for the default behavior.
 
-    GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
-    GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
+	GDExtensionScriptInstancePropertyCanRevert property_can_revert_func;
+	GDExtensionScriptInstancePropertyGetRevert property_get_revert_func;
 
-    GDExtensionScriptInstanceGetOwner get_owner_func;
-    GDExtensionScriptInstanceGetPropertyState get_property_state_func;
+	GDExtensionScriptInstanceGetOwner get_owner_func;
+	GDExtensionScriptInstanceGetPropertyState get_property_state_func;
 
-    GDExtensionScriptInstanceGetMethodList get_method_list_func;
-    GDExtensionScriptInstanceFreeMethodList2 free_method_list_func;
-    GDExtensionScriptInstanceGetPropertyType get_property_type_func;
-    GDExtensionScriptInstanceValidateProperty validate_property_func;
+	GDExtensionScriptInstanceGetMethodList get_method_list_func;
+	GDExtensionScriptInstanceFreeMethodList2 free_method_list_func;
+	GDExtensionScriptInstanceGetPropertyType get_property_type_func;
+	GDExtensionScriptInstanceValidateProperty validate_property_func;
 
-    GDExtensionScriptInstanceHasMethod has_method_func;
+	GDExtensionScriptInstanceHasMethod has_method_func;
 
-    GDExtensionScriptInstanceGetMethodArgumentCount get_method_argument_count_func;
+	GDExtensionScriptInstanceGetMethodArgumentCount get_method_argument_count_func;
 
-    GDExtensionScriptInstanceCall call_func;
-    GDExtensionScriptInstanceNotification2 notification_func;
+	GDExtensionScriptInstanceCall call_func;
+	GDExtensionScriptInstanceNotification2 notification_func;
 
-    GDExtensionScriptInstanceToString to_string_func;
+	GDExtensionScriptInstanceToString to_string_func;
 
-    GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
-    GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
+	GDExtensionScriptInstanceRefCountIncremented refcount_incremented_func;
+	GDExtensionScriptInstanceRefCountDecremented refcount_decremented_func;
 
-    GDExtensionScriptInstanceGetScript get_script_func;
+	GDExtensionScriptInstanceGetScript get_script_func;
 
-    GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
+	GDExtensionScriptInstanceIsPlaceholder is_placeholder_func;
 
-    GDExtensionScriptInstanceSet set_fallback_func;
-    GDExtensionScriptInstanceGet get_fallback_func;
+	GDExtensionScriptInstanceSet set_fallback_func;
+	GDExtensionScriptInstanceGet get_fallback_func;
 
-    GDExtensionScriptInstanceGetLanguage get_language_func;
+	GDExtensionScriptInstanceGetLanguage get_language_func;
 
-    GDExtensionScriptInstanceFree free_func;
+	GDExtensionScriptInstanceFree free_func;
 
 } GDExtensionScriptInstanceInfo3;
 
 /* INITIALIZATION */
 
 typedef enum {
-    GDEXTENSION_INITIALIZATION_CORE,
-    GDEXTENSION_INITIALIZATION_SERVERS,
-    GDEXTENSION_INITIALIZATION_SCENE,
-    GDEXTENSION_INITIALIZATION_EDITOR,
-    GDEXTENSION_MAX_INITIALIZATION_LEVEL,
+	GDEXTENSION_INITIALIZATION_CORE,
+	GDEXTENSION_INITIALIZATION_SERVERS,
+	GDEXTENSION_INITIALIZATION_SCENE,
+	GDEXTENSION_INITIALIZATION_EDITOR,
+	GDEXTENSION_MAX_INITIALIZATION_LEVEL,
 } GDExtensionInitializationLevel;
 
 typedef struct {
-    /* Minimum initialization level required.
-     * If Core or Servers, the extension needs editor or game restart to take effect */
-    GDExtensionInitializationLevel minimum_initialization_level;
-    /* Up to the user to supply when initializing */
-    void *userdata;
-    /* This function will be called multiple times for each initialization level. */
-    void (*initialize)(void *userdata, GDExtensionInitializationLevel p_level);
-    void (*deinitialize)(void *userdata, GDExtensionInitializationLevel p_level);
+	/* Minimum initialization level required.
+	 * If Core or Servers, the extension needs editor or game restart to take effect */
+	GDExtensionInitializationLevel minimum_initialization_level;
+	/* Up to the user to supply when initializing */
+	void *userdata;
+	/* This function will be called multiple times for each initialization level. */
+	void (*initialize)(void *userdata, GDExtensionInitializationLevel p_level);
+	void (*deinitialize)(void *userdata, GDExtensionInitializationLevel p_level);
 } GDExtensionInitialization;
 
 typedef void (*GDExtensionInterfaceFunctionPtr)();
@@ -792,8 +711,7 @@ typedef GDExtensionInterfaceFunctionPtr (*GDExtensionInterfaceGetProcAddress)(co
  *
  * For example:
  *
- *   GDExtensionBool my_extension_init(GDExtensionInterfaceGetProcAddress p_get_proc_address, GDExtensionClassLibraryPtr
- * p_library, GDExtensionInitialization *r_initialization);
+ *   GDExtensionBool my_extension_init(GDExtensionInterfaceGetProcAddress p_get_proc_address, GDExtensionClassLibraryPtr p_library, GDExtensionInitialization *r_initialization);
  *
  * This function's name must be specified as the 'entry_symbol' in the .gdextension file.
  *
@@ -807,8 +725,7 @@ typedef GDExtensionInterfaceFunctionPtr (*GDExtensionInterfaceGetProcAddress)(co
  *
  * For example:
  *
- *   GDExtensionInterfaceGetGodotVersion get_godot_version =
- * (GDExtensionInterfaceGetGodotVersion)p_get_proc_address("get_godot_version");
+ *   GDExtensionInterfaceGetGodotVersion get_godot_version = (GDExtensionInterfaceGetGodotVersion)p_get_proc_address("get_godot_version");
  *
  * (Note that snippet may cause "cast between incompatible function types" on some compilers, you can
  * silence this by adding an intermediary `void*` cast.)
@@ -822,17 +739,15 @@ typedef GDExtensionInterfaceFunctionPtr (*GDExtensionInterfaceGetProcAddress)(co
  * All of these interface functions are described below, together with the name that's used to load it,
  * and the function pointer typedef that shows its signature.
  */
-typedef GDExtensionBool (*GDExtensionInitializationFunction)(GDExtensionInterfaceGetProcAddress p_get_proc_address,
-                                                             GDExtensionClassLibraryPtr p_library,
-                                                             GDExtensionInitialization *r_initialization);
+typedef GDExtensionBool (*GDExtensionInitializationFunction)(GDExtensionInterfaceGetProcAddress p_get_proc_address, GDExtensionClassLibraryPtr p_library, GDExtensionInitialization *r_initialization);
 
 /* INTERFACE */
 
 typedef struct {
-    uint32_t major;
-    uint32_t minor;
-    uint32_t patch;
-    const char *string;
+	uint32_t major;
+	uint32_t minor;
+	uint32_t patch;
+	const char *string;
 } GDExtensionGodotVersion;
 
 /**
@@ -896,8 +811,7 @@ typedef void (*GDExtensionInterfaceMemFree)(void *p_ptr);
  * @param p_line The line where the error occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintError)(const char *p_description, const char *p_function, const char *p_file,
-                                               int32_t p_line, GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintError)(const char *p_description, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name print_error_with_message
@@ -912,9 +826,7 @@ typedef void (*GDExtensionInterfacePrintError)(const char *p_description, const 
  * @param p_line The line where the error occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintErrorWithMessage)(const char *p_description, const char *p_message,
-                                                          const char *p_function, const char *p_file, int32_t p_line,
-                                                          GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintErrorWithMessage)(const char *p_description, const char *p_message, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name print_warning
@@ -928,8 +840,7 @@ typedef void (*GDExtensionInterfacePrintErrorWithMessage)(const char *p_descript
  * @param p_line The line where the warning occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintWarning)(const char *p_description, const char *p_function, const char *p_file,
-                                                 int32_t p_line, GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintWarning)(const char *p_description, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name print_warning_with_message
@@ -944,9 +855,7 @@ typedef void (*GDExtensionInterfacePrintWarning)(const char *p_description, cons
  * @param p_line The line where the warning occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintWarningWithMessage)(const char *p_description, const char *p_message,
-                                                            const char *p_function, const char *p_file, int32_t p_line,
-                                                            GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintWarningWithMessage)(const char *p_description, const char *p_message, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name print_script_error
@@ -960,9 +869,7 @@ typedef void (*GDExtensionInterfacePrintWarningWithMessage)(const char *p_descri
  * @param p_line The line where the error occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintScriptError)(const char *p_description, const char *p_function,
-                                                     const char *p_file, int32_t p_line,
-                                                     GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintScriptError)(const char *p_description, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name print_script_error_with_message
@@ -977,9 +884,7 @@ typedef void (*GDExtensionInterfacePrintScriptError)(const char *p_description, 
  * @param p_line The line where the error occurred.
  * @param p_editor_notify Whether or not to notify the editor.
  */
-typedef void (*GDExtensionInterfacePrintScriptErrorWithMessage)(const char *p_description, const char *p_message,
-                                                                const char *p_function, const char *p_file,
-                                                                int32_t p_line, GDExtensionBool p_editor_notify);
+typedef void (*GDExtensionInterfacePrintScriptErrorWithMessage)(const char *p_description, const char *p_message, const char *p_function, const char *p_file, int32_t p_line, GDExtensionBool p_editor_notify);
 
 /**
  * @name get_native_struct_size
@@ -1004,8 +909,7 @@ typedef uint64_t (*GDExtensionInterfaceGetNativeStructSize)(GDExtensionConstStri
  * @param r_dest A pointer to the destination Variant.
  * @param p_src A pointer to the source Variant.
  */
-typedef void (*GDExtensionInterfaceVariantNewCopy)(GDExtensionUninitializedVariantPtr r_dest,
-                                                   GDExtensionConstVariantPtr p_src);
+typedef void (*GDExtensionInterfaceVariantNewCopy)(GDExtensionUninitializedVariantPtr r_dest, GDExtensionConstVariantPtr p_src);
 
 /**
  * @name variant_new_nil
@@ -1042,11 +946,7 @@ typedef void (*GDExtensionInterfaceVariantDestroy)(GDExtensionVariantPtr p_self)
  *
  * @see Variant::callp()
  */
-typedef void (*GDExtensionInterfaceVariantCall)(GDExtensionVariantPtr p_self, GDExtensionConstStringNamePtr p_method,
-                                                const GDExtensionConstVariantPtr *p_args,
-                                                GDExtensionInt p_argument_count,
-                                                GDExtensionUninitializedVariantPtr r_return,
-                                                GDExtensionCallError *r_error);
+typedef void (*GDExtensionInterfaceVariantCall)(GDExtensionVariantPtr p_self, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionUninitializedVariantPtr r_return, GDExtensionCallError *r_error);
 
 /**
  * @name variant_call_static
@@ -1063,9 +963,7 @@ typedef void (*GDExtensionInterfaceVariantCall)(GDExtensionVariantPtr p_self, GD
  *
  * @see Variant::call_static()
  */
-typedef void (*GDExtensionInterfaceVariantCallStatic)(
-    GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args,
-    GDExtensionInt p_argument_count, GDExtensionUninitializedVariantPtr r_return, GDExtensionCallError *r_error);
+typedef void (*GDExtensionInterfaceVariantCallStatic)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionUninitializedVariantPtr r_return, GDExtensionCallError *r_error);
 
 /**
  * @name variant_evaluate
@@ -1081,10 +979,7 @@ typedef void (*GDExtensionInterfaceVariantCallStatic)(
  *
  * @see Variant::evaluate()
  */
-typedef void (*GDExtensionInterfaceVariantEvaluate)(GDExtensionVariantOperator p_op, GDExtensionConstVariantPtr p_a,
-                                                    GDExtensionConstVariantPtr p_b,
-                                                    GDExtensionUninitializedVariantPtr r_return,
-                                                    GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantEvaluate)(GDExtensionVariantOperator p_op, GDExtensionConstVariantPtr p_a, GDExtensionConstVariantPtr p_b, GDExtensionUninitializedVariantPtr r_return, GDExtensionBool *r_valid);
 
 /**
  * @name variant_set
@@ -1099,8 +994,7 @@ typedef void (*GDExtensionInterfaceVariantEvaluate)(GDExtensionVariantOperator p
  *
  * @see Variant::set()
  */
-typedef void (*GDExtensionInterfaceVariantSet)(GDExtensionVariantPtr p_self, GDExtensionConstVariantPtr p_key,
-                                               GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantSet)(GDExtensionVariantPtr p_self, GDExtensionConstVariantPtr p_key, GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
 
 /**
  * @name variant_set_named
@@ -1115,8 +1009,7 @@ typedef void (*GDExtensionInterfaceVariantSet)(GDExtensionVariantPtr p_self, GDE
  *
  * @see Variant::set_named()
  */
-typedef void (*GDExtensionInterfaceVariantSetNamed)(GDExtensionVariantPtr p_self, GDExtensionConstStringNamePtr p_key,
-                                                    GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantSetNamed)(GDExtensionVariantPtr p_self, GDExtensionConstStringNamePtr p_key, GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
 
 /**
  * @name variant_set_keyed
@@ -1131,8 +1024,7 @@ typedef void (*GDExtensionInterfaceVariantSetNamed)(GDExtensionVariantPtr p_self
  *
  * @see Variant::set_keyed()
  */
-typedef void (*GDExtensionInterfaceVariantSetKeyed)(GDExtensionVariantPtr p_self, GDExtensionConstVariantPtr p_key,
-                                                    GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantSetKeyed)(GDExtensionVariantPtr p_self, GDExtensionConstVariantPtr p_key, GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid);
 
 /**
  * @name variant_set_indexed
@@ -1146,9 +1038,7 @@ typedef void (*GDExtensionInterfaceVariantSetKeyed)(GDExtensionVariantPtr p_self
  * @param r_valid A pointer to a boolean which will be set to false if the operation is invalid.
  * @param r_oob A pointer to a boolean which will be set to true if the index is out of bounds.
  */
-typedef void (*GDExtensionInterfaceVariantSetIndexed)(GDExtensionVariantPtr p_self, GDExtensionInt p_index,
-                                                      GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid,
-                                                      GDExtensionBool *r_oob);
+typedef void (*GDExtensionInterfaceVariantSetIndexed)(GDExtensionVariantPtr p_self, GDExtensionInt p_index, GDExtensionConstVariantPtr p_value, GDExtensionBool *r_valid, GDExtensionBool *r_oob);
 
 /**
  * @name variant_get
@@ -1161,8 +1051,7 @@ typedef void (*GDExtensionInterfaceVariantSetIndexed)(GDExtensionVariantPtr p_se
  * @param r_ret A pointer to a Variant which will be assigned the value.
  * @param r_valid A pointer to a boolean which will be set to false if the operation is invalid.
  */
-typedef void (*GDExtensionInterfaceVariantGet)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_key,
-                                               GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantGet)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_key, GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
 
 /**
  * @name variant_get_named
@@ -1175,9 +1064,7 @@ typedef void (*GDExtensionInterfaceVariantGet)(GDExtensionConstVariantPtr p_self
  * @param r_ret A pointer to a Variant which will be assigned the value.
  * @param r_valid A pointer to a boolean which will be set to false if the operation is invalid.
  */
-typedef void (*GDExtensionInterfaceVariantGetNamed)(GDExtensionConstVariantPtr p_self,
-                                                    GDExtensionConstStringNamePtr p_key,
-                                                    GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantGetNamed)(GDExtensionConstVariantPtr p_self, GDExtensionConstStringNamePtr p_key, GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
 
 /**
  * @name variant_get_keyed
@@ -1190,8 +1077,7 @@ typedef void (*GDExtensionInterfaceVariantGetNamed)(GDExtensionConstVariantPtr p
  * @param r_ret A pointer to a Variant which will be assigned the value.
  * @param r_valid A pointer to a boolean which will be set to false if the operation is invalid.
  */
-typedef void (*GDExtensionInterfaceVariantGetKeyed)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_key,
-                                                    GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantGetKeyed)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_key, GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
 
 /**
  * @name variant_get_indexed
@@ -1205,9 +1091,7 @@ typedef void (*GDExtensionInterfaceVariantGetKeyed)(GDExtensionConstVariantPtr p
  * @param r_valid A pointer to a boolean which will be set to false if the operation is invalid.
  * @param r_oob A pointer to a boolean which will be set to true if the index is out of bounds.
  */
-typedef void (*GDExtensionInterfaceVariantGetIndexed)(GDExtensionConstVariantPtr p_self, GDExtensionInt p_index,
-                                                      GDExtensionUninitializedVariantPtr r_ret,
-                                                      GDExtensionBool *r_valid, GDExtensionBool *r_oob);
+typedef void (*GDExtensionInterfaceVariantGetIndexed)(GDExtensionConstVariantPtr p_self, GDExtensionInt p_index, GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid, GDExtensionBool *r_oob);
 
 /**
  * @name variant_iter_init
@@ -1223,9 +1107,7 @@ typedef void (*GDExtensionInterfaceVariantGetIndexed)(GDExtensionConstVariantPtr
  *
  * @see Variant::iter_init()
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantIterInit)(GDExtensionConstVariantPtr p_self,
-                                                               GDExtensionUninitializedVariantPtr r_iter,
-                                                               GDExtensionBool *r_valid);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantIterInit)(GDExtensionConstVariantPtr p_self, GDExtensionUninitializedVariantPtr r_iter, GDExtensionBool *r_valid);
 
 /**
  * @name variant_iter_next
@@ -1241,8 +1123,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantIterInit)(GDExtensionConstV
  *
  * @see Variant::iter_next()
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantIterNext)(GDExtensionConstVariantPtr p_self,
-                                                               GDExtensionVariantPtr r_iter, GDExtensionBool *r_valid);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantIterNext)(GDExtensionConstVariantPtr p_self, GDExtensionVariantPtr r_iter, GDExtensionBool *r_valid);
 
 /**
  * @name variant_iter_get
@@ -1257,8 +1138,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantIterNext)(GDExtensionConstV
  *
  * @see Variant::iter_get()
  */
-typedef void (*GDExtensionInterfaceVariantIterGet)(GDExtensionConstVariantPtr p_self, GDExtensionVariantPtr r_iter,
-                                                   GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
+typedef void (*GDExtensionInterfaceVariantIterGet)(GDExtensionConstVariantPtr p_self, GDExtensionVariantPtr r_iter, GDExtensionUninitializedVariantPtr r_ret, GDExtensionBool *r_valid);
 
 /**
  * @name variant_hash
@@ -1287,8 +1167,7 @@ typedef GDExtensionInt (*GDExtensionInterfaceVariantHash)(GDExtensionConstVarian
  *
  * @see Variant::recursive_hash()
  */
-typedef GDExtensionInt (*GDExtensionInterfaceVariantRecursiveHash)(GDExtensionConstVariantPtr p_self,
-                                                                   GDExtensionInt p_recursion_count);
+typedef GDExtensionInt (*GDExtensionInterfaceVariantRecursiveHash)(GDExtensionConstVariantPtr p_self, GDExtensionInt p_recursion_count);
 
 /**
  * @name variant_hash_compare
@@ -1303,8 +1182,7 @@ typedef GDExtensionInt (*GDExtensionInterfaceVariantRecursiveHash)(GDExtensionCo
  *
  * @see Variant::hash_compare()
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantHashCompare)(GDExtensionConstVariantPtr p_self,
-                                                                  GDExtensionConstVariantPtr p_other);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantHashCompare)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_other);
 
 /**
  * @name variant_booleanize
@@ -1328,8 +1206,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantBooleanize)(GDExtensionCons
  * @param r_ret A pointer to a Variant to store the duplicated value.
  * @param p_deep Whether or not to duplicate deeply (when supported by the Variant type).
  */
-typedef void (*GDExtensionInterfaceVariantDuplicate)(GDExtensionConstVariantPtr p_self, GDExtensionVariantPtr r_ret,
-                                                     GDExtensionBool p_deep);
+typedef void (*GDExtensionInterfaceVariantDuplicate)(GDExtensionConstVariantPtr p_self, GDExtensionVariantPtr r_ret, GDExtensionBool p_deep);
 
 /**
  * @name variant_stringify
@@ -1365,8 +1242,7 @@ typedef GDExtensionVariantType (*GDExtensionInterfaceVariantGetType)(GDExtension
  *
  * @return
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMethod)(GDExtensionConstVariantPtr p_self,
-                                                                GDExtensionConstStringNamePtr p_method);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMethod)(GDExtensionConstVariantPtr p_self, GDExtensionConstStringNamePtr p_method);
 
 /**
  * @name variant_has_member
@@ -1379,8 +1255,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMethod)(GDExtensionConst
  *
  * @return
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMember)(GDExtensionVariantType p_type,
-                                                                GDExtensionConstStringNamePtr p_member);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMember)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_member);
 
 /**
  * @name variant_has_key
@@ -1394,9 +1269,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantHasMember)(GDExtensionVaria
  *
  * @return true if the key exists; otherwise false.
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantHasKey)(GDExtensionConstVariantPtr p_self,
-                                                             GDExtensionConstVariantPtr p_key,
-                                                             GDExtensionBool *r_valid);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantHasKey)(GDExtensionConstVariantPtr p_self, GDExtensionConstVariantPtr p_key, GDExtensionBool *r_valid);
 
 /**
  * @name variant_get_type_name
@@ -1407,8 +1280,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantHasKey)(GDExtensionConstVar
  * @param p_type The Variant type.
  * @param r_name A pointer to a String to store the Variant type name.
  */
-typedef void (*GDExtensionInterfaceVariantGetTypeName)(GDExtensionVariantType p_type,
-                                                       GDExtensionUninitializedStringPtr r_name);
+typedef void (*GDExtensionInterfaceVariantGetTypeName)(GDExtensionVariantType p_type, GDExtensionUninitializedStringPtr r_name);
 
 /**
  * @name variant_can_convert
@@ -1421,8 +1293,7 @@ typedef void (*GDExtensionInterfaceVariantGetTypeName)(GDExtensionVariantType p_
  *
  * @return true if the conversion is possible; otherwise false.
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvert)(GDExtensionVariantType p_from,
-                                                                 GDExtensionVariantType p_to);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvert)(GDExtensionVariantType p_from, GDExtensionVariantType p_to);
 
 /**
  * @name variant_can_convert_strict
@@ -1435,8 +1306,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvert)(GDExtensionVari
  *
  * @return true if the conversion is possible; otherwise false.
  */
-typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvertStrict)(GDExtensionVariantType p_from,
-                                                                       GDExtensionVariantType p_to);
+typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvertStrict)(GDExtensionVariantType p_from, GDExtensionVariantType p_to);
 
 /**
  * @name get_variant_from_type_constructor
@@ -1448,8 +1318,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceVariantCanConvertStrict)(GDExtensi
  *
  * @return A pointer to a function that can create a Variant of the given type from a raw value.
  */
-typedef GDExtensionVariantFromTypeConstructorFunc (*GDExtensionInterfaceGetVariantFromTypeConstructor)(
-    GDExtensionVariantType p_type);
+typedef GDExtensionVariantFromTypeConstructorFunc (*GDExtensionInterfaceGetVariantFromTypeConstructor)(GDExtensionVariantType p_type);
 
 /**
  * @name get_variant_to_type_constructor
@@ -1461,8 +1330,7 @@ typedef GDExtensionVariantFromTypeConstructorFunc (*GDExtensionInterfaceGetVaria
  *
  * @return A pointer to a function that can get the raw value from a Variant of the given type.
  */
-typedef GDExtensionTypeFromVariantConstructorFunc (*GDExtensionInterfaceGetVariantToTypeConstructor)(
-    GDExtensionVariantType p_type);
+typedef GDExtensionTypeFromVariantConstructorFunc (*GDExtensionInterfaceGetVariantToTypeConstructor)(GDExtensionVariantType p_type);
 
 /**
  * @name variant_get_ptr_operator_evaluator
@@ -1476,8 +1344,7 @@ typedef GDExtensionTypeFromVariantConstructorFunc (*GDExtensionInterfaceGetVaria
  *
  * @return A pointer to a function that can evaluate the given Variant operator on the given Variant types.
  */
-typedef GDExtensionPtrOperatorEvaluator (*GDExtensionInterfaceVariantGetPtrOperatorEvaluator)(
-    GDExtensionVariantOperator p_operator, GDExtensionVariantType p_type_a, GDExtensionVariantType p_type_b);
+typedef GDExtensionPtrOperatorEvaluator (*GDExtensionInterfaceVariantGetPtrOperatorEvaluator)(GDExtensionVariantOperator p_operator, GDExtensionVariantType p_type_a, GDExtensionVariantType p_type_b);
 
 /**
  * @name variant_get_ptr_builtin_method
@@ -1491,8 +1358,7 @@ typedef GDExtensionPtrOperatorEvaluator (*GDExtensionInterfaceVariantGetPtrOpera
  *
  * @return A pointer to a function that can call a builtin method on a type of Variant.
  */
-typedef GDExtensionPtrBuiltInMethod (*GDExtensionInterfaceVariantGetPtrBuiltinMethod)(
-    GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_method, GDExtensionInt p_hash);
+typedef GDExtensionPtrBuiltInMethod (*GDExtensionInterfaceVariantGetPtrBuiltinMethod)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_method, GDExtensionInt p_hash);
 
 /**
  * @name variant_get_ptr_constructor
@@ -1505,8 +1371,7 @@ typedef GDExtensionPtrBuiltInMethod (*GDExtensionInterfaceVariantGetPtrBuiltinMe
  *
  * @return A pointer to a function that can call one of the constructors for a type of Variant.
  */
-typedef GDExtensionPtrConstructor (*GDExtensionInterfaceVariantGetPtrConstructor)(GDExtensionVariantType p_type,
-                                                                                  int32_t p_constructor);
+typedef GDExtensionPtrConstructor (*GDExtensionInterfaceVariantGetPtrConstructor)(GDExtensionVariantType p_type, int32_t p_constructor);
 
 /**
  * @name variant_get_ptr_destructor
@@ -1532,10 +1397,7 @@ typedef GDExtensionPtrDestructor (*GDExtensionInterfaceVariantGetPtrDestructor)(
  * @param p_argument_count The number of arguments to pass to the constructor.
  * @param r_error A pointer the structure which will be updated with error information.
  */
-typedef void (*GDExtensionInterfaceVariantConstruct)(GDExtensionVariantType p_type,
-                                                     GDExtensionUninitializedVariantPtr r_base,
-                                                     const GDExtensionConstVariantPtr *p_args, int32_t p_argument_count,
-                                                     GDExtensionCallError *r_error);
+typedef void (*GDExtensionInterfaceVariantConstruct)(GDExtensionVariantType p_type, GDExtensionUninitializedVariantPtr r_base, const GDExtensionConstVariantPtr *p_args, int32_t p_argument_count, GDExtensionCallError *r_error);
 
 /**
  * @name variant_get_ptr_setter
@@ -1548,8 +1410,7 @@ typedef void (*GDExtensionInterfaceVariantConstruct)(GDExtensionVariantType p_ty
  *
  * @return A pointer to a function that can call a member's setter on the given Variant type.
  */
-typedef GDExtensionPtrSetter (*GDExtensionInterfaceVariantGetPtrSetter)(GDExtensionVariantType p_type,
-                                                                        GDExtensionConstStringNamePtr p_member);
+typedef GDExtensionPtrSetter (*GDExtensionInterfaceVariantGetPtrSetter)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_member);
 
 /**
  * @name variant_get_ptr_getter
@@ -1562,8 +1423,7 @@ typedef GDExtensionPtrSetter (*GDExtensionInterfaceVariantGetPtrSetter)(GDExtens
  *
  * @return A pointer to a function that can call a member's getter on the given Variant type.
  */
-typedef GDExtensionPtrGetter (*GDExtensionInterfaceVariantGetPtrGetter)(GDExtensionVariantType p_type,
-                                                                        GDExtensionConstStringNamePtr p_member);
+typedef GDExtensionPtrGetter (*GDExtensionInterfaceVariantGetPtrGetter)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_member);
 
 /**
  * @name variant_get_ptr_indexed_setter
@@ -1635,9 +1495,7 @@ typedef GDExtensionPtrKeyedChecker (*GDExtensionInterfaceVariantGetPtrKeyedCheck
  * @param p_constant A pointer to a StringName with the constant name.
  * @param r_ret A pointer to a Variant to store the value.
  */
-typedef void (*GDExtensionInterfaceVariantGetConstantValue)(GDExtensionVariantType p_type,
-                                                            GDExtensionConstStringNamePtr p_constant,
-                                                            GDExtensionUninitializedVariantPtr r_ret);
+typedef void (*GDExtensionInterfaceVariantGetConstantValue)(GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_constant, GDExtensionUninitializedVariantPtr r_ret);
 
 /**
  * @name variant_get_ptr_utility_function
@@ -1650,8 +1508,7 @@ typedef void (*GDExtensionInterfaceVariantGetConstantValue)(GDExtensionVariantTy
  *
  * @return A pointer to a function that can call a Variant utility function.
  */
-typedef GDExtensionPtrUtilityFunction (*GDExtensionInterfaceVariantGetPtrUtilityFunction)(
-    GDExtensionConstStringNamePtr p_function, GDExtensionInt p_hash);
+typedef GDExtensionPtrUtilityFunction (*GDExtensionInterfaceVariantGetPtrUtilityFunction)(GDExtensionConstStringNamePtr p_function, GDExtensionInt p_hash);
 
 /* INTERFACE: String Utilities */
 
@@ -1664,8 +1521,7 @@ typedef GDExtensionPtrUtilityFunction (*GDExtensionInterfaceVariantGetPtrUtility
  * @param r_dest A pointer to a Variant to hold the newly created String.
  * @param p_contents A pointer to a Latin-1 encoded C string (null terminated).
  */
-typedef void (*GDExtensionInterfaceStringNewWithLatin1Chars)(GDExtensionUninitializedStringPtr r_dest,
-                                                             const char *p_contents);
+typedef void (*GDExtensionInterfaceStringNewWithLatin1Chars)(GDExtensionUninitializedStringPtr r_dest, const char *p_contents);
 
 /**
  * @name string_new_with_utf8_chars
@@ -1676,8 +1532,7 @@ typedef void (*GDExtensionInterfaceStringNewWithLatin1Chars)(GDExtensionUninitia
  * @param r_dest A pointer to a Variant to hold the newly created String.
  * @param p_contents A pointer to a UTF-8 encoded C string (null terminated).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf8Chars)(GDExtensionUninitializedStringPtr r_dest,
-                                                           const char *p_contents);
+typedef void (*GDExtensionInterfaceStringNewWithUtf8Chars)(GDExtensionUninitializedStringPtr r_dest, const char *p_contents);
 
 /**
  * @name string_new_with_utf16_chars
@@ -1688,8 +1543,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf8Chars)(GDExtensionUninitiali
  * @param r_dest A pointer to a Variant to hold the newly created String.
  * @param p_contents A pointer to a UTF-16 encoded C string (null terminated).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf16Chars)(GDExtensionUninitializedStringPtr r_dest,
-                                                            const char16_t *p_contents);
+typedef void (*GDExtensionInterfaceStringNewWithUtf16Chars)(GDExtensionUninitializedStringPtr r_dest, const char16_t *p_contents);
 
 /**
  * @name string_new_with_utf32_chars
@@ -1700,8 +1554,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf16Chars)(GDExtensionUninitial
  * @param r_dest A pointer to a Variant to hold the newly created String.
  * @param p_contents A pointer to a UTF-32 encoded C string (null terminated).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf32Chars)(GDExtensionUninitializedStringPtr r_dest,
-                                                            const char32_t *p_contents);
+typedef void (*GDExtensionInterfaceStringNewWithUtf32Chars)(GDExtensionUninitializedStringPtr r_dest, const char32_t *p_contents);
 
 /**
  * @name string_new_with_wide_chars
@@ -1712,8 +1565,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf32Chars)(GDExtensionUninitial
  * @param r_dest A pointer to a Variant to hold the newly created String.
  * @param p_contents A pointer to a wide C string (null terminated).
  */
-typedef void (*GDExtensionInterfaceStringNewWithWideChars)(GDExtensionUninitializedStringPtr r_dest,
-                                                           const wchar_t *p_contents);
+typedef void (*GDExtensionInterfaceStringNewWithWideChars)(GDExtensionUninitializedStringPtr r_dest, const wchar_t *p_contents);
 
 /**
  * @name string_new_with_latin1_chars_and_len
@@ -1725,8 +1577,7 @@ typedef void (*GDExtensionInterfaceStringNewWithWideChars)(GDExtensionUninitiali
  * @param p_contents A pointer to a Latin-1 encoded C string.
  * @param p_size The number of characters (= number of bytes).
  */
-typedef void (*GDExtensionInterfaceStringNewWithLatin1CharsAndLen)(GDExtensionUninitializedStringPtr r_dest,
-                                                                   const char *p_contents, GDExtensionInt p_size);
+typedef void (*GDExtensionInterfaceStringNewWithLatin1CharsAndLen)(GDExtensionUninitializedStringPtr r_dest, const char *p_contents, GDExtensionInt p_size);
 
 /**
  * @name string_new_with_utf8_chars_and_len
@@ -1739,8 +1590,7 @@ typedef void (*GDExtensionInterfaceStringNewWithLatin1CharsAndLen)(GDExtensionUn
  * @param p_contents A pointer to a UTF-8 encoded C string.
  * @param p_size The number of bytes (not code units).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen)(GDExtensionUninitializedStringPtr r_dest,
-                                                                 const char *p_contents, GDExtensionInt p_size);
+typedef void (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen)(GDExtensionUninitializedStringPtr r_dest, const char *p_contents, GDExtensionInt p_size);
 
 /**
  * @name string_new_with_utf8_chars_and_len2
@@ -1754,9 +1604,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen)(GDExtensionUnin
  *
  * @return Error code signifying if the operation successful.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen2)(GDExtensionUninitializedStringPtr r_dest,
-                                                                            const char *p_contents,
-                                                                            GDExtensionInt p_size);
+typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen2)(GDExtensionUninitializedStringPtr r_dest, const char *p_contents, GDExtensionInt p_size);
 
 /**
  * @name string_new_with_utf16_chars_and_len
@@ -1769,9 +1617,7 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf8CharsAndLen2)(GDEx
  * @param p_contents A pointer to a UTF-16 encoded C string.
  * @param p_size The number of characters (not bytes).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen)(GDExtensionUninitializedStringPtr r_dest,
-                                                                  const char16_t *p_contents,
-                                                                  GDExtensionInt p_char_count);
+typedef void (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen)(GDExtensionUninitializedStringPtr r_dest, const char16_t *p_contents, GDExtensionInt p_char_count);
 
 /**
  * @name string_new_with_utf16_chars_and_len2
@@ -1786,10 +1632,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen)(GDExtensionUni
  *
  * @return Error code signifying if the operation successful.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen2)(GDExtensionUninitializedStringPtr r_dest,
-                                                                             const char16_t *p_contents,
-                                                                             GDExtensionInt p_char_count,
-                                                                             GDExtensionBool p_default_little_endian);
+typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen2)(GDExtensionUninitializedStringPtr r_dest, const char16_t *p_contents, GDExtensionInt p_char_count, GDExtensionBool p_default_little_endian);
 
 /**
  * @name string_new_with_utf32_chars_and_len
@@ -1801,9 +1644,7 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringNewWithUtf16CharsAndLen2)(GDE
  * @param p_contents A pointer to a UTF-32 encoded C string.
  * @param p_size The number of characters (not bytes).
  */
-typedef void (*GDExtensionInterfaceStringNewWithUtf32CharsAndLen)(GDExtensionUninitializedStringPtr r_dest,
-                                                                  const char32_t *p_contents,
-                                                                  GDExtensionInt p_char_count);
+typedef void (*GDExtensionInterfaceStringNewWithUtf32CharsAndLen)(GDExtensionUninitializedStringPtr r_dest, const char32_t *p_contents, GDExtensionInt p_char_count);
 
 /**
  * @name string_new_with_wide_chars_and_len
@@ -1815,9 +1656,7 @@ typedef void (*GDExtensionInterfaceStringNewWithUtf32CharsAndLen)(GDExtensionUni
  * @param p_contents A pointer to a wide C string.
  * @param p_size The number of characters (not bytes).
  */
-typedef void (*GDExtensionInterfaceStringNewWithWideCharsAndLen)(GDExtensionUninitializedStringPtr r_dest,
-                                                                 const wchar_t *p_contents,
-                                                                 GDExtensionInt p_char_count);
+typedef void (*GDExtensionInterfaceStringNewWithWideCharsAndLen)(GDExtensionUninitializedStringPtr r_dest, const wchar_t *p_contents, GDExtensionInt p_char_count);
 
 /**
  * @name string_to_latin1_chars
@@ -1828,15 +1667,12 @@ typedef void (*GDExtensionInterfaceStringNewWithWideCharsAndLen)(GDExtensionUnin
  * It doesn't write a null terminator.
  *
  * @param p_self A pointer to the String.
- * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be
- * computed.
- * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the
- * return value.
+ * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be computed.
+ * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the return value.
  *
  * @return The resulting encoded string length in characters (not bytes), not including a null terminator.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringToLatin1Chars)(GDExtensionConstStringPtr p_self, char *r_text,
-                                                                  GDExtensionInt p_max_write_length);
+typedef GDExtensionInt (*GDExtensionInterfaceStringToLatin1Chars)(GDExtensionConstStringPtr p_self, char *r_text, GDExtensionInt p_max_write_length);
 
 /**
  * @name string_to_utf8_chars
@@ -1847,15 +1683,12 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringToLatin1Chars)(GDExtensionCon
  * It doesn't write a null terminator.
  *
  * @param p_self A pointer to the String.
- * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be
- * computed.
- * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the
- * return value.
+ * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be computed.
+ * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the return value.
  *
  * @return The resulting encoded string length in characters (not bytes), not including a null terminator.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf8Chars)(GDExtensionConstStringPtr p_self, char *r_text,
-                                                                GDExtensionInt p_max_write_length);
+typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf8Chars)(GDExtensionConstStringPtr p_self, char *r_text, GDExtensionInt p_max_write_length);
 
 /**
  * @name string_to_utf16_chars
@@ -1866,15 +1699,12 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf8Chars)(GDExtensionConst
  * It doesn't write a null terminator.
  *
  * @param p_self A pointer to the String.
- * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be
- * computed.
- * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the
- * return value.
+ * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be computed.
+ * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the return value.
  *
  * @return The resulting encoded string length in characters (not bytes), not including a null terminator.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf16Chars)(GDExtensionConstStringPtr p_self, char16_t *r_text,
-                                                                 GDExtensionInt p_max_write_length);
+typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf16Chars)(GDExtensionConstStringPtr p_self, char16_t *r_text, GDExtensionInt p_max_write_length);
 
 /**
  * @name string_to_utf32_chars
@@ -1885,15 +1715,12 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf16Chars)(GDExtensionCons
  * It doesn't write a null terminator.
  *
  * @param p_self A pointer to the String.
- * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be
- * computed.
- * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the
- * return value.
+ * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be computed.
+ * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the return value.
  *
  * @return The resulting encoded string length in characters (not bytes), not including a null terminator.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf32Chars)(GDExtensionConstStringPtr p_self, char32_t *r_text,
-                                                                 GDExtensionInt p_max_write_length);
+typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf32Chars)(GDExtensionConstStringPtr p_self, char32_t *r_text, GDExtensionInt p_max_write_length);
 
 /**
  * @name string_to_wide_chars
@@ -1904,15 +1731,12 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringToUtf32Chars)(GDExtensionCons
  * It doesn't write a null terminator.
  *
  * @param p_self A pointer to the String.
- * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be
- * computed.
- * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the
- * return value.
+ * @param r_text A pointer to the buffer to hold the resulting data. If NULL is passed in, only the length will be computed.
+ * @param p_max_write_length The maximum number of characters that can be written to r_text. It has no affect on the return value.
  *
  * @return The resulting encoded string length in characters (not bytes), not including a null terminator.
  */
-typedef GDExtensionInt (*GDExtensionInterfaceStringToWideChars)(GDExtensionConstStringPtr p_self, wchar_t *r_text,
-                                                                GDExtensionInt p_max_write_length);
+typedef GDExtensionInt (*GDExtensionInterfaceStringToWideChars)(GDExtensionConstStringPtr p_self, wchar_t *r_text, GDExtensionInt p_max_write_length);
 
 /**
  * @name string_operator_index
@@ -1938,8 +1762,7 @@ typedef char32_t *(*GDExtensionInterfaceStringOperatorIndex)(GDExtensionStringPt
  *
  * @return A const pointer to the requested character.
  */
-typedef const char32_t *(*GDExtensionInterfaceStringOperatorIndexConst)(GDExtensionConstStringPtr p_self,
-                                                                        GDExtensionInt p_index);
+typedef const char32_t *(*GDExtensionInterfaceStringOperatorIndexConst)(GDExtensionConstStringPtr p_self, GDExtensionInt p_index);
 
 /**
  * @name string_operator_plus_eq_string
@@ -1950,8 +1773,7 @@ typedef const char32_t *(*GDExtensionInterfaceStringOperatorIndexConst)(GDExtens
  * @param p_self A pointer to the String.
  * @param p_b A pointer to the other String to append.
  */
-typedef void (*GDExtensionInterfaceStringOperatorPlusEqString)(GDExtensionStringPtr p_self,
-                                                               GDExtensionConstStringPtr p_b);
+typedef void (*GDExtensionInterfaceStringOperatorPlusEqString)(GDExtensionStringPtr p_self, GDExtensionConstStringPtr p_b);
 
 /**
  * @name string_operator_plus_eq_char
@@ -2029,15 +1851,13 @@ typedef GDExtensionInt (*GDExtensionInterfaceStringResize)(GDExtensionStringPtr 
  *   You must guarantee that the buffer remains valid for the duration of the application (e.g. string literal).
  * - You must not call a destructor for this StringName. Incrementing the initial reference once should achieve this.
  *
- * `p_is_static` is purely an optimization and can easily introduce undefined behavior if used wrong. In case of doubt,
- * set it to false.
+ * `p_is_static` is purely an optimization and can easily introduce undefined behavior if used wrong. In case of doubt, set it to false.
  *
  * @param r_dest A pointer to uninitialized storage, into which the newly created StringName is constructed.
  * @param p_contents A pointer to a C string (null terminated and Latin-1 or ASCII encoded).
  * @param p_is_static Whether the StringName reuses the buffer directly (see above).
  */
-typedef void (*GDExtensionInterfaceStringNameNewWithLatin1Chars)(GDExtensionUninitializedStringNamePtr r_dest,
-                                                                 const char *p_contents, GDExtensionBool p_is_static);
+typedef void (*GDExtensionInterfaceStringNameNewWithLatin1Chars)(GDExtensionUninitializedStringNamePtr r_dest, const char *p_contents, GDExtensionBool p_is_static);
 
 /**
  * @name string_name_new_with_utf8_chars
@@ -2048,8 +1868,7 @@ typedef void (*GDExtensionInterfaceStringNameNewWithLatin1Chars)(GDExtensionUnin
  * @param r_dest A pointer to uninitialized storage, into which the newly created StringName is constructed.
  * @param p_contents A pointer to a C string (null terminated and UTF-8 encoded).
  */
-typedef void (*GDExtensionInterfaceStringNameNewWithUtf8Chars)(GDExtensionUninitializedStringNamePtr r_dest,
-                                                               const char *p_contents);
+typedef void (*GDExtensionInterfaceStringNameNewWithUtf8Chars)(GDExtensionUninitializedStringNamePtr r_dest, const char *p_contents);
 
 /**
  * @name string_name_new_with_utf8_chars_and_len
@@ -2061,8 +1880,7 @@ typedef void (*GDExtensionInterfaceStringNameNewWithUtf8Chars)(GDExtensionUninit
  * @param p_contents A pointer to a C string (null terminated and UTF-8 encoded).
  * @param p_size The number of bytes (not UTF-8 code points).
  */
-typedef void (*GDExtensionInterfaceStringNameNewWithUtf8CharsAndLen)(GDExtensionUninitializedStringNamePtr r_dest,
-                                                                     const char *p_contents, GDExtensionInt p_size);
+typedef void (*GDExtensionInterfaceStringNameNewWithUtf8CharsAndLen)(GDExtensionUninitializedStringNamePtr r_dest, const char *p_contents, GDExtensionInt p_size);
 
 /* INTERFACE: XMLParser Utilities */
 
@@ -2080,8 +1898,7 @@ typedef void (*GDExtensionInterfaceStringNameNewWithUtf8CharsAndLen)(GDExtension
  *
  * @see XMLParser::open_buffer()
  */
-typedef GDExtensionInt (*GDExtensionInterfaceXmlParserOpenBuffer)(GDExtensionObjectPtr p_instance,
-                                                                  const uint8_t *p_buffer, size_t p_size);
+typedef GDExtensionInt (*GDExtensionInterfaceXmlParserOpenBuffer)(GDExtensionObjectPtr p_instance, const uint8_t *p_buffer, size_t p_size);
 
 /* INTERFACE: FileAccess Utilities */
 
@@ -2097,8 +1914,7 @@ typedef GDExtensionInt (*GDExtensionInterfaceXmlParserOpenBuffer)(GDExtensionObj
  *
  * @see FileAccess::store_buffer()
  */
-typedef void (*GDExtensionInterfaceFileAccessStoreBuffer)(GDExtensionObjectPtr p_instance, const uint8_t *p_src,
-                                                          uint64_t p_length);
+typedef void (*GDExtensionInterfaceFileAccessStoreBuffer)(GDExtensionObjectPtr p_instance, const uint8_t *p_src, uint64_t p_length);
 
 /**
  * @name file_access_get_buffer
@@ -2112,8 +1928,7 @@ typedef void (*GDExtensionInterfaceFileAccessStoreBuffer)(GDExtensionObjectPtr p
  *
  * @return The actual number of bytes read (may be less than requested).
  */
-typedef uint64_t (*GDExtensionInterfaceFileAccessGetBuffer)(GDExtensionConstObjectPtr p_instance, uint8_t *p_dst,
-                                                            uint64_t p_length);
+typedef uint64_t (*GDExtensionInterfaceFileAccessGetBuffer)(GDExtensionConstObjectPtr p_instance, uint8_t *p_dst, uint64_t p_length);
 
 /* INTERFACE: Image Utilities */
 
@@ -2164,11 +1979,7 @@ typedef const uint8_t *(*GDExtensionInterfaceImagePtr)(GDExtensionObjectPtr p_in
  *
  * @see WorkerThreadPool::add_group_task()
  */
-typedef int64_t (*GDExtensionInterfaceWorkerThreadPoolAddNativeGroupTask)(GDExtensionObjectPtr p_instance,
-                                                                          void (*p_func)(void *, uint32_t),
-                                                                          void *p_userdata, int p_elements, int p_tasks,
-                                                                          GDExtensionBool p_high_priority,
-                                                                          GDExtensionConstStringPtr p_description);
+typedef int64_t (*GDExtensionInterfaceWorkerThreadPoolAddNativeGroupTask)(GDExtensionObjectPtr p_instance, void (*p_func)(void *, uint32_t), void *p_userdata, int p_elements, int p_tasks, GDExtensionBool p_high_priority, GDExtensionConstStringPtr p_description);
 
 /**
  * @name worker_thread_pool_add_native_task
@@ -2184,10 +1995,7 @@ typedef int64_t (*GDExtensionInterfaceWorkerThreadPoolAddNativeGroupTask)(GDExte
  *
  * @return The task ID.
  */
-typedef int64_t (*GDExtensionInterfaceWorkerThreadPoolAddNativeTask)(GDExtensionObjectPtr p_instance,
-                                                                     void (*p_func)(void *), void *p_userdata,
-                                                                     GDExtensionBool p_high_priority,
-                                                                     GDExtensionConstStringPtr p_description);
+typedef int64_t (*GDExtensionInterfaceWorkerThreadPoolAddNativeTask)(GDExtensionObjectPtr p_instance, void (*p_func)(void *), void *p_userdata, GDExtensionBool p_high_priority, GDExtensionConstStringPtr p_description);
 
 /* INTERFACE: Packed Array */
 
@@ -2215,8 +2023,7 @@ typedef uint8_t *(*GDExtensionInterfacePackedByteArrayOperatorIndex)(GDExtension
  *
  * @return A const pointer to the requested byte.
  */
-typedef const uint8_t *(*GDExtensionInterfacePackedByteArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                GDExtensionInt p_index);
+typedef const uint8_t *(*GDExtensionInterfacePackedByteArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_float32_array_operator_index
@@ -2229,8 +2036,7 @@ typedef const uint8_t *(*GDExtensionInterfacePackedByteArrayOperatorIndexConst)(
  *
  * @return A pointer to the requested 32-bit float.
  */
-typedef float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                      GDExtensionInt p_index);
+typedef float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_float32_array_operator_index_const
@@ -2243,8 +2049,7 @@ typedef float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndex)(GDExtensio
  *
  * @return A const pointer to the requested 32-bit float.
  */
-typedef const float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                 GDExtensionInt p_index);
+typedef const float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_float64_array_operator_index
@@ -2257,8 +2062,7 @@ typedef const float *(*GDExtensionInterfacePackedFloat32ArrayOperatorIndexConst)
  *
  * @return A pointer to the requested 64-bit float.
  */
-typedef double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                       GDExtensionInt p_index);
+typedef double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_float64_array_operator_index_const
@@ -2271,8 +2075,7 @@ typedef double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndex)(GDExtensi
  *
  * @return A const pointer to the requested 64-bit float.
  */
-typedef const double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                  GDExtensionInt p_index);
+typedef const double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_int32_array_operator_index
@@ -2285,8 +2088,7 @@ typedef const double *(*GDExtensionInterfacePackedFloat64ArrayOperatorIndexConst
  *
  * @return A pointer to the requested 32-bit integer.
  */
-typedef int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                      GDExtensionInt p_index);
+typedef int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_int32_array_operator_index_const
@@ -2299,8 +2101,7 @@ typedef int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndex)(GDExtensio
  *
  * @return A const pointer to the requested 32-bit integer.
  */
-typedef const int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                 GDExtensionInt p_index);
+typedef const int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_int64_array_operator_index
@@ -2313,8 +2114,7 @@ typedef const int32_t *(*GDExtensionInterfacePackedInt32ArrayOperatorIndexConst)
  *
  * @return A pointer to the requested 64-bit integer.
  */
-typedef int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                      GDExtensionInt p_index);
+typedef int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_int64_array_operator_index_const
@@ -2327,8 +2127,7 @@ typedef int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndex)(GDExtensio
  *
  * @return A const pointer to the requested 64-bit integer.
  */
-typedef const int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                 GDExtensionInt p_index);
+typedef const int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_string_array_operator_index
@@ -2341,8 +2140,7 @@ typedef const int64_t *(*GDExtensionInterfacePackedInt64ArrayOperatorIndexConst)
  *
  * @return A pointer to the requested String.
  */
-typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                                   GDExtensionInt p_index);
+typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_string_array_operator_index_const
@@ -2355,8 +2153,7 @@ typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorInde
  *
  * @return A const pointer to the requested String.
  */
-typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                        GDExtensionInt p_index);
+typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector2_array_operator_index
@@ -2369,8 +2166,7 @@ typedef GDExtensionStringPtr (*GDExtensionInterfacePackedStringArrayOperatorInde
  *
  * @return A pointer to the requested Vector2.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                                  GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector2_array_operator_index_const
@@ -2383,8 +2179,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndex
  *
  * @return A const pointer to the requested Vector2.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                       GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector3_array_operator_index
@@ -2397,8 +2192,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector2ArrayOperatorIndex
  *
  * @return A pointer to the requested Vector3.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                                  GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector3_array_operator_index_const
@@ -2411,8 +2205,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndex
  *
  * @return A const pointer to the requested Vector3.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                       GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector4_array_operator_index
@@ -2425,8 +2218,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector3ArrayOperatorIndex
  *
  * @return A pointer to the requested Vector4.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                                  GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_vector4_array_operator_index_const
@@ -2439,8 +2231,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndex
  *
  * @return A const pointer to the requested Vector4.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                       GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_color_array_operator_index
@@ -2453,8 +2244,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedVector4ArrayOperatorIndex
  *
  * @return A pointer to the requested Color.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                                GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name packed_color_array_operator_index_const
@@ -2467,8 +2257,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndex)(
  *
  * @return A const pointer to the requested Color.
  */
-typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                     GDExtensionInt p_index);
+typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name array_operator_index
@@ -2481,8 +2270,7 @@ typedef GDExtensionTypePtr (*GDExtensionInterfacePackedColorArrayOperatorIndexCo
  *
  * @return A pointer to the requested Variant.
  */
-typedef GDExtensionVariantPtr (*GDExtensionInterfaceArrayOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                        GDExtensionInt p_index);
+typedef GDExtensionVariantPtr (*GDExtensionInterfaceArrayOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name array_operator_index_const
@@ -2495,8 +2283,7 @@ typedef GDExtensionVariantPtr (*GDExtensionInterfaceArrayOperatorIndex)(GDExtens
  *
  * @return A const pointer to the requested Variant.
  */
-typedef GDExtensionVariantPtr (*GDExtensionInterfaceArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                             GDExtensionInt p_index);
+typedef GDExtensionVariantPtr (*GDExtensionInterfaceArrayOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionInt p_index);
 
 /**
  * @name array_ref
@@ -2517,14 +2304,10 @@ typedef void (*GDExtensionInterfaceArrayRef)(GDExtensionTypePtr p_self, GDExtens
  *
  * @param p_self A pointer to the Array.
  * @param p_type The type of Variant the Array will store.
- * @param p_class_name A pointer to a StringName with the name of the object (if p_type is
- * GDEXTENSION_VARIANT_TYPE_OBJECT).
- * @param p_script A pointer to a Script object (if p_type is GDEXTENSION_VARIANT_TYPE_OBJECT and the base class is
- * extended by a script).
+ * @param p_class_name A pointer to a StringName with the name of the object (if p_type is GDEXTENSION_VARIANT_TYPE_OBJECT).
+ * @param p_script A pointer to a Script object (if p_type is GDEXTENSION_VARIANT_TYPE_OBJECT and the base class is extended by a script).
  */
-typedef void (*GDExtensionInterfaceArraySetTyped)(GDExtensionTypePtr p_self, GDExtensionVariantType p_type,
-                                                  GDExtensionConstStringNamePtr p_class_name,
-                                                  GDExtensionConstVariantPtr p_script);
+typedef void (*GDExtensionInterfaceArraySetTyped)(GDExtensionTypePtr p_self, GDExtensionVariantType p_type, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstVariantPtr p_script);
 
 /* INTERFACE: Dictionary */
 
@@ -2539,8 +2322,7 @@ typedef void (*GDExtensionInterfaceArraySetTyped)(GDExtensionTypePtr p_self, GDE
  *
  * @return A pointer to a Variant representing the value at the given key.
  */
-typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndex)(GDExtensionTypePtr p_self,
-                                                                             GDExtensionConstVariantPtr p_key);
+typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndex)(GDExtensionTypePtr p_self, GDExtensionConstVariantPtr p_key);
 
 /**
  * @name dictionary_operator_index_const
@@ -2553,8 +2335,7 @@ typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndex)(GDE
  *
  * @return A const pointer to a Variant representing the value at the given key.
  */
-typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndexConst)(GDExtensionConstTypePtr p_self,
-                                                                                  GDExtensionConstVariantPtr p_key);
+typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndexConst)(GDExtensionConstTypePtr p_self, GDExtensionConstVariantPtr p_key);
 
 /* INTERFACE: Object */
 
@@ -2571,9 +2352,7 @@ typedef GDExtensionVariantPtr (*GDExtensionInterfaceDictionaryOperatorIndexConst
  * @param r_ret A pointer to Variant which will receive the return value.
  * @param r_error A pointer to a GDExtensionCallError struct that will receive error information.
  */
-typedef void (*GDExtensionInterfaceObjectMethodBindCall)(
-    GDExtensionMethodBindPtr p_method_bind, GDExtensionObjectPtr p_instance, const GDExtensionConstVariantPtr *p_args,
-    GDExtensionInt p_arg_count, GDExtensionUninitializedVariantPtr r_ret, GDExtensionCallError *r_error);
+typedef void (*GDExtensionInterfaceObjectMethodBindCall)(GDExtensionMethodBindPtr p_method_bind, GDExtensionObjectPtr p_instance, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_arg_count, GDExtensionUninitializedVariantPtr r_ret, GDExtensionCallError *r_error);
 
 /**
  * @name object_method_bind_ptrcall
@@ -2586,10 +2365,7 @@ typedef void (*GDExtensionInterfaceObjectMethodBindCall)(
  * @param p_args A pointer to a C array representing the arguments.
  * @param r_ret A pointer to the Object that will receive the return value.
  */
-typedef void (*GDExtensionInterfaceObjectMethodBindPtrcall)(GDExtensionMethodBindPtr p_method_bind,
-                                                            GDExtensionObjectPtr p_instance,
-                                                            const GDExtensionConstTypePtr *p_args,
-                                                            GDExtensionTypePtr r_ret);
+typedef void (*GDExtensionInterfaceObjectMethodBindPtrcall)(GDExtensionMethodBindPtr p_method_bind, GDExtensionObjectPtr p_instance, const GDExtensionConstTypePtr *p_args, GDExtensionTypePtr r_ret);
 
 /**
  * @name object_destroy
@@ -2625,8 +2401,7 @@ typedef GDExtensionObjectPtr (*GDExtensionInterfaceGlobalGetSingleton)(GDExtensi
  *
  * @return
  */
-typedef void *(*GDExtensionInterfaceObjectGetInstanceBinding)(GDExtensionObjectPtr p_o, void *p_token,
-                                                              const GDExtensionInstanceBindingCallbacks *p_callbacks);
+typedef void *(*GDExtensionInterfaceObjectGetInstanceBinding)(GDExtensionObjectPtr p_o, void *p_token, const GDExtensionInstanceBindingCallbacks *p_callbacks);
 
 /**
  * @name object_set_instance_binding
@@ -2639,8 +2414,7 @@ typedef void *(*GDExtensionInterfaceObjectGetInstanceBinding)(GDExtensionObjectP
  * @param p_binding A pointer to the instance binding.
  * @param p_callbacks A pointer to a GDExtensionInstanceBindingCallbacks struct.
  */
-typedef void (*GDExtensionInterfaceObjectSetInstanceBinding)(GDExtensionObjectPtr p_o, void *p_token, void *p_binding,
-                                                             const GDExtensionInstanceBindingCallbacks *p_callbacks);
+typedef void (*GDExtensionInterfaceObjectSetInstanceBinding)(GDExtensionObjectPtr p_o, void *p_token, void *p_binding, const GDExtensionInstanceBindingCallbacks *p_callbacks);
 
 /**
  * @name object_free_instance_binding
@@ -2663,10 +2437,7 @@ typedef void (*GDExtensionInterfaceObjectFreeInstanceBinding)(GDExtensionObjectP
  * @param p_classname A pointer to a StringName with the registered extension class's name.
  * @param p_instance A pointer to the extension class instance.
  */
-typedef void (*GDExtensionInterfaceObjectSetInstance)(
-    GDExtensionObjectPtr p_o, GDExtensionConstStringNamePtr p_classname,
-    GDExtensionClassInstancePtr
-        p_instance); /* p_classname should be a registered extension class and should extend the p_o object's class. */
+typedef void (*GDExtensionInterfaceObjectSetInstance)(GDExtensionObjectPtr p_o, GDExtensionConstStringNamePtr p_classname, GDExtensionClassInstancePtr p_instance); /* p_classname should be a registered extension class and should extend the p_o object's class. */
 
 /**
  * @name object_get_class_name
@@ -2683,9 +2454,7 @@ typedef void (*GDExtensionInterfaceObjectSetInstance)(
  *
  * @return true if successful in getting the class name; otherwise false.
  */
-typedef GDExtensionBool (*GDExtensionInterfaceObjectGetClassName)(GDExtensionConstObjectPtr p_object,
-                                                                  GDExtensionClassLibraryPtr p_library,
-                                                                  GDExtensionUninitializedStringNamePtr r_class_name);
+typedef GDExtensionBool (*GDExtensionInterfaceObjectGetClassName)(GDExtensionConstObjectPtr p_object, GDExtensionClassLibraryPtr p_library, GDExtensionUninitializedStringNamePtr r_class_name);
 
 /**
  * @name object_cast_to
@@ -2733,11 +2502,9 @@ typedef GDObjectInstanceID (*GDExtensionInterfaceObjectGetInstanceId)(GDExtensio
  * @param p_object A pointer to the Object.
  * @param p_method A pointer to a StringName identifying the method.
  *
- * @returns true if the object has a script and that script has a method with the given name. Returns false if the
- * object has no script.
+ * @returns true if the object has a script and that script has a method with the given name. Returns false if the object has no script.
  */
-typedef GDExtensionBool (*GDExtensionInterfaceObjectHasScriptMethod)(GDExtensionConstObjectPtr p_object,
-                                                                     GDExtensionConstStringNamePtr p_method);
+typedef GDExtensionBool (*GDExtensionInterfaceObjectHasScriptMethod)(GDExtensionConstObjectPtr p_object, GDExtensionConstStringNamePtr p_method);
 
 /**
  * @name object_call_script_method
@@ -2752,9 +2519,7 @@ typedef GDExtensionBool (*GDExtensionInterfaceObjectHasScriptMethod)(GDExtension
  * @param r_return A pointer a Variant which will be assigned the return value.
  * @param r_error A pointer the structure which will hold error information.
  */
-typedef void (*GDExtensionInterfaceObjectCallScriptMethod)(
-    GDExtensionObjectPtr p_object, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args,
-    GDExtensionInt p_argument_count, GDExtensionUninitializedVariantPtr r_return, GDExtensionCallError *r_error);
+typedef void (*GDExtensionInterfaceObjectCallScriptMethod)(GDExtensionObjectPtr p_object, GDExtensionConstStringNamePtr p_method, const GDExtensionConstVariantPtr *p_args, GDExtensionInt p_argument_count, GDExtensionUninitializedVariantPtr r_return, GDExtensionCallError *r_error);
 
 /* INTERFACE: Reference */
 
@@ -2791,13 +2556,11 @@ typedef void (*GDExtensionInterfaceRefSetObject)(GDExtensionRefPtr p_ref, GDExte
  * Creates a script instance that contains the given info and instance data.
  *
  * @param p_info A pointer to a GDExtensionScriptInstanceInfo struct.
- * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed
- * to all the function pointers on p_info.
+ * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed to all the function pointers on p_info.
  *
  * @return A pointer to a ScriptInstanceExtension object.
  */
-typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate)(
-    const GDExtensionScriptInstanceInfo *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
+typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate)(const GDExtensionScriptInstanceInfo *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
 
 /**
  * @name script_instance_create2
@@ -2807,13 +2570,11 @@ typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate)
  * Creates a script instance that contains the given info and instance data.
  *
  * @param p_info A pointer to a GDExtensionScriptInstanceInfo2 struct.
- * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed
- * to all the function pointers on p_info.
+ * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed to all the function pointers on p_info.
  *
  * @return A pointer to a ScriptInstanceExtension object.
  */
-typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate2)(
-    const GDExtensionScriptInstanceInfo2 *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
+typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate2)(const GDExtensionScriptInstanceInfo2 *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
 
 /**
  * @name script_instance_create3
@@ -2822,13 +2583,11 @@ typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate2
  * Creates a script instance that contains the given info and instance data.
  *
  * @param p_info A pointer to a GDExtensionScriptInstanceInfo3 struct.
- * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed
- * to all the function pointers on p_info.
+ * @param p_instance_data A pointer to a data representing the script instance in the GDExtension. This will be passed to all the function pointers on p_info.
  *
  * @return A pointer to a ScriptInstanceExtension object.
  */
-typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate3)(
-    const GDExtensionScriptInstanceInfo3 *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
+typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate3)(const GDExtensionScriptInstanceInfo3 *p_info, GDExtensionScriptInstanceDataPtr p_instance_data);
 
 /**
  * @name placeholder_script_instance_create
@@ -2844,8 +2603,7 @@ typedef GDExtensionScriptInstancePtr (*GDExtensionInterfaceScriptInstanceCreate3
  *
  * @return A pointer to a PlaceHolderScriptInstance object.
  */
-typedef GDExtensionScriptInstancePtr (*GDExtensionInterfacePlaceHolderScriptInstanceCreate)(
-    GDExtensionObjectPtr p_language, GDExtensionObjectPtr p_script, GDExtensionObjectPtr p_owner);
+typedef GDExtensionScriptInstancePtr (*GDExtensionInterfacePlaceHolderScriptInstanceCreate)(GDExtensionObjectPtr p_language, GDExtensionObjectPtr p_script, GDExtensionObjectPtr p_owner);
 
 /**
  * @name placeholder_script_instance_update
@@ -2860,9 +2618,7 @@ typedef GDExtensionScriptInstancePtr (*GDExtensionInterfacePlaceHolderScriptInst
  * @param p_properties A pointer to an Array of Dictionary representing PropertyInfo.
  * @param p_values A pointer to a Dictionary mapping StringName to Variant values.
  */
-typedef void (*GDExtensionInterfacePlaceHolderScriptInstanceUpdate)(GDExtensionScriptInstancePtr p_placeholder,
-                                                                    GDExtensionConstTypePtr p_properties,
-                                                                    GDExtensionConstTypePtr p_values);
+typedef void (*GDExtensionInterfacePlaceHolderScriptInstanceUpdate)(GDExtensionScriptInstancePtr p_placeholder, GDExtensionConstTypePtr p_properties, GDExtensionConstTypePtr p_values);
 
 /**
  * @name object_get_script_instance
@@ -2875,8 +2631,7 @@ typedef void (*GDExtensionInterfacePlaceHolderScriptInstanceUpdate)(GDExtensionS
  *
  * @return A GDExtensionScriptInstanceDataPtr that was attached to this object as part of script_instance_create.
  */
-typedef GDExtensionScriptInstanceDataPtr (*GDExtensionInterfaceObjectGetScriptInstance)(
-    GDExtensionConstObjectPtr p_object, GDExtensionObjectPtr p_language);
+typedef GDExtensionScriptInstanceDataPtr (*GDExtensionInterfaceObjectGetScriptInstance)(GDExtensionConstObjectPtr p_object, GDExtensionObjectPtr p_language);
 
 /* INTERFACE: Callable */
 
@@ -2892,8 +2647,7 @@ typedef GDExtensionScriptInstanceDataPtr (*GDExtensionInterfaceObjectGetScriptIn
  * @param r_callable A pointer that will receive the new Callable.
  * @param p_callable_custom_info The info required to construct a Callable.
  */
-typedef void (*GDExtensionInterfaceCallableCustomCreate)(GDExtensionUninitializedTypePtr r_callable,
-                                                         GDExtensionCallableCustomInfo *p_callable_custom_info);
+typedef void (*GDExtensionInterfaceCallableCustomCreate)(GDExtensionUninitializedTypePtr r_callable, GDExtensionCallableCustomInfo *p_callable_custom_info);
 
 /**
  * @name callable_custom_create2
@@ -2906,8 +2660,7 @@ typedef void (*GDExtensionInterfaceCallableCustomCreate)(GDExtensionUninitialize
  * @param r_callable A pointer that will receive the new Callable.
  * @param p_callable_custom_info The info required to construct a Callable.
  */
-typedef void (*GDExtensionInterfaceCallableCustomCreate2)(GDExtensionUninitializedTypePtr r_callable,
-                                                          GDExtensionCallableCustomInfo2 *p_callable_custom_info);
+typedef void (*GDExtensionInterfaceCallableCustomCreate2)(GDExtensionUninitializedTypePtr r_callable, GDExtensionCallableCustomInfo2 *p_callable_custom_info);
 
 /**
  * @name callable_custom_get_userdata
@@ -2915,8 +2668,7 @@ typedef void (*GDExtensionInterfaceCallableCustomCreate2)(GDExtensionUninitializ
  *
  * Retrieves the userdata pointer from a custom Callable.
  *
- * If the Callable is not a custom Callable or the token does not match the one provided to callable_custom_create() via
- * GDExtensionCallableCustomInfo then NULL will be returned.
+ * If the Callable is not a custom Callable or the token does not match the one provided to callable_custom_create() via GDExtensionCallableCustomInfo then NULL will be returned.
  *
  * @param p_callable A pointer to a Callable.
  * @param p_token A pointer to an address that uniquely identifies the GDExtension.
@@ -2931,8 +2683,7 @@ typedef void *(*GDExtensionInterfaceCallableCustomGetUserData)(GDExtensionConstT
  *
  * Constructs an Object of the requested class.
  *
- * The passed class must be a built-in godot class, or an already-registered extension class. In both cases,
- * object_set_instance() should be called to fully initialize the object.
+ * The passed class must be a built-in godot class, or an already-registered extension class. In both cases, object_set_instance() should be called to fully initialize the object.
  *
  * @param p_classname A pointer to a StringName with the class name.
  *
@@ -2952,9 +2703,7 @@ typedef GDExtensionObjectPtr (*GDExtensionInterfaceClassdbConstructObject)(GDExt
  *
  * @return A pointer to the MethodBind from ClassDB.
  */
-typedef GDExtensionMethodBindPtr (*GDExtensionInterfaceClassdbGetMethodBind)(GDExtensionConstStringNamePtr p_classname,
-                                                                             GDExtensionConstStringNamePtr p_methodname,
-                                                                             GDExtensionInt p_hash);
+typedef GDExtensionMethodBindPtr (*GDExtensionInterfaceClassdbGetMethodBind)(GDExtensionConstStringNamePtr p_classname, GDExtensionConstStringNamePtr p_methodname, GDExtensionInt p_hash);
 
 /**
  * @name classdb_get_class_tag
@@ -2984,9 +2733,7 @@ typedef void *(*GDExtensionInterfaceClassdbGetClassTag)(GDExtensionConstStringNa
  * @param p_parent_class_name A pointer to a StringName with the parent class name.
  * @param p_extension_funcs A pointer to a GDExtensionClassCreationInfo struct.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo *p_extension_funcs);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo *p_extension_funcs);
 
 /**
  * @name classdb_register_extension_class2
@@ -3002,9 +2749,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass)(
  * @param p_parent_class_name A pointer to a StringName with the parent class name.
  * @param p_extension_funcs A pointer to a GDExtensionClassCreationInfo2 struct.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass2)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo2 *p_extension_funcs);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass2)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo2 *p_extension_funcs);
 
 /**
  * @name classdb_register_extension_class3
@@ -3019,9 +2764,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass2)(
  * @param p_parent_class_name A pointer to a StringName with the parent class name.
  * @param p_extension_funcs A pointer to a GDExtensionClassCreationInfo2 struct.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass3)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo3 *p_extension_funcs);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass3)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringNamePtr p_parent_class_name, const GDExtensionClassCreationInfo3 *p_extension_funcs);
 
 /**
  * @name classdb_register_extension_class_method
@@ -3035,9 +2778,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClass3)(
  * @param p_class_name A pointer to a StringName with the class name.
  * @param p_method_info A pointer to a GDExtensionClassMethodInfo struct.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassMethod)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    const GDExtensionClassMethodInfo *p_method_info);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassMethod)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, const GDExtensionClassMethodInfo *p_method_info);
 
 /**
  * @name classdb_register_extension_class_virtual_method
@@ -3051,9 +2792,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassMethod)(
  * @param p_class_name A pointer to a StringName with the class name.
  * @param p_method_info A pointer to a GDExtensionClassMethodInfo struct.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassVirtualMethod)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    const GDExtensionClassVirtualMethodInfo *p_method_info);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassVirtualMethod)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, const GDExtensionClassVirtualMethodInfo *p_method_info);
 
 /**
  * @name classdb_register_extension_class_integer_constant
@@ -3061,10 +2800,9 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassVirtualMethod)(
  *
  * Registers an integer constant on an extension class in the ClassDB.
  *
- * Note about registering bitfield values (if p_is_bitfield is true): even though p_constant_value is signed, language
- * bindings are advised to treat bitfields as uint64_t, since this is generally clearer and can prevent mistakes like
- * using -1 for setting all bits. Language APIs should thus provide an abstraction that registers bitfields (uint64_t)
- * separately from regular constants (int64_t).
+ * Note about registering bitfield values (if p_is_bitfield is true): even though p_constant_value is signed, language bindings are
+ * advised to treat bitfields as uint64_t, since this is generally clearer and can prevent mistakes like using -1 for setting all bits.
+ * Language APIs should thus provide an abstraction that registers bitfields (uint64_t) separately from regular constants (int64_t).
  *
  * @param p_library A pointer the library received by the GDExtension's entry point function.
  * @param p_class_name A pointer to a StringName with the class name.
@@ -3073,10 +2811,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassVirtualMethod)(
  * @param p_constant_value The constant value.
  * @param p_is_bitfield Whether or not this constant is part of a bitfield.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassIntegerConstant)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringNamePtr p_enum_name, GDExtensionConstStringNamePtr p_constant_name,
-    GDExtensionInt p_constant_value, GDExtensionBool p_is_bitfield);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassIntegerConstant)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringNamePtr p_enum_name, GDExtensionConstStringNamePtr p_constant_name, GDExtensionInt p_constant_value, GDExtensionBool p_is_bitfield);
 
 /**
  * @name classdb_register_extension_class_property
@@ -3092,11 +2827,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassIntegerConstant)
  * @param p_setter A pointer to a StringName with the name of the setter method.
  * @param p_getter A pointer to a StringName with the name of the getter method.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassProperty)(GDExtensionClassLibraryPtr p_library,
-                                                                          GDExtensionConstStringNamePtr p_class_name,
-                                                                          const GDExtensionPropertyInfo *p_info,
-                                                                          GDExtensionConstStringNamePtr p_setter,
-                                                                          GDExtensionConstStringNamePtr p_getter);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassProperty)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, const GDExtensionPropertyInfo *p_info, GDExtensionConstStringNamePtr p_setter, GDExtensionConstStringNamePtr p_getter);
 
 /**
  * @name classdb_register_extension_class_property_indexed
@@ -3113,10 +2844,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassProperty)(GDExte
  * @param p_getter A pointer to a StringName with the name of the getter method.
  * @param p_index The index to pass as the first argument to the getter and setter methods.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyIndexed)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    const GDExtensionPropertyInfo *p_info, GDExtensionConstStringNamePtr p_setter,
-    GDExtensionConstStringNamePtr p_getter, GDExtensionInt p_index);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyIndexed)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, const GDExtensionPropertyInfo *p_info, GDExtensionConstStringNamePtr p_setter, GDExtensionConstStringNamePtr p_getter, GDExtensionInt p_index);
 
 /**
  * @name classdb_register_extension_class_property_group
@@ -3129,9 +2857,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyIndexed)
  * @param p_group_name A pointer to a String with the group name.
  * @param p_prefix A pointer to a String with the prefix used by properties in this group.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringPtr p_group_name, GDExtensionConstStringPtr p_prefix);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringPtr p_group_name, GDExtensionConstStringPtr p_prefix);
 
 /**
  * @name classdb_register_extension_class_property_subgroup
@@ -3144,9 +2870,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup)(
  * @param p_subgroup_name A pointer to a String with the subgroup name.
  * @param p_prefix A pointer to a String with the prefix used by properties in this subgroup.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertySubgroup)(
-    GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name,
-    GDExtensionConstStringPtr p_subgroup_name, GDExtensionConstStringPtr p_prefix);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertySubgroup)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringPtr p_subgroup_name, GDExtensionConstStringPtr p_prefix);
 
 /**
  * @name classdb_register_extension_class_signal
@@ -3162,11 +2886,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassPropertySubgroup
  * @param p_argument_info A pointer to a GDExtensionPropertyInfo struct.
  * @param p_argument_count The number of arguments the signal receives.
  */
-typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassSignal)(GDExtensionClassLibraryPtr p_library,
-                                                                        GDExtensionConstStringNamePtr p_class_name,
-                                                                        GDExtensionConstStringNamePtr p_signal_name,
-                                                                        const GDExtensionPropertyInfo *p_argument_info,
-                                                                        GDExtensionInt p_argument_count);
+typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassSignal)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name, GDExtensionConstStringNamePtr p_signal_name, const GDExtensionPropertyInfo *p_argument_info, GDExtensionInt p_argument_count);
 
 /**
  * @name classdb_unregister_extension_class
@@ -3177,10 +2897,7 @@ typedef void (*GDExtensionInterfaceClassdbRegisterExtensionClassSignal)(GDExtens
  * @param p_library A pointer the library received by the GDExtension's entry point function.
  * @param p_class_name A pointer to a StringName with the class name.
  */
-typedef void (*GDExtensionInterfaceClassdbUnregisterExtensionClass)(
-    GDExtensionClassLibraryPtr p_library,
-    GDExtensionConstStringNamePtr p_class_name); /* Unregistering a parent class before a class that inherits it will
-                                                    result in failure. Inheritors must be unregistered first. */
+typedef void (*GDExtensionInterfaceClassdbUnregisterExtensionClass)(GDExtensionClassLibraryPtr p_library, GDExtensionConstStringNamePtr p_class_name); /* Unregistering a parent class before a class that inherits it will result in failure. Inheritors must be unregistered first. */
 
 /**
  * @name get_library_path
@@ -3191,8 +2908,7 @@ typedef void (*GDExtensionInterfaceClassdbUnregisterExtensionClass)(
  * @param p_library A pointer the library received by the GDExtension's entry point function.
  * @param r_path A pointer to a String which will receive the path.
  */
-typedef void (*GDExtensionInterfaceGetLibraryPath)(GDExtensionClassLibraryPtr p_library,
-                                                   GDExtensionUninitializedStringPtr r_path);
+typedef void (*GDExtensionInterfaceGetLibraryPath)(GDExtensionClassLibraryPtr p_library, GDExtensionUninitializedStringPtr r_path);
 
 /**
  * @name editor_add_plugin
@@ -3202,8 +2918,7 @@ typedef void (*GDExtensionInterfaceGetLibraryPath)(GDExtensionClassLibraryPtr p_
  *
  * It's safe to call during initialization.
  *
- * @param p_class_name A pointer to a StringName with the name of a class (descending from EditorPlugin) which is
- * already registered with ClassDB.
+ * @param p_class_name A pointer to a StringName with the name of a class (descending from EditorPlugin) which is already registered with ClassDB.
  */
 typedef void (*GDExtensionInterfaceEditorAddPlugin)(GDExtensionConstStringNamePtr p_class_name);
 
