@@ -57,7 +57,7 @@ static int is_done(request *r) {
     struct usbdevfs_urb *urb = (void *)r->urb->data;
     unsigned char *bytes = r->buffer ? r->buffer->data : NULL;
     urb->status = 0;
-    if (r->is_discarded || it.is_gone) {
+    if (r->is_discarded || it.is_gone || !bytes) { /* none of the driver's is without a buffer */
         urb->status = r->is_discarded ? -ENOENT : -ESHUTDOWN;
         urb->actual_length = 0;
         return 1;

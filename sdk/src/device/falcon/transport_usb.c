@@ -58,6 +58,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     X(submit_transfer)
 
 static struct {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a member's name */
 #define FIELD(name) __typeof__(&libusb_##name) name;
     FUNCTIONS(FIELD)
 #undef FIELD

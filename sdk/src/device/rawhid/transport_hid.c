@@ -37,6 +37,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
     X(write)
 
 static struct {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a member's name */
 #define FIELD(name) __typeof__(&hid_##name) name;
     FUNCTIONS(FIELD)
 #undef FIELD
