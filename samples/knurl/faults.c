@@ -18,11 +18,12 @@ void faults_show(faults *f, knurl_device *device) {
         if (event.code >= 0 && event.code < FAULT_CODES) {
             f->counts[event.code]++;
         }
+        const char *unit = knurl_fault_unit(event.code);
         if (event.code != KNURL_FAULT_OVERRUN) {
             fprintf(stderr, "%sknurl: note: after %.3f s: %s: %s", isatty(STDERR_FILENO) ? "\r\033[K" : "",
                     1e-9 * (double)(event.time_ns - f->start_ns), knurl_fault_name(event.code),
                     knurl_fault_string(event.code));
-            fprintf(stderr, event.value != 0.0 ? ", %g\n" : "\n", event.value);
+            fprintf(stderr, *unit ? " (%g %s)\n" : "\n", event.value, unit);
         }
     }
 }

@@ -98,8 +98,9 @@ static void tell_faults(device *d) {
         const int64_t code = event.code;
         const char *sentence = knurl_fault_string(event.code);
         const int length = snprintf(text, sizeof text, "%s", sentence);
-        if (event.value != 0.0 && length > 0 && (size_t)length < sizeof text) {
-            (void)snprintf(text + length, sizeof text - (size_t)length, ": %g", event.value);
+        const char *unit = knurl_fault_unit(event.code);
+        if (*unit && length > 0 && (size_t)length < sizeof text) {
+            (void)snprintf(text + length, sizeof text - (size_t)length, " (%g %s)", event.value, unit);
         }
         gd.string_new_with_utf8_chars(&string, text);
         gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_INT, &code),

@@ -46,25 +46,25 @@ typedef struct knurl_device_listing {
     char reason[1024]; /**< why it cannot be used and what helps, or "" where it can */
 } knurl_device_listing;
 
-/** Every fault with its number, its name and its sentence: the one table that codes and texts come from. `value` is an
- * event's. */
+/** Every fault with its number, its name, its sentence, and the unit of an event's value ("": it has none): the one
+ * table that codes and texts come from. */
 #define KNURL_FAULTS(X)                                                                                                \
-    X(KNURL_FAULT_LOST, 1, "lost", "the device is gone: unplugged or switched off")                                    \
-    X(KNURL_FAULT_SILENT, 2, "silent", "no position came for too long (value: s)")                                     \
-    X(KNURL_FAULT_CORRUPT, 3, "corrupt", "what came was not a whole message and was thrown away (value: bytes)")       \
-    X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number")                                          \
-    X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move (value: m)")                      \
-    X(KNURL_FAULT_LATE, 6, "late", "the newest force was too old to be played on (value: s)")                          \
-    X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; told once for a row of them (value: s, of the first)")      \
-    X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still (value: s)")                                 \
-    X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life (value: s)")                               \
-    X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force (value: its own code)")                        \
-    X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing")           \
-    X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp")                               \
-    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again")
+    X(KNURL_FAULT_LOST, 1, "lost", "the device is gone: unplugged or switched off", "")                                \
+    X(KNURL_FAULT_SILENT, 2, "silent", "no position came for too long", "s")                                           \
+    X(KNURL_FAULT_CORRUPT, 3, "corrupt", "what came was not a whole message and was thrown away", "bytes")             \
+    X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number", "")                                      \
+    X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move", "m")                            \
+    X(KNURL_FAULT_LATE, 6, "late", "the newest force was too old to be played on", "s")                                \
+    X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; told once for a row of them", "s")                          \
+    X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still", "s")                                       \
+    X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
+    X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \
+    X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing", "")       \
+    X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
+    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
 enum {
-#define KNURL_FAULT_ENUMERATOR(code, value, name, text) code = (value),
+#define KNURL_FAULT_ENUMERATOR(code, number, name, text, unit) code = (number),
     KNURL_FAULTS(KNURL_FAULT_ENUMERATOR)
 #undef KNURL_FAULT_ENUMERATOR
 };
@@ -72,7 +72,7 @@ enum {
 /** Something that went wrong, or was well again. */
 typedef struct knurl_device_event {
     int64_t time_ns;   /**< when it was seen, on the system's monotonic clock */
-    double value;      /**< what KNURL_FAULTS says of its code, else 0 */
+    double value;      /**< how long, how far or how much, in knurl_fault_unit(code); else 0 */
     int32_t code;      /**< KNURL_FAULT_ */
     uint32_t reserved; /**< 0 */
 } knurl_device_event;
@@ -186,10 +186,11 @@ KNURL_API knurl_result knurl_device_get_status(const knurl_device *device, knurl
  * misses the older ones (knurl_device_status.events counts all). [one thread, any] */
 KNURL_API uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event);
 
-/** A fault's name ("lost") and its sentence; static, never null, also for codes this version does not know.
- * [any thread] */
+/** A fault's name ("lost"), its sentence, and the unit of its events' value ("s", or "" where they have none); static,
+ * never null, also for codes this version does not know. [any thread] */
 KNURL_API const char *knurl_fault_name(int32_t code);
 KNURL_API const char *knurl_fault_string(int32_t code);
+KNURL_API const char *knurl_fault_unit(int32_t code);
 
 /** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew. A lost device is
  * looked for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep;

@@ -65,7 +65,7 @@ uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
 
 const char *knurl_fault_name(int32_t code) {
     switch (code) {
-#define KNURL_FAULT_CASE(constant, value, name, text)                                                                  \
+#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
     case constant:                                                                                                     \
         return name;
         KNURL_FAULTS(KNURL_FAULT_CASE)
@@ -77,12 +77,24 @@ const char *knurl_fault_name(int32_t code) {
 
 const char *knurl_fault_string(int32_t code) {
     switch (code) {
-#define KNURL_FAULT_CASE(constant, value, name, text)                                                                  \
+#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
     case constant:                                                                                                     \
         return text;
         KNURL_FAULTS(KNURL_FAULT_CASE)
 #undef KNURL_FAULT_CASE
     default:
         return "a fault that this version does not know";
+    }
+}
+
+const char *knurl_fault_unit(int32_t code) {
+    switch (code) {
+#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
+    case constant:                                                                                                     \
+        return unit;
+        KNURL_FAULTS(KNURL_FAULT_CASE)
+#undef KNURL_FAULT_CASE
+    default:
+        return "";
     }
 }

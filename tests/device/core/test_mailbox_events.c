@@ -226,27 +226,29 @@ static const struct {
     int32_t number;
     const char *name;
     const char *word; /* of its sentence */
+    const char *unit; /* of its value */
 } faults[] = {
-    {KNURL_FAULT_LOST, 1, "lost", "unplugged"},
-    {KNURL_FAULT_SILENT, 2, "silent", "no position"},
-    {KNURL_FAULT_CORRUPT, 3, "corrupt", "thrown away"},
-    {KNURL_FAULT_NOT_FINITE, 4, "not_finite", "not a number"},
-    {KNURL_FAULT_JUMP, 5, "jump", "hand"},
-    {KNURL_FAULT_LATE, 6, "late", "too old"},
-    {KNURL_FAULT_OVERRUN, 7, "overrun", "late"},
-    {KNURL_FAULT_WATCHDOG, 8, "watchdog", "haptic thread"},
-    {KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "game"},
-    {KNURL_FAULT_REFUSED, 10, "refused", "refused"},
-    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "homing"},
-    {KNURL_FAULT_RESUMED, 32, "resumed", "no fault"},
-    {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault"},
+    {KNURL_FAULT_LOST, 1, "lost", "unplugged", ""},
+    {KNURL_FAULT_SILENT, 2, "silent", "no position", "s"},
+    {KNURL_FAULT_CORRUPT, 3, "corrupt", "thrown away", "bytes"},
+    {KNURL_FAULT_NOT_FINITE, 4, "not_finite", "not a number", ""},
+    {KNURL_FAULT_JUMP, 5, "jump", "hand", "m"},
+    {KNURL_FAULT_LATE, 6, "late", "too old", "s"},
+    {KNURL_FAULT_OVERRUN, 7, "overrun", "late", "s"},
+    {KNURL_FAULT_WATCHDOG, 8, "watchdog", "haptic thread", "s"},
+    {KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "game", "s"},
+    {KNURL_FAULT_REFUSED, 10, "refused", "refused", "(its own code)"},
+    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "homing", ""},
+    {KNURL_FAULT_RESUMED, 32, "resumed", "no fault", ""},
+    {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault", ""},
 };
 
-TEST(every_fault_has_its_number_its_name_and_a_sentence) {
+TEST(every_fault_has_its_number_its_name_a_sentence_and_a_unit) {
     for (size_t i = 0; i < COUNT_OF(faults); i++) {
         assert_int_equal(faults[i].code, faults[i].number);
         assert_string_equal(knurl_fault_name(faults[i].code), faults[i].name);
         assert_non_null(strstr(knurl_fault_string(faults[i].code), faults[i].word));
+        assert_string_equal(knurl_fault_unit(faults[i].code), faults[i].unit);
         for (size_t k = 0; k < i; k++) {
             assert_string_not_equal(knurl_fault_string(faults[i].code), knurl_fault_string(faults[k].code));
         }
@@ -257,6 +259,7 @@ TEST(codes_that_nobody_knows_have_texts_too) {
     static const int32_t unknown[] = {0, -1, 12, 31, 34, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         assert_string_equal(knurl_fault_name(unknown[i]), "unknown");
+        assert_string_equal(knurl_fault_unit(unknown[i]), "");
         assert_true(strlen(knurl_fault_string(unknown[i])) > 10);
     }
 }
@@ -270,7 +273,7 @@ int main(void) {
         cmocka_unit_test(the_ring_keeps_the_latest_64_and_counts_all),
         cmocka_unit_test(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order),
         cmocka_unit_test(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none),
-        cmocka_unit_test(every_fault_has_its_number_its_name_and_a_sentence),
+        cmocka_unit_test(every_fault_has_its_number_its_name_a_sentence_and_a_unit),
         cmocka_unit_test(codes_that_nobody_knows_have_texts_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
