@@ -63,38 +63,34 @@ uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
     return 0;
 }
 
-const char *knurl_fault_name(int32_t code) {
-    switch (code) {
-#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
-    case constant:                                                                                                     \
-        return name;
-        KNURL_FAULTS(KNURL_FAULT_CASE)
-#undef KNURL_FAULT_CASE
-    default:
-        return "unknown";
+static const struct {
+    int32_t code;
+    const char *name, *text, *unit;
+} faults[] = {
+#define KNURL_FAULT_ROW(constant, number, name, text, unit) {constant, name, text, unit},
+    KNURL_FAULTS(KNURL_FAULT_ROW)
+#undef KNURL_FAULT_ROW
+        {0, "unknown", "a fault that this version does not know", ""}};
+
+#define FAULT_COUNT (sizeof faults / sizeof *faults - 1)
+
+/* Its row, or the last one. */
+static size_t find(int32_t code) {
+    size_t i = 0;
+    while (i < FAULT_COUNT && faults[i].code != code) {
+        i++;
     }
+    return i;
+}
+
+const char *knurl_fault_name(int32_t code) {
+    return faults[find(code)].name;
 }
 
 const char *knurl_fault_string(int32_t code) {
-    switch (code) {
-#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
-    case constant:                                                                                                     \
-        return text;
-        KNURL_FAULTS(KNURL_FAULT_CASE)
-#undef KNURL_FAULT_CASE
-    default:
-        return "a fault that this version does not know";
-    }
+    return faults[find(code)].text;
 }
 
 const char *knurl_fault_unit(int32_t code) {
-    switch (code) {
-#define KNURL_FAULT_CASE(constant, number, name, text, unit)                                                           \
-    case constant:                                                                                                     \
-        return unit;
-        KNURL_FAULTS(KNURL_FAULT_CASE)
-#undef KNURL_FAULT_CASE
-    default:
-        return "";
-    }
+    return faults[find(code)].unit;
 }
