@@ -3,90 +3,13 @@
  * for a driver: a force is held until the next frame's, even of a device that is disabled, a device that is unscheduled
  * may still be in its callback, errors go on one stack and the current device is one for all threads.
  * SPDX-License-Identifier: MIT */
-#include "stub_hd.h"
+#include "stub_state.h"
 
-#include "device/fake/hand.h"
-#include "device/fake/plant.h"
-#include "device/touch/hd.h"
-
-#include <math.h>
-#include <pthread.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#define EXPORT __attribute__((visibility("default")))
-
-#define NONE     (-1)
-#define LIST     16
-#define ERRORS   64
-#define OVERLOAD 1.5 /* times the nominal force, above which a real one complains */
-
-typedef struct simulated {
-    double settings[STUB_SETTINGS];
-    double answers[STUB_QUESTIONS];
-    knurl_plant plant;
-    knurl_hand hand;
-    double target[3];
-    double time; /* s since it was initialised */
-    double force[3];
-    int64_t limp_since;
-    int in_frame;
-    int force_output;
-} simulated;
-
-static struct {
-    pthread_mutex_t mutex;
-    simulated devices[STUB_DEVICES];
-    double settings[STUB_SETTINGS];
-    double answers[STUB_QUESTIONS];
-    int current;
-    hd_error errors[ERRORS];
-    int error_count;
-    int64_t errors_taken;
-    int64_t endless; /* errors that will never end */
-    struct {
-        hd_callback callback;
-        void *user;
-        unsigned long number;
-    } list[LIST];
-    unsigned long last_number;
-    hd_callback asked; /* by hdScheduleSynchronous() */
-    void *asked_user;
-    pthread_cond_t answered;
-    pthread_t thread;
-    int runs;
-    int stops;
-    double rate;
-    uint64_t random;
-} hd = {.mutex = PTHREAD_MUTEX_INITIALIZER,
-        .answered = PTHREAD_COND_INITIALIZER,
-        .current = NONE,
-        .rate = 1000.0,
-        .random = 88172645463325252u};
-
-/* Prototypes, as the vendor's header would have them. */
-#define PROTOTYPE(field, symbol, result, arguments) EXPORT result HD_CALL symbol arguments;
-HD_FUNCTIONS(PROTOTYPE)
-EXPORT void stub_set(int device, int setting, double value);
-EXPORT double stub_ask(int device, int question);
-EXPORT int64_t stub_limp_since(int device);
-EXPORT void stub_turn(uint64_t turns);
-EXPORT void stub_reset(void);
-
-static int64_t now_ns(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-static void lock(void) {
-    (void)pthread_mutex_lock(&hd.mutex);
-}
-
-static void unlock(void) {
-    (void)pthread_mutex_unlock(&hd.mutex);
-}
+stub_state hd = {.mutex = PTHREAD_MUTEX_INITIALIZER,
+                 .answered = PTHREAD_COND_INITIALIZER,
+                 .current = NONE,
+                 .rate = 1000.0,
+                 .random = 88172645463325252u};
 
 static uint64_t random_bits(void) {
     hd.random ^= hd.random << 13;
@@ -101,18 +24,6 @@ static double random_double(void) {
     double value;
     memcpy(&value, &bits, sizeof value);
     return random_bits() % 2 ? value : (double)(int64_t)(bits % 401) - 200.0;
-}
-
-static void push(uint32_t code, int device) {
-    if (hd.error_count < ERRORS) {
-        const hd_error error = {code, 0, device == NONE ? HD_NO_DEVICE : (hd_device)device};
-        hd.errors[hd.error_count++] = error;
-    }
-}
-
-static void misuse(uint32_t code) {
-    hd.answers[STUB_MISUSES]++;
-    push(code, hd.current);
 }
 
 /* The device with that handle, in use; null: misuse. */
@@ -176,7 +87,7 @@ static void tell_motors(simulated *d, const double force[3]) {
     knurl_plant_write(&d->plant, force);
 }
 
-static void move(simulated *d, double dt) {
+void stub_move(simulated *d, double dt) {
     double before[3];
     double velocity[3];
     memcpy(before, d->target, sizeof before);
@@ -477,163 +388,6 @@ void HD_CALL hdUpdateCalibration(hd_enum style) {
     unlock();
 }
 
-/* --- the scheduler --- */
-
-/* Every callback once, then time goes on. */
-static void turn(void) {
-    lock();
-    hd.errors_taken = 0;
-    const hd_callback asked = hd.asked;
-    void *asked_user = hd.asked_user;
-    unlock();
-    if (asked) {
-        (void)asked(asked_user);
-        lock();
-        hd.asked = NULL;
-        (void)pthread_cond_broadcast(&hd.answered);
-        unlock();
-    }
-    for (int i = 0; i < LIST; i++) {
-        lock();
-        const hd_callback callback = hd.list[i].callback;
-        void *user = hd.list[i].user;
-        const unsigned long number = hd.list[i].number;
-        unlock();
-        if (callback && callback(user) == HD_DONE) {
-            lock();
-            if (hd.list[i].number == number) {
-                hd.list[i].callback = NULL;
-                hd.list[i].number = 0;
-            }
-            unlock();
-        }
-    }
-    lock();
-    hd.answers[STUB_ERRORS_TAKEN] = fmax(hd.answers[STUB_ERRORS_TAKEN], (double)hd.errors_taken);
-    for (int i = 0; i < STUB_DEVICES; i++) {
-        if (hd.devices[i].answers[STUB_INITIALISED] > 0.0) {
-            move(&hd.devices[i], 1.0 / hd.rate);
-        }
-    }
-    unlock();
-}
-
-static void *run(void *nothing) {
-    int64_t next = now_ns();
-    for (;;) {
-        lock();
-        const int stops = hd.stops;
-        const int calls = hd.settings[STUB_STALL] == 0.0 && hd.settings[STUB_BY_HAND] == 0.0;
-        const double rate = hd.rate;
-        unlock();
-        if (stops) {
-            return nothing;
-        }
-        if (calls) {
-            turn();
-        }
-        next += (int64_t)(1e9 / rate);
-        const int64_t now = now_ns();
-        next = now > next + 100000000 ? now : next;
-        const struct timespec until = {(time_t)(next / 1000000000), (long)(next % 1000000000)};
-        (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
-    }
-}
-
-void HD_CALL hdStartScheduler(void) {
-    lock();
-    hd.answers[STUB_STARTS]++;
-    if (hd.runs) {
-        misuse(0x0304);
-    } else {
-        hd.stops = 0;
-        hd.runs = pthread_create(&hd.thread, NULL, run, NULL) == 0;
-    }
-    unlock();
-}
-
-void HD_CALL hdStopScheduler(void) {
-    lock();
-    const int ran = hd.runs;
-    hd.stops = 1;
-    hd.runs = 0;
-    if (!ran) {
-        misuse(0x0102);
-    }
-    unlock();
-    if (ran) {
-        (void)pthread_join(hd.thread, NULL);
-    }
-}
-
-void HD_CALL hdSetSchedulerRate(unsigned long rate) {
-    lock();
-    if (rate < 100 || rate > 4000 || (double)rate == hd.settings[STUB_REFUSED_RATE]) {
-        push(0x0101, hd.current);
-    } else {
-        hd.rate = (double)rate;
-    }
-    unlock();
-}
-
-hd_scheduler_code HD_CALL hdScheduleAsynchronous(hd_callback callback, void *user, unsigned short priority) {
-    unsigned long number = 0;
-    (void)priority;
-    lock();
-    for (int i = 0; i < LIST && !number; i++) {
-        if (!hd.list[i].callback) {
-            hd.list[i].callback = callback;
-            hd.list[i].user = user;
-            hd.list[i].number = number = ++hd.last_number;
-        }
-    }
-    if (!number) {
-        push(0x0501, hd.current);
-    }
-    unlock();
-    return number;
-}
-
-/* Turns by hand come one after the other anyway. */
-void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned short priority) {
-    (void)priority;
-    lock();
-    const int by_hand = hd.settings[STUB_BY_HAND] > 0.0;
-    if (!hd.runs) {
-        misuse(0x0102);
-    }
-    while (hd.runs && !by_hand && hd.asked) { /* one at a time */
-        (void)pthread_cond_wait(&hd.answered, &hd.mutex);
-    }
-    if (hd.runs && !by_hand) {
-        hd.asked = callback;
-        hd.asked_user = user;
-        while (hd.asked == callback && hd.runs) {
-            (void)pthread_cond_wait(&hd.answered, &hd.mutex);
-        }
-        unlock();
-    } else {
-        unlock();
-        (void)callback(user);
-    }
-}
-
-void HD_CALL hdUnschedule(hd_scheduler_code what) {
-    int found = 0;
-    lock();
-    for (int i = 0; i < LIST && what; i++) {
-        if (hd.list[i].number == what) {
-            hd.list[i].callback = NULL;
-            hd.list[i].number = 0;
-            found = 1;
-        }
-    }
-    if (!found) {
-        misuse(0x0101);
-    }
-    unlock();
-}
-
 /* --- for tests --- */
 
 void stub_set(int device, int setting, double value) {
@@ -673,21 +427,6 @@ int64_t stub_limp_since(int device) {
     const int64_t since = hd.devices[device].limp_since;
     unlock();
     return since;
-}
-
-static void *turn_in_thread(void *turns) {
-    for (uint64_t i = *(const uint64_t *)turns; i > 0; i--) {
-        turn();
-    }
-    return NULL;
-}
-
-/* In a thread of its own, as a scheduler's; returns after it. */
-void stub_turn(uint64_t turns) {
-    pthread_t thread;
-    if (pthread_create(&thread, NULL, turn_in_thread, &turns) == 0) {
-        (void)pthread_join(thread, NULL);
-    }
 }
 
 void stub_reset(void) {

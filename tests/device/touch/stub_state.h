@@ -1,0 +1,104 @@
+/* What the stub library is made of: its state, one for all threads, and what is done under its lock.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_STUB_STATE_H
+#define KNURL_TEST_STUB_STATE_H
+
+#include "stub_hd.h"
+
+#include "device/fake/hand.h"
+#include "device/fake/plant.h"
+#include "device/touch/hd.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define EXPORT __attribute__((visibility("default")))
+
+#define NONE     (-1)
+#define LIST     16
+#define ERRORS   64
+#define OVERLOAD 1.5 /* times the nominal force, above which a real one complains */
+
+typedef struct simulated {
+    double settings[STUB_SETTINGS];
+    double answers[STUB_QUESTIONS];
+    knurl_plant plant;
+    knurl_hand hand;
+    double target[3];
+    double time; /* s since it was initialised */
+    double force[3];
+    int64_t limp_since;
+    int in_frame;
+    int force_output;
+} simulated;
+
+typedef struct stub_state {
+    pthread_mutex_t mutex;
+    simulated devices[STUB_DEVICES];
+    double settings[STUB_SETTINGS];
+    double answers[STUB_QUESTIONS];
+    int current;
+    hd_error errors[ERRORS];
+    int error_count;
+    int64_t errors_taken;
+    int64_t endless; /* errors that will never end */
+    struct {
+        hd_callback callback;
+        void *user;
+        unsigned long number;
+    } list[LIST];
+    unsigned long last_number;
+    hd_callback asked; /* by hdScheduleSynchronous() */
+    void *asked_user;
+    pthread_cond_t answered;
+    pthread_t thread;
+    int runs;
+    int stops;
+    double rate;
+    uint64_t random;
+} stub_state;
+
+extern stub_state hd;
+
+/* Prototypes, as the vendor's header would have them. */
+#define PROTOTYPE(field, symbol, result, arguments) EXPORT result HD_CALL symbol arguments;
+HD_FUNCTIONS(PROTOTYPE)
+EXPORT void stub_set(int device, int setting, double value);
+EXPORT double stub_ask(int device, int question);
+EXPORT int64_t stub_limp_since(int device);
+EXPORT void stub_turn(uint64_t turns);
+EXPORT void stub_reset(void);
+
+static inline int64_t now_ns(void) {
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static inline void lock(void) {
+    (void)pthread_mutex_lock(&hd.mutex);
+}
+
+static inline void unlock(void) {
+    (void)pthread_mutex_unlock(&hd.mutex);
+}
+
+static inline void push(uint32_t code, int device) {
+    if (hd.error_count < ERRORS) {
+        const hd_error error = {code, 0, device == NONE ? HD_NO_DEVICE : (hd_device)device};
+        hd.errors[hd.error_count++] = error;
+    }
+}
+
+static inline void misuse(uint32_t code) {
+    hd.answers[STUB_MISUSES]++;
+    push(code, hd.current);
+}
+
+/* Time goes on for a device, under the lock. */
+void stub_move(simulated *d, double dt);
+
+#endif
