@@ -82,14 +82,13 @@ typedef struct knurl_device_status {
     uint32_t struct_size;
     uint32_t lost;          /**< 1: gone, until it is opened again */
     uint32_t halted;        /**< 1: the motors were let go and nothing has taken them up again */
-    uint32_t reserved;      /**< 0 */
+    uint32_t buttons;       /**< of the latest reading; bit 0: first button */
     uint64_t exchanges;     /**< positions that an I/O thread brought; 0 where there is no such thread */
-    uint64_t bad_bytes;     /**< thrown away because they made no message */
+    uint64_t bad_bytes;     /**< thrown away because they made no message; Touch, whose library hands out no bytes:
+                                 errors of its that were neither a loss nor a refusal */
     uint64_t events;        /**< reported so far, see knurl_device_next_event() */
     double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
     double exchange_ns_p99; /**< the same, 99th percentile */
-    uint32_t buttons;       /**< of the latest reading; bit 0: first button */
-    uint32_t reserved_too;  /**< 0 */
 } knurl_device_status;
 
 /** A caller's own device, so that one that was built at home needs no change of Knurl. All are called with `user`. */
@@ -149,8 +148,7 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
 /** Opens a device by URI; "name:" alone is "name".
  *
- * - fake, fake:?key=value&...: any of the keys that knurl_fake_keys() lists; a later key counts over an earlier one,
- * and `preset` sets all of them anew.
+ * - fake, fake:?key=value&...: keys as knurl_fake_keys() lists them; the latest counts, `preset` sets all of them anew.
  * - touch, touch:NAME: the default Touch, or the one that its set-up program gave this name. ?library=PATH: where libHD
  *   is, before the environment variable KNURL_HD_LIBRARY and the usual places.
  * - falcon: the first one. ?firmware=PATH: the image to load where the device has none, before the environment variable
