@@ -29,7 +29,7 @@ cmocka() {
     apt-get "${options[@]}" update
     (cd "$apt" && apt-get "${options[@]}" source --download-only cmocka)
     tar -C "$dir/cmocka" --strip-components=1 -xf "$(ls "$apt"/cmocka_*.orig.tar.*z | head -n 1)"
-    cmake -S "$dir/cmocka" -B "$dir/cmocka/build" -DCMAKE_TOOLCHAIN_FILE="$here/../../cmake/mingw64.cmake" \
+    cmake -G Ninja -S "$dir/cmocka" -B "$dir/cmocka/build" -DCMAKE_TOOLCHAIN_FILE="$here/../../cmake/mingw64.cmake" \
         -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$prefix" -DWITH_STATIC_LIB=ON -DWITH_EXAMPLES=OFF
     cmake --build "$dir/cmocka/build" --target cmocka-static
     cp "$(find "$dir/cmocka/build" -name 'libcmocka-static.a')" "$prefix/lib/"
