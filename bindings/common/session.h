@@ -1,0 +1,169 @@
+/* What every engine's binding does the same way, in C, so that a binding is conversion, lifetime and editor comfort: one
+ * device, one scene and one loop that live and end together, and what happened to them, told once a frame.
+ * Life: create; add surfaces to knurl_session_scene(); open; (add what only running devices feel); start; an update a
+ * frame; close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched
+ * without waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SESSION_H
+#define KNURL_SESSION_H
+
+#include <knurl/loop.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct knurl_session knurl_session;
+
+/** The latest ticks that a session keeps for plots. */
+#define KNURL_SESSION_HISTORY 8192
+
+/** How a device is run. Strings are copied. */
+typedef struct knurl_session_desc {
+    uint32_t struct_size;      /**< set by knurl_session_desc_init() */
+    uint32_t reconnect;        /**< 1 (default): a lost device is looked for again; 0: losing it ends the run */
+    uint32_t clamp;            /**< 1 (default): walls beyond what the device can do are felt at what it can */
+    uint32_t reserved;         /**< 0 */
+    const char *device;        /**< UTF-8: a URI of knurl_device_open(), default "fake"; or "mouse": no device, the game
+                                    moves the HIP with knurl_session_move_hip() */
+    const char *stroke;        /**< of a fake device's hand, over the scene's first surface: a name that
+                                    knurl_stroke_from_name() knows; "" (default): it stands still at the origin */
+    double update_rate_hz;     /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
+    double heartbeat_s;        /**< s without knurl_session_update() after which the force goes to zero; default 0.25;
+                                    0: never */
+    knurl_workspace workspace; /**< where the device's workspace lies in the scene */
+} knurl_session_desc;
+
+/** What a session's run is doing, as of its latest tick. Scene axes. All zeros while nothing runs. */
+typedef struct knurl_session_state {
+    double hip[3];             /**< m */
+    double proxy[3];           /**< m: the point of the surface that holds the HIP */
+    double force[3];           /**< N, as sent */
+    double height;             /**< m: of the grating under the finger */
+    double temporal_frequency; /**< Hz: ridges a second that the motion asks for */
+    knurl_surface surface;     /**< what was last told to be touched (KNURL_SESSION_CONTACT_STARTED), or 0 */
+    uint64_t ticks;            /**< sent since the start */
+    uint64_t overruns;         /**< ticks that came late */
+    uint32_t buttons;          /**< bit 0: first button */
+    uint32_t running;          /**< 1: the haptic thread runs */
+} knurl_session_state;
+
+/** What happened. */
+enum {
+    KNURL_SESSION_CONTACT_STARTED = 1, /**< `surface` is touched; of several, the one pressed deepest */
+    KNURL_SESSION_CONTACT_ENDED = 2,   /**< `surface` is not the one touched any more, or the run ended */
+    KNURL_SESSION_BUTTON = 3,          /**< button `code` was pressed (`value` 1) or released (0) */
+    KNURL_SESSION_FAULT = 4,           /**< KNURL_FAULT_ `code`, with its `value` */
+    KNURL_SESSION_ENDED = 5            /**< the loop ended by itself (the device was lost): close the session */
+};
+
+typedef struct knurl_session_event {
+    int32_t kind; /**< KNURL_SESSION_ */
+    int32_t code;
+    double value;
+    knurl_surface surface; /**< it may be gone from the scene by now */
+} knurl_session_event;
+
+/** A surface that follows an engine's object: zeroed before its first move in a run. The binding's, one a surface and
+ * session. */
+typedef struct knurl_session_way {
+    double position[3]; /**< m: where the scene last heard it is */
+    uint64_t tick;      /**< when */
+} knurl_session_way;
+
+/** A matrix as Knurl wants it: matrix = translation(position) * rotation * rest. */
+typedef struct knurl_session_pose {
+    double position[3];
+    double rotation[9];   /**< row-major, orthonormal, right-handed */
+    double quaternion[4]; /**< the same: x, y, z, w */
+    double rest[9];       /**< row-major scale, shear and mirror: baked into meshes; exactly 1 where it is within 1e-5 */
+} knurl_session_pose;
+
+/** Fills in defaults; `size` is the caller's sizeof. */
+KNURL_API void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size);
+
+/** Makes a session with an empty scene. Errors: KNURL_ERROR_MEMORY. [game thread] */
+KNURL_API knurl_result knurl_session_create(knurl_session **session);
+
+/** Closes and gives everything back; null is allowed. The haptic thread ends first, with a ramp of the force to zero.
+ * [game thread; or, once nobody uses the session, any thread] */
+KNURL_API void knurl_session_destroy(knurl_session *session);
+
+/** Closes every session of the process: before a library is unloaded. Returns how many were running. [game thread] */
+KNURL_API uint32_t knurl_session_close_all(void);
+
+/** The session's scene, for surfaces: knurl_scene_add_surface() and so on, knurl_gltf_load_file(). It is the same from
+ * create to destroy. Never null. [game thread] */
+KNURL_API knurl_scene *knurl_session_scene(knurl_session *session);
+
+/** The device of an open session, for knurl_device_get_info() and so on; null while closed. [game thread] */
+KNURL_API knurl_device *knurl_session_device(knurl_session *session);
+
+/** The loop of a started session, for knurl_loop_get_stats(); null otherwise. [game thread] */
+KNURL_API knurl_loop *knurl_session_loop(knurl_session *session);
+
+/** Opens the device. Errors: KNURL_ERROR_STATE (open already), KNURL_ERROR_ARGUMENT (which field), and those of
+ * knurl_device_open(). [game thread] */
+KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc);
+
+/** Commits the scene where that has not happened, sets up its HIP, lays the fake hand's stroke and starts the haptic
+ * thread. warning: null, or gets a sentence about what will not be as asked for ("" where all is well), at most `size`
+ * bytes. Errors: KNURL_ERROR_STATE (not open, or started), those of knurl_scene_configure_hip() and knurl_loop_create();
+ * the session is to be closed then. [game thread] */
+KNURL_API knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size);
+
+/** Instead of a start: what an open fake device would play along a path, as fast as the machine can, on this thread.
+ * rows: t (s, ascending), x, y, z (m, scene) each, interpolated. forces: three a tick (N, scene), room for
+ * `ticks` (1 to 1e8). *played: how many ticks there were. The session is to be closed afterwards.
+ * Errors: as knurl_session_start(), KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device). [game thread] */
+KNURL_API knurl_result knurl_session_play(knurl_session *session, const double *rows, uint64_t row_count,
+                                          uint64_t ticks, double *forces, uint64_t *played);
+
+/** Ends the run, lets go and closes the device; what was touched is told as ended by the next
+ * knurl_session_next_event(). Surfaces stay. Twice is fine. [game thread] */
+KNURL_API void knurl_session_close(knurl_session *session);
+
+/** A sign of life, once a frame, and collects what happened since the last. Nothing is asked of the heap.
+ * [game thread] */
+KNURL_API void knurl_session_update(knurl_session *session);
+
+/** The next event, oldest first: 1, or 0 where there is none. A touch shorter than a frame is told as well; what comes
+ * back within a frame was never away. Closing in the middle is fine. [game thread] */
+KNURL_API uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *event);
+
+/** A fault's sentence with its value and unit, as "no position came for too long (0.012 s)"; cut off after `size` - 1
+ * bytes. [any thread] */
+KNURL_API void knurl_session_fault_text(int32_t code, double value, char *text, uint32_t size);
+
+/** What the run is doing. [game thread] */
+KNURL_API void knurl_session_get_state(const knurl_session *session, knurl_session_state *state);
+
+/** The latest ticks, at most KNURL_SESSION_HISTORY, oldest first: two floats each, the grating's height (m) and the
+ * force along the normal (N). rows: room for `count` ticks. Returns how many there were. [game thread] */
+KNURL_API uint32_t knurl_session_get_history(const knurl_session *session, uint32_t count, float *rows);
+
+/** Moves the HIP of the device "mouse" (scene, m). What comes in steps is smoothed: it lags 25 ms behind. Errors:
+ * KNURL_ERROR_STATE (another device, or none), KNURL_ERROR_ARGUMENT (not finite). [game thread] */
+KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]);
+
+/** Moves a surface along with its object: felt as a motion that took the time since the last move, in ticks, or as a
+ * leap where it is faster than 10 m/s. rotation: unit quaternion. Errors: those of knurl_scene_set_transform().
+ * [game thread] */
+KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
+                                                  const double position[3], const double rotation[4]);
+
+/** Why a surface of an open session cannot be felt, or not as asked for: a sentence a line, "" where all is well; cut
+ * off after `size` - 1 bytes. [game thread] */
+KNURL_API void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size);
+
+/** Splits a matrix (row-major, three rows of four, the last column m): 1, or 0, with the pose untouched, where it has
+ * no volume (a scale of 0) or is not finite. [any thread] */
+KNURL_API uint32_t knurl_session_split_pose(const double matrix[12], knurl_session_pose *pose);
+
+/** 1 where two rests are the same to a float's rounding. [any thread] */
+KNURL_API uint32_t knurl_session_same_rest(const double a[9], const double b[9]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
