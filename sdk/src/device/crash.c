@@ -39,7 +39,7 @@ void knurl_device_after_force(knurl_device *device, const double force[3]) {
 }
 
 void knurl_device_register(knurl_device *device) {
-    if (!device->is_linked) { /* an I/O thread tells by itself */
+    if (!device->link) { /* an I/O thread tells by itself */
         knurl_store_release(&device->quiet, 1u);
     }
     for (int i = 0; i < DEVICE_ROOM; i++) {

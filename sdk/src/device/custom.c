@@ -63,21 +63,14 @@ static void custom_info(const knurl_device *device, knurl_device_info *info) {
     ask_info(&((const custom *)(const void *)device)->functions, info);
 }
 
-static void custom_status(const knurl_device *device, knurl_device_status *status) {
-    knurl_link_get_status(&((const custom *)(const void *)device)->link, status);
-}
-
 static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
     const knurl_device_functions *f = &of(device)->functions;
-    const knurl_result result = f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
-    if (!result && of(device)->link.thread) {
-        knurl_link_start(&of(device)->link, update_rate_hz);
-    }
-    return result;
+    return f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
 }
 
 /* As an I/O thread's: the latest position holds for a while where there is none this time. */
-static knurl_result read_now(custom *c, knurl_device_sample *sample) {
+static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
+    custom *c = of(device);
     const knurl_result result = c->functions.read(c->functions.user, sample);
     if (result == KNURL_OK) {
         c->latest = *sample;
@@ -96,14 +89,9 @@ static knurl_result read_now(custom *c, knurl_device_sample *sample) {
     return c->has_latest && c->without <= patience ? KNURL_OK : KNURL_ERROR_DEVICE_NOT_READY;
 }
 
-static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
-    custom *c = of(device);
-    return c->functions.blocking ? knurl_link_read(&c->link, sample) : read_now(c, sample);
-}
-
 static knurl_result custom_write(knurl_device *device, const double force[3]) {
     const knurl_device_functions *f = &of(device)->functions;
-    return f->blocking ? knurl_link_write(&of(device)->link, force) : f->write(f->user, force);
+    return f->write(f->user, force);
 }
 
 static knurl_result custom_reopen(knurl_device *device) {
@@ -123,7 +111,6 @@ static const knurl_driver custom_driver = {
     .uri = "custom",
     .close = custom_close,
     .get_info = custom_info,
-    .get_status = custom_status,
     .start = custom_start,
     .read = custom_read,
     .write = custom_write,

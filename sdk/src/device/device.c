@@ -85,6 +85,9 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
     made.halted = knurl_device_is_halted(device);
     made.buttons = knurl_load_relaxed(&device->buttons);
     made.events = knurl_load_acquire(&device->events.head);
+    if (device->link) {
+        knurl_link_get_status(device->link, &made);
+    }
     if (device->driver->get_status) {
         device->driver->get_status(device, &made);
     }
@@ -108,7 +111,7 @@ knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
     if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
-    if (device->is_linked && update_rate_hz < 2.0 / KNURL_LINK_PATIENCE) {
+    if (device->link && update_rate_hz < 2.0 / KNURL_LINK_PATIENCE) {
         return knurl_fail(
             KNURL_ERROR_UNSUPPORTED,
             "update rate: the device plays a force for %g ms at most, expected %g Hz or more, found %g Hz",
@@ -118,8 +121,11 @@ knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and is not to be found",
                           device->driver->uri);
     }
-    const knurl_result result = device->driver->start(device, update_rate_hz);
+    const knurl_result result = device->driver->start ? device->driver->start(device, update_rate_hz) : KNURL_OK;
     if (!result) {
+        if (device->link) {
+            knurl_link_start(device->link, update_rate_hz);
+        }
         device->period = 1.0 / update_rate_hz;
         begin_check(device);
     }
@@ -161,7 +167,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
 
 static void lose(knurl_device *device) {
     knurl_device_halt(device);
-    if (!device->is_linked) { /* an I/O thread has told already */
+    if (!device->link) { /* an I/O thread has told already */
         knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
     }
     knurl_store_release(&device->lost, 1u);
@@ -172,7 +178,7 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
         return KNURL_ERROR_DEVICE_LOST;
     }
     knurl_device_sample found;
-    knurl_result result = device->driver->read(device, &found);
+    knurl_result result = device->link ? knurl_link_read(device->link, &found) : device->driver->read(device, &found);
     device->check.gap += device->period;
     result = result ? result : check_position(device, found.position);
     if (!result) {
@@ -197,11 +203,12 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
         vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
     }
-    if (!device->is_linked) {
+    if (!device->link) {
         knurl_device_before_force(device, safe);
     }
-    const knurl_result result = device->driver->write(device, safe);
-    if (!device->is_linked && !device->driver->serve) { /* else the thread that sends it says so when it is out */
+    const knurl_result result =
+        device->link ? knurl_link_write(device->link, safe) : device->driver->write(device, safe);
+    if (!device->link && !device->driver->serve) { /* else the thread that sends it says so when it is out */
         knurl_device_after_force(device, safe);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

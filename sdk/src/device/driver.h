@@ -27,6 +27,7 @@ typedef struct knurl_driver {
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
     /* Null where there is nothing to tell beyond what every device tells. */
     void (*get_status)(const knurl_device *device, knurl_device_status *status);
+    /* These three: null where an I/O thread does all of it (link.h). */
     knurl_result (*start)(knurl_device *device, double update_rate_hz);
     /* KNURL_OK, KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_DEVICE_NOT_READY (the driver has reported why) */
     knurl_result (*read)(knurl_device *device, knurl_device_sample *sample);
@@ -55,10 +56,10 @@ typedef struct knurl_position_check {
 /* First member of every driver's own struct; zeroed but for driver and max_force. */
 struct knurl_device {
     const knurl_driver *driver;
-    double max_force;   /* N */
-    double max_speed;   /* m/s: faster than any hand; 0: positions may jump (the fake device plays traces) */
-    double period;      /* s, of the latest start */
-    uint32_t is_linked; /* 1: an I/O thread writes, see link.h */
+    double max_force;        /* N */
+    double max_speed;        /* m/s: faster than any hand; 0: positions may jump (the fake device plays traces) */
+    double period;           /* s, of the latest start */
+    struct knurl_link *link; /* the I/O thread that exchanges, see link.h; null: there is none */
     knurl_position_check check;
     knurl_events events;
     /* atomics */

@@ -106,7 +106,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     link->device = device;
     link->exchange = exchange;
     link->native_rate = native_rate;
-    device->is_linked = 1;
+    device->link = link;
     knurl_mailbox_init(&link->positions);
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);

@@ -56,13 +56,13 @@ typedef struct knurl_link {
     knurl_histogram durations;
 } knurl_link;
 
-/* Starts the I/O thread; `link` is zeroed, or was closed. Sets device->is_linked. Errors: KNURL_ERROR_SYSTEM. */
+/* Starts the I/O thread; `link` is zeroed, or was closed. Sets device->link. Errors: KNURL_ERROR_SYSTEM. */
 knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_exchange exchange, double native_rate);
 
 /* Ends the thread, whose last exchanges carry no force. A link that was never opened is fine. */
 void knurl_link_close(knurl_link *link);
 
-/* A driver's start, read, write and get_status. */
+/* What the device does in place of its driver. */
 void knurl_link_start(knurl_link *link, double update_rate_hz);
 knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample);
 knurl_result knurl_link_write(knurl_link *link, const double force[3]);

@@ -169,7 +169,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = loop->desc.device;
     knurl_device_halt(device);
-    if (device->is_linked || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
+    if (device->link || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
         (void)knurl_device_write(device, none);
     }
     knurl_store_release(&loop->state, state);

@@ -254,7 +254,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
     if (knurl_load_acquire(&loop->threaded)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: it has a haptic thread and cannot be stepped");
     }
-    if (device->driver->serve || device->is_linked) {
+    if (device->driver->serve || device->link) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "loop: device '%s' runs in real time only and cannot be stepped",
                           device->driver->uri);
     }

@@ -87,17 +87,7 @@ TEST(reading_and_writing_ask_for_nothing_but_the_time) {
 static knurl_link io;
 static knurl_device linked;
 
-static knurl_result read_io(knurl_device *device, knurl_device_sample *sample) {
-    (void)device;
-    return knurl_link_read(&io, sample);
-}
-
-static knurl_result write_io(knurl_device *device, const double force[3]) {
-    (void)device;
-    return knurl_link_write(&io, force);
-}
-
-static const knurl_driver io_driver = {.uri = "io", .read = read_io, .write = write_io};
+static const knurl_driver io_driver = {.uri = "io"};
 
 static void strictly(int ask_for_something) {
     for (int k = 0; k < 5000; k++) {
@@ -139,7 +129,7 @@ TEST(the_kernel_is_asked_for_nothing) {
         linked.driver = &io_driver;
         linked.max_force = HOME_FORCE;
         linked.max_speed = 10.0;
-        linked.is_linked = 1;
+        linked.link = &io;
         linked.period = 0.001;
         io.device = &linked;
         io.native_rate = 1000.0;

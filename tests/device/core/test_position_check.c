@@ -228,30 +228,19 @@ TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
 /* The same of an I/O thread whose exchanges took that long: a link without its thread, and positions posted by hand. */
 static knurl_link io;
 
-static knurl_result read_io(knurl_device *device, knurl_device_sample *sample) {
-    (void)device;
-    return knurl_link_read(&io, sample);
-}
-
-static knurl_result start_io(knurl_device *device, double rate) {
-    (void)device;
-    knurl_link_start(&io, rate);
-    return KNURL_OK;
-}
-
 static void tell_io(const knurl_device *device, knurl_device_info *info) {
     (void)device;
     info->native_rate = 1000.0;
 }
 
 TEST(exchanges_that_take_long_do_not_make_a_hand_jump) {
-    static const knurl_driver driver = {.uri = "io", .start = start_io, .read = read_io, .get_info = tell_io};
+    static const knurl_driver driver = {.uri = "io", .get_info = tell_io};
     knurl_device device;
     memset(&io, 0, sizeof io);
     memset(&device, 0, sizeof device);
     device.driver = &driver;
     device.max_speed = KNURL_HAND_SPEED;
-    device.is_linked = 1;
+    device.link = &io;
     io.device = &device;
     io.native_rate = 1000.0;
     knurl_mailbox_init(&io.positions);

@@ -291,21 +291,7 @@ static void falcon_info(const knurl_device *device, knurl_device_info *info) {
 
 static void falcon_status(const knurl_device *device, knurl_device_status *status) {
     const falcon *f = (const falcon *)(const void *)device;
-    knurl_link_get_status(&f->link, status);
     status->bad_bytes = knurl_load_relaxed(&f->bad_bytes);
-}
-
-static knurl_result falcon_start(knurl_device *device, double update_rate_hz) {
-    knurl_link_start(&of(device)->link, update_rate_hz);
-    return KNURL_OK;
-}
-
-static knurl_result falcon_read(knurl_device *device, knurl_device_sample *sample) {
-    return knurl_link_read(&of(device)->link, sample);
-}
-
-static knurl_result falcon_write(knurl_device *device, const double force[3]) {
-    return knurl_link_write(&of(device)->link, force);
 }
 
 static knurl_result falcon_reopen(knurl_device *device) {
@@ -320,8 +306,5 @@ const knurl_driver knurl_falcon_driver = {
     .close = falcon_close,
     .get_info = falcon_info,
     .get_status = falcon_status,
-    .start = falcon_start,
-    .read = falcon_read,
-    .write = falcon_write,
     .reopen = falcon_reopen,
 };

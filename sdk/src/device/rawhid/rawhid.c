@@ -328,21 +328,7 @@ static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
 
 static void rawhid_status(const knurl_device *device, knurl_device_status *status) {
     const rawhid *r = look_at(device);
-    knurl_link_get_status(&r->link, status);
     status->bad_bytes = knurl_load_relaxed(&r->bad_bytes);
-}
-
-static knurl_result rawhid_start(knurl_device *device, double update_rate_hz) {
-    knurl_link_start(&of(device)->link, update_rate_hz);
-    return KNURL_OK;
-}
-
-static knurl_result rawhid_read(knurl_device *device, knurl_device_sample *sample) {
-    return knurl_link_read(&of(device)->link, sample);
-}
-
-static knurl_result rawhid_write(knurl_device *device, const double force[3]) {
-    return knurl_link_write(&of(device)->link, force);
 }
 
 static void rawhid_list(knurl_listings *listings) {
@@ -369,8 +355,5 @@ const knurl_driver knurl_rawhid_driver = {
     .close = rawhid_close,
     .get_info = rawhid_info,
     .get_status = rawhid_status,
-    .start = rawhid_start,
-    .read = rawhid_read,
-    .write = rawhid_write,
     .reopen = rawhid_reopen,
 };
