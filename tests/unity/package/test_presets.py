@@ -71,7 +71,7 @@ class Presets(unittest.TestCase):
 
     def test_have_no_fields_that_the_script_does_not_serialize(self):
         script = package.read(package.PACKAGE, SCRIPT)
-        fields = set(re.findall(r"(?:\[[^\n]*SerializeField[^\n]*\]\s*)private \w+ (\w+)\b", script))
+        fields = set(re.findall(r"\[SerializeField.*?\]\s*\n\s*\w+ (\w+)\b", script, re.DOTALL))
         self.assertEqual(fields, set(FIELDS.values()))
         for name, text in self.presets.items():
             found = re.findall(r"^  (?!m_)(\w+): ", text, re.MULTILINE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using UnityEditor;
 using UnityEngine;
 
@@ -10,22 +11,22 @@ namespace Knurl.Editing
         internal static readonly string[] Devices = { "fake", "mouse", "touch", "falcon", "rawhid" };
         internal static readonly string[] Strokes = { "", "line", "sweep", "circle", "press", "rest" };
 
-        private static readonly string[] Events = { "contactStarted", "contactEnded", "buttonChanged", "fault" };
-        private static readonly GUIContent Device = new GUIContent("Device", "fake (a simulated hand), mouse (a script " +
+        static readonly string[] Events = { "contactStarted", "contactEnded", "buttonChanged", "fault" };
+        static readonly GUIContent Device = new GUIContent("Device", "fake (a simulated hand), mouse (a script " +
             "calls MoveHip), touch, touch:NAME, falcon, rawhid, rawhid:VID:PID; options follow as ?key=value&...");
-        private static readonly GUIContent Known = new GUIContent("Known devices", "Puts one of these into the field above");
-        private static readonly GUIContent Stroke = new GUIContent("Stroke", "What the fake device's hand does over the " +
+        static readonly GUIContent Known = new GUIContent("Known devices", "Puts one of these into the field above");
+        static readonly GUIContent Stroke = new GUIContent("Stroke", "What the fake device's hand does over the " +
             "first surface: line, sweep, circle, press or rest; empty: it stands still at the workspace's origin");
-        private static readonly GUIContent Rate = new GUIContent("Rate (Hz)", "Ticks a second");
-        private static readonly GUIContent Scale = new GUIContent("Workspace Scale", "Metres of the scene per metre that " +
+        static readonly GUIContent Rate = new GUIContent("Rate (Hz)", "Ticks a second");
+        static readonly GUIContent Scale = new GUIContent("Workspace Scale", "Metres of the scene per metre that " +
             "the device moves. Walls feel stiffer by as much");
-        private static readonly GUIContent Autostart = new GUIContent("Autostart", "Whether it starts in its first frame");
-        private static readonly GUIContent Reconnect = new GUIContent("Reconnect", "Whether a device that was lost is " +
+        static readonly GUIContent Autostart = new GUIContent("Autostart", "Whether it starts in its first frame");
+        static readonly GUIContent Reconnect = new GUIContent("Reconnect", "Whether a device that was lost is " +
             "looked for again; otherwise losing it stops this component");
-        private static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
+        static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
             "device can do are felt at what it can");
 
-        private bool _showEvents;
+        bool showEvents;
 
         public override void OnInspectorGUI()
         {
@@ -33,24 +34,32 @@ namespace Knurl.Editing
             SerializedProperty device = serializedObject.FindProperty("device");
             EditorGUILayout.PropertyField(device, Device);
             if (EditorGUILayout.DropdownButton(Known, FocusType.Keyboard))
+            {
                 ShowMenu("device", Devices);
+            }
             if (device.stringValue.StartsWith("fake", System.StringComparison.Ordinal))
             {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty("stroke"), Stroke);
                 if (EditorGUILayout.DropdownButton(new GUIContent("Known strokes"), FocusType.Keyboard))
+                {
                     ShowMenu("stroke", Strokes);
+                }
             }
             EditorGUILayout.PropertyField(serializedObject.FindProperty("rate"), Rate);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("workspaceScale"), Scale);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("autostart"), Autostart);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
-            _showEvents = EditorGUILayout.Foldout(_showEvents, "Events", true);
-            for (int i = 0; _showEvents && i < Events.Length; i++)
+            showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
+            for (int i = 0; showEvents && i < Events.Length; i++)
+            {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
+            }
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects && EditorApplication.isPlaying)
+            {
                 ShowState((KnurlDevice)target);
+            }
         }
 
         public override bool RequiresConstantRepaint()
@@ -58,30 +67,36 @@ namespace Knurl.Editing
             return EditorApplication.isPlaying;
         }
 
-        private void ShowMenu(string field, string[] values)
+        void ShowMenu(string field, string[] values)
         {
             var menu = new GenericMenu();
             foreach (string value in values)
+            {
                 menu.AddItem(new GUIContent(value == "" ? "none" : value), false, () => Put(field, value));
+            }
             menu.ShowAsContext();
         }
 
-        private void Put(string field, string value)
+        void Put(string field, string value)
         {
             if (target == null)
+            {
                 return; // it was deleted while the menu was open
+            }
             serializedObject.Update();
             serializedObject.FindProperty(field).stringValue = value;
             serializedObject.ApplyModifiedProperties();
         }
 
-        private static void ShowState(KnurlDevice device)
+        static void ShowState(KnurlDevice device)
         {
             if (!device.Running)
             {
                 EditorGUILayout.HelpBox("It does not run; settings count from the next start on.", MessageType.Info);
                 if (GUILayout.Button("Start"))
+                {
                     device.StartDevice();
+                }
                 return;
             }
             EditorGUILayout.LabelField("Running", device.DeviceName);
@@ -92,7 +107,9 @@ namespace Knurl.Editing
             EditorGUILayout.LabelField("Temporal frequency (Hz)", Units.Number(device.TemporalFrequency));
             EditorGUILayout.LabelField("Ticks", device.Ticks + ", " + device.Overruns + " late");
             if (GUILayout.Button("Stop"))
+            {
                 device.StopDevice();
+            }
         }
     }
 }

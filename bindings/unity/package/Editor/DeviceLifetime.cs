@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using UnityEditor;
 
 namespace Knurl.Editing
@@ -14,10 +15,12 @@ namespace Knurl.Editing
             EditorApplication.quitting += KnurlDevice.StopAll;
         }
 
-        private static void OnPlayModeStateChanged(PlayModeStateChange change)
+        static void OnPlayModeStateChanged(PlayModeStateChange change)
         {
             if (change == PlayModeStateChange.ExitingPlayMode)
+            {
                 KnurlDevice.StopAll();
+            }
         }
     }
 }

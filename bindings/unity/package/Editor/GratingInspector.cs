@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using UnityEditor;
 using UnityEngine;
 
@@ -12,7 +13,7 @@ namespace Knurl.Editing
             "spatialFrequency", "amplitude", "stiffness", "damping", "friction", "orientation", "method",
         };
 
-        private static readonly GUIContent[] Labels =
+        static readonly GUIContent[] Labels =
         {
             new GUIContent("Spatial Frequency (1/m)", "Ridges per metre along the surface's x and y; 1000 is one a " +
                 "millimetre. (0, 0) is a smooth surface"),
@@ -30,17 +31,23 @@ namespace Knurl.Editing
         {
             serializedObject.Update();
             for (int i = 0; i < Fields.Length; i++)
+            {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty(Fields[i]), Labels[i]);
+            }
             Presets.Draw(Take);
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects)
+            {
                 EditorGUILayout.HelpBox(Explain((KnurlGrating)target), MessageType.Info);
+            }
         }
 
-        private void Take(KnurlGrating preset)
+        void Take(KnurlGrating preset)
         {
             if (target == null)
+            {
                 return; // it was deleted while the menu was open
+            }
             Copy(new SerializedObject(preset), serializedObject);
         }
 
@@ -49,11 +56,13 @@ namespace Knurl.Editing
         {
             to.Update();
             foreach (string field in Fields)
+            {
                 to.CopyFromSerializedProperty(from.FindProperty(field));
+            }
             to.ApplyModifiedProperties();
         }
 
-        private static string Explain(KnurlGrating grating)
+        static string Explain(KnurlGrating grating)
         {
             string turned = grating.Orientation != 0.0f
                 ? " Turned by " + Units.Number(grating.Orientation * Mathf.Rad2Deg) + " degrees."

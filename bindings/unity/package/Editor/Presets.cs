@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using System;
 using System.Linq;
 using UnityEditor;
@@ -32,10 +33,14 @@ namespace Knurl.Editing
             var label = new GUIContent("Preset", "Gratings that come with Knurl; the README says where their numbers " +
                 "come from");
             if (!EditorGUILayout.DropdownButton(label, FocusType.Keyboard))
+            {
                 return;
+            }
             var menu = new GenericMenu();
             foreach (KnurlGrating preset in Load())
+            {
                 menu.AddItem(new GUIContent(Title(preset).Replace('/', '\u2215')), false, () => chosen(preset));
+            }
             menu.ShowAsContext();
         }
     }

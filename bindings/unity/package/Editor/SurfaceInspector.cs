@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using UnityEditor;
 using UnityEngine;
 
@@ -7,17 +8,17 @@ namespace Knurl.Editing
     [CustomEditor(typeof(KnurlSurface)), CanEditMultipleObjects]
     internal sealed class SurfaceInspector : Editor
     {
-        private const double SecondsBetweenLooks = 0.5; // a mesh may be large
+        const double SecondsBetweenLooks = 0.5; // a mesh may be large
 
-        private static readonly GUIContent Grating = new GUIContent("Grating", "How the surface feels: a preset, or an " +
+        static readonly GUIContent Grating = new GUIContent("Grating", "How the surface feels: a preset, or an " +
             "asset made by Create > Knurl > Grating");
-        private static readonly GUIContent DoubleSided = new GUIContent("Double Sided", "Whether it can be touched from " +
+        static readonly GUIContent DoubleSided = new GUIContent("Double Sided", "Whether it can be touched from " +
             "behind as well");
-        private static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
+        static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
             "(0, 0, 0): the mesh's tangents, else its UVs");
 
-        private string[] _warnings = new string[0];
-        private double _lookAgain;
+        string[] warnings = new string[0];
+        double lookAgain;
 
         public override void OnInspectorGUI()
         {
@@ -28,10 +29,14 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
             if (EditorGUI.EndChangeCheck())
-                _lookAgain = 0.0;
+            {
+                lookAgain = 0.0;
+            }
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects)
+            {
                 ShowState((KnurlSurface)target);
+            }
         }
 
         public override bool RequiresConstantRepaint()
@@ -39,23 +44,28 @@ namespace Knurl.Editing
             return EditorApplication.isPlaying;
         }
 
-        private void ShowState(KnurlSurface surface)
+        void ShowState(KnurlSurface surface)
         {
-            if (EditorApplication.timeSinceStartup >= _lookAgain)
+            bool laysOut = Event.current.type == EventType.Layout; // what is drawn has to be what was laid out
+            if (laysOut && EditorApplication.timeSinceStartup >= lookAgain)
             {
-                _warnings = WarningsOf(surface);
-                _lookAgain = EditorApplication.timeSinceStartup + SecondsBetweenLooks;
+                warnings = WarningsOf(surface);
+                lookAgain = EditorApplication.timeSinceStartup + SecondsBetweenLooks;
             }
-            foreach (string warning in _warnings)
+            foreach (string warning in warnings)
+            {
                 EditorGUILayout.HelpBox(warning, MessageType.Warning);
+            }
             if (!EditorApplication.isPlaying)
+            {
                 return;
+            }
             EditorGUILayout.LabelField("Triangles felt", Units.Number(surface.TriangleCount));
             EditorGUILayout.LabelField("Touched", surface.IsTouched ? "yes" : "no");
         }
 
         /// <summary>Never throws: an inspector that does draws nothing below.</summary>
-        private static string[] WarningsOf(KnurlSurface surface)
+        static string[] WarningsOf(KnurlSurface surface)
         {
             try
             {
@@ -67,14 +77,16 @@ namespace Knurl.Editing
             }
         }
 
-        private void Take(KnurlGrating preset)
+        void Take(KnurlGrating preset)
         {
             if (target == null)
+            {
                 return; // it was deleted while the menu was open
+            }
             serializedObject.Update();
             serializedObject.FindProperty("grating").objectReferenceValue = preset;
             serializedObject.ApplyModifiedProperties();
-            _lookAgain = 0.0;
+            lookAgain = 0.0;
         }
     }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 using System.Globalization;
 using UnityEngine;
 
@@ -29,10 +30,14 @@ namespace Knurl.Editing
             bool alongX = frequency.x > 0.0f;
             bool alongY = frequency.y > 0.0f;
             if ((!alongX && !alongY) || amplitude == 0.0f)
+            {
                 return "A smooth wall.";
+            }
             string height = ", " + Millimetres(2.0 * amplitude) + " from bottom to top.";
             if (alongX && alongY)
+            {
                 return "A grid of " + Number(1e3 / frequency.x) + " x " + Millimetres(1.0 / frequency.y) + height;
+            }
             return "A ridge every " + Millimetres(1.0 / (alongX ? frequency.x : frequency.y)) +
                 (alongX ? " along x" : " along y") + height;
         }
