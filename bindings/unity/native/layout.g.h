@@ -1,0 +1,341 @@
+/* Generated from Knurl's headers by bindings/unity/native/mirror.py, which makes it anew; do not edit.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_UNITY_LAYOUT_H
+#define KNURL_UNITY_LAYOUT_H
+/* clang-format off */
+
+#define KNURL_UNITY_INTERFACE "faf5702cdfc55b5b"
+
+/** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
+#define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
+    STRUCT(knurl_allocator, 24) \
+    FIELD(knurl_allocator, allocate, "allocate", 0, 8) \
+    FIELD(knurl_allocator, release, "release", 8, 8) \
+    FIELD(knurl_allocator, user, "user", 16, 8) \
+    STRUCT(knurl_plane_desc, 24) \
+    FIELD(knurl_plane_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_plane_desc, reserved, "reserved", 4, 4) \
+    FIELD(knurl_plane_desc, half_extents, "half_extents", 8, 16) \
+    STRUCT(knurl_mesh_desc, 48) \
+    FIELD(knurl_mesh_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_mesh_desc, vertex_count, "vertex_count", 4, 4) \
+    FIELD(knurl_mesh_desc, positions, "positions", 8, 8) \
+    FIELD(knurl_mesh_desc, tangents, "tangents", 16, 8) \
+    FIELD(knurl_mesh_desc, uvs, "uvs", 24, 8) \
+    FIELD(knurl_mesh_desc, indices, "indices", 32, 8) \
+    FIELD(knurl_mesh_desc, index_count, "index_count", 40, 8) \
+    STRUCT(knurl_device_info, 208) \
+    FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_info, reserved, "reserved", 4, 4) \
+    FIELD(knurl_device_info, name, "name", 8, 64) \
+    FIELD(knurl_device_info, workspace_min, "workspace_min", 72, 24) \
+    FIELD(knurl_device_info, workspace_max, "workspace_max", 96, 24) \
+    FIELD(knurl_device_info, resolution, "resolution", 120, 8) \
+    FIELD(knurl_device_info, max_force, "max_force", 128, 8) \
+    FIELD(knurl_device_info, delay, "delay", 136, 8) \
+    FIELD(knurl_device_info, continuous_force, "continuous_force", 144, 8) \
+    FIELD(knurl_device_info, heat_time, "heat_time", 152, 8) \
+    FIELD(knurl_device_info, mass, "mass", 160, 8) \
+    FIELD(knurl_device_info, viscous, "viscous", 168, 8) \
+    FIELD(knurl_device_info, coulomb, "coulomb", 176, 8) \
+    FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
+    FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
+    FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
+    STRUCT(knurl_device_sample, 32) \
+    FIELD(knurl_device_sample, position, "position", 0, 24) \
+    FIELD(knurl_device_sample, buttons, "buttons", 24, 4) \
+    FIELD(knurl_device_sample, reserved, "reserved", 28, 4) \
+    STRUCT(knurl_device_listing, 1408) \
+    FIELD(knurl_device_listing, uri, "uri", 0, 256) \
+    FIELD(knurl_device_listing, name, "name", 256, 128) \
+    FIELD(knurl_device_listing, reason, "reason", 384, 1024) \
+    STRUCT(knurl_device_event, 24) \
+    FIELD(knurl_device_event, time_ns, "time_ns", 0, 8) \
+    FIELD(knurl_device_event, value, "value", 8, 8) \
+    FIELD(knurl_device_event, code, "code", 16, 4) \
+    FIELD(knurl_device_event, reserved, "reserved", 20, 4) \
+    STRUCT(knurl_device_status, 56) \
+    FIELD(knurl_device_status, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_status, lost, "lost", 4, 4) \
+    FIELD(knurl_device_status, halted, "halted", 8, 4) \
+    FIELD(knurl_device_status, buttons, "buttons", 12, 4) \
+    FIELD(knurl_device_status, exchanges, "exchanges", 16, 8) \
+    FIELD(knurl_device_status, bad_bytes, "bad_bytes", 24, 8) \
+    FIELD(knurl_device_status, events, "events", 32, 8) \
+    FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
+    FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
+    STRUCT(knurl_device_functions, 64) \
+    FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \
+    FIELD(knurl_device_functions, user, "user", 8, 8) \
+    FIELD(knurl_device_functions, get_info, "get_info", 16, 8) \
+    FIELD(knurl_device_functions, start, "start", 24, 8) \
+    FIELD(knurl_device_functions, read, "read", 32, 8) \
+    FIELD(knurl_device_functions, write, "write", 40, 8) \
+    FIELD(knurl_device_functions, reopen, "reopen", 48, 8) \
+    FIELD(knurl_device_functions, close, "close", 56, 8) \
+    STRUCT(knurl_stroke_desc, 120) \
+    FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \
+    FIELD(knurl_stroke_desc, centre, "centre", 8, 24) \
+    FIELD(knurl_stroke_desc, x, "x", 32, 24) \
+    FIELD(knurl_stroke_desc, normal, "normal", 56, 24) \
+    FIELD(knurl_stroke_desc, reach, "reach", 80, 16) \
+    FIELD(knurl_stroke_desc, depth, "depth", 96, 8) \
+    FIELD(knurl_stroke_desc, speed, "speed", 104, 8) \
+    FIELD(knurl_stroke_desc, period, "period", 112, 8) \
+    STRUCT(knurl_fake_truth, 96) \
+    FIELD(knurl_fake_truth, position, "position", 0, 24) \
+    FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
+    FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
+    FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
+    STRUCT(knurl_event, 32) \
+    FIELD(knurl_event, positive, "positive", 0, 8) \
+    FIELD(knurl_event, negative, "negative", 8, 8) \
+    FIELD(knurl_event, length, "length", 16, 4) \
+    FIELD(knurl_event, positive_ticks, "positive_ticks", 20, 4) \
+    FIELD(knurl_event, kind, "kind", 24, 4) \
+    FIELD(knurl_event, saturated, "saturated", 28, 4) \
+    STRUCT(knurl_wave, 96) \
+    FIELD(knurl_wave, period_ticks, "period_ticks", 0, 8) \
+    FIELD(knurl_wave, amplitude, "amplitude", 8, 8) \
+    FIELD(knurl_wave, parts[0], "parts_0", 16, 32) \
+    FIELD(knurl_wave, parts[1], "parts_1", 48, 32) \
+    FIELD(knurl_wave, method, "method", 80, 4) \
+    FIELD(knurl_wave, part_count, "part_count", 84, 4) \
+    FIELD(knurl_wave, saturated, "saturated", 88, 4) \
+    FIELD(knurl_wave, reserved, "reserved", 92, 4) \
+    STRUCT(knurl_grating, 56) \
+    FIELD(knurl_grating, spatial_frequency, "spatial_frequency", 0, 16) \
+    FIELD(knurl_grating, amplitude, "amplitude", 16, 8) \
+    FIELD(knurl_grating, update_rate_hz, "update_rate_hz", 24, 8) \
+    FIELD(knurl_grating, method, "method", 32, 4) \
+    FIELD(knurl_grating, reserved, "reserved", 36, 4) \
+    FIELD(knurl_grating, resolution, "resolution", 40, 8) \
+    FIELD(knurl_grating, crossover_hz, "crossover_hz", 48, 8) \
+    STRUCT(knurl_grating_state, 80) \
+    FIELD(knurl_grating_state, event, "event", 0, 32) \
+    FIELD(knurl_grating_state, event_count, "event_count", 32, 8) \
+    FIELD(knurl_grating_state, next_tick, "next_tick", 40, 4) \
+    FIELD(knurl_grating_state, playing, "playing", 44, 4) \
+    FIELD(knurl_grating_state, phase, "phase", 48, 8) \
+    FIELD(knurl_grating_state, played, "played", 56, 8) \
+    FIELD(knurl_grating_state, held, "held", 64, 8) \
+    FIELD(knurl_grating_state, direction, "direction", 72, 4) \
+    FIELD(knurl_grating_state, moving, "moving", 76, 4) \
+    STRUCT(knurl_grating_output, 40) \
+    FIELD(knurl_grating_output, height, "height", 0, 8) \
+    FIELD(knurl_grating_output, spatial_frequency, "spatial_frequency", 8, 8) \
+    FIELD(knurl_grating_output, temporal_frequency, "temporal_frequency", 16, 8) \
+    FIELD(knurl_grating_output, event, "event", 24, 8) \
+    FIELD(knurl_grating_output, saturated, "saturated", 32, 4) \
+    FIELD(knurl_grating_output, reserved, "reserved", 36, 4) \
+    STRUCT(knurl_velocity, 10376) \
+    FIELD(knurl_velocity, history, "history", 0, 10240) \
+    FIELD(knurl_velocity, held, "held", 10240, 32) \
+    FIELD(knurl_velocity, last, "last", 10272, 24) \
+    FIELD(knurl_velocity, smooth, "smooth", 10296, 24) \
+    FIELD(knurl_velocity, share, "share", 10320, 8) \
+    FIELD(knurl_velocity, rate, "rate", 10328, 8) \
+    FIELD(knurl_velocity, steps_per_m, "steps_per_m", 10336, 8) \
+    FIELD(knurl_velocity, slope_unit, "slope_unit", 10344, 8) \
+    FIELD(knurl_velocity, newest, "newest", 10352, 4) \
+    FIELD(knurl_velocity, started, "started", 10356, 4) \
+    FIELD(knurl_velocity, method, "method", 10360, 4) \
+    FIELD(knurl_velocity, avx, "avx", 10364, 4) \
+    FIELD(knurl_velocity, stride, "stride", 10368, 4) \
+    FIELD(knurl_velocity, phase, "phase", 10372, 4) \
+    STRUCT(knurl_workspace, 112) \
+    FIELD(knurl_workspace, origin, "origin", 0, 24) \
+    FIELD(knurl_workspace, rotation, "rotation", 24, 72) \
+    FIELD(knurl_workspace, scale, "scale", 96, 8) \
+    FIELD(knurl_workspace, reserved, "reserved", 104, 8) \
+    STRUCT(knurl_material_desc, 64) \
+    FIELD(knurl_material_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_material_desc, method, "method", 4, 4) \
+    FIELD(knurl_material_desc, spatial_frequency, "spatial_frequency", 8, 16) \
+    FIELD(knurl_material_desc, amplitude, "amplitude", 24, 8) \
+    FIELD(knurl_material_desc, stiffness, "stiffness", 32, 8) \
+    FIELD(knurl_material_desc, damping, "damping", 40, 8) \
+    FIELD(knurl_material_desc, friction, "friction", 48, 8) \
+    FIELD(knurl_material_desc, orientation, "orientation", 56, 8) \
+    STRUCT(knurl_surface_desc, 120) \
+    FIELD(knurl_surface_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_desc, double_sided, "double_sided", 4, 4) \
+    FIELD(knurl_surface_desc, name, "name", 8, 8) \
+    FIELD(knurl_surface_desc, plane, "plane", 16, 8) \
+    FIELD(knurl_surface_desc, mesh, "mesh", 24, 8) \
+    FIELD(knurl_surface_desc, material, "material", 32, 8) \
+    FIELD(knurl_surface_desc, position, "position", 40, 24) \
+    FIELD(knurl_surface_desc, rotation, "rotation", 64, 32) \
+    FIELD(knurl_surface_desc, axis, "axis", 96, 24) \
+    STRUCT(knurl_hip_desc, 96) \
+    FIELD(knurl_hip_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_hip_desc, velocity_method, "velocity_method", 4, 4) \
+    FIELD(knurl_hip_desc, update_rate_hz, "update_rate_hz", 8, 8) \
+    FIELD(knurl_hip_desc, resolution, "resolution", 16, 8) \
+    FIELD(knurl_hip_desc, max_force, "max_force", 24, 8) \
+    FIELD(knurl_hip_desc, workspace, "workspace", 32, 8) \
+    FIELD(knurl_hip_desc, continuous_force, "continuous_force", 40, 8) \
+    FIELD(knurl_hip_desc, heat_time, "heat_time", 48, 8) \
+    FIELD(knurl_hip_desc, viscous, "viscous", 56, 8) \
+    FIELD(knurl_hip_desc, delay, "delay", 64, 8) \
+    FIELD(knurl_hip_desc, max_stiffness, "max_stiffness", 72, 8) \
+    FIELD(knurl_hip_desc, slew_rate, "slew_rate", 80, 8) \
+    FIELD(knurl_hip_desc, unguarded, "unguarded", 88, 4) \
+    FIELD(knurl_hip_desc, clamp, "clamp", 92, 4) \
+    STRUCT(knurl_scene_desc, 24) \
+    FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_scene_desc, max_surfaces, "max_surfaces", 4, 4) \
+    FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
+    FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
+    FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
+    STRUCT(knurl_surface_info, 312) \
+    FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
+    FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
+    FIELD(knurl_surface_info, double_sided, "double_sided", 12, 4) \
+    FIELD(knurl_surface_info, name, "name", 16, 8) \
+    FIELD(knurl_surface_info, shape, "shape", 24, 8) \
+    FIELD(knurl_surface_info, model, "model", 32, 8) \
+    FIELD(knurl_surface_info, bytes, "bytes", 40, 8) \
+    FIELD(knurl_surface_info, bounds_min, "bounds_min", 48, 24) \
+    FIELD(knurl_surface_info, bounds_max, "bounds_max", 72, 24) \
+    FIELD(knurl_surface_info, anchor, "anchor", 96, 24) \
+    FIELD(knurl_surface_info, anchor_x, "anchor_x", 120, 24) \
+    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
+    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
+    FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
+    FIELD(knurl_surface_info, material, "material", 224, 64) \
+    FIELD(knurl_surface_info, why, "why", 288, 8) \
+    FIELD(knurl_surface_info, model_error, "model_error", 296, 8) \
+    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 304, 4) \
+    FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
+    STRUCT(knurl_tick_input, 56) \
+    FIELD(knurl_tick_input, position, "position", 0, 24) \
+    FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
+    FIELD(knurl_tick_input, has_velocity, "has_velocity", 48, 4) \
+    FIELD(knurl_tick_input, absent, "absent", 52, 4) \
+    STRUCT(knurl_tick_output, 224) \
+    FIELD(knurl_tick_output, device_force, "device_force", 0, 24) \
+    FIELD(knurl_tick_output, force, "force", 24, 24) \
+    FIELD(knurl_tick_output, hip, "hip", 48, 24) \
+    FIELD(knurl_tick_output, hip_velocity, "hip_velocity", 72, 24) \
+    FIELD(knurl_tick_output, proxy, "proxy", 96, 24) \
+    FIELD(knurl_tick_output, normal, "normal", 120, 24) \
+    FIELD(knurl_tick_output, surface_velocity, "surface_velocity", 144, 16) \
+    FIELD(knurl_tick_output, depth, "depth", 160, 8) \
+    FIELD(knurl_tick_output, height, "height", 168, 8) \
+    FIELD(knurl_tick_output, spatial_frequency, "spatial_frequency", 176, 8) \
+    FIELD(knurl_tick_output, temporal_frequency, "temporal_frequency", 184, 8) \
+    FIELD(knurl_tick_output, event, "event", 192, 8) \
+    FIELD(knurl_tick_output, surface, "surface", 200, 8) \
+    FIELD(knurl_tick_output, tick, "tick", 208, 8) \
+    FIELD(knurl_tick_output, flags, "flags", 216, 4) \
+    FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
+    STRUCT(knurl_hip_counts, 96) \
+    FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
+    FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
+    FIELD(knurl_hip_counts, events, "events", 16, 8) \
+    FIELD(knurl_hip_counts, force_limits, "force_limits", 24, 8) \
+    FIELD(knurl_hip_counts, frequency_saturations, "frequency_saturations", 32, 8) \
+    FIELD(knurl_hip_counts, not_finite, "not_finite", 40, 8) \
+    FIELD(knurl_hip_counts, entries, "entries", 48, 8) \
+    FIELD(knurl_hip_counts, slews, "slews", 56, 8) \
+    FIELD(knurl_hip_counts, heats, "heats", 64, 8) \
+    FIELD(knurl_hip_counts, passivities, "passivities", 72, 8) \
+    FIELD(knurl_hip_counts, force_max, "force_max", 80, 8) \
+    FIELD(knurl_hip_counts, heat, "heat", 88, 8) \
+    STRUCT(knurl_surface_check, 1064) \
+    FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
+    FIELD(knurl_surface_check, stiffness, "stiffness", 8, 8) \
+    FIELD(knurl_surface_check, stiffness_limit, "stiffness_limit", 16, 8) \
+    FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
+    FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
+    FIELD(knurl_surface_check, message, "message", 40, 1024) \
+    STRUCT(knurl_gltf_report, 16) \
+    FIELD(knurl_gltf_report, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \
+    FIELD(knurl_gltf_report, skipped, "skipped", 8, 4) \
+    FIELD(knurl_gltf_report, reserved, "reserved", 12, 4) \
+    STRUCT(knurl_clock, 24) \
+    FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
+    FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \
+    FIELD(knurl_clock, user, "user", 16, 8) \
+    STRUCT(knurl_loop_desc, 104) \
+    FIELD(knurl_loop_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_loop_desc, hip, "hip", 4, 4) \
+    FIELD(knurl_loop_desc, device, "device", 8, 8) \
+    FIELD(knurl_loop_desc, scene, "scene", 16, 8) \
+    FIELD(knurl_loop_desc, force_callback, "force_callback", 24, 8) \
+    FIELD(knurl_loop_desc, tick_callback, "tick_callback", 32, 8) \
+    FIELD(knurl_loop_desc, user, "user", 40, 8) \
+    FIELD(knurl_loop_desc, update_rate_hz, "update_rate_hz", 48, 8) \
+    FIELD(knurl_loop_desc, tick_limit, "tick_limit", 56, 8) \
+    FIELD(knurl_loop_desc, ramp_s, "ramp_s", 64, 8) \
+    FIELD(knurl_loop_desc, watchdog_s, "watchdog_s", 72, 8) \
+    FIELD(knurl_loop_desc, clock, "clock", 80, 8) \
+    FIELD(knurl_loop_desc, unguarded, "unguarded", 88, 4) \
+    FIELD(knurl_loop_desc, reconnect, "reconnect", 92, 4) \
+    FIELD(knurl_loop_desc, heartbeat_s, "heartbeat_s", 96, 8) \
+    STRUCT(knurl_percentiles, 24) \
+    FIELD(knurl_percentiles, p50, "p50", 0, 8) \
+    FIELD(knurl_percentiles, p99, "p99", 8, 8) \
+    FIELD(knurl_percentiles, max, "max", 16, 8) \
+    STRUCT(knurl_loop_stats, 120) \
+    FIELD(knurl_loop_stats, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_loop_stats, state, "state", 4, 4) \
+    FIELD(knurl_loop_stats, ticks, "ticks", 8, 8) \
+    FIELD(knurl_loop_stats, overruns, "overruns", 16, 8) \
+    FIELD(knurl_loop_stats, watchdogs, "watchdogs", 24, 8) \
+    FIELD(knurl_loop_stats, realtime, "realtime", 32, 4) \
+    FIELD(knurl_loop_stats, memory_locked, "memory_locked", 36, 4) \
+    FIELD(knurl_loop_stats, tick_ns, "tick_ns", 40, 24) \
+    FIELD(knurl_loop_stats, jitter_ns, "jitter_ns", 64, 24) \
+    FIELD(knurl_loop_stats, heats, "heats", 88, 8) \
+    FIELD(knurl_loop_stats, heat, "heat", 96, 8) \
+    FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
+    FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
+    FIELD(knurl_loop_stats, reserved, "reserved", 116, 4) \
+    STRUCT(knurl_session_desc, 160) \
+    FIELD(knurl_session_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_session_desc, reconnect, "reconnect", 4, 4) \
+    FIELD(knurl_session_desc, clamp, "clamp", 8, 4) \
+    FIELD(knurl_session_desc, reserved, "reserved", 12, 4) \
+    FIELD(knurl_session_desc, device, "device", 16, 8) \
+    FIELD(knurl_session_desc, stroke, "stroke", 24, 8) \
+    FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
+    FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
+    FIELD(knurl_session_desc, workspace, "workspace", 48, 112) \
+    STRUCT(knurl_session_state, 120) \
+    FIELD(knurl_session_state, hip, "hip", 0, 24) \
+    FIELD(knurl_session_state, proxy, "proxy", 24, 24) \
+    FIELD(knurl_session_state, force, "force", 48, 24) \
+    FIELD(knurl_session_state, height, "height", 72, 8) \
+    FIELD(knurl_session_state, temporal_frequency, "temporal_frequency", 80, 8) \
+    FIELD(knurl_session_state, surface, "surface", 88, 8) \
+    FIELD(knurl_session_state, ticks, "ticks", 96, 8) \
+    FIELD(knurl_session_state, overruns, "overruns", 104, 8) \
+    FIELD(knurl_session_state, buttons, "buttons", 112, 4) \
+    FIELD(knurl_session_state, running, "running", 116, 4) \
+    STRUCT(knurl_session_event, 24) \
+    FIELD(knurl_session_event, kind, "kind", 0, 4) \
+    FIELD(knurl_session_event, code, "code", 4, 4) \
+    FIELD(knurl_session_event, value, "value", 8, 8) \
+    FIELD(knurl_session_event, surface, "surface", 16, 8) \
+    STRUCT(knurl_session_way, 32) \
+    FIELD(knurl_session_way, position, "position", 0, 24) \
+    FIELD(knurl_session_way, tick, "tick", 24, 8) \
+    STRUCT(knurl_session_pose, 200) \
+    FIELD(knurl_session_pose, position, "position", 0, 24) \
+    FIELD(knurl_session_pose, rotation, "rotation", 24, 72) \
+    FIELD(knurl_session_pose, quaternion, "quaternion", 96, 32) \
+    FIELD(knurl_session_pose, rest, "rest", 128, 72) \
+    STRUCT(knurl_unity_layout_row, 24) \
+    FIELD(knurl_unity_layout_row, type, "type", 0, 8) \
+    FIELD(knurl_unity_layout_row, field, "field", 8, 8) \
+    FIELD(knurl_unity_layout_row, offset, "offset", 16, 4) \
+    FIELD(knurl_unity_layout_row, size, "size", 20, 4)
+
+#endif

@@ -1,0 +1,1000 @@
+// Generated from Knurl's headers by bindings/unity/native/mirror.py, which makes it anew; do not edit.
+// Names are C's, so that they can be searched for; what they mean stands in the headers.
+#pragma warning disable 0649 // fields that only C fills in
+using System;
+using System.Runtime.InteropServices;
+
+namespace Knurl
+{
+    internal struct knurl_device { }
+
+    internal struct knurl_scene { }
+
+    internal struct knurl_loop { }
+
+    internal struct knurl_session { }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_allocator
+    {
+        public IntPtr allocate;
+        public IntPtr release;
+        public IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_plane_desc
+    {
+        public uint struct_size;
+        public uint reserved;
+        public fixed double half_extents[2];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_mesh_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public float* positions;
+        public float* tangents;
+        public float* uvs;
+        public uint* indices;
+        public ulong index_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_info
+    {
+        public uint struct_size;
+        public uint reserved;
+        public fixed byte name[64];
+        public fixed double workspace_min[3];
+        public fixed double workspace_max[3];
+        public double resolution;
+        public double max_force;
+        public double delay;
+        public double continuous_force;
+        public double heat_time;
+        public double mass;
+        public double viscous;
+        public double coulomb;
+        public double max_stiffness;
+        public double max_damping;
+        public double native_rate;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_sample
+    {
+        public fixed double position[3];
+        public uint buttons;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_listing
+    {
+        public fixed byte uri[256];
+        public fixed byte name[128];
+        public fixed byte reason[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_event
+    {
+        public long time_ns;
+        public double value;
+        public int code;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_status
+    {
+        public uint struct_size;
+        public uint lost;
+        public uint halted;
+        public uint buttons;
+        public ulong exchanges;
+        public ulong bad_bytes;
+        public ulong events;
+        public double exchange_ns_p50;
+        public double exchange_ns_p99;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_functions
+    {
+        public uint struct_size;
+        public uint blocking;
+        public IntPtr user;
+        public IntPtr get_info;
+        public IntPtr start;
+        public IntPtr read;
+        public IntPtr write;
+        public IntPtr reopen;
+        public IntPtr close;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_stroke_desc
+    {
+        public uint struct_size;
+        public int stroke;
+        public fixed double centre[3];
+        public fixed double x[3];
+        public fixed double normal[3];
+        public fixed double reach[2];
+        public double depth;
+        public double speed;
+        public double period;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_fake_truth
+    {
+        public fixed double position[3];
+        public fixed double velocity[3];
+        public fixed double motor[3];
+        public fixed double hand[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_event
+    {
+        public double positive;
+        public double negative;
+        public int length;
+        public int positive_ticks;
+        public int kind;
+        public uint saturated;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_wave
+    {
+        public double period_ticks;
+        public double amplitude;
+        public knurl_event parts_0;
+        public knurl_event parts_1;
+        public int method;
+        public int part_count;
+        public uint saturated;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_grating
+    {
+        public fixed double spatial_frequency[2];
+        public double amplitude;
+        public double update_rate_hz;
+        public int method;
+        public uint reserved;
+        public double resolution;
+        public double crossover_hz;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_grating_state
+    {
+        public knurl_event @event;
+        public long event_count;
+        public int next_tick;
+        public int playing;
+        public double phase;
+        public double played;
+        public double held;
+        public int direction;
+        public int moving;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_grating_output
+    {
+        public double height;
+        public double spatial_frequency;
+        public double temporal_frequency;
+        public long @event;
+        public uint saturated;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_velocity
+    {
+        public fixed double history[1280];
+        public fixed double held[4];
+        public fixed double last[3];
+        public fixed double smooth[3];
+        public double share;
+        public double rate;
+        public double steps_per_m;
+        public double slope_unit;
+        public uint newest;
+        public uint started;
+        public int method;
+        public uint avx;
+        public uint stride;
+        public uint phase;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_workspace
+    {
+        public fixed double origin[3];
+        public fixed double rotation[9];
+        public double scale;
+        public double reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_material_desc
+    {
+        public uint struct_size;
+        public int method;
+        public fixed double spatial_frequency[2];
+        public double amplitude;
+        public double stiffness;
+        public double damping;
+        public double friction;
+        public double orientation;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_desc
+    {
+        public uint struct_size;
+        public uint double_sided;
+        public byte* name;
+        public knurl_plane_desc* plane;
+        public knurl_mesh_desc* mesh;
+        public knurl_material_desc* material;
+        public fixed double position[3];
+        public fixed double rotation[4];
+        public fixed double axis[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_hip_desc
+    {
+        public uint struct_size;
+        public int velocity_method;
+        public double update_rate_hz;
+        public double resolution;
+        public double max_force;
+        public knurl_workspace* workspace;
+        public double continuous_force;
+        public double heat_time;
+        public double viscous;
+        public double delay;
+        public double max_stiffness;
+        public double slew_rate;
+        public uint unguarded;
+        public uint clamp;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_scene_desc
+    {
+        public uint struct_size;
+        public uint max_surfaces;
+        public uint hip_count;
+        public uint full_model;
+        public knurl_allocator* allocator;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_info
+    {
+        public uint struct_size;
+        public uint triangle_count;
+        public uint dropped_triangles;
+        public uint double_sided;
+        public byte* name;
+        public byte* shape;
+        public byte* model;
+        public ulong bytes;
+        public fixed double bounds_min[3];
+        public fixed double bounds_max[3];
+        public fixed double anchor[3];
+        public fixed double anchor_x[3];
+        public fixed double anchor_normal[3];
+        public fixed double anchor_reach[4];
+        public fixed double stretch[3];
+        public knurl_material_desc material;
+        public byte* why;
+        public double model_error;
+        public uint reversed_twins;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_tick_input
+    {
+        public fixed double position[3];
+        public fixed double velocity[3];
+        public uint has_velocity;
+        public uint absent;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_tick_output
+    {
+        public fixed double device_force[3];
+        public fixed double force[3];
+        public fixed double hip[3];
+        public fixed double hip_velocity[3];
+        public fixed double proxy[3];
+        public fixed double normal[3];
+        public fixed double surface_velocity[2];
+        public double depth;
+        public double height;
+        public double spatial_frequency;
+        public double temporal_frequency;
+        public long @event;
+        public ulong surface;
+        public ulong tick;
+        public uint flags;
+        public uint contacts;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_hip_counts
+    {
+        public ulong ticks;
+        public ulong contact_ticks;
+        public ulong events;
+        public ulong force_limits;
+        public ulong frequency_saturations;
+        public ulong not_finite;
+        public ulong entries;
+        public ulong slews;
+        public ulong heats;
+        public ulong passivities;
+        public double force_max;
+        public double heat;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_check
+    {
+        public uint struct_size;
+        public uint exceeded;
+        public double stiffness;
+        public double stiffness_limit;
+        public double amplitude;
+        public double amplitude_limit;
+        public fixed byte message[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_gltf_report
+    {
+        public uint struct_size;
+        public uint surfaces;
+        public uint skipped;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_clock
+    {
+        public IntPtr now_ns;
+        public IntPtr sleep_until_ns;
+        public IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_loop_desc
+    {
+        public uint struct_size;
+        public uint hip;
+        public knurl_device* device;
+        public knurl_scene* scene;
+        public IntPtr force_callback;
+        public IntPtr tick_callback;
+        public IntPtr user;
+        public double update_rate_hz;
+        public ulong tick_limit;
+        public double ramp_s;
+        public double watchdog_s;
+        public knurl_clock* clock;
+        public uint unguarded;
+        public uint reconnect;
+        public double heartbeat_s;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_percentiles
+    {
+        public double p50;
+        public double p99;
+        public double max;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_loop_stats
+    {
+        public uint struct_size;
+        public int state;
+        public ulong ticks;
+        public ulong overruns;
+        public ulong watchdogs;
+        public uint realtime;
+        public uint memory_locked;
+        public knurl_percentiles tick_ns;
+        public knurl_percentiles jitter_ns;
+        public ulong heats;
+        public double heat;
+        public ulong absences;
+        public uint absent;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_session_desc
+    {
+        public uint struct_size;
+        public uint reconnect;
+        public uint clamp;
+        public uint reserved;
+        public byte* device;
+        public byte* stroke;
+        public double update_rate_hz;
+        public double heartbeat_s;
+        public knurl_workspace workspace;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_session_state
+    {
+        public fixed double hip[3];
+        public fixed double proxy[3];
+        public fixed double force[3];
+        public double height;
+        public double temporal_frequency;
+        public ulong surface;
+        public ulong ticks;
+        public ulong overruns;
+        public uint buttons;
+        public uint running;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_session_event
+    {
+        public int kind;
+        public int code;
+        public double value;
+        public ulong surface;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_session_way
+    {
+        public fixed double position[3];
+        public ulong tick;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_session_pose
+    {
+        public fixed double position[3];
+        public fixed double rotation[9];
+        public fixed double quaternion[4];
+        public fixed double rest[9];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_unity_layout_row
+    {
+        public byte* type;
+        public byte* field;
+        public uint offset;
+        public uint size;
+    }
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate IntPtr knurl_allocator_allocate(UIntPtr size, UIntPtr alignment, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_allocator_release(IntPtr memory, UIntPtr size, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_device_functions_get_info(IntPtr user, knurl_device_info* info);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate int knurl_device_functions_start(IntPtr user, double update_rate_hz);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate int knurl_device_functions_read(IntPtr user, knurl_device_sample* sample);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate int knurl_device_functions_write(IntPtr user, double* force);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate int knurl_device_functions_reopen(IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_device_functions_close(IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
+        IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_tick_callback(knurl_tick_output* output, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate long knurl_clock_now_ns(IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_clock_sleep_until_ns(long deadline_ns, IntPtr user);
+
+    internal static unsafe class NativeMethods
+    {
+        internal const string Library = "knurl_unity";
+
+        /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
+        internal const string Interface = "faf5702cdfc55b5b";
+
+        internal const string Version = "0.1.0";
+
+        internal const int KNURL_VERSION_MAJOR = 0;
+        internal const int KNURL_VERSION_MINOR = 1;
+        internal const int KNURL_VERSION_PATCH = 0;
+        internal const int KNURL_NO_EVENT = -1;
+        internal const double KNURL_S2_DEADBAND = 0.001;
+        internal const double KNURL_LOCKED_CROSSOVER_HZ = 120.0;
+        internal const int KNURL_FOAW_WINDOW = 15;
+        internal const int KNURL_FOAW_STRIDE_MAX = 10;
+        internal const double KNURL_VELOCITY_LOWPASS_HZ = 20.0;
+        internal const int KNURL_MAX_CONTACTS = 4;
+        internal const double KNURL_UPDATE_RATE_MIN = 100.0;
+        internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
+        internal const double KNURL_ENTRY_SPEED = 0.5;
+        internal const int KNURL_SESSION_HISTORY = 8192;
+        internal const int KNURL_OK = 0;
+        internal const int KNURL_ERROR_ARGUMENT = -1;
+        internal const int KNURL_ERROR_STATE = -2;
+        internal const int KNURL_ERROR_MEMORY = -3;
+        internal const int KNURL_ERROR_STALE_ID = -4;
+        internal const int KNURL_ERROR_FULL = -5;
+        internal const int KNURL_ERROR_UNSUPPORTED = -6;
+        internal const int KNURL_ERROR_IO = -7;
+        internal const int KNURL_ERROR_FORMAT = -8;
+        internal const int KNURL_ERROR_UNKNOWN = -9;
+        internal const int KNURL_ERROR_DEVICE_LOST = -10;
+        internal const int KNURL_ERROR_SYSTEM = -11;
+        internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
+        internal const int KNURL_FAULT_LOST = 1;
+        internal const int KNURL_FAULT_SILENT = 2;
+        internal const int KNURL_FAULT_CORRUPT = 3;
+        internal const int KNURL_FAULT_NOT_FINITE = 4;
+        internal const int KNURL_FAULT_JUMP = 5;
+        internal const int KNURL_FAULT_LATE = 6;
+        internal const int KNURL_FAULT_OVERRUN = 7;
+        internal const int KNURL_FAULT_WATCHDOG = 8;
+        internal const int KNURL_FAULT_HEARTBEAT = 9;
+        internal const int KNURL_FAULT_REFUSED = 10;
+        internal const int KNURL_FAULT_UNCALIBRATED = 11;
+        internal const int KNURL_FAULT_RESUMED = 32;
+        internal const int KNURL_FAULT_RECONNECTED = 33;
+        internal const int KNURL_STROKE_LINE = 1;
+        internal const int KNURL_STROKE_SWEEP = 2;
+        internal const int KNURL_STROKE_CIRCLE = 3;
+        internal const int KNURL_STROKE_PRESS = 4;
+        internal const int KNURL_STROKE_REST = 5;
+        internal const int KNURL_T1 = 1;
+        internal const int KNURL_T2 = 2;
+        internal const int KNURL_T3 = 3;
+        internal const int KNURL_EVENT_EVEN = 0;
+        internal const int KNURL_EVENT_ODD = 1;
+        internal const int KNURL_EVENT_MIXED = 2;
+        internal const int KNURL_METHOD_DEFAULT = 0;
+        internal const int KNURL_S1 = 1;
+        internal const int KNURL_S2 = 2;
+        internal const int KNURL_LOCKED = 3;
+        internal const int KNURL_VELOCITY_AUTO = 0;
+        internal const int KNURL_VELOCITY_DIFFERENCE = 1;
+        internal const int KNURL_VELOCITY_FOAW = 2;
+        internal const int KNURL_VELOCITY_LOWPASS = 3;
+        internal const int KNURL_UNGUARDED_ENTRY = 1;
+        internal const int KNURL_UNGUARDED_SLEW = 2;
+        internal const int KNURL_UNGUARDED_HEAT = 4;
+        internal const int KNURL_UNGUARDED_PASSIVITY = 8;
+        internal const int KNURL_UNGUARDED_ALL = 15;
+        internal const int KNURL_FULL_MESHES = 1;
+        internal const int KNURL_FULL_SEARCH = 2;
+        internal const int KNURL_FULL_GRATING = 4;
+        internal const int KNURL_FULL_ALL = 7;
+        internal const int KNURL_TICK_CONTACT = 1;
+        internal const int KNURL_TICK_FORCE_LIMIT = 2;
+        internal const int KNURL_TICK_FREQUENCY = 4;
+        internal const int KNURL_TICK_NOT_FINITE = 8;
+        internal const int KNURL_TICK_CONTACTS_FULL = 16;
+        internal const int KNURL_TICK_ENTRY = 32;
+        internal const int KNURL_TICK_SLEW = 64;
+        internal const int KNURL_TICK_HEAT = 128;
+        internal const int KNURL_TICK_PASSIVITY = 256;
+        internal const int KNURL_TICK_ABSENT = 512;
+        internal const int KNURL_LIMIT_STABILITY = 1;
+        internal const int KNURL_LIMIT_STIFFNESS = 2;
+        internal const int KNURL_LIMIT_AMPLITUDE = 4;
+        internal const int KNURL_LIMIT_HEAT = 8;
+        internal const int KNURL_LIMIT_PERIOD = 16;
+        internal const int KNURL_LOOP_IDLE = 0;
+        internal const int KNURL_LOOP_RUNNING = 1;
+        internal const int KNURL_LOOP_DONE = 2;
+        internal const int KNURL_LOOP_LOST = 3;
+        internal const int KNURL_SESSION_CONTACT_STARTED = 1;
+        internal const int KNURL_SESSION_CONTACT_ENDED = 2;
+        internal const int KNURL_SESSION_BUTTON = 3;
+        internal const int KNURL_SESSION_FAULT = 4;
+        internal const int KNURL_SESSION_ENDED = 5;
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_result_string(int result);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_error_message();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_version_string();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_plane_desc_init(knurl_plane_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_mesh_desc_init(knurl_mesh_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_info_init(knurl_device_info* info, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_status_init(knurl_device_status* status, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_functions_init(knurl_device_functions* functions, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_open(byte* uri, knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
+            knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_close(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_list(knurl_device_listing* listings, uint capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_get_info(knurl_device* device, knurl_device_info* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_get_status(knurl_device* device, knurl_device_status* status);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_next_event(knurl_device* device, knurl_device_event* @event);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_name(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_string(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_unit(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_start(knurl_device* device, double update_rate_hz);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_read(knurl_device* device, knurl_device_sample* sample);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_write(knurl_device* device, double* force);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_halt(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_release_halt(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_is_halted(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_let_go_on_crash();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fake_keys();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_set_stroke(knurl_device* device, knurl_stroke_desc* desc);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_get_truth(knurl_device* device, knurl_fake_truth* truth);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_set_trace(knurl_device* device, double* rows, ulong row_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_stroke_from_name(byte* name, int* stroke);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_event_init(double period_ticks, double amplitude, knurl_event* @event);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_event_height(knurl_event* @event, int index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_wave_init(int method, double period_s, double amplitude, double update_rate_hz,
+            knurl_wave* wave);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_wave_value(knurl_wave* wave, ulong tick);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_grating_check(knurl_grating* grating);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_grating_frequency(double* spatial_frequency, double* velocity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_grating_s1_line(double position, double spatial_frequency,
+            double amplitude);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_grating_s1(double* position, double* spatial_frequency, double amplitude);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_grating_step(knurl_grating* grating, knurl_grating_state* state,
+            double* position, double* velocity, knurl_grating_output* output);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_method_name(int method);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_method_from_name(byte* name, int* method);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_velocity_init(int method, double resolution, double update_rate_hz,
+            knurl_velocity* velocity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_velocity_update(knurl_velocity* velocity, double* position, double* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_velocity_reset(knurl_velocity* velocity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_init(knurl_workspace* workspace);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_workspace_check(knurl_workspace* workspace);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_to_scene(knurl_workspace* workspace, double* device, double* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_to_device(knurl_workspace* workspace, double* scene,
+            double* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_velocity_to_scene(knurl_workspace* workspace, double* device,
+            double* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_vector_to_device(knurl_workspace* workspace, double* scene,
+            double* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_material_desc_init(knurl_material_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_desc_init(knurl_surface_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_info_init(knurl_surface_info* info, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_hip_desc_init(knurl_hip_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_scene_desc_init(knurl_scene_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_create(knurl_scene_desc* desc, knurl_scene** scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_scene_destroy(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_add_surface(knurl_scene* scene, knurl_surface_desc* desc,
+            ulong* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_remove_surface(knurl_scene* scene, ulong surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_material(knurl_scene* scene, ulong surface,
+            knurl_material_desc* material);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_transform(knurl_scene* scene, ulong surface, double* position,
+            double* rotation, double seconds);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_commit(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_scene_surface_count(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern ulong knurl_scene_surface_at(knurl_scene* scene, uint index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_surface_name(knurl_scene* scene, ulong surface, byte** name);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_surface_info(knurl_scene* scene, ulong surface,
+            knurl_surface_info* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern ulong knurl_scene_bytes(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_scene_collect(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_configure_hip(knurl_scene* scene, uint hip, knurl_hip_desc* desc);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_check_init(knurl_surface_check* check, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_check_surface(knurl_scene* scene, uint hip, ulong surface,
+            knurl_surface_check* check);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_tick(knurl_scene* scene, uint hip, knurl_tick_input* input,
+            knurl_tick_output* output);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_tick(knurl_scene* scene, uint hip, knurl_tick_output* output,
+            knurl_hip_counts* counts);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_lock_memory(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_gltf_report_init(knurl_gltf_report* report, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gltf_load_file(knurl_scene* scene, byte* path, knurl_gltf_report* report);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gltf_load_memory(knurl_scene* scene, IntPtr data, ulong size, byte* name,
+            byte* folder, knurl_gltf_report* report);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_desc_init(knurl_loop_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_stats_init(knurl_loop_stats* stats, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_create(knurl_loop_desc* desc, knurl_loop** loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_destroy(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_start(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_step(knurl_loop* loop, ulong ticks);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_request_stop(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_stop(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_heartbeat(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_loop_wait(knurl_loop* loop, double seconds);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_get_stats(knurl_loop* loop, knurl_loop_stats* stats);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_desc_init(knurl_session_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_create(IntPtr* session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_destroy(IntPtr session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_session_close_all();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern knurl_scene* knurl_session_scene(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern knurl_device* knurl_session_device(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern knurl_loop* knurl_session_loop(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_open(SessionHandle session, knurl_session_desc* desc);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_start(SessionHandle session, byte* warning, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_play(SessionHandle session, double* rows, ulong row_count, ulong ticks,
+            double* forces, ulong* played);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_close(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_update(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_session_next_event(SessionHandle session, knurl_session_event* @event);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_fault_text(int code, double value, byte* text, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_get_state(SessionHandle session, knurl_session_state* state);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_session_get_history(SessionHandle session, uint count, float* rows);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_move_hip(SessionHandle session, double* position);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_move_surface(SessionHandle session, ulong surface,
+            knurl_session_way* way, double* position, double* rotation);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_explain(SessionHandle session, ulong surface, byte* text, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_session_split_pose(double* matrix, knurl_session_pose* pose);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_session_same_rest(double* a, double* b);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_unity_interface();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_unity_layout(uint index, knurl_unity_layout_row* row);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_unity_update(SessionHandle session);
+    }
+}
