@@ -1,8 +1,8 @@
-/* What every engine's binding does the same way, in C, so that a binding is conversion, lifetime and editor comfort: one
- * device, one scene and one loop that live and end together, and what happened to them, told once a frame.
- * Life: create; add surfaces to knurl_session_scene(); open; (add what only running devices feel); start; an update a
- * frame; close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched
- * without waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
+/* What every engine's binding does the same way, in C, so that a binding is conversion, lifetime and editor comfort:
+ * one device, one scene and one loop that live and end together, and what happened to them, told once a frame. Life:
+ * create; add surfaces to knurl_session_scene(); open; (add what only running devices feel); start; an update a frame;
+ * close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched without
+ * waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SESSION_H
 #define KNURL_SESSION_H
@@ -44,8 +44,10 @@ typedef struct knurl_session_state {
     knurl_surface surface;     /**< what was last told to be touched (KNURL_SESSION_CONTACT_STARTED), or 0 */
     uint64_t ticks;            /**< sent since the start */
     uint64_t overruns;         /**< ticks that came late */
-    uint32_t buttons;          /**< bit 0: first button */
+    uint32_t buttons;          /**< bit 0: first button; as of the latest update, like the overruns */
     uint32_t running;          /**< 1: the haptic thread runs */
+    uint32_t in_contact;       /**< 1: something is touched, told or not */
+    uint32_t reserved;         /**< 0 */
 } knurl_session_state;
 
 /** What happened. */
@@ -64,8 +66,8 @@ typedef struct knurl_session_event {
     knurl_surface surface; /**< it may be gone from the scene by now */
 } knurl_session_event;
 
-/** A surface that follows an engine's object: zeroed before its first move in a run. The binding's, one a surface and
- * session. */
+/** A surface that follows an engine's object. The binding's, one a surface and session; before its first move in a run:
+ * the position that it was added with, tick 0. */
 typedef struct knurl_session_way {
     double position[3]; /**< m: where the scene last heard it is */
     uint64_t tick;      /**< when */
@@ -76,7 +78,7 @@ typedef struct knurl_session_pose {
     double position[3];
     double rotation[9];   /**< row-major, orthonormal, right-handed */
     double quaternion[4]; /**< the same: x, y, z, w */
-    double rest[9];       /**< row-major scale, shear and mirror: baked into meshes; exactly 1 where it is within 1e-5 */
+    double rest[9]; /**< row-major scale, shear and mirror: baked into meshes; exactly 1 where it is within 1e-5 */
 } knurl_session_pose;
 
 /** Fills in defaults; `size` is the caller's sizeof. */
@@ -108,8 +110,8 @@ KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_se
 
 /** Commits the scene where that has not happened, sets up its HIP, lays the fake hand's stroke and starts the haptic
  * thread. warning: null, or gets a sentence about what will not be as asked for ("" where all is well), at most `size`
- * bytes. Errors: KNURL_ERROR_STATE (not open, or started), those of knurl_scene_configure_hip() and knurl_loop_create();
- * the session is to be closed then. [game thread] */
+ * bytes. Errors: KNURL_ERROR_STATE (not open, or started), those of knurl_scene_configure_hip() and
+ * knurl_loop_create(); the session is to be closed then. [game thread] */
 KNURL_API knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size);
 
 /** Instead of a start: what an open fake device would play along a path, as fast as the machine can, on this thread.

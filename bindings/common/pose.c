@@ -1,11 +1,14 @@
-/* Splits transforms. SPDX-License-Identifier: MIT */
-#include "pose.h"
+/* Splits an engine's matrices into what a scene's surfaces have and what is baked. SPDX-License-Identifier: MIT */
+#include "session.h"
 
 #include <math.h>
 #include <string.h>
 
-/* How far a node's basis is off by rounding, relative to its longest axis. */
+/* How far an object's axes are off by rounding, relative to the longest. */
 #define ROUNDING 1e-5
+
+/* The shortest axis that is one. */
+#define LEAST 1e-9
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -16,7 +19,7 @@ static int normalise(double v[3]) {
     for (int i = 0; i < 3; i++) {
         v[i] /= length;
     }
-    return isfinite(length) && length > 1e-9;
+    return isfinite(length) && length > LEAST;
 }
 
 /* Of a right-handed rotation, by its largest part, so that nothing small is divided by. */
@@ -40,7 +43,7 @@ static void to_quaternion(const double r[9], double q[4]) {
     }
 }
 
-int pose_same_rest(const double a[9], const double b[9]) {
+uint32_t knurl_session_same_rest(const double a[9], const double b[9]) {
     double largest = 0.0;
     double difference = 0.0;
     for (int i = 0; i < 9; i++) {
@@ -50,18 +53,11 @@ int pose_same_rest(const double a[9], const double b[9]) {
     return difference <= ROUNDING * largest;
 }
 
-int pose_split(const gd_transform *transform, pose *out) {
-    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    double columns[3][3];
-    double axes[3][3];
-    for (int i = 0; i < 3; i++) {
-        out->position[i] = (double)transform->origin[i];
-        for (int j = 0; j < 3; j++) {
-            columns[j][i] = (double)transform->basis[i][j];
-        }
-    }
-    memcpy(axes, columns, sizeof axes);
-    int is_sound = normalise(axes[0]) && isfinite(dot(out->position, out->position));
+/* A right-handed frame of columns: x along the first, y as near to the second as may be. 0 where they have no volume.
+ */
+static int make_axes(const double columns[3][3], double axes[3][3]) {
+    memcpy(axes, columns, 3 * sizeof *axes);
+    int is_sound = normalise(axes[0]);
     const double along = dot(axes[0], axes[1]);
     for (int i = 0; i < 3; i++) {
         axes[1][i] -= along * axes[0][i];
@@ -70,16 +66,36 @@ int pose_split(const gd_transform *transform, pose *out) {
     for (int i = 0; i < 3; i++) {
         axes[2][i] = axes[0][(i + 1) % 3] * axes[1][(i + 2) % 3] - axes[0][(i + 2) % 3] * axes[1][(i + 1) % 3];
     }
+    return is_sound;
+}
+
+uint32_t knurl_session_split_pose(const double matrix[12], knurl_session_pose *pose) {
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    knurl_session_pose made;
+    double columns[3][3];
+    double axes[3][3];
     for (int i = 0; i < 3; i++) {
+        made.position[i] = matrix[4 * i + 3];
         for (int j = 0; j < 3; j++) {
-            out->rotation[3 * i + j] = axes[j][i];
-            out->rest[3 * i + j] = dot(axes[i], columns[j]);
+            columns[j][i] = matrix[4 * i + j];
         }
     }
-    is_sound = is_sound && fabs(out->rest[8]) > 1e-9;
-    if (is_sound && pose_same_rest(out->rest, identity)) {
-        memcpy(out->rest, identity, sizeof identity);
+    if (!make_axes((const double (*)[3])columns, axes) || !isfinite(dot(made.position, made.position))) {
+        return 0;
     }
-    to_quaternion(out->rotation, out->quaternion);
-    return is_sound;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            made.rotation[3 * i + j] = axes[j][i];
+            made.rest[3 * i + j] = dot(axes[i], columns[j]);
+        }
+    }
+    if (!(isfinite(made.rest[8]) && fabs(made.rest[8]) > LEAST)) {
+        return 0;
+    }
+    if (knurl_session_same_rest(made.rest, identity)) {
+        memcpy(made.rest, identity, sizeof identity);
+    }
+    to_quaternion(made.rotation, made.quaternion);
+    *pose = made;
+    return 1;
 }

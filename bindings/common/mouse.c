@@ -23,7 +23,7 @@ static void get_info(void *user, knurl_device_info *info) {
 }
 
 static knurl_result start(void *user, double update_rate_hz) {
-    mouse *m = user;
+    knurl_mouse *m = user;
     m->period = 1.0 / update_rate_hz;
     m->decay = exp(-OMEGA * m->period);
     m->is_there = 0;
@@ -31,7 +31,7 @@ static knurl_result start(void *user, double update_rate_hz) {
 }
 
 /* The latest target: 1, or 0 where there is none, or none to be had in this tick (the game is just writing it). */
-static int look(const mouse *m, double target[3]) {
+static int look(const knurl_mouse *m, double target[3]) {
     const uint64_t before = __atomic_load_n(&m->sequence, __ATOMIC_ACQUIRE);
     for (int i = 0; i < 3; i++) {
         __atomic_load(&m->target[i], &target[i], __ATOMIC_ACQUIRE);
@@ -40,7 +40,7 @@ static int look(const mouse *m, double target[3]) {
 }
 
 /* Exact for a target that stands still over the tick. */
-static void follow(mouse *m, const double target[3]) {
+static void follow(knurl_mouse *m, const double target[3]) {
     double step[3];
     double length = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -60,7 +60,7 @@ static void follow(mouse *m, const double target[3]) {
 }
 
 static knurl_result read(void *user, knurl_device_sample *sample) {
-    mouse *m = user;
+    knurl_mouse *m = user;
     double target[3];
     const int is_fresh = look(m, target);
     if (!m->is_there) {
@@ -88,7 +88,7 @@ static knurl_result write(void *user, const double force[3]) {
     return KNURL_OK;
 }
 
-knurl_result mouse_open(mouse *m, knurl_device **device) {
+knurl_result knurl_mouse_open(knurl_mouse *m, knurl_device **device) {
     knurl_device_functions functions;
     knurl_device_functions_init(&functions, sizeof functions);
     functions.user = m;
@@ -99,7 +99,7 @@ knurl_result mouse_open(mouse *m, knurl_device **device) {
     return knurl_device_open_functions(&functions, device);
 }
 
-void mouse_move(mouse *m, const double position[3]) {
+void knurl_mouse_move(knurl_mouse *m, const double position[3]) {
     const uint64_t sequence = __atomic_load_n(&m->sequence, __ATOMIC_RELAXED);
     __atomic_store_n(&m->sequence, sequence + 1, __ATOMIC_RELAXED);
     for (int i = 0; i < 3; i++) {

@@ -3,20 +3,20 @@
 
 #include <string.h>
 
-static void publish(board *b, const board_tick *tick) {
+static void publish(knurl_board *b, const knurl_board_tick *tick) {
     const uint64_t sequence = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
-    uint64_t words[BOARD_WORDS];
+    uint64_t words[KNURL_BOARD_WORDS];
     memcpy(words, tick, sizeof words);
     __atomic_store_n(&b->sequence, sequence + 1, __ATOMIC_RELAXED);
-    for (int i = 0; i < BOARD_WORDS; i++) {
+    for (int i = 0; i < KNURL_BOARD_WORDS; i++) {
         __atomic_store_n(&b->words[i], words[i], __ATOMIC_RELEASE);
     }
     __atomic_store_n(&b->sequence, sequence + 2, __ATOMIC_RELEASE);
 }
 
-void board_take(const knurl_tick_output *output, void *user) {
-    board *b = user;
-    board_tick tick;
+void knurl_board_take(const knurl_tick_output *output, void *user) {
+    knurl_board *b = user;
+    knurl_board_tick tick;
     memcpy(tick.hip, output->hip, sizeof tick.hip);
     memcpy(tick.proxy, output->proxy, sizeof tick.proxy);
     memcpy(tick.force, output->force, sizeof tick.force);
@@ -24,6 +24,8 @@ void board_take(const knurl_tick_output *output, void *user) {
     tick.temporal_frequency = output->temporal_frequency;
     tick.surface = output->surface;
     tick.tick = output->tick + 1;
+    const uint64_t written = __atomic_load_n(&b->written, __ATOMIC_RELAXED);
+    tick.sent = written + 1;
     publish(b, &tick);
     float row[2] = {(float)output->height, 0.0F};
     for (int i = 0; i < 3; i++) {
@@ -31,13 +33,12 @@ void board_take(const knurl_tick_output *output, void *user) {
     }
     uint64_t packed;
     memcpy(&packed, row, sizeof packed);
-    const uint64_t written = __atomic_load_n(&b->written, __ATOMIC_RELAXED);
-    __atomic_store_n(&b->history[written % BOARD_TICKS], packed, __ATOMIC_RELEASE);
+    __atomic_store_n(&b->history[written % KNURL_BOARD_TICKS], packed, __ATOMIC_RELEASE);
     __atomic_store_n(&b->written, written + 1, __ATOMIC_RELEASE);
     if (output->surface != b->last) {
         const uint64_t changes = __atomic_load_n(&b->changes, __ATOMIC_RELAXED);
         b->last = output->surface;
-        __atomic_store_n(&b->changed[changes % BOARD_CHANGES], output->surface, __ATOMIC_RELEASE);
+        __atomic_store_n(&b->changed[changes % KNURL_BOARD_CHANGES], output->surface, __ATOMIC_RELEASE);
         __atomic_store_n(&b->changes, changes + 1, __ATOMIC_RELEASE);
     }
     if (b->force_count < b->force_capacity) {
@@ -45,13 +46,13 @@ void board_take(const knurl_tick_output *output, void *user) {
     }
 }
 
-void board_read(const board *b, board_tick *tick) {
-    uint64_t words[BOARD_WORDS];
+void knurl_board_read(const knurl_board *b, knurl_board_tick *tick) {
+    uint64_t words[KNURL_BOARD_WORDS];
     uint64_t before;
     uint64_t after;
     do { /* the writer is inside for some ten nanoseconds a tick */
         before = __atomic_load_n(&b->sequence, __ATOMIC_ACQUIRE);
-        for (int i = 0; i < BOARD_WORDS; i++) {
+        for (int i = 0; i < KNURL_BOARD_WORDS; i++) {
             words[i] = __atomic_load_n(&b->words[i], __ATOMIC_ACQUIRE);
         }
         after = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
@@ -60,17 +61,17 @@ void board_read(const board *b, board_tick *tick) {
 }
 
 /* What was overwritten while it was copied is left out. */
-uint32_t board_history(const board *b, uint32_t count, float *rows) {
+uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows) {
     const uint64_t end = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE);
     uint64_t begin = end > count ? end - count : 0;
-    begin = end - begin > BOARD_TICKS ? end - BOARD_TICKS : begin;
+    begin = end - begin > KNURL_BOARD_TICKS ? end - KNURL_BOARD_TICKS : begin;
     for (uint64_t i = begin; i < end; i++) {
-        const uint64_t packed = __atomic_load_n(&b->history[i % BOARD_TICKS], __ATOMIC_ACQUIRE);
+        const uint64_t packed = __atomic_load_n(&b->history[i % KNURL_BOARD_TICKS], __ATOMIC_ACQUIRE);
         memcpy(rows + 2 * (i - begin), &packed, sizeof packed);
     }
     /* the row that is being written now may be torn off the oldest: one more is given up */
     const uint64_t now = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE) + 1;
-    const uint64_t oldest = now > BOARD_TICKS ? now - BOARD_TICKS : 0;
+    const uint64_t oldest = now > KNURL_BOARD_TICKS ? now - KNURL_BOARD_TICKS : 0;
     if (oldest > begin) {
         const uint64_t lost = oldest - begin < end - begin ? oldest - begin : end - begin;
         memmove(rows, rows + 2 * lost, 2 * (size_t)(end - begin - lost) * sizeof *rows);
@@ -79,13 +80,13 @@ uint32_t board_history(const board *b, uint32_t count, float *rows) {
     return (uint32_t)(end - begin);
 }
 
-uint32_t board_changes(board *b, knurl_surface *surfaces) {
+uint32_t knurl_board_changes(knurl_board *b, knurl_surface *surfaces) {
     const uint64_t end = __atomic_load_n(&b->changes, __ATOMIC_ACQUIRE);
     uint64_t begin = b->seen;
     b->seen = end;
-    begin = end - begin > BOARD_CHANGES ? end - BOARD_CHANGES : begin;
+    begin = end - begin > KNURL_BOARD_CHANGES ? end - KNURL_BOARD_CHANGES : begin;
     for (uint64_t i = begin; i < end; i++) {
-        surfaces[i - begin] = __atomic_load_n(&b->changed[i % BOARD_CHANGES], __ATOMIC_ACQUIRE);
+        surfaces[i - begin] = __atomic_load_n(&b->changed[i % KNURL_BOARD_CHANGES], __ATOMIC_ACQUIRE);
     }
     return (uint32_t)(end - begin);
 }

@@ -1,0 +1,179 @@
+/* What happened in a session's run, from the haptic thread to the events that a game is told.
+ * SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include <string.h>
+
+/* As many faults as a device keeps. */
+enum { MOST_FAULTS = 64, BUTTONS = 32 };
+
+static int is_there(const knurl_session *s, knurl_surface id) {
+    const char *name;
+    return id != 0 && knurl_scene_surface_name(s->scene, id, &name) == KNURL_OK;
+}
+
+static void touch(knurl_session *s, knurl_surface id) {
+    s->latest = id;
+    s->touches[(s->first_touch + s->touch_count) % KNURL_SESSION_TOUCHES] = id;
+    if (s->touch_count < KNURL_SESSION_TOUCHES) {
+        s->touch_count++;
+    } else { /* nobody fetches them: the oldest is forgotten */
+        s->first_touch = (s->first_touch + 1) % KNURL_SESSION_TOUCHES;
+    }
+}
+
+/* The latest tick as it was sent; 0 where there is none. A device without a position plays nothing. */
+static int look(const knurl_session *s, knurl_board_tick *sent) {
+    knurl_tick_output now;
+    knurl_board_read(&s->board, sent);
+    if (sent->tick > 0 && !knurl_scene_get_tick(s->scene, 0, &now, NULL) && now.flags & KNURL_TICK_ABSENT) {
+        memset(sent->force, 0, sizeof sent->force);
+        memcpy(sent->proxy, sent->hip, sizeof sent->proxy);
+        sent->height = sent->temporal_frequency = 0.0;
+        sent->surface = 0;
+    }
+    return sent->tick > 0;
+}
+
+/* A touch shorter than a frame is told as well; what comes back within a frame was never away. */
+static void collect_touches(knurl_session *s) {
+    knurl_surface met[KNURL_BOARD_CHANGES];
+    knurl_board_tick sent;
+    const uint32_t count = knurl_board_changes(&s->board, met);
+    (void)look(s, &sent);
+    const knurl_surface last = is_there(s, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
+    for (uint32_t i = 0; i < count; i++) {
+        int is_new = met[i] != 0 && met[i] != s->latest && met[i] != last;
+        for (uint32_t j = 0; j < i; j++) {
+            is_new = is_new && met[j] != met[i];
+        }
+        if (is_new) {
+            touch(s, met[i]);
+        }
+    }
+    if (last != s->latest) {
+        touch(s, last);
+    }
+}
+
+static void collect_counts(knurl_session *s) {
+    knurl_device_status status;
+    knurl_loop_stats stats;
+    knurl_device_status_init(&status, sizeof status);
+    knurl_loop_stats_init(&stats, sizeof stats);
+    if (!knurl_device_get_status(s->device, &status)) {
+        s->buttons = status.buttons;
+    }
+    if (!knurl_loop_get_stats(s->loop, &stats)) {
+        s->overruns = stats.overruns;
+    }
+}
+
+void knurl_session_update(knurl_session *session) {
+    if (session->runs) {
+        knurl_loop_heartbeat(session->loop);
+        const uint32_t is_over = knurl_loop_wait(session->loop, 0.0); /* before its last events are collected */
+        collect_touches(session);
+        collect_counts(session);
+        session->faults_due = MOST_FAULTS;
+        session->has_ended = is_over;
+        session->runs = !is_over;
+    }
+}
+
+void knurl_session_forget(knurl_session *session) {
+    session->first_touch = session->touch_count = 0;
+    session->latest = 0;
+    if (session->touched) {
+        touch(session, 0);
+    }
+    session->buttons = session->told_buttons = 0;
+    session->faults_due = session->has_ended = 0;
+    session->overruns = 0;
+}
+
+/* A touch begins when the one before has ended, however many were forgotten in between. */
+static int next_touch(knurl_session *s, knurl_session_event *event) {
+    while (s->touch_count > 0) {
+        const knurl_surface id = s->touches[s->first_touch];
+        if (s->touched && s->touched != id) {
+            event->kind = KNURL_SESSION_CONTACT_ENDED;
+            event->surface = s->touched;
+            s->touched = 0;
+            return 1;
+        }
+        s->first_touch = (s->first_touch + 1) % KNURL_SESSION_TOUCHES;
+        s->touch_count--;
+        if (id != s->touched && is_there(s, id)) {
+            event->kind = KNURL_SESSION_CONTACT_STARTED;
+            event->surface = s->touched = id;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int next_button(knurl_session *s, knurl_session_event *event) {
+    const uint32_t changed = s->buttons ^ s->told_buttons;
+    for (int32_t i = 0; i < BUTTONS && changed; i++) {
+        if (changed >> i & 1) {
+            s->told_buttons ^= 1u << i;
+            event->kind = KNURL_SESSION_BUTTON;
+            event->code = i;
+            event->value = s->buttons >> i & 1;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int next_fault(knurl_session *s, knurl_session_event *event) {
+    knurl_device_event fault;
+    if (s->faults_due == 0 || !knurl_device_next_event(s->device, &fault)) {
+        return 0;
+    }
+    s->faults_due--;
+    event->kind = KNURL_SESSION_FAULT;
+    event->code = fault.code;
+    event->value = fault.value;
+    return 1;
+}
+
+uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *event) {
+    knurl_session_event found = {0, 0, 0.0, 0};
+    int is_found = next_touch(session, &found) || next_button(session, &found) || next_fault(session, &found);
+    if (!is_found && session->has_ended) {
+        session->has_ended = session->faults_due = 0;
+        found.kind = KNURL_SESSION_ENDED;
+        is_found = 1;
+    }
+    if (is_found) {
+        *event = found;
+    }
+    return (uint32_t)is_found;
+}
+
+void knurl_session_get_state(const knurl_session *session, knurl_session_state *state) {
+    knurl_board_tick sent;
+    memset(state, 0, sizeof *state);
+    if (!session->runs) {
+        return;
+    }
+    state->running = 1;
+    state->surface = session->touched;
+    state->buttons = session->buttons;
+    state->overruns = session->overruns;
+    if (look(session, &sent)) {
+        memcpy(state->hip, sent.hip, sizeof state->hip);
+        memcpy(state->proxy, sent.proxy, sizeof state->proxy);
+        memcpy(state->force, sent.force, sizeof state->force);
+        state->height = sent.height;
+        state->temporal_frequency = sent.temporal_frequency;
+        state->in_contact = sent.surface != 0;
+        state->ticks = sent.sent;
+    }
+}
+
+uint32_t knurl_session_get_history(const knurl_session *session, uint32_t count, float *rows) {
+    return knurl_board_history(&session->board, count, rows);
+}

@@ -1,0 +1,97 @@
+/* Sessions as such: made, found, ended. SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The process's sessions. A runtime may destroy what nobody uses on a thread of its own, so the list has a lock; it is
+ * held for the time of a close, and nobody asks for it in a frame: spinning is all it takes. */
+static knurl_session *sessions;
+static uint32_t is_locked;
+
+static void lock(void) {
+    while (__atomic_exchange_n(&is_locked, 1, __ATOMIC_ACQUIRE)) {}
+}
+
+static void unlock(void) {
+    __atomic_store_n(&is_locked, 0, __ATOMIC_RELEASE);
+}
+
+static void enter(knurl_session *session) {
+    lock();
+    session->next = sessions;
+    if (sessions) {
+        sessions->previous = session;
+    }
+    sessions = session;
+    unlock();
+}
+
+static void leave(knurl_session *session) {
+    lock();
+    if (session->next) {
+        session->next->previous = session->previous;
+    }
+    *(session->previous ? &session->previous->next : &sessions) = session->next;
+    unlock();
+}
+
+void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size) {
+    knurl_session_desc defaults;
+    memset(&defaults, 0, sizeof defaults);
+    defaults.struct_size = size;
+    defaults.reconnect = defaults.clamp = 1;
+    defaults.device = "fake";
+    defaults.stroke = "";
+    defaults.update_rate_hz = 1000.0;
+    defaults.heartbeat_s = 0.25;
+    knurl_workspace_init(&defaults.workspace);
+    memcpy(desc, &defaults, size < sizeof defaults ? size : sizeof defaults);
+}
+
+knurl_result knurl_session_create(knurl_session **session) {
+    knurl_session *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "session: could not get %u bytes", (unsigned)sizeof *made);
+    }
+    const knurl_result result = knurl_scene_create(NULL, &made->scene);
+    if (result) {
+        free(made);
+        return result;
+    }
+    enter(made);
+    *session = made;
+    return KNURL_OK;
+}
+
+void knurl_session_destroy(knurl_session *session) {
+    if (session) {
+        leave(session); /* first: from here on knurl_session_close_all() does not see it */
+        knurl_session_close(session);
+        knurl_scene_destroy(session->scene);
+        free(session);
+    }
+}
+
+uint32_t knurl_session_close_all(void) {
+    uint32_t running = 0;
+    lock();
+    for (knurl_session *s = sessions; s; s = s->next) {
+        running += s->runs;
+        knurl_session_close(s);
+    }
+    unlock();
+    return running;
+}
+
+knurl_scene *knurl_session_scene(knurl_session *session) {
+    return session->scene;
+}
+
+knurl_device *knurl_session_device(knurl_session *session) {
+    return session->device;
+}
+
+knurl_loop *knurl_session_loop(knurl_session *session) {
+    return session->loop;
+}

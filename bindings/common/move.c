@@ -1,0 +1,96 @@
+/* What moves in a session, and what lies out of its reach. SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include <math.h>
+#include <string.h>
+
+/* m/s: what moves faster is put there, and not dragged through what it passes. */
+#define FASTEST 10.0
+
+/* s: the time that a first move takes; further ones take what lay between the last two. */
+#define FIRST_MOVE (1.0 / 60.0)
+#define LONGEST    0.1
+
+knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]) {
+    double at[3];
+    if (!session->is_mouse) {
+        return knurl_fail(KNURL_ERROR_STATE, "session: expected one whose device is the mouse, found %s",
+                          session->device ? "another device" : "one that is closed");
+    }
+    if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers, found (%g, %g, %g)", position[0],
+                          position[1], position[2]);
+    }
+    knurl_workspace_to_device(&session->desc.workspace, position, at);
+    knurl_mouse_move(&session->mouse, at);
+    return KNURL_OK;
+}
+
+knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
+                                        const double position[3], const double rotation[4]) {
+    knurl_board_tick sent;
+    double length = 0.0;
+    double seconds = 0.0;
+    knurl_board_read(&session->board, &sent);
+    if (session->device) { /* by ticks: the game's clock may run slow */
+        seconds = (double)(sent.tick - way->tick) / session->desc.update_rate_hz;
+    }
+    seconds = seconds > LONGEST ? FIRST_MOVE : seconds;
+    for (int i = 0; i < 3; i++) {
+        length += (position[i] - way->position[i]) * (position[i] - way->position[i]);
+    }
+    seconds = sqrt(length) > FASTEST * fmax(seconds, FIRST_MOVE) ? 0.0 : seconds;
+    const knurl_result result = knurl_scene_set_transform(session->scene, surface, position, rotation, seconds);
+    if (!result) {
+        way->tick = sent.tick;
+        memcpy(way->position, position, sizeof way->position);
+    }
+    return result;
+}
+
+/* 1 where some of the surface lies where the device can go. */
+static int is_in_reach(const knurl_session *s, const knurl_surface_info *info) {
+    knurl_device_info limits;
+    knurl_device_info_init(&limits, sizeof limits);
+    if (knurl_device_get_info(s->device, &limits)) {
+        return 1;
+    }
+    double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int corner = 0; corner < 8; corner++) {
+        double at[3];
+        for (int i = 0; i < 3; i++) {
+            at[i] = corner >> i & 1 ? info->bounds_max[i] : info->bounds_min[i];
+        }
+        knurl_workspace_to_device(&s->desc.workspace, at, at);
+        for (int i = 0; i < 3; i++) {
+            least[i] = fmin(least[i], at[i]);
+            most[i] = fmax(most[i], at[i]);
+        }
+    }
+    int is_near = 1;
+    for (int i = 0; i < 3; i++) {
+        is_near = is_near && least[i] <= limits.workspace_max[i] && most[i] >= limits.workspace_min[i];
+    }
+    return is_near;
+}
+
+void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size) {
+    knurl_surface_info info;
+    knurl_surface_check check;
+    knurl_surface_info_init(&info, sizeof info);
+    knurl_surface_check_init(&check, sizeof check);
+    knurl_session_hush(text, size);
+    if (!session->device) {
+        return;
+    }
+    if (!knurl_scene_surface_info(session->scene, surface, &info) && !is_in_reach(session, &info)) {
+        knurl_session_say(text, size,
+                          "It lies outside of the device's workspace: move the KnurlDevice there, or raise its "
+                          "workspace scale.");
+    }
+    if (session->loop && !knurl_scene_check_surface(session->scene, 0, surface, &check) && check.exceeded) {
+        check.message[sizeof check.message - 1] = '\0';
+        knurl_session_say(text, size, "%s", check.message);
+    }
+}

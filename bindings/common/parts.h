@@ -1,0 +1,47 @@
+/* What a session is made of. All of it is the game thread's but for the board and the mouse, which the haptic thread
+ * writes and reads. SPDX-License-Identifier: MIT */
+#ifndef KNURL_COMMON_PARTS_H
+#define KNURL_COMMON_PARTS_H
+
+#include "board.h"
+#include "mouse.h"
+#include "session.h"
+
+/* Touches that nobody has fetched yet; two updates' worth at the most that a board can tell. */
+enum { KNURL_SESSION_TOUCHES = 128 };
+
+struct knurl_session {
+    knurl_session *next, *previous; /* of the process's, see life.c */
+    knurl_scene *scene;
+    knurl_device *device; /* or null: closed */
+    knurl_loop *loop;     /* or null: neither started nor played */
+    knurl_session_desc desc;
+    int32_t stroke; /* KNURL_STROKE_, or 0: none */
+    uint32_t is_fake, is_mouse;
+    uint32_t runs; /* 1: the haptic thread was started, and was not seen to have ended */
+    /* what the latest update found, for knurl_session_next_event() */
+    knurl_surface touches[KNURL_SESSION_TOUCHES]; /* a ring: what was touched after one another, with 0 for nothing */
+    uint32_t first_touch, touch_count;
+    knurl_surface latest;  /* the touch after the ring's last */
+    knurl_surface touched; /* as told */
+    uint32_t buttons, told_buttons;
+    uint32_t faults_due; /* at most so many: who handles each slower than they come would never be done */
+    uint32_t has_ended;  /* by itself, and it is to be told */
+    uint64_t overruns;
+    knurl_board board;
+    knurl_mouse mouse;
+};
+
+/* hand.c: lays the fake device's stroke over the scene's first surface. *outside: that surface, where it lies outside
+ * of the workspace, else untouched. */
+knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface *outside);
+
+/* text.c: makes a caller's text empty; adds a sentence to it, on a line of its own. Both do nothing where there is no
+ * text, and what does not fit is cut off after a whole character. */
+void knurl_session_hush(char *text, uint32_t size);
+void knurl_session_say(char *text, uint32_t size, const char *format, ...) KNURL_PRINTF(3, 4);
+
+/* collect.c: nothing waits to be told any more but that a touch is over. */
+void knurl_session_forget(knurl_session *session);
+
+#endif

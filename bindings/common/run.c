@@ -1,0 +1,158 @@
+/* A session's runs: open, start or play, close. SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static knurl_result check(const knurl_session_desc *d) {
+    if (!d || d->struct_size != sizeof *d) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc: expected one of %u bytes, found %s of %u",
+                          (unsigned)sizeof *d, d ? "one" : "null", d ? (unsigned)d->struct_size : 0u);
+    }
+    if (d->reconnect > 1 || d->clamp > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_session_desc: expected reconnect and clamp of 0 or 1, found %u and %u",
+                          (unsigned)d->reconnect, (unsigned)d->clamp);
+    }
+    if (!(d->update_rate_hz >= KNURL_UPDATE_RATE_MIN && d->update_rate_hz <= KNURL_UPDATE_RATE_MAX)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc.update_rate_hz: expected %g to %g Hz, found %g Hz",
+                          KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, d->update_rate_hz);
+    }
+    if (!(d->heartbeat_s >= 0.0 && d->heartbeat_s <= 3600.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc.heartbeat_s: expected 0 to 3600 s, found %g s",
+                          d->heartbeat_s);
+    }
+    return knurl_workspace_check(&d->workspace);
+}
+
+knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc) {
+    if (session->device) {
+        return knurl_fail(KNURL_ERROR_STATE, "session: expected one that is closed, found one that is open");
+    }
+    knurl_result result = check(desc);
+    if (result) {
+        return result;
+    }
+    const char *device = desc->device ? desc->device : "fake";
+    const uint32_t is_fake = strncmp(device, "fake", strlen("fake")) == 0;
+    const uint32_t is_mouse = strcmp(device, "mouse") == 0;
+    int32_t stroke = 0;
+    if (is_fake && desc->stroke && desc->stroke[0]) {
+        result = knurl_stroke_from_name(desc->stroke, &stroke);
+    }
+    result = result ? result
+                    : (is_mouse ? knurl_mouse_open(&session->mouse, &session->device)
+                                : knurl_device_open(device, &session->device));
+    if (!result) {
+        session->desc = *desc;
+        session->desc.device = session->desc.stroke = NULL; /* the caller's, and looked at */
+        session->is_fake = is_fake;
+        session->is_mouse = is_mouse;
+        session->stroke = stroke;
+    }
+    return result;
+}
+
+/* What a start and a play have in common: everything but the hand. */
+static knurl_result prepare(knurl_session *session) {
+    if (!session->device || session->loop) {
+        return knurl_fail(KNURL_ERROR_STATE, "session: expected one that is open and has not run, found one that %s",
+                          session->device ? "has been started" : "is closed");
+    }
+    knurl_hip_desc desc;
+    knurl_hip_desc_init(&desc, sizeof desc);
+    desc.workspace = &session->desc.workspace;
+    desc.clamp = session->desc.clamp;
+    knurl_result result = knurl_scene_commit(session->scene);
+    result = result == KNURL_ERROR_STATE ? KNURL_OK : result; /* committed already */
+    return result ? result : knurl_scene_configure_hip(session->scene, 0, &desc);
+}
+
+static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
+    knurl_loop_desc desc;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = session->device;
+    desc.scene = session->scene;
+    desc.update_rate_hz = session->desc.update_rate_hz;
+    desc.tick_callback = knurl_board_take;
+    desc.user = &session->board;
+    desc.reconnect = session->desc.reconnect;
+    desc.heartbeat_s = heartbeat_s;
+    return knurl_loop_create(&desc, &session->loop);
+}
+
+static void warn(const knurl_session *session, knurl_surface outside, char *warning, uint32_t size) {
+    const char *name = "";
+    if (outside && !knurl_scene_surface_name(session->scene, outside, &name)) {
+        knurl_session_say(warning, size,
+                          "surface '%s' lies outside of the workspace, so the stroke over it is cut short: move the "
+                          "device to it",
+                          name);
+    }
+}
+
+knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size) {
+    knurl_surface outside = 0;
+    knurl_result result = prepare(session);
+    result = result || !session->is_fake ? result : knurl_session_lay_stroke(session, &outside);
+    result = result ? result : make_loop(session, session->desc.heartbeat_s);
+    result = result ? result : knurl_loop_start(session->loop);
+    if (!result) {
+        session->runs = 1;
+        knurl_session_hush(warning, size);
+        warn(session, outside, warning, size);
+    }
+    return result;
+}
+
+/* The rows in device coordinates. */
+static knurl_result lay_trace(const knurl_session *session, const double *rows, uint64_t count) {
+    if (!rows || count == 0 || count > SIZE_MAX / (4 * sizeof *rows)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "rows: expected t, x, y, z of one tick or more, found %s of %llu",
+                          rows ? "rows" : "null", (unsigned long long)count);
+    }
+    double *moved = malloc((size_t)count * 4 * sizeof *moved);
+    if (!moved) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "no memory for a trace of %llu rows", (unsigned long long)count);
+    }
+    for (uint64_t i = 0; i < count; i++) {
+        moved[4 * i] = rows[4 * i];
+        knurl_workspace_to_device(&session->desc.workspace, rows + 4 * i + 1, moved + 4 * i + 1);
+    }
+    const knurl_result result = knurl_fake_set_trace(session->device, moved, count);
+    free(moved);
+    return result;
+}
+
+knurl_result knurl_session_play(knurl_session *session, const double *rows, uint64_t row_count, uint64_t ticks,
+                                double *forces, uint64_t *played) {
+    if (ticks < 1 || ticks > 100000000 || !forces) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "ticks: expected 1 to 1e8 and room for their forces, found %llu%s",
+                          (unsigned long long)ticks, forces ? "" : " and null");
+    }
+    knurl_result result = prepare(session);
+    result = result ? result : lay_trace(session, rows, row_count);
+    result = result ? result : make_loop(session, 0.0);
+    if (result) {
+        return result;
+    }
+    knurl_board *b = &session->board;
+    b->forces = forces;
+    b->force_capacity = ticks;
+    result = knurl_loop_step(session->loop, ticks);
+    *played = b->force_count;
+    b->forces = NULL;
+    b->force_capacity = b->force_count = 0;
+    return result;
+}
+
+void knurl_session_close(knurl_session *session) {
+    knurl_loop_destroy(session->loop);
+    knurl_device_close(session->device);
+    session->loop = NULL;
+    session->device = NULL;
+    session->runs = session->is_fake = session->is_mouse = 0;
+    memset(&session->board, 0, sizeof session->board);
+    memset(&session->mouse, 0, sizeof session->mouse);
+    knurl_session_forget(session);
+}
