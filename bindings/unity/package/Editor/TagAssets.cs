@@ -6,6 +6,7 @@ using System.Linq;
 using System.Text;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace Knurl.Editing
 {
@@ -94,7 +95,8 @@ namespace Knurl.Editing
 
         static void WriteOne(string path, KnurlTag tag, List<string> made, List<string> refused)
         {
-            if (!File.Exists(path))
+            Object found = AssetDatabase.LoadMainAssetAtPath(path);
+            if (found == null && !File.Exists(path))
             {
                 var grating = ScriptableObject.CreateInstance<KnurlGrating>();
                 Put(tag, grating);
@@ -102,17 +104,17 @@ namespace Knurl.Editing
                 made.Add(path);
                 return;
             }
-            var found = AssetDatabase.LoadMainAssetAtPath(path) as KnurlGrating;
-            if (found == null || !AssetDatabase.GetLabels(found).Contains(Label))
+            var known = found as KnurlGrating;
+            if (known == null || !AssetDatabase.GetLabels(known).Contains(Label))
             {
                 refused.Add(path + " was not made of a tag (it lacks the label " + Label + ") and stays as it is: the tag "
                     + "of '" + tag.Name + "' is not used");
                 return;
             }
-            if (Put(tag, found))
+            if (Put(tag, known))
             {
-                EditorUtility.SetDirty(found);
-                AssetDatabase.SaveAssetIfDirty(found);
+                EditorUtility.SetDirty(known);
+                AssetDatabase.SaveAssetIfDirty(known);
             }
         }
 

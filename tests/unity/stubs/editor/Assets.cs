@@ -5,13 +5,83 @@ using UnityEngine;
 
 namespace UnityEditor
 {
-    /// Faithful: paths to objects and back. Not: GUIDs, import, files.
+    /// Faithful: paths to objects and back, labels, folders that have to be made first, an asset's name is its file's.
+    /// Not: import, files. An asset's GUID is its path.
     public static class AssetDatabase
     {
+        static readonly Dictionary<UnityEngine.Object, string[]> labels = new Dictionary<UnityEngine.Object, string[]>();
+        static readonly HashSet<string> folders = new HashSet<string> { "Assets" };
+
         public static readonly Dictionary<string, UnityEngine.Object> Assets =
             new Dictionary<string, UnityEngine.Object>();
 
-        public static void CreateAsset(UnityEngine.Object asset, string path) { Assets[path] = asset; }
+        public static void CreateAsset(UnityEngine.Object asset, string path)
+        {
+            if (!IsValidFolder(path.Substring(0, path.LastIndexOf('/'))))
+            {
+                throw new UnityException("Creating asset at path " + path + " failed.");
+            }
+            Assets[path] = asset;
+            asset.name = System.IO.Path.GetFileNameWithoutExtension(path);
+        }
+
+        public static void SaveAssetIfDirty(UnityEngine.Object asset) { }
+        public static bool WriteImportSettingsIfDirty(string path) { return true; }
+        public static string GUIDToAssetPath(string guid) { return guid; }
+        public static UnityEngine.Object LoadMainAssetAtPath(string path)
+        {
+            return LoadAssetAtPath<UnityEngine.Object>(path);
+        }
+
+        public static string[] GetLabels(UnityEngine.Object asset)
+        {
+            return labels.ContainsKey(asset) ? labels[asset] : new string[0];
+        }
+
+        public static void SetLabels(UnityEngine.Object asset, string[] given) { labels[asset] = given; }
+
+        /// Only "t:Class", by the class alone.
+        public static string[] FindAssets(string filter, string[] within)
+        {
+            List<string> found = new List<string>();
+            foreach (KeyValuePair<string, UnityEngine.Object> pair in Assets)
+            {
+                bool inside = Array.Exists(within, folder => pair.Key.StartsWith(folder + "/", StringComparison.Ordinal));
+                if (inside && filter == "t:" + pair.Value.GetType().Name)
+                {
+                    found.Add(pair.Key);
+                }
+            }
+            return found.ToArray();
+        }
+
+        public static string MoveAsset(string from, string to)
+        {
+            foreach (string path in new List<string>(Assets.Keys))
+            {
+                if (path == from || path.StartsWith(from + "/", StringComparison.Ordinal))
+                {
+                    UnityEngine.Object asset = Assets[path];
+                    Assets.Remove(path);
+                    Assets[to + path.Substring(from.Length)] = asset;
+                }
+            }
+            if (folders.Remove(from))
+            {
+                folders.Add(to);
+            }
+            return "";
+        }
+
+        /// Forgets everything.
+        public static void Clear()
+        {
+            Assets.Clear();
+            labels.Clear();
+            folders.Clear();
+            folders.Add("Assets");
+        }
+
         public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
         public static bool DeleteAsset(string path) { return Assets.Remove(path); }
         public static void SaveAssets() { }
@@ -19,8 +89,12 @@ namespace UnityEditor
         public static void StartAssetEditing() { }
         public static void StopAssetEditing() { }
         public static void ImportAsset(string path) { }
-        public static bool IsValidFolder(string path) { return true; }
-        public static string CreateFolder(string parent, string name) { return parent + "/" + name; }
+        public static bool IsValidFolder(string path) { return folders.Contains(path); }
+        public static string CreateFolder(string parent, string name)
+        {
+            folders.Add(parent + "/" + name);
+            return parent + "/" + name;
+        }
 
         public static T LoadAssetAtPath<T>(string path) where T : UnityEngine.Object
         {
@@ -92,6 +166,7 @@ namespace UnityEditor
         public static void SetCurrentGroupName(string name) { Steps.Add(name); }
         public static int GetCurrentGroup() { return Steps.Count; }
         public static void CollapseUndoOperations(int group) { }
+        public static void IncrementCurrentGroup() { }
         public static void DestroyObjectImmediate(UnityEngine.Object o) { UnityEngine.Object.DestroyImmediate(o); }
 
         public static void SetTransformParent(Transform t, Transform parent, string name)
@@ -142,6 +217,7 @@ namespace UnityEditor
             set { activeObject = value; }
         }
 
+        public static string[] assetGUIDs { get { return Array.FindAll(Array.ConvertAll(held, AssetDatabase.GetAssetPath), path => path != ""); } }
         public static GameObject[] gameObjects { get { return Array.FindAll(Array.ConvertAll(held, o => o as GameObject), o => o != null); } }
         public static Transform activeTransform { get { return activeGameObject == null ? null : activeGameObject.transform; } }
     }
@@ -158,10 +234,28 @@ namespace UnityEditor
             return true;
         }
         public static string OpenFilePanel(string title, string folder, string extension) { return Chosen; }
+        public static string OpenFilePanelWithFilters(string title, string folder, string[] filters) { return Chosen; }
         public static string SaveFilePanelInProject(string title, string name, string extension, string message)
         {
             return Chosen;
         }
+    }
+
+    public static class FileUtil
+    {
+        public static string GetProjectRelativePath(string path)
+        {
+            int at = path.IndexOf("Assets/", StringComparison.Ordinal);
+            return at < 0 ? "" : path.Substring(at);
+        }
+    }
+
+    /// There are no prefabs.
+    public static class PrefabUtility
+    {
+        public static bool IsPartOfPrefabInstance(UnityEngine.Object o) { return false; }
+        public static void RecordPrefabInstancePropertyModifications(UnityEngine.Object o) { }
+        public static string GetPrefabAssetPathOfNearestInstanceRoot(UnityEngine.Object o) { return ""; }
     }
 
     public static class GameObjectUtility

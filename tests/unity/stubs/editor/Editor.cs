@@ -139,6 +139,17 @@ namespace UnityEditor
         public virtual float GetPropertyHeight(SerializedProperty property, GUIContent label) { return 18f; }
     }
 
+    /// The latest that was shown; a test chooses from it.
+    public sealed class GenericMenu
+    {
+        public delegate void MenuFunction();
+
+        public static GenericMenu Shown;
+        public readonly Dictionary<string, MenuFunction> Items = new Dictionary<string, MenuFunction>();
+        public void AddItem(GUIContent content, bool on, MenuFunction func) { Items[content.text] = func; }
+        public void ShowAsContext() { Shown = this; }
+    }
+
     public enum MessageType
     {
         None,
@@ -198,6 +209,17 @@ namespace UnityEditor
         {
             Drawn.Add("property " + property.name + " as " + label.text);
             return false;
+        }
+
+        public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options)
+        {
+            return PropertyField(property, options);
+        }
+
+        public static bool DropdownButton(GUIContent content, FocusType focus, params GUILayoutOption[] options)
+        {
+            Drawn.Add("drop-down " + content.text);
+            return Answers.ContainsKey(content.text);
         }
 
         public static void BeginHorizontal(params GUILayoutOption[] options) { }

@@ -35,6 +35,11 @@ namespace UnityEditor
             return true;
         }
 
+        public void CopyFromSerializedProperty(SerializedProperty property)
+        {
+            FindProperty(property.name).CopyFrom(property);
+        }
+
         public SerializedProperty FindProperty(string path)
         {
             for (Type t = targetObject.GetType(); t != null; t = t.BaseType)
@@ -77,6 +82,8 @@ namespace UnityEditor
                 }
             }
         }
+
+        internal void CopyFrom(SerializedProperty other) { Value = other.Value; }
 
         public float floatValue { get { return (float)Value; } set { Value = value; } }
         public int intValue { get { return Convert.ToInt32(Value); } set { Value = value; } }

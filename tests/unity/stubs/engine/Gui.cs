@@ -14,6 +14,12 @@ namespace UnityEngine
 
     public sealed class GUILayoutOption { }
 
+    public enum FocusType
+    {
+        Keyboard = 1,
+        Passive = 2
+    }
+
     public class GUIStyle
     {
         public bool wordWrap;
@@ -81,7 +87,7 @@ namespace UnityEngine
     public sealed class Event
     {
         public static readonly Event current = new Event();
-        public EventType type { get { return EventType.Repaint; } }
+        public EventType type { get; set; } = EventType.Layout; // a test says what comes
     }
 
     public static class GL
