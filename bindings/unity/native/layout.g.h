@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "faf5702cdfc55b5b"
+#define KNURL_UNITY_INTERFACE "baddf7d948069bff"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -308,7 +308,7 @@
     FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
     FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
     FIELD(knurl_session_desc, workspace, "workspace", 48, 112) \
-    STRUCT(knurl_session_state, 120) \
+    STRUCT(knurl_session_state, 128) \
     FIELD(knurl_session_state, hip, "hip", 0, 24) \
     FIELD(knurl_session_state, proxy, "proxy", 24, 24) \
     FIELD(knurl_session_state, force, "force", 48, 24) \
@@ -319,6 +319,8 @@
     FIELD(knurl_session_state, overruns, "overruns", 104, 8) \
     FIELD(knurl_session_state, buttons, "buttons", 112, 4) \
     FIELD(knurl_session_state, running, "running", 116, 4) \
+    FIELD(knurl_session_state, in_contact, "in_contact", 120, 4) \
+    FIELD(knurl_session_state, reserved, "reserved", 124, 4) \
     STRUCT(knurl_session_event, 24) \
     FIELD(knurl_session_event, kind, "kind", 0, 4) \
     FIELD(knurl_session_event, code, "code", 4, 4) \

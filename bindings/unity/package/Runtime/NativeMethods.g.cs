@@ -459,6 +459,8 @@ namespace Knurl
         public ulong overruns;
         public uint buttons;
         public uint running;
+        public uint in_contact;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -537,7 +539,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "faf5702cdfc55b5b";
+        internal const string Interface = "baddf7d948069bff";
 
         internal const string Version = "0.1.0";
 

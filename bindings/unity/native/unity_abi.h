@@ -1,0 +1,57 @@
+/* As much of Unity's native plugin interface as Knurl uses, declared here from what is documented: Unity's own headers
+ * are under a licence of Unity's and come with an editor. tests/unity/native holds this file against them where it is
+ * given a folder that has them (KNURL_UNITY_HEADERS). Good for Unity 2020.1 and later. SPDX-License-Identifier: MIT */
+#ifndef KNURL_UNITY_ABI_H
+#define KNURL_UNITY_ABI_H
+
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define UNITY_CALL __stdcall
+#else
+#define UNITY_CALL
+#endif
+
+/** A place in a table of functions that is not used here. */
+typedef void(UNITY_CALL *unity_unused)(void);
+
+/** What the engine hands to UnityPluginLoad(). The functions that are not used take their GUID as a struct by value,
+ * which Unity's C++ passes otherwise than C does. */
+typedef struct unity_interfaces {
+    unity_unused get_interface;
+    unity_unused register_interface;
+    void *(UNITY_CALL *get_interface_split)(unsigned long long high, unsigned long long low); /**< null: not here */
+    unity_unused register_interface_split;
+} unity_interfaces;
+
+#define UNITY_LOG_HIGH 0x9E7507FA5B444D5DULL
+#define UNITY_LOG_LOW  0x92FB979515EA83FCULL
+
+enum { UNITY_LOG_WARNING = 2 };
+
+/** The engine's log. */
+typedef struct unity_log {
+    void(UNITY_CALL *log)(int type, const char *message, const char *file, int line);
+} unity_log;
+
+#define UNITY_PROFILER_HIGH 0x2CE79ED8316A4833ULL
+#define UNITY_PROFILER_LOW  0x87076B2013E1571FULL
+
+enum { UNITY_PROFILER_SCRIPTS = 1 };     /**< a category */
+enum { UNITY_MARKER_DEFAULT = 0 };       /**< flags */
+enum { UNITY_BEGIN = 0, UNITY_END = 1 }; /**< events */
+
+/** The engine's; not looked into. */
+typedef struct unity_marker unity_marker;
+
+/** The engine's profiler; what follows in its table is not used. */
+typedef struct unity_profiler {
+    void(UNITY_CALL *emit_event)(const unity_marker *marker, uint16_t event, uint16_t data_count, const void *data);
+    int(UNITY_CALL *is_enabled)(void);   /**< 1: somebody records */
+    int(UNITY_CALL *is_available)(void); /**< 0: the game was built without it */
+    /** 0, or why there is none. */
+    int(UNITY_CALL *create_marker)(const unity_marker **marker, const char *name, uint16_t category, uint16_t flags,
+                                   int data_count);
+} unity_profiler;
+
+#endif
