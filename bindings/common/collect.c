@@ -56,16 +56,23 @@ static void collect_touches(knurl_session *s) {
     }
 }
 
-static void collect_counts(knurl_session *s) {
+static void collect_buttons(knurl_session *s) {
     knurl_device_status status;
-    knurl_loop_stats stats;
     knurl_device_status_init(&status, sizeof status);
-    knurl_loop_stats_init(&stats, sizeof stats);
     if (!knurl_device_get_status(s->device, &status)) {
         s->buttons = status.buttons;
     }
-    if (!knurl_loop_get_stats(s->loop, &stats)) {
+}
+
+/* Ten times a second: a loop's statistics are some microseconds of counting. */
+static void collect_overruns(knurl_session *s) {
+    knurl_loop_stats stats;
+    const uint64_t written = __atomic_load_n(&s->board.written, __ATOMIC_ACQUIRE);
+    if ((double)(written - s->counted_at) >= 0.1 * s->desc.update_rate_hz) {
+        knurl_loop_stats_init(&stats, sizeof stats);
+        (void)knurl_loop_get_stats(s->loop, &stats);
         s->overruns = stats.overruns;
+        s->counted_at = written;
     }
 }
 
@@ -74,7 +81,8 @@ void knurl_session_update(knurl_session *session) {
         knurl_loop_heartbeat(session->loop);
         const uint32_t is_over = knurl_loop_wait(session->loop, 0.0); /* before its last events are collected */
         collect_touches(session);
-        collect_counts(session);
+        collect_buttons(session);
+        collect_overruns(session);
         session->faults_due = MOST_FAULTS;
         session->has_ended = is_over;
         session->runs = !is_over;
@@ -89,7 +97,7 @@ void knurl_session_forget(knurl_session *session) {
     }
     session->buttons = session->told_buttons = 0;
     session->faults_due = session->has_ended = 0;
-    session->overruns = 0;
+    session->overruns = session->counted_at = 0;
 }
 
 /* A touch begins when the one before has ended, however many were forgotten in between. */

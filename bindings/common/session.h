@@ -43,8 +43,8 @@ typedef struct knurl_session_state {
     double temporal_frequency; /**< Hz: ridges a second that the motion asks for */
     knurl_surface surface;     /**< what was last told to be touched (KNURL_SESSION_CONTACT_STARTED), or 0 */
     uint64_t ticks;            /**< sent since the start */
-    uint64_t overruns;         /**< ticks that came late */
-    uint32_t buttons;          /**< bit 0: first button; as of the latest update, like the overruns */
+    uint64_t overruns;         /**< ticks that came late; updates count them ten times a second */
+    uint32_t buttons;          /**< bit 0: first button; as of the latest update */
     uint32_t running;          /**< 1: the haptic thread runs */
     uint32_t in_contact;       /**< 1: something is touched, told or not */
     uint32_t reserved;         /**< 0 */

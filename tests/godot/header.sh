@@ -18,6 +18,6 @@ timeout 60 "$root/bindings/godot/engine/run.sh" "$engine" \
 [ -s gdextension_interface.h ] || { cat dump.log; exit 1; }
 for source in "$root"/bindings/godot/src/*.c; do
     "$compiler" -std=c99 -pedantic-errors -Wall -Wextra -Wshadow -Wconversion -Werror -fsyntax-only \
-        -isystem "$folder" -I "$root/sdk/include" "$source"
+        -isystem "$folder" -I "$root/sdk/include" -I "$root/bindings/common" "$source"
 done
 echo "header: all of the binding compiles against the engine's own header"

@@ -1,11 +1,7 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
 #include "world.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-/* s: a game that gives no sign of life for so long is not to hold anybody's hand. */
-#define HEARTBEAT 0.25
 
 device *devices[DEVICE_SLOTS];
 
@@ -59,10 +55,8 @@ static knurl_result take_slot(device *d) {
 
 /* Where the node stands, the workspace is; its scale is a property, not the node's. */
 static knurl_result place(device *d) {
-    gd_transform transform;
-    pose at;
-    gd_call(gd_method.Node3D_get_global_transform, d->base.object, NULL, &transform);
-    if (!pose_split(&transform, &at)) {
+    knurl_session_pose at;
+    if (!follow_pose(d->base.object, &at)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "expected a transform with axes, found one that is scaled to nothing");
     }
     knurl_workspace_init(&d->workspace);
@@ -72,35 +66,20 @@ static knurl_result place(device *d) {
     return KNURL_OK;
 }
 
-static knurl_result open_device(device *d) {
-    const char *uri = d->uri ? d->uri : "";
-    if (strcmp(uri, "mouse") != 0) {
-        return knurl_device_open(uri, &d->device);
-    }
-    d->mouse = calloc(1, sizeof *d->mouse);
-    return d->mouse ? mouse_open(d->mouse, &d->device) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for the mouse");
+knurl_result device_make_session(device *d) {
+    return d->session ? KNURL_OK : knurl_session_create(&d->session);
 }
 
-knurl_result device_open_scene(device *d) {
-    return d->scene ? KNURL_OK : knurl_scene_create(NULL, &d->scene);
-}
-
-static knurl_result configure(device *d) {
-    knurl_hip_desc desc;
-    knurl_hip_desc_init(&desc, sizeof desc);
-    desc.workspace = &d->workspace;
+static knurl_result open_session(device *d) {
+    knurl_session_desc desc;
+    knurl_session_desc_init(&desc, sizeof desc);
+    desc.device = d->uri ? d->uri : "";
+    desc.stroke = d->stroke;
+    desc.update_rate_hz = d->rate;
+    desc.reconnect = d->reconnect;
     desc.clamp = d->clamp;
-    return knurl_scene_configure_hip(d->scene, 0, &desc);
-}
-
-static knurl_result fill_scene(device *d) {
-    for (surface *s = surfaces; s; s = s->next) {
-        follow_add(d, s);
-    }
-    d->gratings_seen = grating_changes;
-    const knurl_result result = d->is_committed ? KNURL_OK : knurl_scene_commit(d->scene);
-    d->is_committed = d->is_committed || !result;
-    return result;
+    desc.workspace = d->workspace;
+    return knurl_session_open(d->session, &desc);
 }
 
 knurl_result device_prepare(device *d) {
@@ -110,41 +89,25 @@ knurl_result device_prepare(device *d) {
         return knurl_fail(KNURL_ERROR_STATE, "expected a node inside a scene tree, found one outside");
     }
     knurl_result result = take_slot(d);
-    d->board = result ? NULL : calloc(1, sizeof *d->board);
-    result = result || d->board ? result : knurl_fail(KNURL_ERROR_MEMORY, "no memory for what is felt");
     result = result ? result : place(d);
-    result = result ? result : open_device(d);
-    result = result ? result : device_open_scene(d);
-    result = result ? result : fill_scene(d);
-    result = result ? result : configure(d);
-    if (!result && d->uri && strncmp(d->uri, "fake", strlen("fake")) == 0) {
-        result = stroke_lay(d);
+    result = result ? result : device_make_session(d);
+    result = result ? result : open_session(d);
+    for (surface *s = result ? NULL : surfaces; s; s = s->next) {
+        follow_add(d, s);
     }
+    d->gratings_seen = grating_changes;
     return result;
 }
 
-knurl_result device_make_loop(device *d, double heartbeat_s) {
-    knurl_loop_desc desc;
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = d->device;
-    desc.scene = d->scene;
-    desc.update_rate_hz = d->rate;
-    desc.tick_callback = board_take;
-    desc.user = d->board;
-    desc.reconnect = d->reconnect;
-    desc.heartbeat_s = heartbeat_s;
-    return knurl_loop_create(&desc, &d->loop);
-}
-
 void device_release(device *d) {
-    knurl_loop_destroy(d->loop);
-    knurl_device_close(d->device);
-    d->loop = NULL;
-    d->device = NULL;
+    d->runs = 0;
+    if (d->session) {
+        knurl_session_close(d->session);
+    }
     if (d->slot >= 0) {
         for (surface *s = surfaces; s; s = s->next) {
-            if (s->ids[d->slot] && d->has_files) {
-                (void)knurl_scene_remove_surface(d->scene, s->ids[d->slot]);
+            if (d->has_files) {
+                follow_remove(d, s);
             }
             s->ids[d->slot] = 0;
         }
@@ -152,41 +115,39 @@ void device_release(device *d) {
         d->slot = -1;
     }
     if (!d->has_files) {
-        knurl_scene_destroy(d->scene);
-        d->scene = NULL;
-        d->is_committed = 0;
+        knurl_session_destroy(d->session);
+        d->session = NULL;
     }
-    free(d->board);
-    free(d->mouse);
-    d->board = NULL;
-    d->mouse = NULL;
-    d->buttons = 0;
 }
 
 int64_t device_start(device *d) {
     enum { OK = 0, UNAVAILABLE = 2 };
     d->wants_start = 0;
-    if (d->loop) {
+    if (d->runs) {
         return OK;
     }
     if (gd_is_in_editor()) {
         gd_error("KnurlDevice.start", "KnurlDevice.start: devices run in a running game, not in the editor");
         return UNAVAILABLE;
     }
+    char warning[512];
     knurl_result result = device_prepare(d);
-    result = result ? result : device_make_loop(d, HEARTBEAT);
-    result = result ? result : knurl_loop_start(d->loop);
+    result = result ? result : knurl_session_start(d->session, warning, sizeof warning);
     if (result) {
         const int64_t error = device_fail("KnurlDevice.start", result);
         device_release(d);
         return error;
+    }
+    d->runs = 1;
+    if (warning[0]) {
+        gd_warning("KnurlDevice.start", "KnurlDevice: %s", warning);
     }
     return OK;
 }
 
 void device_stop(device *d) {
     d->wants_start = 0;
-    if (d->loop) {
+    if (d->runs) {
         device_release(d);
         signals_let_go(d); /* last: a handler finds a device that is stopped, and may start it */
     }
@@ -196,16 +157,9 @@ void device_process(device *d) {
     if (d->wants_start) {
         (void)device_start(d);
     }
-    if (!d->loop) {
-        return;
-    }
-    board_tick sent;
-    knurl_loop_heartbeat(d->loop);
-    board_read(d->board, &sent);
-    follow_all(d, sent.tick);
-    const int is_over = (int)knurl_loop_wait(d->loop, 0.0); /* before its last events are told */
-    signals_tell(d);
-    if (d->loop && is_over) {
-        device_stop(d);
+    if (d->runs) {
+        follow_all(d);
+        knurl_session_update(d->session);
+        signals_tell(d);
     }
 }

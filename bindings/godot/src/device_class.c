@@ -57,20 +57,14 @@ static void notify(void *self, int32_t what) {
     }
 }
 
-/* The latest tick as it was sent; 0 where there is none. A device without a position plays nothing. */
-static int look(const device *d, board_tick *sent) {
-    knurl_tick_output now;
-    if (!d->loop) {
-        return 0;
+/* All zeros while nothing runs. */
+static knurl_session_state look(const device *d) {
+    knurl_session_state state;
+    memset(&state, 0, sizeof state);
+    if (d->runs) {
+        knurl_session_get_state(d->session, &state);
     }
-    board_read(d->board, sent);
-    if (sent->tick > 0 && !knurl_scene_get_tick(d->scene, 0, &now, NULL) && now.flags & KNURL_TICK_ABSENT) {
-        memset(sent->force, 0, sizeof sent->force);
-        memcpy(sent->proxy, sent->hip, sizeof sent->proxy);
-        sent->height = sent->temporal_frequency = 0.0;
-        sent->surface = 0;
-    }
-    return sent->tick > 0;
+    return state;
 }
 
 static void give_vector(const double *from, void *to) {
@@ -81,64 +75,53 @@ static void give_vector(const double *from, void *to) {
 /* Before the first tick, the HIP stands where the workspace does. */
 static void get_hip_position(void *self, void *value) {
     const device *d = self;
-    board_tick sent;
-    give_vector(look(d, &sent) ? sent.hip : d->workspace.origin, value);
+    const knurl_session_state state = look(d);
+    give_vector(state.ticks > 0 ? state.hip : d->workspace.origin, value);
 }
 
 static void get_proxy_position(void *self, void *value) {
     const device *d = self;
-    board_tick sent;
-    give_vector(look(d, &sent) ? sent.proxy : d->workspace.origin, value);
+    const knurl_session_state state = look(d);
+    give_vector(state.ticks > 0 ? state.proxy : d->workspace.origin, value);
 }
 
 static void get_force(void *self, void *value) {
-    static const double none[3] = {0.0, 0.0, 0.0};
-    board_tick sent;
-    give_vector(look(self, &sent) ? sent.force : none, value);
+    const knurl_session_state state = look(self);
+    give_vector(state.force, value);
 }
 
 static void get_running(void *self, void *value) {
-    *(uint8_t *)value = ((const device *)self)->loop != NULL;
+    *(uint8_t *)value = ((const device *)self)->runs;
 }
 
 static void get_in_contact(void *self, void *value) {
-    board_tick sent;
-    *(uint8_t *)value = look(self, &sent) && sent.surface != 0;
+    *(uint8_t *)value = look(self).in_contact != 0;
 }
 
 static void get_temporal_frequency(void *self, void *value) {
-    board_tick sent;
-    *(double *)value = look(self, &sent) ? sent.temporal_frequency : 0.0;
+    *(double *)value = look(self).temporal_frequency;
 }
 
 static void get_height(void *self, void *value) {
-    board_tick sent;
-    *(double *)value = look(self, &sent) ? sent.height : 0.0;
+    *(double *)value = look(self).height;
 }
 
 static void get_device_name(void *self, void *value) {
     const device *d = self;
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
-    if (d->device) {
-        (void)knurl_device_get_info(d->device, &info);
+    if (d->runs) {
+        (void)knurl_device_get_info(knurl_session_device(d->session), &info);
     }
     gd_string_set(value, info.name);
 }
 
 static void get_ticks(void *self, void *value) {
-    const device *d = self;
-    *(int64_t *)value = d->board ? (int64_t)__atomic_load_n(&d->board->written, __ATOMIC_ACQUIRE) : 0;
+    *(int64_t *)value = (int64_t)look(self).ticks;
 }
 
 static void get_overruns(void *self, void *value) {
-    const device *d = self;
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
-    if (d->loop) {
-        (void)knurl_loop_get_stats(d->loop, &stats);
-    }
-    *(int64_t *)value = (int64_t)stats.overruns;
+    *(int64_t *)value = (int64_t)look(self).overruns;
 }
 
 static void start(void *self, const void *const *arguments, void *result) {
@@ -156,11 +139,9 @@ static void move_hip(void *self, const void *const *arguments, void *result) {
     device *d = self;
     const float *given = arguments[0];
     const double global[3] = {(double)given[0], (double)given[1], (double)given[2]};
-    double position[3];
     (void)result;
-    if (d->loop && d->mouse) {
-        knurl_workspace_to_device(&d->workspace, global, position);
-        mouse_move(d->mouse, position);
+    if (d->runs) {
+        (void)knurl_session_move_hip(d->session, global); /* other devices are moved by a hand */
     }
 }
 
@@ -169,12 +150,13 @@ static void get_history(void *self, const void *const *arguments, void *result) 
     int64_t count;
     int64_t ignored = 0;
     memcpy(&count, arguments[0], sizeof count);
-    count = count < 0 || !d->board ? 0 : count > BOARD_TICKS ? BOARD_TICKS : count;
+    count = count < 0 || !d->runs ? 0 : count > KNURL_SESSION_HISTORY ? KNURL_SESSION_HISTORY : count;
     int64_t size = 2 * count;
     const void *given[1] = {&size};
     gd_builtin.PACKED_FLOAT32_ARRAY_resize(result, given, &ignored, 1);
     if (count > 0) {
-        size = 2 * (int64_t)board_history(d->board, (uint32_t)count, gd.packed_float32_array_operator_index(result, 0));
+        size = 2 * (int64_t)knurl_session_get_history(d->session, (uint32_t)count,
+                                                      gd.packed_float32_array_operator_index(result, 0));
         gd_builtin.PACKED_FLOAT32_ARRAY_resize(result, given, &ignored, 1);
     }
 }
@@ -197,13 +179,13 @@ static void load_gltf(void *self, const void *const *arguments, void *result) {
     int64_t count = -1;
     char *path = globalise(arguments[0]);
     knurl_gltf_report_init(&report, sizeof report);
-    knurl_result failed = path ? device_open_scene(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
-    failed = failed ? failed : knurl_gltf_load_file(d->scene, path, &report);
+    knurl_result failed = path ? device_make_session(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
+    failed = failed ? failed : knurl_gltf_load_file(knurl_session_scene(d->session), path, &report);
     if (failed) {
         (void)device_fail("KnurlDevice.load_gltf", failed);
-        if (!d->loop && !d->has_files) {
-            knurl_scene_destroy(d->scene);
-            d->scene = NULL;
+        if (!d->runs && !d->has_files) {
+            knurl_session_destroy(d->session);
+            d->session = NULL;
         }
     } else {
         d->has_files = 1;

@@ -2,16 +2,8 @@
 #include "mesh.h"
 #include "world.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* m/s: what moves faster is put there, and not dragged through what it passes. */
-#define FASTEST 10.0
-
-/* s: the time that a first move takes; further ones take what lay between the last two. */
-#define FIRST_MOVE (1.0 / 60.0)
-#define LONGEST    0.1
 
 static GDExtensionObjectPtr parent_of(const surface *s) {
     GDExtensionObjectPtr parent = NULL;
@@ -32,10 +24,17 @@ static GDExtensionObjectPtr mesh_of(const surface *s, gd_variant *held) {
     return mesh;
 }
 
-static int pose_of(const surface *s, pose *out) {
+int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
     gd_transform transform;
-    gd_call(gd_method.Node3D_get_global_transform, s->base.object, NULL, &transform);
-    return pose_split(&transform, out);
+    double matrix[12];
+    gd_call(gd_method.Node3D_get_global_transform, node, NULL, &transform);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            matrix[4 * i + j] = (double)transform.basis[i][j];
+        }
+        matrix[4 * i + 3] = (double)transform.origin[i];
+    }
+    return (int)knurl_session_split_pose(matrix, pose);
 }
 
 static void complain(const surface *s) {
@@ -44,7 +43,7 @@ static void complain(const surface *s) {
     gd_error("KnurlSurface", "KnurlSurface '%s': %s", name, knurl_error_message());
 }
 
-static knurl_result add(device *d, surface *s, const mesh_data *data, const pose *at, knurl_surface *id) {
+static knurl_result add(device *d, surface *s, const mesh_data *data, const knurl_session_pose *at, knurl_surface *id) {
     char name[128];
     knurl_surface_desc desc;
     knurl_mesh_desc mesh;
@@ -67,19 +66,19 @@ static knurl_result add(device *d, surface *s, const mesh_data *data, const pose
         }
         desc.axis[i] = (double)axis[i];
     }
-    return knurl_scene_add_surface(d->scene, &desc, id);
+    return knurl_scene_add_surface(knurl_session_scene(d->session), &desc, id);
 }
 
 void follow_add(device *d, surface *s) {
     const uint8_t others = (uint8_t)~(1u << d->slot);
     gd_variant held;
     mesh_data data;
-    pose at;
+    knurl_session_pose at;
     s->moved &= others;
     s->changed &= others;
     s->made_anew &= others;
     const GDExtensionObjectPtr mesh = mesh_of(s, &held);
-    s->flat = (uint8_t)(pose_of(s, &at) ? s->flat & others : s->flat | (1u << d->slot));
+    s->flat = (uint8_t)(follow_pose(s->base.object, &at) ? s->flat & others : s->flat | (1u << d->slot));
     if (mesh && s->enabled && s->grating && !(s->flat & ~others)) {
         knurl_surface id = 0;
         const int fits = mesh_read(mesh, at.rest, &data);
@@ -92,7 +91,8 @@ void follow_add(device *d, surface *s) {
         }
         s->ids[d->slot] = id;
         memcpy(s->rest[d->slot], at.rest, sizeof at.rest);
-        memcpy(s->position[d->slot], at.position, sizeof at.position);
+        memcpy(s->ways[d->slot].position, at.position, sizeof at.position);
+        s->ways[d->slot].tick = 0;
         mesh_end(&data);
     }
     gd.variant_destroy(&held);
@@ -102,33 +102,25 @@ void follow_remove(device *d, surface *s) {
     const knurl_surface id = s->ids[d->slot];
     if (id) {
         s->ids[d->slot] = 0;
-        (void)knurl_scene_remove_surface(d->scene, id); /* what that ended is told by signals.c */
+        (void)knurl_scene_remove_surface(knurl_session_scene(d->session),
+                                         id); /* what that ended is told by signals.c */
     }
 }
 
-static void move(device *d, surface *s, uint64_t tick) {
+static void move(device *d, surface *s) {
     const int slot = d->slot;
-    pose at;
-    if (!pose_of(s, &at)) {
+    knurl_session_pose at;
+    if (!follow_pose(s->base.object, &at)) {
         follow_remove(d, s);
         s->flat |= (uint8_t)(1u << slot);
         return;
     }
-    if (!pose_same_rest(at.rest, s->rest[slot])) {
+    if (!knurl_session_same_rest(at.rest, s->rest[slot])) {
         follow_remove(d, s);
         follow_add(d, s);
         return;
     }
-    double seconds = (double)(tick - s->moved_at[slot]) / d->rate; /* by ticks: the game's clock may run slow */
-    double way = 0.0;
-    seconds = seconds > LONGEST ? FIRST_MOVE : seconds;
-    for (int i = 0; i < 3; i++) {
-        way += (at.position[i] - s->position[slot][i]) * (at.position[i] - s->position[slot][i]);
-    }
-    seconds = sqrt(way) > FASTEST * fmax(seconds, FIRST_MOVE) ? 0.0 : seconds;
-    s->moved_at[slot] = tick;
-    memcpy(s->position[slot], at.position, sizeof at.position);
-    if (knurl_scene_set_transform(d->scene, s->ids[slot], at.position, at.quaternion, seconds)) {
+    if (knurl_session_move_surface(d->session, s->ids[slot], &s->ways[slot], at.position, at.quaternion)) {
         complain(s);
     }
 }
@@ -136,12 +128,12 @@ static void move(device *d, surface *s, uint64_t tick) {
 static void feel(device *d, surface *s) {
     knurl_material_desc material;
     grating_describe(s->grating, &material);
-    if (knurl_scene_set_material(d->scene, s->ids[d->slot], &material)) {
+    if (knurl_scene_set_material(knurl_session_scene(d->session), s->ids[d->slot], &material)) {
         complain(s);
     }
 }
 
-static void tell(device *d, surface *s, uint64_t tick) {
+static void tell(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
     if ((s->made_anew | (s->flat & s->moved)) & bit) {
@@ -152,7 +144,7 @@ static void tell(device *d, surface *s, uint64_t tick) {
         feel(d, s);
     }
     if (s->ids[d->slot] && s->moved & bit) {
-        move(d, s, tick);
+        move(d, s);
     }
     s->changed &= others;
     s->moved &= others;
@@ -166,7 +158,7 @@ static uint8_t running_slots(void) {
     return (uint8_t)running;
 }
 
-void follow_all(device *d, uint64_t tick) {
+void follow_all(device *d) {
     const uint8_t running = running_slots();
     for (surface *s = d->gratings_seen < grating_changes ? surfaces : NULL; s; s = s->next) {
         if (s->ids[d->slot] && s->grating && s->grating->changed_at > d->gratings_seen) {
@@ -176,7 +168,7 @@ void follow_all(device *d, uint64_t tick) {
     d->gratings_seen = grating_changes;
     for (surface **at = &marked_surfaces; *at;) {
         surface *s = *at;
-        tell(d, s, tick);
+        tell(d, s);
         if ((s->moved | s->changed | s->made_anew) & running) {
             at = &s->next_marked;
         } else {
@@ -186,61 +178,16 @@ void follow_all(device *d, uint64_t tick) {
     }
 }
 
-/* 1 where some of the surface lies where the device can go. */
-static int is_in_reach(const device *d, const knurl_surface_info *info) {
-    knurl_device_info limits;
-    knurl_device_info_init(&limits, sizeof limits);
-    if (knurl_device_get_info(d->device, &limits)) {
-        return 1;
-    }
-    double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int corner = 0; corner < 8; corner++) {
-        double at[3];
-        for (int i = 0; i < 3; i++) {
-            at[i] = corner >> i & 1 ? info->bounds_max[i] : info->bounds_min[i];
-        }
-        knurl_workspace_to_device(&d->workspace, at, at);
-        for (int i = 0; i < 3; i++) {
-            least[i] = fmin(least[i], at[i]);
-            most[i] = fmax(most[i], at[i]);
-        }
-    }
-    int is_near = 1;
-    for (int i = 0; i < 3; i++) {
-        is_near = is_near && least[i] <= limits.workspace_max[i] && most[i] >= limits.workspace_min[i];
-    }
-    return is_near;
-}
-
 static void say(char *text, size_t size, const char *sentence) {
     const size_t length = strlen(text);
-    (void)snprintf(text + length, size - length, "%s%s", length > 0 ? "\n" : "", sentence);
-}
-
-static void explain_in(const device *d, const surface *s, char *text, size_t size) {
-    knurl_surface_info info;
-    knurl_surface_check check;
-    const knurl_surface id = s->ids[d->slot];
-    knurl_surface_info_init(&info, sizeof info);
-    knurl_surface_check_init(&check, sizeof check);
-    if (!id) {
-        return;
-    }
-    if (!knurl_scene_surface_info(d->scene, id, &info) && !is_in_reach(d, &info)) {
-        say(text, size,
-            "It lies outside of the device's workspace: move the KnurlDevice there, or raise its workspace_scale.");
-    }
-    if (!knurl_scene_check_surface(d->scene, 0, id, &check) && check.exceeded) {
-        check.message[sizeof check.message - 1] = '\0';
-        say(text, size, check.message);
-    }
+    const char *line = length > 0 && sentence[0] ? "\n" : "";
+    (void)snprintf(text + length, size - length, "%s%s", line, sentence);
 }
 
 void follow_explain(const surface *s, char *text, size_t size) {
     uint8_t is_inside = 0;
     gd_variant held;
-    pose at;
+    knurl_session_pose at;
     text[0] = '\0';
     gd_call(gd_method.Node_is_inside_tree, s->base.object, NULL, &is_inside);
     if (!parent_of(s)) {
@@ -254,12 +201,14 @@ void follow_explain(const surface *s, char *text, size_t size) {
     if (!s->grating) {
         say(text, size, "It has no grating: nothing says how it feels.");
     }
-    if (is_inside && !pose_of(s, &at)) {
+    if (is_inside && !follow_pose(s->base.object, &at)) {
         say(text, size, "It is scaled to nothing.");
     }
     for (int i = 0; i < DEVICE_SLOTS; i++) {
-        if (devices[i]) {
-            explain_in(devices[i], s, text, size);
+        if (devices[i] && s->ids[i]) {
+            char why[4096];
+            knurl_session_explain(devices[i]->session, s->ids[i], why, sizeof why);
+            say(text, size, why);
         }
     }
 }

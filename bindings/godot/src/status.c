@@ -69,12 +69,12 @@ void status_tell(void *self, const void *const *arguments, void *result) {
     const device *d = self;
     knurl_loop_stats stats;
     (void)arguments;
-    truth(result, "running", d->loop != NULL);
-    if (d->loop) {
+    truth(result, "running", d->runs);
+    if (d->runs) {
         knurl_loop_stats_init(&stats, sizeof stats);
-        (void)knurl_loop_get_stats(d->loop, &stats);
+        (void)knurl_loop_get_stats(knurl_session_loop(d->session), &stats);
         tell_loop(&stats, result);
-        tell_device(d->device, result);
-        tell_hip(d->scene, result);
+        tell_device(knurl_session_device(d->session), result);
+        tell_hip(knurl_session_scene(d->session), result);
     }
 }

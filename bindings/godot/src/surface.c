@@ -75,7 +75,8 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
     (void)arguments;
     knurl_surface_info_init(&info, sizeof info);
     for (int i = 0; i < DEVICE_SLOTS && count == 0; i++) {
-        if (devices[i] && s->ids[i] && !knurl_scene_surface_info(devices[i]->scene, s->ids[i], &info)) {
+        if (devices[i] && s->ids[i] &&
+            !knurl_scene_surface_info(knurl_session_scene(devices[i]->session), s->ids[i], &info)) {
             count = (int64_t)info.triangle_count;
         }
     }

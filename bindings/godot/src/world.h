@@ -1,14 +1,10 @@
-/* Surfaces and devices as the extension knows them, and what they do to one another. Main thread only: nothing in here
- * is seen by a haptic thread but the board and the mouse. SPDX-License-Identifier: MIT */
+/* Surfaces and devices as the extension knows them, and what they do to one another. Main thread only: what a haptic
+ * thread sees is the session's. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_WORLD_H
 #define KNURL_GODOT_WORLD_H
 
-#include "board.h"
 #include "grating.h"
-#include "mouse.h"
-#include "pose.h"
-
-#include <knurl/loop.h>
+#include "session.h"
 
 /* Devices that run at once; each has a bit in a surface's masks. */
 enum { DEVICE_SLOTS = 8, ALL_SLOTS = 255 };
@@ -25,9 +21,8 @@ typedef struct surface {
     uint8_t moved, changed, made_anew; /* masks: which running device has yet to be told */
     uint8_t flat;                      /* mask: scaled to nothing, so not in that device's scene */
     knurl_surface ids[DEVICE_SLOTS];   /* in each running device's scene, or 0 */
-    uint64_t moved_at[DEVICE_SLOTS];   /* the device's tick */
-    double rest[DEVICE_SLOTS][9];      /* scale that is baked in */
-    double position[DEVICE_SLOTS][3];  /* m, where the scene last heard it is */
+    knurl_session_way ways[DEVICE_SLOTS];
+    double rest[DEVICE_SLOTS][9]; /* scale that is baked in */
 } surface;
 
 typedef struct device {
@@ -35,19 +30,14 @@ typedef struct device {
     char *uri, *stroke;
     double rate, workspace_scale;
     uint8_t autostart, reconnect, clamp;
-    uint8_t wants_start;  /* at the next frame */
-    uint8_t is_committed; /* the scene */
-    uint8_t has_files;    /* the scene holds what files brought */
-    int slot;             /* -1: does not run */
-    knurl_scene *scene;   /* while it runs; also between runs where it holds what files brought */
-    knurl_device *device;
-    knurl_loop *loop;
+    uint8_t wants_start; /* at the next frame */
+    uint8_t runs;
+    uint8_t has_files;      /* the scene holds what files brought */
+    int slot;               /* -1: does not run */
+    knurl_session *session; /* or null; kept between runs where its scene holds what files brought */
     knurl_workspace workspace;
-    board *board;
-    mouse *mouse; /* or null: another device */
     knurl_surface touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
-    uint32_t buttons;
     uint64_t gratings_seen;
 } device;
 
@@ -68,7 +58,10 @@ extern device *devices[DEVICE_SLOTS];
 /* follow.c: surfaces into a device's scene, along with their nodes, and out. Errors are pushed. */
 void follow_add(device *d, surface *s);
 void follow_remove(device *d, surface *s);
-void follow_all(device *d, uint64_t tick);
+void follow_all(device *d);
+
+/* Where a Node3D stands, in the world: 1, or 0 where it is scaled to nothing. */
+int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
 
 /* Why a surface cannot be felt, a line each, in a caller's buffer; "" where it can. */
 void follow_explain(const surface *s, char *text, size_t size);
@@ -78,11 +71,10 @@ int64_t device_start(device *d);
 void device_stop(device *d);
 void device_process(device *d);
 
-/* Its parts: a scene, if there is none yet; a slot, an opened device, a committed scene with all surfaces; a loop that
- * has not started; and all of these given back. After a failure device_release() is still to be called. */
-knurl_result device_open_scene(device *d);
+/* Its parts: a session, if there is none yet; a slot, an opened session, all surfaces in its scene; and all of these
+ * given back. After a failure device_release() is still to be called. */
+knurl_result device_make_session(device *d);
 knurl_result device_prepare(device *d);
-knurl_result device_make_loop(device *d, double heartbeat_s);
 void device_release(device *d);
 
 /* Pushes knurl_error_message() as an error; the engine's Error of a result. */
@@ -91,9 +83,6 @@ int64_t device_fail(const char *where, knurl_result result);
 /* signals.c: what happened since the last frame. */
 void signals_tell(device *d);
 void signals_let_go(device *d);
-
-/* stroke.c: the fake device's hand, laid over the scene's first surface. */
-knurl_result stroke_lay(device *d);
 
 /* trace.c: KnurlDevice.play_trace(). */
 void trace_play(void *self, const void *const *arguments, void *result);

@@ -424,6 +424,7 @@ namespace UnityEngine
         public Material sharedMaterial { get; set; } = new Material();
         public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
         public Bounds bounds { get; set; }
+        public bool isPartOfStaticBatch { get; internal set; }
     }
 
     public class MeshRenderer : Renderer { }
