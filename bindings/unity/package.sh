@@ -20,7 +20,7 @@ fi
 # place_library FILE FOLDER MAGIC STRIP: into the stage, without what is there to debug it.
 place_library() {
     if [ "$(head -c "${#3}" "$1")" != "$3" ]; then
-        echo "package: $1: expected a library that starts with '${3: -3}', found another kind of file" >&2
+        echo "package: $1: expected a library that starts with '${3#$'\x7f'}', found another kind of file" >&2
         exit 1
     fi
     install -m 644 "$1" "$stage/$name/Plugins/$2/"
@@ -31,7 +31,8 @@ stage=$(mktemp -d "$out/.package.XXXXXX") # beside what it becomes, so that movi
 trap 'rm -rf "$stage"' EXIT
 mkdir "$stage/$name"
 # What git ignores, such as a library that somebody put there to try it, stays behind.
-tar -C "$here/package" --exclude='*.so' --exclude='*.dll' --exclude='.*' -cf - . | tar -C "$stage/$name" -xf -
+tar -C "$here/package" --exclude='*.so' --exclude='*.dll' -cf - . | tar -C "$stage/$name" -xf -
+find "$stage/$name" -name '.*' -type f -delete
 for library in "$@"; do
     case $(basename "$library") in
     libknurl_unity.so) place_library "$library" Linux/x86_64 $'\x7fELF' strip ;;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System;
 using UnityEditor;
 using UnityEngine;
 
@@ -37,7 +38,7 @@ namespace Knurl.Editing
             {
                 ShowMenu("device", Devices);
             }
-            if (device.stringValue.StartsWith("fake", System.StringComparison.Ordinal))
+            if (device.stringValue.StartsWith("fake", StringComparison.Ordinal))
             {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty("stroke"), Stroke);
                 if (EditorGUILayout.DropdownButton(new GUIContent("Known strokes"), FocusType.Keyboard))
@@ -100,7 +101,7 @@ namespace Knurl.Editing
                 return;
             }
             EditorGUILayout.LabelField("Running", device.DeviceName);
-            EditorGUILayout.LabelField("HIP (m)", device.HipPosition.ToString("F4"));
+            EditorGUILayout.LabelField("HIP (m)", Units.Place(device.HipPosition));
             EditorGUILayout.LabelField("Touched", device.Touched != null ? device.Touched.name : "nothing");
             EditorGUILayout.LabelField("Force (N)", Units.Number(device.Force.magnitude));
             EditorGUILayout.LabelField("Height", Units.Millimetres(device.Height));

@@ -127,13 +127,7 @@ namespace Knurl.Editing
                 && grating.Method == tag.Method;
             if (!same)
             {
-                grating.SpatialFrequency = tag.SpatialFrequency;
-                grating.Amplitude = tag.Amplitude;
-                grating.Stiffness = tag.Stiffness;
-                grating.Damping = tag.Damping;
-                grating.Friction = tag.Friction;
-                grating.Orientation = tag.Orientation;
-                grating.Method = tag.Method;
+                tag.CopyTo(grating);
             }
             return !same;
         }

@@ -18,6 +18,12 @@ namespace Knurl.Editing
             return Number(1e3 * metres) + " mm";
         }
 
+        /// <summary>Of a place in m, to a tenth of a millimetre.</summary>
+        internal static string Place(Vector3 metres)
+        {
+            return string.Format(CultureInfo.InvariantCulture, "{0:F4}, {1:F4}, {2:F4}", metres.x, metres.y, metres.z);
+        }
+
         /// <summary>Of spatial frequencies in 1/m: one number where the other is 0.</summary>
         internal static string Frequency(Vector2 perMetre)
         {

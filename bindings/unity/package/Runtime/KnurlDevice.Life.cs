@@ -51,6 +51,12 @@ namespace Knurl
             }
         }
 
+        /// <summary>Stops every device and gives back all that is native, for the editor.</summary>
+        internal static void StopAll()
+        {
+            World.StopAll();
+        }
+
         /// <summary>Stops it and gives back all that is native: what files brought, too.</summary>
         internal void Shut()
         {

@@ -53,13 +53,13 @@ namespace Knurl
             {
                 return Differs(FindVersion(), "none");
             }
-            catch (DllNotFoundException e)
+            catch (DllNotFoundException)
             {
-                return CannotLoad(e);
+                return CannotLoad("it was not found, or a library that it needs was not");
             }
-            catch (BadImageFormatException e)
+            catch (BadImageFormatException)
             {
-                return CannotLoad(e);
+                return CannotLoad("it is made for another processor");
             }
         }
 
@@ -70,11 +70,11 @@ namespace Knurl
                 + " (interface " + found + "): " + Remedy + ".";
         }
 
-        static string CannotLoad(Exception e)
+        static string CannotLoad(string why)
         {
             return "The native library " + NativeMethods.Library + " of Knurl " + NativeMethods.Version
-                + " cannot be loaded (" + e.Message.Trim().TrimEnd('.') + "): it is made for Windows and Linux on x86_64 "
-                + "and lies in the package's folder Plugins; where it is not there, " + Remedy + ".";
+                + " cannot be loaded (" + why + "). There is one for Windows and one for Linux, both on x86_64, in the "
+                + "package's folder Plugins; where it is not there, " + Remedy + ".";
         }
 
         static string FindVersion()

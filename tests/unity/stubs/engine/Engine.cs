@@ -213,6 +213,7 @@ namespace UnityEngine
     /// Looks straight ahead, one pixel a millimetre, without perspective.
     public sealed class Camera : Behaviour
     {
+        public float nearClipPlane { get; set; }
         public static Camera main { get { return Object.FindObjectOfType<Camera>(); } }
         public Ray ScreenPointToRay(Vector3 p)
         {

@@ -106,7 +106,18 @@ namespace UnityEngine
         }
     }
 
-    /// Faithful: components, required components, activity through parents. Not: tags, layers, scenes.
+    public enum PrimitiveType
+    {
+        Sphere,
+        Capsule,
+        Cylinder,
+        Cube,
+        Plane,
+        Quad
+    }
+
+    /// Faithful: components, required components, activity through parents, the quad's mesh. Not: tags, layers, scenes,
+    /// the meshes of other primitives.
     public sealed class GameObject : Object
     {
         internal readonly List<Component> parts = new List<Component>();
@@ -123,6 +134,26 @@ namespace UnityEngine
             {
                 AddComponent(type);
             }
+        }
+
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            GameObject made = new GameObject(type.ToString(), typeof(MeshFilter), typeof(MeshRenderer));
+            if (type == PrimitiveType.Quad)
+            {
+                made.GetComponent<MeshFilter>().sharedMesh = new Mesh
+                {
+                    name = "Quad",
+                    vertices = new[]
+                    {
+                        new Vector3(-0.5f, -0.5f, 0f), new Vector3(0.5f, -0.5f, 0f), new Vector3(-0.5f, 0.5f, 0f),
+                        new Vector3(0.5f, 0.5f, 0f)
+                    },
+                    uv = new[] { new Vector2(0f, 0f), new Vector2(1f, 0f), new Vector2(0f, 1f), new Vector2(1f, 1f) },
+                    triangles = new[] { 0, 3, 1, 3, 0, 2 }
+                };
+            }
+            return made;
         }
 
         public Transform transform { get { Living(); return (Transform)parts[0]; } }
@@ -343,21 +374,54 @@ namespace UnityEngine
         }
     }
 
-    public class Material : Object { }
+    public class Material : Object
+    {
+        public Color color { get; set; }
+        public Texture mainTexture { get; set; }
+    }
 
     public class Shader : Object { }
 
-    public class Texture : Object { }
+    public class Texture : Object
+    {
+        public int width { get; protected set; }
+        public int height { get; protected set; }
+        public int anisoLevel { get; set; }
+    }
 
+    public enum TextureFormat
+    {
+        RGBA32 = 4
+    }
+
+    /// Keeps its pixels, for tests to look at.
     public class Texture2D : Texture
     {
+        public Color32[] Pixels;
+        public Texture2D() { }
+        public Texture2D(int width, int height, TextureFormat format, bool mipChain)
+        {
+            this.width = width;
+            this.height = height;
+        }
+
+        public void SetPixels32(Color32[] colors)
+        {
+            if (colors.Length != width * height)
+            {
+                throw new UnityException("SetPixels32 called with invalid number of pixels in the array");
+            }
+            Pixels = colors;
+        }
+
+        public void Apply() { }
         public static Texture2D whiteTexture { get { return new Texture2D(); } }
     }
 
     public class Renderer : Component
     {
         public bool enabled { get; set; }
-        public Material sharedMaterial { get; set; }
+        public Material sharedMaterial { get; set; } = new Material();
         public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
         public Bounds bounds { get; set; }
         public bool isPartOfStaticBatch { get; internal set; }

@@ -14,6 +14,8 @@ namespace UnityEngine
         Quaternion ownRotation = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
         bool changed = true;
+        Matrix4x4 kept;
+        bool isKept;
 
         public bool hasChanged
         {
@@ -24,6 +26,7 @@ namespace UnityEngine
         void Touch()
         {
             changed = true;
+            isKept = false;
             for (int i = 0; i < children.Count; i++)
             {
                 children[i].Touch();
@@ -86,8 +89,13 @@ namespace UnityEngine
             get
             {
                 Living();
-                Matrix4x4 own = Matrix4x4.TRS(ownPosition, ownRotation, ownScale);
-                return (object)above == null ? own : above.localToWorldMatrix * own;
+                if (!isKept) // reading it is cheap in Unity, and frames are measured
+                {
+                    Matrix4x4 own = Matrix4x4.TRS(ownPosition, ownRotation, ownScale);
+                    kept = (object)above == null ? own : above.localToWorldMatrix * own;
+                    isKept = true;
+                }
+                return kept;
             }
         }
 

@@ -174,6 +174,13 @@ namespace UnityEngine
     }
 
     [Serializable]
+    public struct Color32
+    {
+        public byte r, g, b, a;
+        public Color32(byte r, byte g, byte b, byte a) { this.r = r; this.g = g; this.b = b; this.a = a; }
+    }
+
+    [Serializable]
     public struct Bounds
     {
         public Vector3 center;
