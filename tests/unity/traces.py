@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 
@@ -28,44 +29,33 @@ def grid_2d(t):
     return 0.006 + 0.012 * math.cos(a), y, -0.004 + 0.012 * math.sin(a)
 
 
-def handle(t, box):
-    """Around the handle's barrel, along its axis at the same time: its longest side."""
-    low, high = box
-    size = [b - a for a, b in zip(low, high)]
-    along = size.index(max(size))
-    across = [axis for axis in range(3) if axis != along]
-    radius = min(size[axis] for axis in across) / 2.0
-    depth = 0.0008 if 0.2 < t < 1.9 else -0.004
+def handle(t, profile):
+    """Around the handle, along it (x) at the same time, a little inside of where it is round."""
+    depth = min(0.0006, -0.004 + 0.02 * t) if t < 1.8 else 0.0006 - 0.03 * (t - 1.8)
+    x = -0.015 + 0.015 * t
+    after = next(i for i, (at, _) in enumerate(profile) if at > x)
+    (x0, r0), (x1, r1) = profile[after - 1:after + 1]
+    radius = r0 + (r1 - r0) * (x - x0) / (x1 - x0) - depth
     a = 0.6 + 1.9 * t
-    point = [0.0, 0.0, 0.0]
-    for axis, share in zip(across, (math.cos(a), math.sin(a))):
-        point[axis] = (low[axis] + high[axis]) / 2.0 + (radius - depth) * share
-    point[along] = low[along] + size[along] * (0.35 + 0.12 * t)
-    return tuple(point)
+    return x, radius * math.cos(a), radius * math.sin(a)
 
 
-def box_of(path):
-    """The tagged surfaces' bounds, by the file's own accessors and translations."""
-    import struct
+def profile_of(path):
+    """The handle's radius along x, by its vertices, which stand in rings."""
     with open(path, "rb") as file:
         data = file.read()
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20:20 + length])
-    low, high = [math.inf] * 3, [-math.inf] * 3
-    for node in document["nodes"]:
-        if "mesh" not in node:
-            continue
-        at = node.get("translation", [0, 0, 0])
-        for primitive in document["meshes"][node["mesh"]]["primitives"]:
-            box = document["accessors"][primitive["attributes"]["POSITION"]]
-            for i in range(3):
-                low[i] = min(low[i], at[i] + box["min"][i])
-                high[i] = max(high[i], at[i] + box["max"][i])
-    return low, high
+    accessor = document["accessors"][document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    begin = 28 + length + document["bufferViews"][accessor["bufferView"]]["byteOffset"] + accessor.get("byteOffset", 0)
+    rings = {}
+    for x, y, z in struct.iter_unpack("<3f", data[begin:begin + 12 * accessor["count"]]):
+        rings[x] = max(rings.get(x, 0.0), math.hypot(y, z))
+    return sorted(rings.items())
 
 
-barrel = box_of(f"{assets}/knurled_handle.glb")
-for name, path in (("plate_1d", plate_1d), ("grid_2d", grid_2d), ("knurled_handle", lambda t: handle(t, barrel))):
+profile = profile_of(f"{assets}/knurled_handle.glb")
+for name, path in (("plate_1d", plate_1d), ("grid_2d", grid_2d), ("knurled_handle", lambda t: handle(t, profile))):
     rows = [(i / 500.0,) + path(i / 500.0) for i in range(1001)]
     with open(f"{folder}/{name}.csv", "w") as file:
         file.write("t,x,y,z\n")

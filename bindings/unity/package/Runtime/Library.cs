@@ -7,14 +7,15 @@ namespace Knurl
 {
     internal static unsafe class Library
     {
-        const string Remedy = "install the package com.knurl.haptics anew, as a whole, and restart the editor (it keeps "
-            + "a native library loaded until it ends)";
+        const string Remedy = "install the package com.knurl.haptics anew, as a whole, and restart the editor (it "
+            + "keeps a native library loaded until it ends)";
 
         static bool isChecked;
         static string wrong;
 
-        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then nothing
-        /// else may be called. It looks once; a failure is looked at again after <see cref="ForgetFailure"/>.</summary>
+        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then
+        /// nothing else may be called. It looks once; a failure is looked at again after <see
+        /// cref="ForgetFailure"/>.</summary>
         internal static string Check()
         {
             if (!isChecked)
@@ -53,13 +54,13 @@ namespace Knurl
             {
                 return Differs(FindVersion(), "none");
             }
-            catch (DllNotFoundException e)
+            catch (DllNotFoundException)
             {
-                return CannotLoad(e);
+                return CannotLoad("it was not found, or a library that it needs was not");
             }
-            catch (BadImageFormatException e)
+            catch (BadImageFormatException)
             {
-                return CannotLoad(e);
+                return CannotLoad("it is made for another processor");
             }
         }
 
@@ -70,11 +71,11 @@ namespace Knurl
                 + " (interface " + found + "): " + Remedy + ".";
         }
 
-        static string CannotLoad(Exception e)
+        static string CannotLoad(string why)
         {
             return "The native library " + NativeMethods.Library + " of Knurl " + NativeMethods.Version
-                + " cannot be loaded (" + e.Message.Trim().TrimEnd('.') + "): it is made for Windows and Linux on x86_64 "
-                + "and lies in the package's folder Plugins; where it is not there, " + Remedy + ".";
+                + " cannot be loaded (" + why + "). There is one for Windows and one for Linux, both on x86_64, in the "
+                + "package's folder Plugins; where it is not there, " + Remedy + ".";
         }
 
         static string FindVersion()

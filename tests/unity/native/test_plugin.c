@@ -1,0 +1,260 @@
+/* The plugin's life as Unity lives it: loaded, told of the engine, updated, unloaded, again and again.
+ * SPDX-License-Identifier: MIT */
+#include "counts.h"
+#include "engine.h"
+
+#include <stdlib.h>
+
+static plugin p; /* opened by each test */
+
+static int open_plugin(void **state) {
+    (void)state;
+    memset(&engine, 0, sizeof engine);
+    p = plugin_open();
+    return 0;
+}
+
+/* After a test that failed too: no thread goes on in a library that is gone. */
+static int close_plugin(void **state) {
+    (void)state;
+    engine.at_event = NULL;
+    p.UnityPluginUnload();
+    plugin_close(&p);
+    return 0;
+}
+
+/* Waits for the haptic thread; an engine that holds still gives no sign of life meanwhile. */
+static void wait_for_ticks(knurl_session *session, uint64_t ticks, int with_updates) {
+    const int64_t give_up = knurl_system_now_ns() + (int64_t)10000000000;
+    while (plugin_state(&p, session).ticks < ticks && knurl_system_now_ns() < give_up) {
+        if (with_updates) {
+            p.knurl_unity_update(session);
+        }
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    assert_true(plugin_state(&p, session).ticks >= ticks);
+}
+
+/* One update with nothing running, which tells who is told of it. */
+static void update_once(void) {
+    knurl_session *session = NULL;
+    assert_int_equal(p.knurl_session_create(&session), KNURL_OK);
+    p.knurl_unity_update(session);
+    p.knurl_session_destroy(session);
+}
+
+/* --- the profiler --- */
+
+TEST(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it) {
+    p.UnityPluginLoad(&engine_interfaces);
+    assert_int_equal(engine.markers, 1);
+    assert_string_equal(engine.marker.name, "Knurl.Update");
+    assert_int_equal(engine.marker.category, 1); /* scripts */
+    assert_int_equal(engine.marker.flags, 0);
+    assert_int_equal(engine.event_count, 0);
+    knurl_session *sessions[2] = {plugin_run(&p), plugin_run(&p)};
+    wait_for_ticks(sessions[0], 20, 1); /* two haptic threads run meanwhile */
+    wait_for_ticks(sessions[1], 20, 1);
+    assert_true(engine.event_count > 0);
+    assert_int_equal(engine.event_count % 2, 0);
+    for (int i = 0; i < engine.event_count; i++) {
+        assert_ptr_equal(engine.events[i].marker, &engine.marker);
+        assert_int_equal(engine.events[i].event, i % 2); /* 0 begins, 1 ends */
+        assert_true(engine.events[i].thread == knurl_system_thread_id());
+    }
+    p.knurl_session_destroy(sessions[0]);
+    p.knurl_session_destroy(sessions[1]);
+    p.UnityPluginUnload();
+    assert_int_equal(engine.log_count, 0);
+}
+
+static knurl_session *watched;
+static uint32_t known[2]; /* events that a session could tell of when a mark came */
+
+static void ask_for_events(int event) {
+    knurl_session_event told;
+    known[event] += p.knurl_session_next_event(watched, &told);
+}
+
+TEST(the_sessions_update_lies_between_the_marks) {
+    p.UnityPluginLoad(&engine_interfaces);
+    watched = plugin_run(&p);
+    wait_for_ticks(watched, 200, 0); /* too long without a sign of life */
+    known[0] = known[1] = 0;
+    engine.at_event = ask_for_events;
+    p.knurl_unity_update(watched);
+    assert_int_equal(known[0], 0);
+    assert_int_equal(known[1], 1); /* as the update found out */
+    p.knurl_session_destroy(watched);
+    p.UnityPluginUnload();
+}
+
+TEST(without_a_profiler_an_update_is_just_an_update) {
+    engine.without_profiler = 1;
+    p.UnityPluginLoad(&engine_interfaces);
+    update_once();
+    assert_int_equal(engine.markers, 0);
+    assert_int_equal(engine.event_count, 0);
+    p.UnityPluginUnload();
+}
+
+TEST(a_game_that_was_built_without_the_profiler_is_left_alone) {
+    engine.unavailable = 1;
+    p.UnityPluginLoad(&engine_interfaces);
+    update_once();
+    assert_int_equal(engine.markers, 0);
+    assert_int_equal(engine.event_count, 0);
+    p.UnityPluginUnload();
+}
+
+TEST(a_marker_that_could_not_be_made_is_not_used) {
+    engine.refuses_markers = 1;
+    p.UnityPluginLoad(&engine_interfaces);
+    update_once();
+    assert_int_equal(engine.markers, 1);
+    assert_int_equal(engine.event_count, 0);
+    p.UnityPluginUnload();
+}
+
+/* --- calls out of turn --- */
+
+TEST(no_interfaces_are_as_good_as_no_engine) {
+    static const unity_interfaces empty = {NULL, NULL, NULL, NULL};
+    p.UnityPluginLoad(NULL);
+    update_once();
+    p.UnityPluginLoad(&empty);
+    update_once();
+    p.UnityPluginUnload();
+    assert_int_equal(engine.event_count, 0);
+}
+
+TEST(without_being_told_of_an_engine_everything_works) {
+    knurl_session *session = plugin_run(&p);
+    wait_for_ticks(session, 5, 1);
+    p.UnityPluginUnload();
+    assert_int_equal(plugin_state(&p, session).running, 0);
+    p.knurl_session_destroy(session);
+    p.UnityPluginUnload();
+}
+
+TEST(loaded_twice_an_update_is_marked_once) {
+    p.UnityPluginLoad(&engine_interfaces);
+    p.UnityPluginLoad(&engine_interfaces);
+    update_once();
+    assert_int_equal(engine.event_count, 2);
+    engine.without_profiler = 1;
+    p.UnityPluginLoad(&engine_interfaces); /* the newest counts */
+    update_once();
+    assert_int_equal(engine.event_count, 2);
+    p.UnityPluginUnload();
+}
+
+TEST(once_unloaded_the_engine_is_not_called_any_more) {
+    p.UnityPluginLoad(&engine_interfaces);
+    p.UnityPluginUnload();
+    update_once();
+    knurl_session *session = plugin_run(&p);
+    p.UnityPluginUnload();
+    assert_int_equal(engine.event_count, 0);
+    assert_int_equal(engine.log_count, 0);
+    p.knurl_session_destroy(session);
+}
+
+/* --- what still runs --- */
+
+TEST(sessions_that_run_at_the_unloading_are_closed_and_warned_of) {
+    p.UnityPluginLoad(&engine_interfaces);
+    knurl_session *sessions[2] = {plugin_run(&p), plugin_run(&p)};
+    wait_for_ticks(sessions[1], 5, 1);
+    p.UnityPluginUnload();
+    assert_int_equal(plugin_state(&p, sessions[0]).running, 0);
+    assert_int_equal(plugin_state(&p, sessions[1]).running, 0);
+    assert_int_equal(engine.log_count, 1);
+    assert_int_equal(engine.log_type, 2); /* a warning */
+    assert_non_null(strstr(engine.log_text, "Knurl"));
+    assert_non_null(strstr(engine.log_text, "2"));
+    p.knurl_session_destroy(sessions[0]);
+    p.knurl_session_destroy(sessions[1]);
+}
+
+TEST(sessions_that_ended_before_are_no_reason_to_warn) {
+    p.UnityPluginLoad(&engine_interfaces);
+    knurl_session *session = plugin_run(&p);
+    p.knurl_session_close(session);
+    p.UnityPluginUnload();
+    assert_int_equal(engine.log_count, 0);
+    p.knurl_session_destroy(session);
+}
+
+TEST(without_a_log_what_runs_is_closed_all_the_same) {
+    engine.without_log = 1;
+    p.UnityPluginLoad(&engine_interfaces);
+    knurl_session *session = plugin_run(&p);
+    p.UnityPluginUnload();
+    assert_int_equal(plugin_state(&p, session).running, 0);
+    assert_int_equal(engine.log_count, 0);
+    p.knurl_session_destroy(session);
+}
+
+/* --- rounds --- */
+
+#define ROUNDS 100
+
+/* What a load may leave. Windows: MinGW's runtime, in the library, does not give back its thread-local storage and
+ * locks (2626 bytes, the thread's error message among them). Elsewhere: less than the smallest block. */
+#if defined(_WIN32)
+enum { BYTES_LEFT = 3072 };
+#else
+enum { BYTES_LEFT = 24 };
+#endif
+
+/* All that a project does with a plugin, an error of the loader's, which is C++, included. */
+static void play_round(int with_engine) {
+    p = plugin_open();
+    engine.event_count = 0;
+    p.UnityPluginLoad(with_engine ? &engine_interfaces : NULL);
+    knurl_session *session = plugin_run(&p);
+    p.knurl_unity_update(session);
+    assert_int_equal(p.knurl_gltf_load_file(p.knurl_session_scene(session), KNURL_TEST_ASSETS "/none.glb", NULL),
+                     KNURL_ERROR_IO);
+    p.UnityPluginUnload();
+    p.knurl_session_destroy(session);
+    plugin_close(&p);
+}
+
+TEST(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory) {
+    memset(&engine, 0, sizeof engine);
+    for (int i = 0; i < 3; i++) { /* what the system sets up once */
+        play_round(i % 2);
+        (void)count_all();
+    }
+    const counts before = count_all();
+    for (int i = 0; i < ROUNDS; i++) {
+        play_round(i % 2);
+    }
+    const counts after = count_all();
+    assert_int_equal(after.threads, before.threads);
+    assert_int_equal(after.handles, before.handles);
+    assert_true(after.bytes < before.bytes + (int64_t)ROUNDS * BYTES_LEFT);
+    assert_true(after.maps <= before.maps + 5);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+#define LIVE(name) cmocka_unit_test_setup_teardown(name, open_plugin, close_plugin)
+        LIVE(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it),
+        LIVE(the_sessions_update_lies_between_the_marks),
+        LIVE(without_a_profiler_an_update_is_just_an_update),
+        LIVE(a_game_that_was_built_without_the_profiler_is_left_alone),
+        LIVE(a_marker_that_could_not_be_made_is_not_used),
+        LIVE(no_interfaces_are_as_good_as_no_engine),
+        LIVE(without_being_told_of_an_engine_everything_works),
+        LIVE(loaded_twice_an_update_is_marked_once),
+        LIVE(once_unloaded_the_engine_is_not_called_any_more),
+        LIVE(sessions_that_run_at_the_unloading_are_closed_and_warned_of),
+        LIVE(sessions_that_ended_before_are_no_reason_to_warn),
+        LIVE(without_a_log_what_runs_is_closed_all_the_same),
+        cmocka_unit_test(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
