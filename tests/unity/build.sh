@@ -26,7 +26,7 @@ compile() {
 
 unity=(-define:UNITY_2021_3_OR_NEWER,UNITY_STANDALONE,UNITY_STANDALONE_LINUX,UNITY_INCLUDE_TESTS)
 editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX)
-nunit=(-r:nunit.framework.dll)
+nunit=(-pkg:nunit)
 
 compile UnityEngine.dll "$out" -target:library -- "$here"/stubs/engine/*.cs
 compile UnityEditor.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/editor/*.cs
