@@ -160,20 +160,23 @@ namespace Knurl
         void FollowOne(KnurlSurface surface, Follower* f, Matrix4x4* now, bool gratingsChanged)
         {
             bool hasMoved = !IsSame(now, &f->seen);
+            bool isFeltAnew = f->felt != surface.Felt || (gratingsChanged && surface.WasChangedSince(gratingsSeen));
             f->seen = *now;
-            if (f->made != surface.Made || (f->isFlat != 0 && hasMoved))
+            if (f->made != surface.Made || (f->id == 0 && (f->isFlat != 0 ? hasMoved : isFeltAnew)))
             {
                 Remove(f);
                 Add(surface, f);
-                return;
             }
-            if (f->id != 0 && (f->felt != surface.Felt || (gratingsChanged && surface.WasChangedSince(gratingsSeen))))
+            else if (f->id != 0)
             {
-                Feel(surface, f);
-            }
-            if (f->id != 0 && hasMoved)
-            {
-                Move(surface, f);
+                if (isFeltAnew)
+                {
+                    Feel(surface, f);
+                }
+                if (hasMoved)
+                {
+                    Move(surface, f);
+                }
             }
         }
 
