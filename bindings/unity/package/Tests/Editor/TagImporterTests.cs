@@ -90,7 +90,8 @@ namespace Knurl.Tests
         public void A_wrong_tag_is_a_warning_that_names_file_object_and_key_and_nothing_is_made()
         {
             string path = files.Write("plate.gltf", "Plate", "{\"knurl_stiffness\": -1}");
-            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: node 'Plate' \\(0\\): knurl_stiffness: expected");
+            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: node 'Plate' \\(0\\): "
+                + "knurl_stiffness: expected");
             Assert.AreEqual(-1, TagImporter.Import(path));
             Assert.IsFalse(AssetDatabase.IsValidFolder(Folder));
         }
@@ -108,8 +109,8 @@ namespace Knurl.Tests
 
         [TestCase("{\"knurl_axis\": [0, 1, 0], \"knurl_spatial_frequency\": 1000, \"knurl_amplitude\": 0.0002, "
             + "\"knurl_stiffness\": 400}")]
-        [TestCase("{\"knurl\": {\"version\": 1, \"spatial_frequency\": [1000, 0], \"amplitude\": 0.0002, \"stiffness\": 400, "
-            + "\"axis\" : [0, 1, 0]}}")]
+        [TestCase("{\"knurl\": {\"version\": 1, \"spatial_frequency\": [1000, 0], \"amplitude\": 0.0002, "
+            + "\"stiffness\": 400, \"axis\" : [0, 1, 0]}}")]
         public void A_tag_with_an_axis_is_a_warning_for_it_is_the_surfaces(string extras)
         {
             string path = files.Write("plate.gltf", "Plate", extras);
@@ -137,7 +138,8 @@ namespace Knurl.Tests
         {
             // Knurl's loader would refuse it.
             string path = GltfFiles.Folder + "/packed.gltf";
-            File.WriteAllText(path, "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}");
+            File.WriteAllText(path, "{\"asset\": {\"version\": \"2.0\"}, "
+                + "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}");
             Assert.AreEqual(0, TagImporter.Import(path));
         }
 
