@@ -42,7 +42,8 @@ namespace Knurl
         /// <summary>The workspace of a device that stands at a position (m) and is turned by a rotation: its x to the
         /// right, its y up, its z towards the user, who looks along Unity's z. In scene axes that is F R D with
         /// D = diag(1, 1, -1): a proper rotation.</summary>
-        internal static void ToWorkspace(Vector3 position, Quaternion rotation, double scale, knurl_workspace* workspace)
+        internal static void ToWorkspace(Vector3 position, Quaternion rotation, double scale,
+            knurl_workspace* workspace)
         {
             double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
             double twice = 2.0 / (x * x + y * y + z * z + w * w); // a float's quaternion is not quite of length 1

@@ -1,5 +1,5 @@
-// Events of a KnurlDevice: what happened since the last frame. Any of their handlers may stop the device, start it anew,
-// or destroy it. SPDX-License-Identifier: MIT
+// Events of a KnurlDevice: what happened since the last frame. Any of their handlers may stop the device, start it
+// anew, or destroy it. SPDX-License-Identifier: MIT
 using System;
 using UnityEngine;
 

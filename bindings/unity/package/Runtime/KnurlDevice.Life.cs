@@ -16,8 +16,8 @@ namespace Knurl
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
 
-        /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component active
-        /// and enabled.</summary>
+        /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component
+        /// active and enabled.</summary>
         /// <returns>Whether it runs. An error that says why not goes to the console.</returns>
         public bool StartDevice()
         {
@@ -138,8 +138,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>What was touched is told by <see cref="LetGo"/>, not by the session: what that has left to tell is of
-        /// a run that is over.</summary>
+        /// <summary>What was touched is told by <see cref="LetGo"/>, not by the session: what that has left to tell is
+        /// of a run that is over.</summary>
         unsafe void Release()
         {
             knurl_session_event ignored;

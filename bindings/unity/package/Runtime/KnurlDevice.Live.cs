@@ -24,8 +24,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>The point of the surface that holds the haptic interaction point (m, global): where a cursor is drawn.
-        /// Without contact the haptic interaction point.</summary>
+        /// <summary>The point of the surface that holds the haptic interaction point (m, global): where a cursor is
+        /// drawn. Without contact the haptic interaction point.</summary>
         public unsafe Vector3 ProxyPosition
         {
             get
@@ -88,9 +88,9 @@ namespace Knurl
             get { return isRunning ? deviceName : ""; }
         }
 
-        /// <summary>Moves the haptic interaction point of the device "mouse"; nothing while another device runs, or none.
-        /// What comes in steps is smoothed: it lags 25 ms behind. A position that is not finite is an error in the
-        /// console.</summary>
+        /// <summary>Moves the haptic interaction point of the device "mouse"; nothing while another device runs, or
+        /// none. What comes in steps is smoothed: it lags 25 ms behind. A position that is not finite is an error in
+        /// the console.</summary>
         /// <param name="global">m, global.</param>
         public unsafe void MoveHip(Vector3 global)
         {
@@ -103,9 +103,11 @@ namespace Knurl
             }
         }
 
-        /// <summary>Adds all surfaces that are tagged in the extras of a .gltf or .glb file, at the scene's origin, without
-        /// any object; they stay as long as this component, and are told as null by its events. Play mode only.</summary>
-        /// <param name="path">A file on the disk, also in a built game (as one in Application.streamingAssetsPath).</param>
+        /// <summary>Adds all surfaces that are tagged in the extras of a .gltf or .glb file, at the scene's origin,
+        /// without any object; they stay as long as this component, and are told as null by its events. Play mode
+        /// only.</summary>
+        /// <param name="path">A file on the disk, also in a built game (as one in
+        /// Application.streamingAssetsPath).</param>
         /// <returns>How many there were, or -1 after an error, which goes to the console.</returns>
         public unsafe int LoadGltf(string path)
         {
@@ -134,8 +136,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height (m) and the force
-        /// along the normal (N).</summary>
+        /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height (m) and the
+        /// force along the normal (N).</summary>
         /// <param name="rows">Filled from its beginning: room for half as many ticks as it is long.</param>
         /// <returns>How many ticks there were; 0 while nothing runs.</returns>
         /// <exception cref="ArgumentNullException">rows is null.</exception>
@@ -155,8 +157,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Everything that is counted: ticks, times, limits that took hold, memory. All zeros while nothing runs.
-        /// For people who look for what is wrong; not for every frame.</summary>
+        /// <summary>Everything that is counted: ticks, times, limits that took hold, memory. All zeros while nothing
+        /// runs. For people who look for what is wrong; not for every frame.</summary>
         public KnurlStatus GetStatus()
         {
             return isRunning ? KnurlStatus.Of(session) : default(KnurlStatus);

@@ -7,12 +7,13 @@ namespace Knurl
     {
         const int MostTicks = 100000000;
 
-        /// <summary>What a device that does not run would play along a path, as fast as the machine can, on this thread.
-        /// Needs a fake device, play mode, and this component active and enabled.</summary>
+        /// <summary>What a device that does not run would play along a path, as fast as the machine can, on this
+        /// thread. Needs a fake device, play mode, and this component active and enabled.</summary>
         /// <param name="rows">Time (s, ascending), x, y, z (m, global) of one tick or more, interpolated linearly; the
         /// last position is held.</param>
         /// <param name="ticks">1 to 100,000,000.</param>
-        /// <returns>The force of every tick: x, y, z (N, global). Null after an error, which goes to the console.</returns>
+        /// <returns>The force of every tick: x, y, z (N, global). Null after an error, which goes to the
+        /// console.</returns>
         public double[] PlayTrace(double[] rows, int ticks)
         {
             double[] forces = null;

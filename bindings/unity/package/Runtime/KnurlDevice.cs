@@ -3,24 +3,24 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>A force-feedback device, or a simulated one, whose workspace lies in the scene. It runs a haptic thread,
-    /// commonly a thousand times a second, that lets the device feel all <see cref="KnurlSurface"/> components; in play
-    /// mode only. Where the object stands and how it is turned when the device starts, there lies the device's workspace:
-    /// x to the right, y up, the user looking along the object's z, origin at the object; the object's scale does not
-    /// count. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or disables the
-    /// device lets go of the user's hand. All members: main thread.</summary>
+    /// <summary>A force-feedback device, or a simulated one, whose workspace lies in the scene. It runs a haptic
+    /// thread, commonly a thousand times a second, that lets the device feel all <see cref="KnurlSurface"/> components;
+    /// in play mode only. Where the object stands and how it is turned when the device starts, there lies the device's
+    /// workspace: x to the right, y up, the user looking along the object's z, origin at the object; the object's scale
+    /// does not count. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or
+    /// disables the device lets go of the user's hand. All members: main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Device")]
     [DefaultExecutionOrder(1000)] // last in a frame, so that what others have moved in it is followed
     [DisallowMultipleComponent]
     public sealed partial class KnurlDevice : MonoBehaviour
     {
         [SerializeField, Tooltip("Which device: fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
-            + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as all settings "
-            + "do.")]
+            + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as all "
+            + "settings do.")]
         string device = "fake";
 
-        [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, circle, "
-            + "press or rest. Empty: it stands still at the workspace's origin.")]
+        [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, "
+            + "circle, press or rest. Empty: it stands still at the workspace's origin.")]
         string stroke = "";
 
         [SerializeField, Min(0f), Tooltip("Ticks a second, 100 to 10000. Hz")]
@@ -55,9 +55,9 @@ namespace Knurl
         /// above), with a sentence.</summary>
         public KnurlFaultEvent fault = new KnurlFaultEvent();
 
-        /// <summary>Which device: fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid, rawhid:VID:PID;
-        /// or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the next start on, as
-        /// all settings do, and is checked there.</summary>
+        /// <summary>Which device: fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
+        /// rawhid:VID:PID; or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the
+        /// next start on, as all settings do, and is checked there.</summary>
         public string Device
         {
             get { return device; }
@@ -79,8 +79,8 @@ namespace Knurl
             set { rate = value; }
         }
 
-        /// <summary>Metres of the scene per metre that the device moves, above 0. Walls feel stiffer by as much. Default
-        /// 1.</summary>
+        /// <summary>Metres of the scene per metre that the device moves, above 0. Walls feel stiffer by as much.
+        /// Default 1.</summary>
         public float WorkspaceScale
         {
             get { return workspaceScale; }
@@ -94,8 +94,8 @@ namespace Knurl
             set { autostart = value; }
         }
 
-        /// <summary>Whether a device that was lost is looked for again; otherwise losing it stops this component. Default
-        /// true.</summary>
+        /// <summary>Whether a device that was lost is looked for again; otherwise losing it stops this component.
+        /// Default true.</summary>
         public bool Reconnect
         {
             get { return reconnect; }

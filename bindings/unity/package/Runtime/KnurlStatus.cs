@@ -89,7 +89,8 @@ namespace Knurl
         /// <summary>The longest force played (N).</summary>
         public double ForceMax;
 
-        /// <summary>How warm the motors are, by a model: 0 cold to 1, as warm as they may get in the long run.</summary>
+        /// <summary>How warm the motors are, by a model: 0 cold to 1, as warm as they may get in the long
+        /// run.</summary>
         public double Heat;
 
         /// <summary>Surfaces in the scene.</summary>

@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Makes the mesh of its MeshFilter felt, with every running <see cref="KnurlDevice"/>. The mesh is read when
-    /// a device starts, or when the surface is enabled while one runs, at rest: skins and blend shapes are not followed.
-    /// To have a mesh that was changed read again, disable the surface and enable it. It follows its transform, so that
-    /// what slides under a finger is felt to slide. A scale is worked into the mesh, which is read again whenever the
-    /// scale changes: cheap enough for now and then, not for every frame. Main thread.</summary>
+    /// <summary>Makes the mesh of its MeshFilter felt, with every running <see cref="KnurlDevice"/>. The mesh is read
+    /// when a device starts, or when the surface is enabled while one runs, at rest: skins and blend shapes are not
+    /// followed. To have a mesh that was changed read again, disable the surface and enable it. It follows its
+    /// transform, so that what slides under a finger is felt to slide. A scale is worked into the mesh, which is read
+    /// again whenever the scale changes: cheap enough for now and then, not for every frame. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Surface")]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(MeshFilter))]
@@ -21,8 +21,8 @@ namespace Knurl
         [SerializeField, Tooltip("Whether it can be touched from behind as well.")]
         bool doubleSided;
 
-        [SerializeField, Tooltip("The grating's x direction in the mesh's own axes, of any length. (0, 0, 0): the mesh's "
-            + "tangents, else its UVs; a mesh that has neither needs an axis.")]
+        [SerializeField, Tooltip("The grating's x direction in the mesh's own axes, of any length. (0, 0, 0): the "
+            + "mesh's tangents, else its UVs; a mesh that has neither needs an axis.")]
         Vector3 axis;
 
         /// <summary>How it feels; null: it cannot be felt.</summary>
@@ -67,8 +67,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Whether it is what a device touched in the latest frame; of several surfaces in contact, the one that
-        /// is pressed deepest.</summary>
+        /// <summary>Whether it is what a device touched in the latest frame; of several surfaces in contact, the one
+        /// that is pressed deepest.</summary>
         public bool IsTouched
         {
             get
@@ -119,8 +119,8 @@ namespace Knurl
             return warnings.ToArray();
         }
 
-        /// <summary>The mesh that is felt: null where its sentence says that there is none that can be; or null where it
-        /// can.</summary>
+        /// <summary>The mesh that is felt: null where its sentence says that there is none that can be; or null where
+        /// it can.</summary>
         internal string FindMesh(out Mesh mesh)
         {
             var filter = GetComponent<MeshFilter>();

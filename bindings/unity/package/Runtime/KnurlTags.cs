@@ -6,7 +6,8 @@ namespace Knurl
     /// <summary>What is tagged as a grating in glTF files, for importers.</summary>
     public static class KnurlTags
     {
-        /// <summary>Reads a .gltf or .glb file on the disk with Knurl's own loader, in edit mode too. Main thread.</summary>
+        /// <summary>Reads a .gltf or .glb file on the disk with Knurl's own loader, in edit mode too. Main
+        /// thread.</summary>
         /// <param name="path">The file; a relative path counts from the process's working directory.</param>
         /// <returns>Its tagged surfaces, one a node and primitive, in the file's order; none where nothing is
         /// tagged.</returns>

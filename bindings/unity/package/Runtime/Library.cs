@@ -7,14 +7,15 @@ namespace Knurl
 {
     internal static unsafe class Library
     {
-        const string Remedy = "install the package com.knurl.haptics anew, as a whole, and restart the editor (it keeps "
-            + "a native library loaded until it ends)";
+        const string Remedy = "install the package com.knurl.haptics anew, as a whole, and restart the editor (it "
+            + "keeps a native library loaded until it ends)";
 
         static bool isChecked;
         static string wrong;
 
-        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then nothing
-        /// else may be called. It looks once; a failure is looked at again after <see cref="ForgetFailure"/>.</summary>
+        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then
+        /// nothing else may be called. It looks once; a failure is looked at again after <see
+        /// cref="ForgetFailure"/>.</summary>
         internal static string Check()
         {
             if (!isChecked)

@@ -20,12 +20,12 @@ namespace Knurl
         {
             if (!mesh.isReadable)
             {
-                return "Its mesh '" + mesh.name + "' cannot be read: switch Read/Write on in the import settings of its "
-                    + "model.";
+                return "Its mesh '" + mesh.name + "' cannot be read: switch Read/Write on in the import settings of "
+                    + "its model.";
             }
             return CountTriangles(mesh) > 0 ? null
-                : "Its mesh '" + mesh.name + "' has no triangles" + Others(mesh, ": expected the topology Triangles, found ")
-                + ".";
+                : "Its mesh '" + mesh.name + "' has no triangles"
+                    + Others(mesh, ": expected the topology Triangles, found ") + ".";
         }
 
         /// <summary>What of a readable mesh is not felt, or null.</summary>
@@ -36,8 +36,8 @@ namespace Knurl
                 : "Of its mesh '" + mesh.name + "' only triangles are felt, not " + others + ".";
         }
 
-        /// <summary>All triangles of a mesh that <see cref="Refusal"/> has nothing against. rest: worked into it, 3 by 3,
-        /// row-major, scene axes.</summary>
+        /// <summary>All triangles of a mesh that <see cref="Refusal"/> has nothing against. rest: worked into it, 3 by
+        /// 3, row-major, scene axes.</summary>
         internal static MeshData Read(Mesh mesh, double* rest)
         {
             var data = new MeshData();

@@ -4,10 +4,10 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Ridges of a mesh's triangles as line segments, by the rules that Knurl lays surface coordinates by: with an
-    /// axis metres along it from the object's origin, else UVs scaled to metres by their mean, else metres along the
-    /// tangents (which say a direction only: on a curved mesh such lines do not meet). A pure function of its fields.
-    /// Any thread.</summary>
+    /// <summary>Ridges of a mesh's triangles as line segments, by the rules that Knurl lays surface coordinates by:
+    /// with an axis metres along it from the object's origin, else UVs scaled to metres by their mean, else metres
+    /// along the tangents (which say a direction only: on a curved mesh such lines do not meet). A pure function of its
+    /// fields. Any thread.</summary>
     internal sealed class Stripes
     {
         const int MostSteps = 1 << 24;
@@ -39,7 +39,8 @@ namespace Knurl
         /// <param name="into">Room for half as many segments as it is long; 2 at least.</param>
         /// <param name="every">Which ridges were drawn: 1: all; n: each n-th, because all would have been too
         /// many.</param>
-        /// <returns>How many segments there are; 0 where the grating is smooth, or nothing says where it runs.</returns>
+        /// <returns>How many segments there are; 0 where the grating is smooth, or nothing says where it
+        /// runs.</returns>
         internal int Draw(Vector3[] into, out int every)
         {
             int room = Math.Max(1, into.Length / 2);
@@ -114,7 +115,8 @@ namespace Knurl
             normal = turned * Vector3.Cross(corners[1] - corners[0], corners[2] - corners[0]);
             bool hasAxis = Axis.sqrMagnitude > 0f, hasUvs = uScale > 0.0;
             x = hasAxis ? ToWorld.MultiplyVector(Axis).normalized
-                : !hasUvs && Has(Tangents) ? ToWorld.MultiplyVector(Tangents[Triangles[first]]).normalized : Vector3.zero;
+                : !hasUvs && Has(Tangents) ? ToWorld.MultiplyVector(Tangents[Triangles[first]]).normalized
+                : Vector3.zero;
             if ((!hasUvs && x.sqrMagnitude == 0f) || normal.sqrMagnitude == 0f)
             {
                 return false;

@@ -43,8 +43,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Stops all devices and gives all that is native back: when the game ends; in the editor also when play
-        /// mode is left and before scripts are loaded anew.</summary>
+        /// <summary>Stops all devices and gives all that is native back: when the game ends; in the editor also when
+        /// play mode is left and before scripts are loaded anew.</summary>
         internal static void StopAll()
         {
             for (int i = Devices.Count - 1; i >= 0; i--)
