@@ -56,6 +56,7 @@ compile Knurl.Haptics.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEdi
 editor_tests=("$package"/Tests/Editor/**/*.cs)
 if [ -e "$out/Knurl.Haptics.Editor.dll" ]; then
     compile Knurl.Haptics.Editor.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEditor.dll \
-        -r:Knurl.Haptics.Editor.dll -- "${editor_tests[@]}"
+        -r:Knurl.Haptics.Editor.dll -r:Knurl.Haptics.Tests.dll -r:Sample.ThreePlates.dll -- \
+        "${editor_tests[@]}" "$here"/editor_cases/*.cs
 fi
 compile Probe.exe "$out" -target:exe "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$here"/probe/*.cs
