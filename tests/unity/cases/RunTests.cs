@@ -102,8 +102,7 @@ namespace Knurl.Tests
             Until(() => told.Contains("started Plate"), "a contact");
             Until(() => told.Contains("button 0 True"), "a button");
             Until(() => told.Contains("button 0 False"), "and its end");
-            Until(() => d.InContact, "down again");
-            Player.Frames(1);
+            Until(() => d.Touched != null, "down again");
             int ends = told.Count(t => t == "ended Plate");
             Object.DestroyImmediate(s.gameObject);
             Assert.AreEqual(ends + 1, told.Count(t => t.StartsWith("ended")), "destroyed while touched: " + Words(told));
@@ -124,7 +123,7 @@ namespace Knurl.Tests
             Until(() => d.Ticks > 50, "then it ticks");
             AreNear(new Vector3(0.01f, 0.02f, -0.03f), d.HipPosition, 1e-6);
             d.MoveHip(new Vector3(0.01f, -0.002f, -0.03f));
-            Until(() => told.Count == 1 && d.Force.y > 0.5f, "down");
+            Assert.That(Player.Until(() => told.Count == 1 && d.Force.y > 0.5f, 3), "down: " + Words(told) + " " + d.Force + d.HipPosition);
             AreNear(new Vector3(0.01f, 0f, -0.03f), d.ProxyPosition, 1e-5);
             d.MoveHip(new Vector3(0.01f, 0.02f, -0.03f));
             Until(() => told.Count == 2, "up");
