@@ -1,5 +1,7 @@
 // Test-only stand-ins, never shipped. Told by the player.
 using System;
+using System.Reflection;
+using System.Runtime.CompilerServices;
 using UnityEngine;
 
 namespace UnityEditor
@@ -37,6 +39,26 @@ namespace UnityEditor
                     playModeStateChanged((PlayModeStateChange)state);
                 }
             };
+        }
+
+        /// What the editor does with an assembly that it has loaded.
+        public static void Load(Assembly assembly)
+        {
+            const BindingFlags statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
+            foreach (Type type in assembly.GetTypes())
+            {
+                if (type.IsDefined(typeof(InitializeOnLoadAttribute), false))
+                {
+                    RuntimeHelpers.RunClassConstructor(type.TypeHandle);
+                }
+                foreach (MethodInfo method in type.GetMethods(statics))
+                {
+                    if (method.IsDefined(typeof(InitializeOnLoadMethodAttribute), false))
+                    {
+                        method.Invoke(null, null);
+                    }
+                }
+            }
         }
 
         public static void Update()
