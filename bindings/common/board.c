@@ -60,33 +60,33 @@ void knurl_board_read(const knurl_board *b, knurl_board_tick *tick) {
     memcpy(tick, words, sizeof words);
 }
 
-/* What was overwritten while it was copied is left out. */
-uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows) {
-    const uint64_t end = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE);
-    uint64_t begin = end > count ? end - count : 0;
-    begin = end - begin > KNURL_BOARD_TICKS ? end - KNURL_BOARD_TICKS : begin;
+/* What a ring got from `begin` on, at most as much as it holds. What was overwritten while it was copied is left out,
+ * and so is the slot that may be written now. */
+static uint32_t copy_ring(const uint64_t *written, const uint64_t *ring, uint64_t room, uint64_t begin, uint64_t end,
+                          void *to) {
+    unsigned char *out = to;
+    begin = end - begin > room ? end - room : begin;
     for (uint64_t i = begin; i < end; i++) {
-        const uint64_t packed = __atomic_load_n(&b->history[i % KNURL_BOARD_TICKS], __ATOMIC_ACQUIRE);
-        memcpy(rows + 2 * (i - begin), &packed, sizeof packed);
+        const uint64_t word = __atomic_load_n(&ring[i % room], __ATOMIC_ACQUIRE);
+        memcpy(out + (i - begin) * sizeof word, &word, sizeof word);
     }
-    /* the row that is being written now may be torn off the oldest: one more is given up */
-    const uint64_t now = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE) + 1;
-    const uint64_t oldest = now > KNURL_BOARD_TICKS ? now - KNURL_BOARD_TICKS : 0;
+    const uint64_t now = __atomic_load_n(written, __ATOMIC_ACQUIRE) + 1;
+    const uint64_t oldest = now > room ? now - room : 0;
     if (oldest > begin) {
         const uint64_t lost = oldest - begin < end - begin ? oldest - begin : end - begin;
-        memmove(rows, rows + 2 * lost, 2 * (size_t)(end - begin - lost) * sizeof *rows);
+        memmove(out, out + lost * sizeof *ring, (size_t)(end - begin - lost) * sizeof *ring);
         begin += lost;
     }
     return (uint32_t)(end - begin);
 }
 
+uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows) {
+    const uint64_t end = __atomic_load_n(&b->written, __ATOMIC_ACQUIRE);
+    return copy_ring(&b->written, b->history, KNURL_BOARD_TICKS, end > count ? end - count : 0, end, rows);
+}
+
 uint32_t knurl_board_changes(knurl_board *b, knurl_surface *surfaces) {
-    const uint64_t end = __atomic_load_n(&b->changes, __ATOMIC_ACQUIRE);
-    uint64_t begin = b->seen;
-    b->seen = end;
-    begin = end - begin > KNURL_BOARD_CHANGES ? end - KNURL_BOARD_CHANGES : begin;
-    for (uint64_t i = begin; i < end; i++) {
-        surfaces[i - begin] = __atomic_load_n(&b->changed[i % KNURL_BOARD_CHANGES], __ATOMIC_ACQUIRE);
-    }
-    return (uint32_t)(end - begin);
+    const uint64_t begin = b->seen;
+    b->seen = __atomic_load_n(&b->changes, __ATOMIC_ACQUIRE);
+    return copy_ring(&b->changes, b->changed, KNURL_BOARD_CHANGES, begin, b->seen, surfaces);
 }

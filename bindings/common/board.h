@@ -31,7 +31,7 @@ typedef struct knurl_board {
 } knurl_board;
 
 /* A knurl_tick_callback; user: the board. */
-void knurl_board_take(const knurl_tick_output *output, void *user);
+void knurl_board_take(const knurl_tick_output *output, void *user) KNURL_NONBLOCKING;
 
 void knurl_board_read(const knurl_board *b, knurl_board_tick *tick);
 

@@ -11,8 +11,11 @@ static double room(const knurl_device_info *limits, const double from[3], const 
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
         const double space = fmin(limits->workspace_max[axis] - from[axis], from[axis] - limits->workspace_min[axis]);
+        if (space <= 0.0) {
+            return 0.0;
+        }
         if (fabs(direction[axis]) > 1e-6) {
-            reach = fmin(reach, fmax(0.0, space) / fabs(direction[axis]));
+            reach = fmin(reach, space / fabs(direction[axis]));
         }
     }
     return reach;

@@ -25,8 +25,8 @@ struct knurl_session {
     knurl_surface latest;  /* the touch after the ring's last */
     knurl_surface touched; /* as told */
     uint32_t buttons, told_buttons;
-    uint32_t faults_due; /* at most so many: who handles each slower than they come would never be done */
-    uint32_t has_ended;  /* by itself, and it is to be told */
+    uint32_t faults_due;           /* at most so many: who handles each slower than they come would never be done */
+    uint32_t has_ended;            /* by itself, and it is to be told */
     uint64_t overruns, counted_at; /* and the tick when they were counted */
     knurl_board board;
     knurl_mouse mouse;

@@ -26,7 +26,7 @@ compile() {
 
 unity=(-define:UNITY_2021_3_OR_NEWER,UNITY_STANDALONE,UNITY_STANDALONE_LINUX,UNITY_INCLUDE_TESTS)
 editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX)
-nunit=(-r:nunit.framework.dll)
+nunit=(-pkg:nunit)
 
 compile UnityEngine.dll "$out" -target:library -- "$here"/stubs/engine/*.cs
 compile UnityEditor.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/editor/*.cs
@@ -56,6 +56,7 @@ compile Knurl.Haptics.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEdi
 editor_tests=("$package"/Tests/Editor/**/*.cs)
 if [ -e "$out/Knurl.Haptics.Editor.dll" ]; then
     compile Knurl.Haptics.Editor.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEditor.dll \
-        -r:Knurl.Haptics.Editor.dll -- "${editor_tests[@]}"
+        -r:Knurl.Haptics.Editor.dll -r:Knurl.Haptics.Tests.dll -r:Sample.ThreePlates.dll -- \
+        "${editor_tests[@]}" "$here"/editor_cases/*.cs
 fi
 compile Probe.exe "$out" -target:exe "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$here"/probe/*.cs

@@ -9,8 +9,11 @@ What C# cannot have exactly as C has it, on Linux and on Windows, is refused wit
 Needs the package in requirements.txt and a C compiler's stddef.h and stdint.h.
 """
 import argparse
+import difflib
 import hashlib
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import textwrap
@@ -20,6 +23,7 @@ from clang.cindex import Cursor, CursorKind, Index, TranslationUnit, TypeKind
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 HEADERS = [ROOT / "sdk/include/knurl", ROOT / "bindings/common", HERE]
+INCLUDED_FROM = [ROOT / "sdk/include", *HEADERS[1:]]
 ENTRY = "#include <knurl/knurl.h>\n#include <session.h>\n#include <knurl_unity.h>\n"
 TARGETS = ["x86_64-linux-gnu", "x86_64-w64-windows-gnu"]
 OUTPUTS = {
@@ -29,6 +33,7 @@ OUTPUTS = {
 }
 NOTE = "Generated from Knurl's headers by bindings/unity/native/mirror.py, which makes it anew; do not edit."
 WIDTH = 120
+DIFFERENCES = 16  # lines of them that are shown
 
 NAMED = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "size_t": "UIntPtr"}
 BUILT_IN = {
@@ -49,6 +54,7 @@ KEYWORDS = set(
     "unsafe ushort using virtual void volatile while".split()
 )
 SESSION = "knurl_session*"
+IMPORT = "[DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]"
 TOGETHER = "\N{NO-BREAK SPACE}"
 
 
@@ -58,9 +64,7 @@ class Refused(Exception):
 
 def refuse(cursor, why):
     place = cursor.location
-    path = pathlib.Path(place.file.name).resolve() if place.file else pathlib.Path("?")
-    path = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path
-    raise Refused(f"{path}:{place.line}: {cursor.spelling or 'this'}: {why}")
+    raise Refused(f"{os.path.relpath(place.file.name, ROOT)}:{place.line}: {cursor.spelling or 'this'}: {why}")
 
 
 def name(text):
@@ -77,7 +81,7 @@ def spell(cursor, kind):
         return spell(cursor, kind.get_named_type())
     if kind.kind == TypeKind.RECORD:
         return kind.get_declaration().spelling
-    if kind.kind in (TypeKind.CONSTANTARRAY, TypeKind.INCOMPLETEARRAY): # of a parameter: a pointer
+    if kind.kind in (TypeKind.CONSTANTARRAY, TypeKind.INCOMPLETEARRAY):  # of a parameter: a pointer
         return spell(cursor, kind.element_type) + "*"
     if kind.kind == TypeKind.POINTER:
         pointee = kind.get_pointee()
@@ -113,15 +117,16 @@ class Mirror:
     def __init__(self, target):
         self.constants, self.structs, self.opaque, self.delegates, self.functions = {}, {}, [], [], {}
         arguments = ["-xc", "-std=c99", "-ffreestanding", "-nostdinc", "-target", target,
-                     "-isystem", compiler_headers(), *(f"-I{folder}" for folder in (ROOT / "sdk/include", *HEADERS[1:]))]
+                     "-isystem", compiler_headers(), *(f"-I{folder}" for folder in INCLUDED_FROM)]
         unit = Index.create().parse("mirror.c", arguments, [("mirror.c", ENTRY)],
                                     TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD)
         wrong = [str(diagnostic) for diagnostic in unit.diagnostics if diagnostic.severity >= diagnostic.Warning]
         if wrong:
             raise Refused("\n".join(wrong))
+        folders = {str(folder) for folder in HEADERS}
         for cursor in unit.cursor.get_children():
             place = cursor.location.file
-            if place and pathlib.Path(place.name).resolve().parent in HEADERS:
+            if place and os.path.dirname(place.name) in folders:
                 self.take(cursor)
         for opaque in list(self.opaque):
             if opaque in self.structs:
@@ -145,19 +150,23 @@ class Mirror:
         if not tokens or is_function_like(cursor) or tokens[0] in ("__attribute__", "__declspec"):
             return
         text = "".join(token for token in tokens if token not in "()")
-        for number, kind in ((lambda digits: int(digits, 0), "int"), (float, "double")):
-            try:
-                self.constants[cursor.spelling] = (kind, number(text))
-                return
-            except ValueError:
-                pass
-        refuse(cursor, f"the macro is '{' '.join(tokens)}', and only plain numbers are mirrored")
+        if re.fullmatch(r"-?(0|[1-9][0-9]*)", text):
+            self.take_constant(cursor, int(text))
+        elif re.fullmatch(r"-?[0-9]+\.[0-9]+(e-?[0-9]+)?", text):
+            self.constants[cursor.spelling] = ("double", float(text))
+        else:
+            refuse(cursor, f"the macro is '{' '.join(tokens)}', and only plain numbers are mirrored")
+
+    def take_constant(self, cursor, value):
+        if not -(2**31) <= value < 2**31:
+            refuse(cursor, f"{value} is not an int")
+        self.constants[cursor.spelling] = ("int", value)
 
     def take_enum(self, cursor):
         if not cursor.is_anonymous():
             refuse(cursor, "an enum's size is the compiler's: constants belong into an unnamed one")
         for constant in cursor.get_children():
-            self.constants[constant.spelling] = ("int", constant.enum_value)
+            self.take_constant(constant, constant.enum_value)
 
     def take_typedef(self, cursor):
         kind = cursor.underlying_typedef_type
@@ -183,6 +192,8 @@ class Mirror:
             refuse(cursor, "a struct without a name")
         rows, end, align = [], 0, 1
         for field in cursor.get_children():
+            if field.kind.is_attribute():
+                continue  # what it does to the layout is seen below
             if field.kind != CursorKind.FIELD_DECL or field.is_bitfield():
                 refuse(field, "only plain fields can be mirrored")
             if is_function_pointer(field.type) and field.type.kind == TypeKind.POINTER:
@@ -232,7 +243,7 @@ class Mirror:
         if cursor.type.kind != TypeKind.FUNCTIONPROTO:
             refuse(cursor, "a function without a prototype")
         if cursor.type.is_function_variadic():
-            return # C# cannot call it
+            return  # C# cannot call it
         values = parameters(cursor, cursor.type)
         if cursor.spelling == "knurl_session_destroy":
             values = values.replace(SESSION, "IntPtr")
@@ -244,8 +255,8 @@ class Mirror:
 
 
 def is_function_like(cursor):
-    tokens = list(cursor.get_tokens())
-    return len(tokens) > 1 and tokens[1].spelling == "(" and tokens[0].extent.end.offset == tokens[1].extent.start.offset
+    first, second = list(cursor.get_tokens())[:2]
+    return second.spelling == "(" and second.extent.start.offset == first.extent.end.offset
 
 
 def parameters(cursor, kind):
@@ -294,8 +305,7 @@ def cs_body(mirror):
     for called, (kind, value) in mirror.constants.items():
         members.append(f"        internal const {kind} {called} = {value!r};")
     for function in mirror.functions.values():
-        members += ["", "        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]",
-                    wrapped(f"internal static extern {function};", "        ")]
+        members += ["", f"        {IMPORT}", wrapped(f"internal static extern {function};", "        ")]
     return "\n".join(types), "\n".join(members)
 
 
@@ -357,17 +367,16 @@ def generate():
     mirrors = [Mirror(target) for target in TARGETS]
     texts = ["\n".join(cs_body(mirror)) for mirror in mirrors]
     if texts[0] != texts[1]:
-        raise Refused("the headers differ by target:\n" + first_difference(texts[0], texts[1]))
+        raise Refused("the headers differ by target:\n" + differences(texts[0], texts[1]))
     digits = hashlib.sha256(texts[0].encode()).hexdigest()[:16]
     return {"cs": cs_file(mirrors[0], digits), "layout": layout_file(mirrors[0], digits),
             "exports": exports_file(mirrors[0])}
 
 
-def first_difference(expected, found):
-    """The first line in which two texts differ."""
-    expected, found = expected.splitlines() + ["(end)"], found.splitlines() + ["(end)"]
-    at = next(i for i, (one, other) in enumerate(zip(expected, found)) if one != other)
-    return f"  line {at + 1}: expected: {expected[at].strip()}\n  line {at + 1}: found:    {found[at].strip()}"
+def differences(found, expected):
+    """The first lines in which two texts differ."""
+    lines = difflib.unified_diff(found.splitlines(), expected.splitlines(), "found", "expected", "", "", 0, "")
+    return "\n".join(f"  {line}" for line in list(lines)[:DIFFERENCES])
 
 
 def check(texts):
@@ -376,8 +385,8 @@ def check(texts):
         found = path.read_text() if path.exists() else ""
         if found != texts[key]:
             wrong = 1
-            print(f"mirror.py: {path.relative_to(ROOT)} is not what the headers say:\n"
-                  + first_difference(texts[key], found), file=sys.stderr)
+            print(f"mirror.py: {path.relative_to(ROOT)} is not what the headers say:", file=sys.stderr)
+            print(differences(found, texts[key]), file=sys.stderr)
     if wrong:
         print("mirror.py: run it without --check, and commit what it writes", file=sys.stderr)
     return wrong

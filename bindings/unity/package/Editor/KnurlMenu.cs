@@ -96,17 +96,18 @@ namespace Knurl.Editing
             {
                 return path;
             }
-            path = EditorUtility.OpenFilePanelWithFilters("The glTF file with the tags of " + root.name, "Assets",
+            string chosen = EditorUtility.OpenFilePanelWithFilters("The glTF file with the tags of " + root.name, "Assets",
                 new[] { "glTF", "gltf,glb" });
-            path = string.IsNullOrEmpty(path) ? "" : FileUtil.GetProjectRelativePath(path.Replace('\\', '/'));
+            if (string.IsNullOrEmpty(chosen))
+            {
+                return null;
+            }
+            path = FileUtil.GetProjectRelativePath(chosen.Replace('\\', '/'));
             if (TagImporter.IsGltf(path))
             {
                 return path;
             }
-            if (path != "")
-            {
-                Debug.LogWarning("Knurl: expected a .gltf or .glb file below the project's Assets", root);
-            }
+            Debug.LogWarning("Knurl: expected a .gltf or .glb file below the project's Assets, found " + chosen, root);
             return null;
         }
 

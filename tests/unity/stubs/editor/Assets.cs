@@ -83,7 +83,18 @@ namespace UnityEditor
         }
 
         public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
-        public static bool DeleteAsset(string path) { return Assets.Remove(path); }
+        /// With what is below it.
+        public static bool DeleteAsset(string path)
+        {
+            bool found = folders.Remove(path) | Assets.Remove(path);
+            folders.RemoveWhere(folder => folder.StartsWith(path + "/", StringComparison.Ordinal));
+            foreach (string asset in new List<string>(Assets.Keys))
+            {
+                found |= asset.StartsWith(path + "/", StringComparison.Ordinal) && Assets.Remove(asset);
+            }
+            return found;
+        }
+
         public static void SaveAssets() { }
         public static void Refresh() { }
         public static void StartAssetEditing() { }

@@ -214,6 +214,7 @@ namespace UnityEngine
     public sealed class Camera : Behaviour
     {
         public float nearClipPlane { get; set; }
+        public static Camera current { get { return main; } }
         public static Camera main { get { return Object.FindObjectOfType<Camera>(); } }
         public Ray ScreenPointToRay(Vector3 p)
         {

@@ -20,6 +20,19 @@ namespace UnityEngine
             UInt16,
             UInt32
         }
+
+        public enum CompareFunction
+        {
+            Disabled,
+            Never,
+            Less,
+            Equal,
+            LessEqual,
+            Greater,
+            NotEqual,
+            GreaterEqual,
+            Always
+        }
     }
 
     /// Faithful: arrays are copies, what is not readable gives an error and nothing, submeshes and topologies.

@@ -53,7 +53,7 @@ namespace Knurl.Tests
                 Assert.That(d.Running);
                 Assert.That(d.GetStatus().Running);
                 Assert.AreEqual(3.3, d.GetStatus().MaxForce, 1e-9);
-                Assert.That(d.DeviceName, Is.StringContaining("simulated Touch"));
+                Contains(d.DeviceName, "simulated Touch");
                 d.StopDevice();
                 Assert.That(d.Running, Is.False);
                 d.StopDevice();

@@ -60,7 +60,7 @@ namespace Knurl.Tests
             mesh.UploadMeshData(true);
             KnurlSurface surface = MakeSmooth(mesh);
             string all = string.Join(" ", surface.GetWarnings());
-            Assert.That(all, Is.StringContaining("Read/Write"));
+            Contains(all, "Read/Write");
             LogAssert.ignoreFailingMessages = true; // an error or a warning, as long as nothing is thrown
             AreNear(Vector3.zero, PressDown(0f, 0f), 0.0);
         }
@@ -114,8 +114,8 @@ namespace Knurl.Tests
             KnurlSurface surface = MakeObject("Lonely").AddComponent<KnurlSurface>();
             string[] warnings = surface.GetWarnings();
             Assert.AreEqual(2, warnings.Length, string.Join(" | ", warnings));
-            Assert.That(warnings[0], Is.StringContaining("mesh"));
-            Assert.That(warnings[1], Is.StringContaining("rating"));
+            Contains(warnings[0], "mesh");
+            Contains(warnings[1], "rating");
         }
 
         [Test]
@@ -142,8 +142,8 @@ namespace Knurl.Tests
             KnurlDevice device = MakeDevice();
             Assert.That(device.StartDevice());
             Assert.AreEqual(0, good.GetWarnings().Length, string.Join(" | ", good.GetWarnings()));
-            Assert.That(string.Join(" ", far.GetWarnings()), Is.StringContaining("outside of the device's workspace"));
-            Assert.That(string.Join(" ", hard.GetWarnings()), Is.StringContaining("N/m"));
+            Contains(string.Join(" ", far.GetWarnings()), "outside of the device's workspace");
+            Contains(string.Join(" ", hard.GetWarnings()), "N/m");
         }
     }
 }

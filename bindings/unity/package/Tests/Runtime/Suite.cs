@@ -121,6 +121,14 @@ namespace Knurl.Tests
                 what + ": expected " + expected + ", found " + found);
         }
 
+        protected static void Contains(string text, params string[] parts)
+        {
+            foreach (string part in parts)
+            {
+                Assert.That(text != null && text.Contains(part), "expected '" + part + "' in '" + text + "'");
+            }
+        }
+
         /// <summary>What the wall answers at Depth.</summary>
         protected static Vector3 Wall(Vector3 up)
         {

@@ -1,0 +1,359 @@
+/* What a session tells: which touches, buttons and faults, in which order, and what is left of them after its end.
+ * SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+#include "device/driver.h"
+
+enum { STARTED = KNURL_SESSION_CONTACT_STARTED, ENDED = KNURL_SESSION_CONTACT_ENDED };
+
+/* Three plates side by side, the first under the origin; open, with a loop to step. */
+typedef struct three {
+    knurl_session *s;
+    knurl_surface plate[3];
+} three;
+
+static void set_up(three *t, const char *device) {
+    const knurl_session_desc desc = describe(device, "");
+    t->s = make_session();
+    for (int i = 0; i < 3; i++) {
+        t->plate[i] = add_plate(t->s, 0.2 * i, 0.0, 0.0);
+    }
+    open_session(t->s, &desc);
+    begin(t->s);
+}
+
+/* The same without plates. */
+static knurl_session *set_up_nothing(const char *device) {
+    const knurl_session_desc desc = describe(device, "");
+    knurl_session *s = make_session();
+    open_session(s, &desc);
+    begin(s);
+    return s;
+}
+
+static void press_on(const three *t, int i) {
+    press(t->s, 0.2 * i, 0.0);
+}
+
+TEST(a_touch_is_told_when_it_begins_and_when_it_is_over) {
+    three t;
+    set_up(&t, "fake");
+    lift(t.s);
+    knurl_session_update(t.s);
+    check_no_event(t.s);
+    press_on(&t, 0);
+    check_no_event(t.s); /* before an update */
+    knurl_session_update(t.s);
+    assert_true(state_of(t.s).surface == 0 && state_of(t.s).in_contact == 1);
+    check_event(t.s, STARTED, t.plate[0]);
+    assert_true(state_of(t.s).surface == t.plate[0]);
+    check_no_event(t.s);
+    lift(t.s);
+    knurl_session_update(t.s);
+    assert_true(state_of(t.s).surface == t.plate[0] && state_of(t.s).in_contact == 0);
+    check_event(t.s, ENDED, t.plate[0]);
+    assert_true(state_of(t.s).surface == 0);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(a_touch_shorter_than_a_frame_is_told) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    lift(t.s);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(what_comes_back_within_a_frame_was_never_away) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    lift(t.s);
+    press_on(&t, 0);
+    lift(t.s);
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(several_touches_of_a_frame_are_told_in_their_order) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    press_on(&t, 2);
+    press_on(&t, 1);
+    knurl_session_update(t.s);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_event(t.s, STARTED, t.plate[2]);
+    check_event(t.s, ENDED, t.plate[2]);
+    check_event(t.s, STARTED, t.plate[1]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(a_surface_that_is_taken_out_is_let_go_of) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
+    knurl_session_update(t.s); /* the latest tick still has it */
+    check_event(t.s, ENDED, t.plate[0]);
+    step(t.s, 1);
+    knurl_session_update(t.s);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    press_on(&t, 1);
+    knurl_session_update(t.s);
+    assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
+    check_event(t.s, STARTED, t.plate[1]);
+    assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[1]), KNURL_OK);
+    press_on(&t, 2);
+    knurl_session_update(t.s);
+    check_event(t.s, ENDED, t.plate[1]);
+    check_event(t.s, STARTED, t.plate[2]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(each_start_has_its_end_however_long_nobody_asked) {
+    three t;
+    knurl_session_event event;
+    knurl_surface touched = 0;
+    uint32_t count = 0;
+    set_up(&t, "fake");
+    for (int i = 0; i < 1000; i++) {
+        press_on(&t, i % 3);
+        knurl_session_update(t.s);
+    }
+    while (knurl_session_next_event(t.s, &event)) {
+        assert_int_equal(event.kind, touched ? ENDED : STARTED);
+        assert_true(!touched || event.surface == touched);
+        touched = touched ? 0 : event.surface;
+        assert_true(++count <= 2 * KNURL_SESSION_TOUCHES);
+    }
+    assert_true(count > KNURL_SESSION_TOUCHES && touched == t.plate[999 % 3]);
+    knurl_session_destroy(t.s);
+}
+
+TEST(closing_in_the_middle_of_fetching_leaves_one_end) {
+    three t;
+    set_up(&t, "fake:?press_at=0.001");
+    press_on(&t, 0);
+    press_on(&t, 1);
+    press_on(&t, 2);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    knurl_session_close(t.s);
+    assert_true(state_of(t.s).surface == 0);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(closing_before_anything_was_fetched_leaves_nothing) {
+    three t;
+    set_up(&t, "fake:?press_at=0.001");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    knurl_session_close(t.s);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+TEST(opened_again_it_tells_the_old_end_first) {
+    const knurl_session_desc desc = describe("fake", "");
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    knurl_session_close(t.s);
+    open_session(t.s, &desc);
+    begin(t.s);
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_event(t.s, STARTED, t.plate[0]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+static void check_button(knurl_session *s, int32_t button, double pressed) {
+    knurl_session_event event;
+    assert_int_equal(knurl_session_next_event(s, &event), 1);
+    assert_int_equal(event.kind, KNURL_SESSION_BUTTON);
+    assert_int_equal(event.code, button);
+    CHECK_SAME(event.value, pressed);
+}
+
+TEST(a_button_is_told_when_it_goes_down_and_when_it_comes_up) {
+    knurl_session *s = set_up_nothing("fake:?press_at=0.05"); /* for 0.1 s */
+    step(s, 50);
+    knurl_session_update(s);
+    check_no_event(s);
+    step(s, 1);
+    knurl_session_update(s);
+    assert_int_equal(state_of(s).buttons, 1);
+    check_button(s, 0, 1.0);
+    check_no_event(s);
+    step(s, 101);
+    knurl_session_update(s);
+    assert_int_equal(state_of(s).buttons, 0);
+    check_button(s, 0, 0.0);
+    check_no_event(s);
+    knurl_session_destroy(s);
+}
+
+TEST(every_button_has_its_number) {
+    knurl_session *s = set_up_nothing("fake");
+    step(s, 1);
+    s->device->buttons = 0x80000005u;
+    knurl_session_update(s);
+    check_button(s, 0, 1.0);
+    check_button(s, 2, 1.0);
+    check_button(s, 31, 1.0);
+    s->device->buttons = 0x00000004u;
+    knurl_session_update(s);
+    check_button(s, 0, 0.0);
+    check_button(s, 31, 0.0);
+    check_no_event(s);
+    knurl_session_destroy(s);
+}
+
+static void check_fault(knurl_session *s, int32_t code, double value) {
+    knurl_session_event event;
+    assert_int_equal(knurl_session_next_event(s, &event), 1);
+    assert_int_equal(event.kind, KNURL_SESSION_FAULT);
+    assert_int_equal(event.code, code);
+    CHECK_SAME(event.value, value);
+}
+
+TEST(a_lost_device_is_told_and_then_the_end) {
+    knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
+    knurl_session *s = make_session();
+    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    desc.reconnect = 0;
+    open_session(s, &desc);
+    begin(s);
+    press(s, 0.0, 0.0);
+    knurl_session_update(s);
+    check_event(s, STARTED, plate);
+    step(s, 1000);
+    knurl_session_update(s);
+    check_event(s, ENDED, plate); /* without a position nothing is felt */
+    check_fault(s, KNURL_FAULT_LOST, 0.0);
+    assert_int_equal(state_of(s).running, 0);
+    assert_true(state_of(s).ticks == 0);
+    check_event(s, KNURL_SESSION_ENDED, 0);
+    check_no_event(s);
+    knurl_session_update(s);
+    check_no_event(s); /* once */
+    knurl_session_close(s);
+    check_no_event(s);
+    knurl_session_destroy(s);
+}
+
+TEST(a_device_that_comes_back_is_told_and_goes_on) {
+    knurl_session *s = set_up_nothing("fake:?lose_at=0.1");
+    step(s, 300);
+    knurl_session_update(s);
+    check_fault(s, KNURL_FAULT_LOST, 0.0);
+    knurl_session_event event;
+    int is_back = 0;
+    while (knurl_session_next_event(s, &event)) {
+        assert_int_equal(event.kind, KNURL_SESSION_FAULT);
+        is_back = is_back || event.code == KNURL_FAULT_RECONNECTED;
+    }
+    assert_true(is_back && state_of(s).running);
+    knurl_session_destroy(s);
+}
+
+TEST(a_device_without_a_position_plays_nothing) {
+    knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    desc.reconnect = 0;
+    open_session(s, &desc);
+    begin(s);
+    press(s, 0.0, 0.0);
+    CHECK_CLOSE(state_of(s).force[2], STIFFNESS * 0.001, 1e-9);
+    assert_int_equal(state_of(s).in_contact, 1);
+    step(s, 100);
+    const knurl_session_state now = state_of(s); /* before an update has seen the end */
+    assert_true(now.running == 1 && now.in_contact == 0 && now.ticks == 100);
+    CHECK_VECTOR(now.force, 0.0, 0.0, 0.0, 0.0);
+    CHECK_VECTOR(now.proxy, now.hip[0], now.hip[1], now.hip[2], 0.0);
+    CHECK_SAME(now.hip[2], -0.001);
+    knurl_session_destroy(s);
+}
+
+TEST(faults_come_with_their_values_after_touches_and_buttons) {
+    three t;
+    set_up(&t, "fake:?press_at=0.001");
+    press_on(&t, 0);
+    knurl_events_report(&t.s->device->events, KNURL_FAULT_SILENT, 0.012);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    check_button(t.s, 0, 1.0);
+    check_fault(t.s, KNURL_FAULT_SILENT, 0.012);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
+/* A handler that takes longer than a device that fails in every tick. */
+TEST(a_frame_ends_however_many_faults_there_are) {
+    knurl_session_event event;
+    knurl_session *s = set_up_nothing("fake");
+    step(s, 1);
+    knurl_events_report(&s->device->events, KNURL_FAULT_CORRUPT, 1.0);
+    knurl_session_update(s);
+    int count = 0;
+    while (knurl_session_next_event(s, &event)) {
+        knurl_events_report(&s->device->events, KNURL_FAULT_CORRUPT, 1.0);
+        assert_true(++count <= KNURL_EVENT_ROOM);
+    }
+    knurl_session_update(s);
+    assert_int_equal(knurl_session_next_event(s, &event), 1);
+    knurl_session_destroy(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_touch_is_told_when_it_begins_and_when_it_is_over),
+        cmocka_unit_test(a_touch_shorter_than_a_frame_is_told),
+        cmocka_unit_test(what_comes_back_within_a_frame_was_never_away),
+        cmocka_unit_test(several_touches_of_a_frame_are_told_in_their_order),
+        cmocka_unit_test(a_surface_that_is_taken_out_is_let_go_of),
+        cmocka_unit_test(a_touch_of_what_is_gone_by_now_is_not_told),
+        cmocka_unit_test(each_start_has_its_end_however_long_nobody_asked),
+        cmocka_unit_test(closing_in_the_middle_of_fetching_leaves_one_end),
+        cmocka_unit_test(closing_before_anything_was_fetched_leaves_nothing),
+        cmocka_unit_test(opened_again_it_tells_the_old_end_first),
+        cmocka_unit_test(a_button_is_told_when_it_goes_down_and_when_it_comes_up),
+        cmocka_unit_test(every_button_has_its_number),
+        cmocka_unit_test(a_lost_device_is_told_and_then_the_end),
+        cmocka_unit_test(a_device_that_comes_back_is_told_and_goes_on),
+        cmocka_unit_test(a_device_without_a_position_plays_nothing),
+        cmocka_unit_test(faults_come_with_their_values_after_touches_and_buttons),
+        cmocka_unit_test(a_frame_ends_however_many_faults_there_are),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,163 @@
+/* Sentences for people: why something is not felt, what went wrong. SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+static knurl_surface add_at(knurl_session *s, double x, double stiffness) {
+    surface_parts parts = surface_plane();
+    set_grating(&parts, KNURL_METHOD_DEFAULT, 0.0, 0.0, 0.0);
+    parts.material.stiffness = stiffness;
+    parts.desc.name = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80"; /* two bytes, three, four */
+    parts.desc.position[0] = x;
+    return add_surface(knurl_session_scene(s), &parts);
+}
+
+TEST(what_can_be_felt_needs_no_words) {
+    const knurl_session_desc desc = describe("fake", "");
+    char text[64] = "?";
+    knurl_session *s = make_session();
+    const knurl_surface plate = add_at(s, 0.0, 300.0);
+    const knurl_surface far = add_at(s, 5.0, 1e6);
+    knurl_session_explain(s, far, text, sizeof text);
+    assert_string_equal(text, ""); /* closed: nobody knows */
+    open_session(s, &desc);
+    begin(s);
+    knurl_session_explain(s, plate, text, sizeof text);
+    assert_string_equal(text, "");
+    knurl_session_explain(s, 0, text, sizeof text);
+    assert_string_equal(text, ""); /* what is not there is nothing to explain */
+    knurl_session_destroy(s);
+}
+
+/* The fake device is 0.16 m wide, a plate 0.1 m: they meet up to 0.13 m. */
+TEST(what_lies_out_of_reach_is_said_to) {
+    const double cases[][2] = {{0.129, 1.0}, {0.131, 1.0}, {-0.131, 1.0}, {0.20, 2.0}, {0.211, 2.0}};
+    const int far[] = {0, 1, 1, 0, 1};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        knurl_session_desc desc = describe("fake", "");
+        char text[1024] = "?";
+        knurl_session *s = make_session();
+        const knurl_surface plate = add_at(s, cases[i][0], 100.0);
+        desc.workspace.scale = cases[i][1];
+        open_session(s, &desc);
+        begin(s);
+        knurl_session_explain(s, plate, text, sizeof text);
+        assert_int_equal(strstr(text, "outside of the device's workspace") != NULL, far[i]);
+        knurl_session_destroy(s);
+    }
+}
+
+TEST(reasons_have_a_line_each) {
+    const knurl_session_desc desc = describe("fake", "");
+    char text[2048] = "?";
+    knurl_surface_check check;
+    knurl_session *s = make_session();
+    const knurl_surface hard = add_at(s, 5.0, 1e5);
+    open_session(s, &desc);
+    begin(s);
+    knurl_surface_check_init(&check, sizeof check);
+    assert_int_equal(knurl_scene_check_surface(s->scene, 0, hard, &check), KNURL_OK);
+    knurl_session_explain(s, hard, text, sizeof text);
+    char *second = strchr(text, '\n');
+    assert_non_null(second);
+    assert_string_equal(second + 1, check.message);
+    knurl_session_destroy(s);
+}
+
+/* However small the buffer, the text is the whole one's beginning, ends, and ends with a whole character. */
+static void check_cuts(const char *whole, uint32_t size, const char *text) {
+    const size_t length = strlen(text);
+    assert_true(length < size && strncmp(whole, text, length) == 0);
+    assert_true(((unsigned char)whole[length] & 0xC0) != 0x80); /* what follows is no continuation */
+    assert_true(length + 4 >= size || length == strlen(whole)); /* no more than that is lost */
+}
+
+TEST(a_fault_is_its_sentence_with_value_and_unit) {
+    char text[256];
+    knurl_session_fault_text(KNURL_FAULT_SILENT, 0.012, text, sizeof text);
+    assert_string_equal(text, "no position came for too long (0.012 s)");
+    knurl_session_fault_text(KNURL_FAULT_LOST, 0.0, text, sizeof text);
+    assert_string_equal(text, "the device is gone: unplugged or switched off");
+    knurl_session_fault_text(12345, 1.0, text, sizeof text);
+    assert_string_equal(text, knurl_fault_string(12345));
+}
+
+TEST(texts_are_cut_off_at_their_size) {
+    const char *whole = "no position came for too long (0.012 s)";
+    for (uint32_t size = 1; size < 64; size++) {
+        char text[64];
+        memset(text, '#', sizeof text);
+        knurl_session_fault_text(KNURL_FAULT_SILENT, 0.012, text, size);
+        check_cuts(whole, size, text);
+        for (uint32_t i = size; i < sizeof text; i++) {
+            assert_int_equal(text[i], '#');
+        }
+    }
+    char untouched = '#';
+    knurl_session_fault_text(KNURL_FAULT_SILENT, 0.012, &untouched, 0);
+    knurl_session_fault_text(KNURL_FAULT_SILENT, 0.012, NULL, 100);
+    assert_int_equal(untouched, '#');
+}
+
+TEST(they_are_cut_off_between_characters) {
+    const char *name = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80.";
+    for (uint32_t size = 1; size < 32; size++) {
+        char text[32] = "";
+        knurl_session_say(text, size, "%s%s", name, name);
+        char whole[64];
+        memcpy(whole, name, strlen(name));
+        memcpy(whole + strlen(name), name, strlen(name) + 1);
+        check_cuts(whole, size, text);
+    }
+}
+
+TEST(what_is_no_text_at_all_is_cut_off_too) {
+    for (uint32_t size = 1; size < 16; size++) {
+        char text[16] = "";
+        knurl_session_say(text, size, "%s", "\x80\x80\x80\x80\x80\x80\xFF\xFF\xC0\xE0\xF0\x80\x80\x80\x80\x80\x80");
+        assert_true(strlen(text) < size);
+    }
+}
+
+TEST(a_stroke_that_cannot_be_laid_is_warned_of) {
+    const knurl_session_desc desc = describe("fake", "line");
+    char warning[256] = "?";
+    knurl_session *s = make_session();
+    (void)add_at(s, 1.0, 300.0);
+    open_session(s, &desc);
+    assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
+    assert_non_null(strstr(warning, "outside of the workspace"));
+    assert_non_null(strstr(warning, "\xF0\x9F\x98\x80"));
+    for (uint32_t size = 1; size < 20; size++) {
+        char cut[20] = "";
+        knurl_session_close(s);
+        open_session(s, &desc);
+        assert_int_equal(knurl_session_start(s, cut, size), KNURL_OK);
+        check_cuts(warning, size, cut);
+    }
+    knurl_session_destroy(s);
+}
+
+TEST(one_that_can_is_not) {
+    const knurl_session_desc desc = describe("fake", "line");
+    char warning[256] = "?";
+    knurl_session *s = make_session();
+    (void)add_at(s, 0.0, 300.0);
+    open_session(s, &desc);
+    assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
+    assert_string_equal(warning, "");
+    knurl_session_destroy(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_can_be_felt_needs_no_words),
+        cmocka_unit_test(what_lies_out_of_reach_is_said_to),
+        cmocka_unit_test(reasons_have_a_line_each),
+        cmocka_unit_test(a_fault_is_its_sentence_with_value_and_unit),
+        cmocka_unit_test(texts_are_cut_off_at_their_size),
+        cmocka_unit_test(they_are_cut_off_between_characters),
+        cmocka_unit_test(what_is_no_text_at_all_is_cut_off_too),
+        cmocka_unit_test(a_stroke_that_cannot_be_laid_is_warned_of),
+        cmocka_unit_test(one_that_can_is_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,322 @@
+/* Lives of sessions, in every order that a game can think of. SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE 1 /* opendir() */
+
+#include "session_rig.h"
+
+#include <dirent.h>
+
+static const uint8_t zeros[sizeof(knurl_session_state)];
+
+static int thread_count(void) {
+    int count = 0;
+    DIR *folder = opendir("/proc/self/task");
+    assert_non_null(folder);
+    while (readdir(folder)) {
+        count++;
+    }
+    (void)closedir(folder);
+    return count - 2; /* . and .. */
+}
+
+/* The system may still list a thread that was joined. */
+static int threads_are(int count) {
+    const int64_t begin = knurl_system_now_ns();
+    while (thread_count() != count && knurl_system_now_ns() - begin < PATIENCE_NS) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    return thread_count() == count;
+}
+
+static void open_fake(knurl_session *s) {
+    const knurl_session_desc desc = describe("fake", "rest");
+    open_session(s, &desc);
+}
+
+static void start(knurl_session *s) {
+    assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
+}
+
+static void check_closed(knurl_session *s) {
+    const knurl_session_state now = state_of(s);
+    float rows[2];
+    assert_null(knurl_session_device(s));
+    assert_null(knurl_session_loop(s));
+    assert_memory_equal(&now, zeros, sizeof now);
+    assert_int_equal(knurl_session_get_history(s, 1, rows), 0);
+    check_no_event(s);
+}
+
+TEST(a_new_session_is_closed_and_its_scene_is_empty) {
+    knurl_session *s = make_session();
+    check_closed(s);
+    assert_non_null(knurl_session_scene(s));
+    assert_int_equal(knurl_scene_surface_count(knurl_session_scene(s)), 0);
+    knurl_session_update(s);
+    knurl_session_close(s);
+    knurl_session_close(s);
+    check_closed(s);
+    knurl_session_destroy(s);
+    knurl_session_destroy(NULL);
+}
+
+TEST(the_defaults_are_a_fake_device_at_1_khz) {
+    knurl_session_desc desc;
+    knurl_session_desc_init(&desc, sizeof desc);
+    assert_string_equal(desc.device, "fake");
+    assert_string_equal(desc.stroke, "");
+    CHECK_SAME(desc.update_rate_hz, 1000.0);
+    CHECK_SAME(desc.heartbeat_s, 0.25);
+    CHECK_SAME(desc.workspace.scale, 1.0);
+    assert_true(desc.struct_size == sizeof desc && desc.reconnect == 1 && desc.clamp == 1 && desc.reserved == 0);
+}
+
+TEST(nothing_starts_that_is_closed) {
+    char warning[8] = "as was";
+    knurl_session *s = make_session();
+    CHECK_REFUSED(knurl_session_start(s, warning, sizeof warning), KNURL_ERROR_STATE, warning);
+    check_message("closed");
+    check_closed(s);
+    knurl_session_destroy(s);
+}
+
+TEST(nothing_is_opened_or_started_twice) {
+    const knurl_session_desc desc = describe("mouse", "");
+    char warning[8] = "as was";
+    knurl_session *s = make_session();
+    open_fake(s);
+    const knurl_device *device = knurl_session_device(s);
+    assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
+    check_message("open");
+    assert_ptr_equal(knurl_session_device(s), device);
+    start(s);
+    const knurl_loop *loop = knurl_session_loop(s);
+    CHECK_REFUSED(knurl_session_start(s, warning, sizeof warning), KNURL_ERROR_STATE, warning);
+    check_message("started");
+    assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
+    assert_true(knurl_session_loop(s) == loop && state_of(s).running);
+    knurl_session_destroy(s);
+}
+
+TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
+    const double nan = NAN;
+    const knurl_session_desc good = describe("fake", "");
+    knurl_session_desc bad[10];
+    const knurl_result codes[10] = {[5] = KNURL_ERROR_UNKNOWN, [6] = KNURL_ERROR_UNKNOWN};
+    const char *words[10] = {"update_rate_hz", "update_rate_hz", "heartbeat_s", "reconnect", "clamp",
+                             "nonsense",       "wiggle",         "scale",       "bytes",     "speed"};
+    knurl_session *s = make_session();
+    for (int i = 0; i < 10; i++) {
+        bad[i] = good;
+    }
+    bad[0].update_rate_hz = 99.0;
+    bad[1].update_rate_hz = nan;
+    bad[2].heartbeat_s = -1.0;
+    bad[3].reconnect = 2;
+    bad[4].clamp = 2;
+    bad[5].device = "nonsense";
+    bad[6].stroke = "wiggle";
+    bad[7].workspace.scale = 0.0;
+    bad[8].struct_size = 8;
+    bad[9].device = "fake:?speed=1";
+    for (int i = 0; i < 10; i++) {
+        (void)knurl_fail(KNURL_ERROR_STATE, "stale message");
+        check_refusal(knurl_session_open(s, &bad[i]), codes[i] ? codes[i] : KNURL_ERROR_ARGUMENT, __FILE__, __LINE__);
+        check_message(words[i]);
+        check_closed(s);
+    }
+    assert_int_equal(knurl_session_open(s, NULL), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_session_open(s, &good), KNURL_OK);
+    knurl_session_destroy(s);
+}
+
+TEST(strings_are_not_kept) {
+    char device[] = "fake:?press_at=0.001";
+    char stroke[] = "line";
+    knurl_session_desc desc = describe(device, stroke);
+    knurl_session *s = make_session();
+    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    open_session(s, &desc);
+    memset(device, 'x', sizeof device);
+    memset(stroke, 'x', sizeof stroke);
+    memset(&desc, 0x5a, sizeof desc);
+    begin(s);
+    step(s, 1000);
+    knurl_session_update(s);
+    check_event(s, KNURL_SESSION_CONTACT_STARTED, plate);
+    knurl_session_destroy(s);
+}
+
+TEST(no_strings_are_a_fake_device_that_stands_still) {
+    knurl_session_desc desc = describe(NULL, NULL);
+    knurl_device_info info;
+    knurl_session *s = make_session();
+    open_session(s, &desc);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(knurl_session_device(s), &info), KNURL_OK);
+    assert_non_null(strstr(info.name, "fake"));
+    begin(s);
+    step(s, 500);
+    const knurl_session_state now = state_of(s);
+    CHECK_VECTOR(now.hip, 0.0, 0.0, 0.0, 0.001); /* a hand trembles, a joint sticks: 0.26 N / 700 N/m */
+    knurl_session_destroy(s);
+}
+
+TEST(surfaces_outlive_runs) {
+    knurl_session *s = make_session();
+    knurl_scene *scene = knurl_session_scene(s);
+    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    for (int round = 0; round < 3; round++) {
+        open_fake(s);
+        begin(s);
+        press(s, 0.0, 0.0);
+        knurl_session_update(s);
+        check_event(s, KNURL_SESSION_CONTACT_STARTED, plate);
+        CHECK_CLOSE(state_of(s).force[2], STIFFNESS * 0.001, 1e-9);
+        assert_true(state_of(s).ticks == 12); /* since the start */
+        knurl_session_close(s);
+        check_event(s, KNURL_SESSION_CONTACT_ENDED, plate);
+        check_closed(s);
+        assert_ptr_equal(knurl_session_scene(s), scene);
+        assert_int_equal(knurl_scene_surface_count(scene), 1);
+    }
+    knurl_session_destroy(s);
+}
+
+TEST(surfaces_may_come_before_between_and_during_runs) {
+    knurl_session *s = make_session();
+    for (int round = 0; round < 3; round++) {
+        (void)add_plate(s, 0.2 * (3 * round), 0.0, 0.0);
+        open_fake(s);
+        (void)add_plate(s, 0.2 * (3 * round + 1), 0.0, 0.0);
+        begin(s);
+        (void)add_plate(s, 0.2 * (3 * round + 2), 0.0, 0.0);
+        for (int i = 0; i < 3 * round + 3; i++) {
+            press(s, 0.2 * i, 0.0);
+            knurl_session_update(s);
+            assert_int_equal(state_of(s).in_contact, 1);
+        }
+        knurl_session_close(s);
+    }
+    knurl_session_destroy(s);
+}
+
+TEST(a_scene_that_the_caller_committed_is_fine) {
+    knurl_session *s = make_session();
+    assert_int_equal(knurl_scene_commit(knurl_session_scene(s)), KNURL_OK);
+    open_fake(s);
+    start(s);
+    knurl_session_destroy(s);
+}
+
+TEST(destroying_what_runs_ends_its_threads) {
+    const int before = thread_count();
+    knurl_session *s = make_session();
+    open_fake(s);
+    start(s);
+    assert_true(thread_count() > before);
+    knurl_session_destroy(s);
+    assert_true(threads_are(before));
+    s = make_session();
+    open_fake(s);
+    knurl_session_destroy(s); /* open */
+    s = make_session();
+    open_fake(s);
+    start(s);
+    knurl_session_close(s);
+    assert_true(threads_are(before));
+    knurl_session_destroy(s); /* closed */
+}
+
+TEST(all_are_closed_and_those_that_ran_are_counted) {
+    const int before = thread_count();
+    knurl_session *s[4];
+    for (int i = 0; i < 4; i++) {
+        s[i] = make_session();
+    }
+    for (int i = 0; i < 3; i++) {
+        open_fake(s[i]);
+    }
+    start(s[0]);
+    start(s[2]);
+    assert_int_equal(knurl_session_close_all(), 2);
+    assert_true(threads_are(before));
+    for (int i = 0; i < 4; i++) {
+        check_closed(s[i]);
+    }
+    assert_int_equal(knurl_session_close_all(), 0);
+    open_fake(s[3]);
+    start(s[3]);
+    assert_int_equal(knurl_session_close_all(), 1);
+    for (int i = 0; i < 4; i++) {
+        knurl_session_destroy(s[i]);
+    }
+    assert_int_equal(knurl_session_close_all(), 0);
+}
+
+TEST(those_that_were_destroyed_are_not_among_all) {
+    static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (size_t i = 0; i < COUNT_OF(orders); i++) {
+        knurl_session *s[3];
+        for (int j = 0; j < 3; j++) {
+            s[j] = make_session();
+            open_fake(s[j]);
+            s[j]->runs = 1; /* to be counted */
+        }
+        for (int j = 0; j < 3; j++) {
+            knurl_session_destroy(s[orders[i][j]]);
+            for (int k = j + 1; k < 3; k++) {
+                s[orders[i][k]]->runs = 1;
+            }
+            assert_int_equal(knurl_session_close_all(), 2 - j);
+        }
+    }
+}
+
+static void destroy_one(void *session) {
+    knurl_session_destroy(session);
+}
+
+/* As a runtime's finalisers do. */
+TEST(sessions_are_destroyed_on_another_thread_while_all_are_closed) {
+    for (int round = 0; round < 10; round++) {
+        knurl_session *s[4];
+        knurl_thread *threads[4];
+        for (int i = 0; i < 4; i++) {
+            s[i] = make_session();
+            open_fake(s[i]);
+            if (i % 2 == 0) {
+                start(s[i]);
+            }
+        }
+        for (int i = 0; i < 4; i++) {
+            threads[i] = knurl_system_start_thread(destroy_one, s[i], (size_t)256 * 1024);
+            assert_non_null(threads[i]);
+        }
+        assert_in_range(knurl_session_close_all(), 0, 2);
+        knurl_session *one = make_session();
+        for (int i = 0; i < 4; i++) {
+            knurl_system_join_thread(threads[i]);
+        }
+        knurl_session_destroy(one);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_new_session_is_closed_and_its_scene_is_empty),
+        cmocka_unit_test(the_defaults_are_a_fake_device_at_1_khz),
+        cmocka_unit_test(nothing_starts_that_is_closed),
+        cmocka_unit_test(nothing_is_opened_or_started_twice),
+        cmocka_unit_test(what_cannot_be_opened_is_named_and_leaves_it_closed),
+        cmocka_unit_test(strings_are_not_kept),
+        cmocka_unit_test(no_strings_are_a_fake_device_that_stands_still),
+        cmocka_unit_test(surfaces_outlive_runs),
+        cmocka_unit_test(surfaces_may_come_before_between_and_during_runs),
+        cmocka_unit_test(a_scene_that_the_caller_committed_is_fine),
+        cmocka_unit_test(destroying_what_runs_ends_its_threads),
+        cmocka_unit_test(all_are_closed_and_those_that_ran_are_counted),
+        cmocka_unit_test(those_that_were_destroyed_are_not_among_all),
+        cmocka_unit_test(sessions_are_destroyed_on_another_thread_while_all_are_closed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

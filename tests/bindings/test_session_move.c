@@ -1,0 +1,203 @@
+/* Surfaces that follow an engine's objects, and the HIP that a game moves. SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
+
+typedef struct rig {
+    knurl_session *s;
+    knurl_surface plate;
+    knurl_session_way way;
+} rig;
+
+/* A finger 1 mm deep in a plate at 0 that is to move, after so many ticks. */
+static void set_up(rig *r, uint64_t ticks) {
+    const knurl_session_desc desc = describe("fake", "");
+    memset(r, 0, sizeof *r);
+    r->s = make_session();
+    r->plate = add_plate(r->s, 0.0, 0.0, 0.0);
+    open_session(r->s, &desc);
+    begin(r->s);
+    press(r->s, 0.0, 0.0);
+    step(r->s, ticks - state_of(r->s).ticks);
+}
+
+static void move_to(rig *r, double x, double z) {
+    const double position[3] = {x, 0.0, z};
+    assert_int_equal(knurl_session_move_surface(r->s, r->plate, &r->way, position, upright), KNURL_OK);
+}
+
+/* z of the plate, after so many more ticks. */
+static double plate_after(rig *r, uint64_t ticks) {
+    step(r->s, ticks);
+    return state_of(r->s).proxy[2];
+}
+
+/* The plate comes up evenly, and is there after `ticks`: looked at half way, where being a tick off is seen. */
+static void check_way(rig *r, double from, double to, double ticks) {
+    const uint64_t half = (uint64_t)(0.5 * ticks);
+    const double share = (double)half / ticks;
+    const double tick = (to - from) / ticks;
+    CHECK_CLOSE(plate_after(r, half), from + share * (to - from), 0.51 * tick);
+    CHECK_CLOSE(plate_after(r, (uint64_t)ticks - half + 2), to, 1e-12);
+}
+
+TEST(a_first_move_takes_a_sixtieth_of_a_second) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.0, 0.0005);
+    check_way(&r, 0.0, 0.0005, 1000.0 / 60.0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(a_further_move_takes_the_time_since_the_last) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.0, 0.0002);
+    step(r.s, 50);
+    move_to(&r, 0.0, 0.0005);
+    check_way(&r, 0.0002, 0.0005, 50.0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(after_a_rest_a_move_is_a_first_one_again) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.0, 0.0002);
+    step(r.s, 101);
+    move_to(&r, 0.0, 0.0005);
+    check_way(&r, 0.0002, 0.0005, 1000.0 / 60.0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(two_moves_of_a_tick_are_a_place) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.0, 0.0002);
+    move_to(&r, 0.0, 0.0005);
+    (void)plate_after(&r, 1);
+    CHECK_CLOSE(plate_after(&r, 1), 0.0005, 1e-12);
+    knurl_session_destroy(r.s);
+}
+
+/* 10 m/s over a sixtieth: 0.1667 m. The plate reaches 0.05 m: dragged, it is still under the finger a tick later. */
+TEST(what_moves_faster_than_10_m_per_s_leaps) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.166, 0.0);
+    step(r.s, 1);
+    assert_int_equal(state_of(r.s).in_contact, 1);
+    knurl_session_destroy(r.s);
+    set_up(&r, 200);
+    move_to(&r, 0.168, 0.0);
+    step(r.s, 1);
+    assert_int_equal(state_of(r.s).in_contact, 0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(a_slow_frame_leaps_further) {
+    rig r;
+    set_up(&r, 200);
+    move_to(&r, 0.0, 0.0001);
+    step(r.s, 50); /* at 10 m/s: 0.5 m */
+    move_to(&r, 0.49, 0.0001);
+    step(r.s, 1);
+    assert_int_equal(state_of(r.s).in_contact, 1);
+    knurl_session_destroy(r.s);
+}
+
+TEST(a_way_begins_where_the_surface_was_added) {
+    const knurl_session_desc desc = describe("fake", "");
+    rig r;
+    memset(&r, 0, sizeof r);
+    r.s = make_session();
+    r.plate = add_plate(r.s, 0.5, 0.0, 0.0);
+    r.way.position[0] = 0.5;
+    open_session(r.s, &desc);
+    begin(r.s);
+    press(r.s, 0.5, 0.0);
+    step(r.s, 200);
+    move_to(&r, 0.5, 0.0005);
+    check_way(&r, 0.0, 0.0005, 1000.0 / 60.0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(a_move_that_is_refused_leaves_the_way) {
+    static const double no_rotation[4] = {0.0, 0.0, 0.0, 2.0};
+    static const double far[3] = {0.0, 0.0, NAN};
+    static const double near[3] = {0.0, 0.0, 0.001};
+    rig r;
+    set_up(&r, 20);
+    CHECK_REFUSED(knurl_session_move_surface(r.s, r.plate, &r.way, far, upright), KNURL_ERROR_ARGUMENT, r.way);
+    CHECK_REFUSED(knurl_session_move_surface(r.s, r.plate, &r.way, near, no_rotation), KNURL_ERROR_ARGUMENT, r.way);
+    assert_int_equal(knurl_scene_remove_surface(r.s->scene, r.plate), KNURL_OK);
+    CHECK_REFUSED(knurl_session_move_surface(r.s, r.plate, &r.way, near, upright), KNURL_ERROR_STALE_ID, r.way);
+    knurl_session_destroy(r.s);
+}
+
+TEST(what_moves_while_nothing_runs_is_put_there) {
+    const knurl_session_desc desc = describe("fake", "");
+    rig r;
+    memset(&r, 0, sizeof r);
+    r.s = make_session();
+    r.plate = add_plate(r.s, 0.0, 0.0, 0.0);
+    move_to(&r, 0.0, 0.01); /* closed */
+    open_session(r.s, &desc);
+    move_to(&r, 0.0, 0.02);
+    begin(r.s);
+    hold(r.s, 0.0, 0.0, 0.021, 2);
+    hold(r.s, 0.0, 0.0, 0.019, 5);
+    CHECK_CLOSE(state_of(r.s).proxy[2], 0.02, 1e-12);
+    knurl_session_destroy(r.s);
+}
+
+TEST(the_game_moves_the_mouse_alone) {
+    static const double here[3] = {0.0, 0.0, 0.0};
+    static const double nowhere[3] = {0.0, INFINITY, 0.0};
+    const knurl_session_desc fake = describe("fake", "");
+    const knurl_session_desc mouse = describe("mouse", "");
+    knurl_session *s = make_session();
+    assert_int_equal(knurl_session_move_hip(s, here), KNURL_ERROR_STATE);
+    check_message("closed");
+    open_session(s, &fake);
+    assert_int_equal(knurl_session_move_hip(s, here), KNURL_ERROR_STATE);
+    check_message("another device");
+    knurl_session_close(s);
+    open_session(s, &mouse);
+    assert_int_equal(knurl_session_move_hip(s, nowhere), KNURL_ERROR_ARGUMENT);
+    check_message("finite");
+    assert_int_equal(knurl_session_move_hip(s, here), KNURL_OK);
+    knurl_session_destroy(s);
+}
+
+TEST(the_mouse_is_moved_in_the_scene) {
+    static const double there[3] = {0.3, 0.2, 0.1};
+    knurl_session_desc desc = describe("mouse", "");
+    knurl_device_sample sample;
+    double expected[3];
+    knurl_session *s = make_session();
+    desc.workspace.origin[0] = 1.0;
+    desc.workspace.scale = 2.0;
+    open_session(s, &desc);
+    assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
+    assert_int_equal(knurl_device_read(knurl_session_device(s), &sample), KNURL_OK);
+    knurl_workspace_to_device(&desc.workspace, there, expected);
+    CHECK_VECTOR(sample.position, expected[0], expected[1], expected[2], 0.0);
+    knurl_session_destroy(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_first_move_takes_a_sixtieth_of_a_second),
+        cmocka_unit_test(a_further_move_takes_the_time_since_the_last),
+        cmocka_unit_test(after_a_rest_a_move_is_a_first_one_again),
+        cmocka_unit_test(two_moves_of_a_tick_are_a_place),
+        cmocka_unit_test(what_moves_faster_than_10_m_per_s_leaps),
+        cmocka_unit_test(a_slow_frame_leaps_further),
+        cmocka_unit_test(a_way_begins_where_the_surface_was_added),
+        cmocka_unit_test(a_move_that_is_refused_leaves_the_way),
+        cmocka_unit_test(what_moves_while_nothing_runs_is_put_there),
+        cmocka_unit_test(the_game_moves_the_mouse_alone),
+        cmocka_unit_test(the_mouse_is_moved_in_the_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

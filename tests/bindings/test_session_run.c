@@ -1,0 +1,174 @@
+/* Sessions whose haptic thread runs. Nothing here depends on how fast: what is waited for comes, or never does.
+ * SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+static void run(knurl_session *s, const knurl_session_desc *desc) {
+    open_session(s, desc);
+    assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
+}
+
+static int feels(const knurl_session *s) {
+    const knurl_session_state state = state_of(s);
+    return fabs(state.force[0]) + fabs(state.force[1]) + fabs(state.force[2]) > 0.05;
+}
+
+static int feels_nothing(const knurl_session *s) {
+    const knurl_session_state state = state_of(s);
+    return state.force[0] == 0.0 && state.force[1] == 0.0 && state.force[2] == 0.0;
+}
+
+/* 1 once the event was told; others before it are thrown away. */
+static int is_told(knurl_session *s, int32_t kind, int32_t code) {
+    knurl_session_event event;
+    while (knurl_session_next_event(s, &event)) {
+        if (event.kind == kind && event.code == code) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
+    const knurl_session_desc desc = describe("fake", "press");
+    static float rows[2 * KNURL_SESSION_HISTORY];
+    knurl_session_event event;
+    knurl_session *s = make_session();
+    const knurl_surface plate = add_plate(s, 0.02, 0.01, 0.005);
+    run(s, &desc);
+    assert_int_equal(state_of(s).running, 1);
+    CHECK_UNTIL(s, feels(s));
+    CHECK_UNTIL(s, knurl_session_next_event(s, &event) && event.kind == KNURL_SESSION_CONTACT_STARTED);
+    assert_true(event.surface == plate && state_of(s).surface == plate);
+    CHECK_UNTIL(s, state_of(s).ticks > 200);
+    const uint32_t count = knurl_session_get_history(s, KNURL_SESSION_HISTORY, rows);
+    float most = 0.0F;
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(rows[2 * i] == 0.0F && rows[2 * i + 1] >= 0.0F); /* smooth, and it never pulls */
+        most = fmaxf(most, rows[2 * i + 1]);
+    }
+    assert_true(count > 190 && most > 0.05F);
+    assert_int_equal(knurl_session_get_history(s, 10, rows), 10);
+    assert_int_equal(knurl_session_get_history(s, 0, rows), 0);
+    knurl_session_close(s);
+    check_event(s, KNURL_SESSION_CONTACT_ENDED, plate);
+    check_no_event(s);
+    knurl_session_destroy(s);
+}
+
+TEST(a_game_that_hangs_is_let_go_of_until_it_lives_again) {
+    knurl_session_desc desc = describe("fake", "rest");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    desc.heartbeat_s = 0.05;
+    run(s, &desc);
+    for (int round = 0; round < 2; round++) {
+        CHECK_UNTIL(s, feels(s));
+        const int64_t begin = knurl_system_now_ns();
+        while (!feels_nothing(s)) { /* no update */
+            assert_true(knurl_system_now_ns() - begin < PATIENCE_NS);
+            knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+        }
+        assert_int_equal(state_of(s).in_contact, 1);
+        CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
+    }
+    knurl_session_destroy(s);
+}
+
+TEST(without_a_heartbeat_a_game_may_be_silent) {
+    knurl_session_desc desc = describe("fake", "rest");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    desc.heartbeat_s = 0.0;
+    run(s, &desc);
+    const int64_t begin = knurl_system_now_ns();
+    while (!feels(s) || state_of(s).ticks < 800) {
+        assert_true(knurl_system_now_ns() - begin < PATIENCE_NS);
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    knurl_session_update(s);
+    assert_false(is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
+    knurl_session_destroy(s);
+}
+
+TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
+    static const double above[3] = {0.0, 0.0, 0.01};
+    static const double below[3] = {0.0, 0.0, -0.001};
+    const knurl_session_desc desc = describe("mouse", "line");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    run(s, &desc);
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 20000000);
+    assert_true(state_of(s).ticks == 0 && feels_nothing(s));
+    assert_int_equal(knurl_session_move_hip(s, above), KNURL_OK);
+    CHECK_UNTIL(s, state_of(s).ticks > 10);
+    assert_int_equal(knurl_session_move_hip(s, below), KNURL_OK);
+    CHECK_UNTIL(s, fabs(state_of(s).force[2] - STIFFNESS * 0.001) < 1e-3);
+    knurl_session_destroy(s);
+}
+
+TEST(losing_the_device_ends_the_run_where_it_is_not_looked_for) {
+    knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
+    knurl_session *s = make_session();
+    desc.reconnect = 0;
+    run(s, &desc);
+    CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_LOST));
+    CHECK_UNTIL(s, is_told(s, KNURL_SESSION_ENDED, 0));
+    assert_int_equal(state_of(s).running, 0);
+    assert_int_equal(knurl_session_close_all(), 0);
+    knurl_session_destroy(s);
+}
+
+TEST(else_it_is_found_again) {
+    const knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
+    knurl_session *s = make_session();
+    run(s, &desc);
+    CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_RECONNECTED));
+    CHECK_UNTIL(s, state_of(s).ticks > 200);
+    assert_int_equal(state_of(s).running, 1);
+    knurl_session_destroy(s);
+}
+
+/* Edits, closes and starts from the game's thread against the haptic one: for the thread sanitizer. */
+TEST(a_game_does_what_it_likes_while_it_runs) {
+    static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
+    const knurl_session_desc desc = describe("fake", "circle");
+    knurl_session_event event;
+    char text[512];
+    static float rows[2 * 256];
+    knurl_session *s = make_session();
+    for (int round = 0; round < 3; round++) {
+        const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+        knurl_session_way way = {{0.0, 0.0, 0.0}, 0};
+        run(s, &desc);
+        for (int frame = 0; frame < 50; frame++) {
+            const double position[3] = {0.0, 0.0, 1e-5 * frame};
+            assert_int_equal(knurl_session_move_surface(s, plate, &way, position, upright), KNURL_OK);
+            knurl_session_update(s);
+            while (knurl_session_next_event(s, &event)) {}
+            assert_in_range(knurl_session_get_history(s, 256, rows), 0, 256);
+            knurl_session_explain(s, plate, text, sizeof text);
+            assert_int_equal(state_of(s).running, 1);
+            knurl_system_sleep_until_ns(knurl_system_now_ns() + 2000000);
+        }
+        assert_int_equal(knurl_scene_remove_surface(knurl_session_scene(s), plate), KNURL_OK);
+        knurl_session_update(s);
+        while (knurl_session_next_event(s, &event)) {}
+        assert_true(state_of(s).surface == 0);
+        knurl_session_close(s);
+        check_no_event(s);
+    }
+    knurl_session_destroy(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stroke_over_the_first_surface_is_felt_and_told),
+        cmocka_unit_test(a_game_that_hangs_is_let_go_of_until_it_lives_again),
+        cmocka_unit_test(without_a_heartbeat_a_game_may_be_silent),
+        cmocka_unit_test(a_mouse_is_nowhere_until_it_moves_and_then_feels),
+        cmocka_unit_test(losing_the_device_ends_the_run_where_it_is_not_looked_for),
+        cmocka_unit_test(else_it_is_found_again),
+        cmocka_unit_test(a_game_does_what_it_likes_while_it_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
