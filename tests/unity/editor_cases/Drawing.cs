@@ -154,7 +154,6 @@ namespace Knurl.Cases
         [Test]
         public void Devices_stop_when_the_editor_quits()
         {
-            Hooks.RunInitializers();
             KnurlDevice device = MakeDevice();
             Assert.IsTrue(device.StartDevice());
             EditorApplication.Quit();

@@ -48,15 +48,6 @@ namespace Knurl.Cases
             return Editor.CreateEditor(target, found);
         }
 
-        /// <summary>As the editor does at load.</summary>
-        internal static void RunInitializers()
-        {
-            foreach (Type type in Types.Where(type => type.IsDefined(typeof(InitializeOnLoadAttribute), false)))
-            {
-                System.Runtime.CompilerServices.RuntimeHelpers.RunClassConstructor(type.TypeHandle);
-            }
-        }
-
         internal static void Postprocess(string[] imported, string[] moved = null, string[] movedFrom = null)
         {
             string[] none = new string[0];

@@ -14,8 +14,8 @@ namespace Knurl.Editing
         const string PartMark = " / "; // Knurl's names are "node / material" where a mesh has several primitives
 
         /// <summary>Adds a KnurlSurface, or updates the one that is there, on each object at or below root whose name
-        /// is a tag's. gratings: one for each tag, or null. Can be undone in one step. Returns what could not be placed,
-        /// a sentence each.</summary>
+        /// is a tag's. gratings: one for each tag, or null. Can be undone in one step. Returns what could not be
+        /// placed, a sentence each.</summary>
         internal static List<string> Apply(GameObject root, IReadOnlyList<KnurlTag> tags,
             IReadOnlyList<KnurlGrating> gratings)
         {
