@@ -99,8 +99,8 @@ def plugin_body(path):
     lines += ["        CPU: x86_64", "        DefaultValueInitialized: true", f"        OS: {system}"]
     for name in PLAYERS:
         on = name == player
-        lines += ["  - first:", f"      Standalone: {name}", "    second:", f"      enabled: {int(on)}", "      settings:"]
-        lines += [f"        CPU: {'x86_64' if on else 'None'}"]
+        lines += ["  - first:", f"      Standalone: {name}", "    second:", f"      enabled: {int(on)}"]
+        lines += ["      settings:", f"        CPU: {'x86_64' if on else 'None'}"]
     return "\n".join(lines) + "\n"
 
 

@@ -10,8 +10,8 @@ mkdir -p "$1"
 out=$(cd "$1" && pwd)
 shift
 
-version=$(sed -n 's/^#define KNURL_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)$/\2/p' "$here/../../sdk/include/knurl/base.h" |
-    paste -sd .)
+header=$here/../../sdk/include/knurl/base.h
+version=$(sed -n 's/^#define KNURL_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)$/\2/p' "$header" | paste -sd .)
 if ! grep -qx "  \"version\": \"$version\"," "$here/package/package.json"; then
     echo "package: package/package.json: version: expected $version, as in knurl/base.h" >&2
     exit 1
@@ -59,5 +59,5 @@ gzip -n -9 <"$stage/tar" >"$stage/tgz"
 [ ! -e "$out/$name" ] || mv "$out/$name" "$stage/old"
 mv "$stage/$name" "$out/$name"
 mv "$stage/tgz" "$out/$name-$version.tgz"
-echo "package: $out/$name-$version.tgz holds $(cd "$out/$name/Plugins" && find . -name '*knurl_unity*' ! -name '*.meta' |
-    sort | paste -sd ' ')"
+libraries=$(find "$out/$name/Plugins" -type f ! -name '*.meta' -printf '%f\n' | sort | paste -sd ' ')
+echo "package: $out/$name-$version.tgz holds $libraries"

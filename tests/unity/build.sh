@@ -10,7 +10,7 @@ root=$(cd "$here/../.." && pwd)
 command -v mcs >/dev/null || { echo "build.sh: no mcs: apt-get install mono-mcs mono-runtime libmono-cil-dev" >&2; exit 1; }
 mkdir -p "$1/player" "$1/plain"
 out=$(cd "$1" && pwd)
-package=$root/bindings/unity/package
+package=${KNURL_UNITY_PACKAGE:-$root/bindings/unity/package} # one that was packed, or the sources
 shopt -s nullglob globstar
 
 # compile NAME FOLDER-OF-OUTPUT OPTIONS... -- SOURCES: nothing where there are no sources

@@ -39,12 +39,14 @@ namespace Knurl.Cases
         public void A_grating_is_drawn_with_units_and_explained()
         {
             Draw(MakeGrating(1000f));
-            foreach (string label in new[] { "spatialFrequency as Spatial Frequency (1/m)", "amplitude as Amplitude (m)",
-                "stiffness as Stiffness (N/m)", "damping as Damping (N s/m)", "orientation as Orientation (rad)" })
+            foreach (string label in new[] { "spatialFrequency as Spatial Frequency (1/m)",
+                "amplitude as Amplitude (m)", "stiffness as Stiffness (N/m)", "damping as Damping (N s/m)",
+                "orientation as Orientation (rad)" })
             {
                 CollectionAssert.Contains(EditorGUILayout.Drawn, "property " + label);
             }
-            CollectionAssert.Contains(EditorGUILayout.Drawn, "Info: A ridge every 1 mm along x, 0.4 mm from bottom to top.");
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Info: A ridge every 1 mm along x, 0.4 mm from bottom to top.");
         }
 
         [Test]
@@ -55,7 +57,8 @@ namespace Knurl.Cases
             EditorGUILayout.Answers["Preset"] = true;
             KnurlGrating grating = MakeGrating(1000f);
             Draw(grating);
-            Assert.AreEqual(new[] { "a", "b" }, GenericMenu.Shown.Items.Keys.Select(title => title.Split(':')[0]).ToArray());
+            Assert.AreEqual(new[] { "a", "b" },
+                GenericMenu.Shown.Items.Keys.Select(title => title.Split(':')[0]).ToArray());
             GenericMenu.Shown.Items.Last().Value();
             Assert.AreEqual(150f, grating.Stiffness);
             KnurlSurface surface = MakeSurface(Plate());
@@ -89,7 +92,8 @@ namespace Knurl.Cases
         {
             KnurlDevice device = MakeDevice();
             Draw(device);
-            CollectionAssert.Contains(EditorGUILayout.Drawn, "Info: It does not run; settings count from the next start on.");
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Info: It does not run; settings count from the next start on.");
             EditorGUILayout.Drawn.Clear();
             Assert.IsTrue(device.StartDevice());
             Draw(device);
@@ -113,7 +117,8 @@ namespace Knurl.Cases
         {
             KnurlDevice device = MakeDevice("touch");
             Hooks.DrawGizmo(device);
-            CollectionAssert.Contains(Gizmos.Drawn, "wire cube " + Vector3.zero + " " + new Vector3(0.16f, 0.12f, 0.07f));
+            CollectionAssert.Contains(Gizmos.Drawn,
+                "wire cube " + Vector3.zero + " " + new Vector3(0.16f, 0.12f, 0.07f));
         }
 
         [Test]
@@ -149,7 +154,6 @@ namespace Knurl.Cases
         [Test]
         public void Devices_stop_when_the_editor_quits()
         {
-            Hooks.RunInitializers();
             KnurlDevice device = MakeDevice();
             Assert.IsTrue(device.StartDevice());
             EditorApplication.Quit();

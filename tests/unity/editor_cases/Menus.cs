@@ -25,7 +25,7 @@ namespace Knurl.Cases
                     if (item.menuItem == path && item.validate == validate)
                     {
                         bool takesCommand = method.GetParameters().Length == 1;
-                        return method.Invoke(null, takesCommand ? new object[] { new MenuCommand(context) } : new object[0]);
+                        return method.Invoke(null, takesCommand ? new object[] { new MenuCommand(context) } : null);
                     }
                 }
             }
@@ -46,15 +46,6 @@ namespace Knurl.Cases
             Type found = Types.Single(type => type.GetCustomAttributes(typeof(CustomEditor), false)
                 .Cast<CustomEditor>().Any(editor => editor.InspectedType == target.GetType()));
             return Editor.CreateEditor(target, found);
-        }
-
-        /// <summary>As the editor does at load.</summary>
-        internal static void RunInitializers()
-        {
-            foreach (Type type in Types.Where(type => type.IsDefined(typeof(InitializeOnLoadAttribute), false)))
-            {
-                System.Runtime.CompilerServices.RuntimeHelpers.RunClassConstructor(type.TypeHandle);
-            }
         }
 
         internal static void Postprocess(string[] imported, string[] moved = null, string[] movedFrom = null)
@@ -139,7 +130,8 @@ namespace Knurl.Cases
             Assert.IsNull(plate.GetComponent<KnurlSurface>());
             EditorUtility.Chosen = "/home/someone/Project/" + path;
             Hooks.CallMenu("GameObject/Knurl/Add Surfaces From glTF Tags", false);
-            Assert.AreSame(GltfFiles.Grating(path + " Gratings/Plate.asset"), plate.GetComponent<KnurlSurface>().Grating);
+            KnurlGrating given = plate.GetComponent<KnurlSurface>().Grating;
+            Assert.AreSame(GltfFiles.Grating(path + " Gratings/Plate.asset"), given);
             CollectionAssert.Contains(Undo.Steps, "Add Knurl Surfaces");
         }
 

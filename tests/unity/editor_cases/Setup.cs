@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+using System.Reflection;
 using NUnit.Framework;
+using UnityEditor;
 using UnityEngine;
 
 namespace Knurl.Cases
@@ -11,6 +13,7 @@ namespace Knurl.Cases
         [SetUp]
         public void EnterPlayMode()
         {
+            EditorApplication.Load(Assembly.Load("Knurl.Haptics.Editor"));
             Player.EnterPlayMode();
         }
 

@@ -22,7 +22,7 @@ def read(*path):
 def version():
     """The SDK's, from its header."""
     header = read(ROOT, "sdk", "include", "knurl", "base.h")
-    return ".".join(re.search(rf"#define KNURL_VERSION_{part} (\d+)", header).group(1) for part in ("MAJOR", "MINOR", "PATCH"))
+    return ".".join(re.findall(r"^#define KNURL_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", header, re.MULTILINE))
 
 
 def copy_of_package(folder):

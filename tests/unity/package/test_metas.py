@@ -113,7 +113,8 @@ class Faults(package.InFolder):
 
     def run_metas(self, *arguments):
         program = os.path.join(package.UNITY, "metas.py")
-        return subprocess.run([sys.executable, program, *arguments, self.root], capture_output=True, text=True, check=False)
+        command = [sys.executable, program, *arguments, self.root]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
 
     def test_the_program_says_all_faults_and_fails(self):
         os.remove(os.path.join(self.root, GRATING + ".meta"))

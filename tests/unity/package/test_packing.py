@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""package.sh makes what the Package Manager takes. The libraries are stand-ins: what is in them does not matter here."""
+"""package.sh makes what the Package Manager takes. The libraries are stand-ins: what is in them does not matter."""
 import json
 import os
 import re
@@ -31,7 +31,8 @@ def make_library(path, compiler, magic):
     """A library with nothing in it, or a file that starts like one where that cannot be made."""
     if shutil.which(compiler):
         command = [compiler, "-shared", "-g", "-o", path, "-x", "c", "-"]
-        subprocess.run(command, input="int knurl_stand_in(void); int knurl_stand_in(void) { return 1; }", text=True, check=True)
+        code = "int knurl_stand_in(void); int knurl_stand_in(void) { return 1; }"
+        subprocess.run(command, input=code, text=True, check=True)
     else:
         with open(path, "wb") as file:
             file.write(magic)
@@ -41,7 +42,8 @@ def make_library(path, compiler, magic):
 class Packing(package.InFolder):
     def setUp(self):
         super().setUp()
-        self.linux = make_library(os.path.join(self.folder, "libknurl_unity.so"), os.environ.get("CC", "cc"), b"\x7fELF")
+        compiler = os.environ.get("CC", "cc")
+        self.linux = make_library(os.path.join(self.folder, "libknurl_unity.so"), compiler, b"\x7fELF")
         self.windows = make_library(os.path.join(self.folder, "knurl_unity.dll"), "x86_64-w64-mingw32-gcc-posix", b"MZ")
         self.out = os.path.join(self.folder, "out")
         self.stem = os.path.join(self.out, "com.knurl.haptics")
@@ -128,7 +130,8 @@ class Packing(package.InFolder):
 
     def test_a_library_of_another_kind_is_refused(self):
         self.write("not a library", "knurl_unity.dll")
-        self.expect_nothing_made(self.pack(self.linux, self.windows), "knurl_unity.dll: expected a library that starts with 'MZ'")
+        done = self.pack(self.linux, self.windows)
+        self.expect_nothing_made(done, "knurl_unity.dll: expected a library that starts with 'MZ'")
 
     def copy_of_sources(self):
         """What package.sh reads, to be broken."""
@@ -136,8 +139,9 @@ class Packing(package.InFolder):
         package.copy_of_package(os.path.join(unity, "package"))
         for name in ("metas.py", "package.sh"):
             shutil.copy(os.path.join(package.UNITY, name), unity)
-        os.makedirs(os.path.join(self.folder, "sdk", "include", "knurl"))
-        shutil.copy(os.path.join(package.ROOT, "sdk", "include", "knurl", "base.h"), os.path.join(self.folder, "sdk", "include", "knurl"))
+        headers = os.path.join("sdk", "include", "knurl")
+        os.makedirs(os.path.join(self.folder, headers))
+        shutil.copy(os.path.join(package.ROOT, headers, "base.h"), os.path.join(self.folder, headers))
         return unity
 
     def test_a_version_that_is_not_the_sdks_is_refused(self):

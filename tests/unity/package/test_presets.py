@@ -57,7 +57,8 @@ def unitys_value(text):
 
 class Presets(unittest.TestCase):
     def setUp(self):
-        self.presets = {name_of(path): package.read(path) for path in glob.glob(os.path.join(package.PACKAGE, "Presets", "*.asset"))}
+        paths = glob.glob(os.path.join(package.PACKAGE, "Presets", "*.asset"))
+        self.presets = {name_of(path): package.read(path) for path in paths}
 
     def test_are_those_of_godot(self):
         self.assertEqual(len(godots_presets()), 7)

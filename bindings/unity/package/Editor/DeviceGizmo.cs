@@ -15,8 +15,8 @@ namespace Knurl.Editing
         static readonly Color Box = new Color(1.0f, 0.62f, 0.2f);
         static readonly Color Proxy = new Color(0.2f, 0.9f, 1.0f);
 
-        /// <summary>m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a Falcon's a
-        /// cube of 4 inches; fake is a simulated Touch.</summary>
+        /// <summary>m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a Falcon's
+        /// a cube of 4 inches; fake is a simulated Touch.</summary>
         static readonly Dictionary<string, Vector3> Reaches = new Dictionary<string, Vector3>
         {
             { "touch", new Vector3(0.160f, 0.120f, 0.070f) },
@@ -24,7 +24,7 @@ namespace Knurl.Editing
             { "fake", new Vector3(0.160f, 0.120f, 0.070f) },
         };
 
-        /// <summary>m of the device's motion; zero where it is not known ("mouse": all that the game lets it).</summary>
+        /// <summary>m of the device's motion; zero where that is not known ("mouse": what the game lets it).</summary>
         internal static Vector3 ReachOf(string uri)
         {
             Vector3 reach;
@@ -37,7 +37,8 @@ namespace Knurl.Editing
         {
             Transform place = device.transform;
             float scale = device.WorkspaceScale;
-            Gizmos.matrix = Matrix4x4.TRS(place.position, place.rotation, scale * Vector3.one); // not the object's scale
+            // Without the object's scale, which does not count.
+            Gizmos.matrix = Matrix4x4.TRS(place.position, place.rotation, scale * Vector3.one);
             Gizmos.color = Box;
             Gizmos.DrawWireCube(Vector3.zero, ReachOf(device.Device));
             DrawAxes();

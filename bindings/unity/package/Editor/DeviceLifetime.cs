@@ -3,14 +3,24 @@ using UnityEditor;
 
 namespace Knurl.Editing
 {
-    /// <summary>Lets go of every device before the editor quits. The end of play mode and the loading of scripts are
-    /// looked after where devices are: by World.</summary>
+    /// <summary>Lets go of every device before the editor takes away what it is made of: at the end of play mode, before
+    /// scripts are loaded anew, and when the editor quits.</summary>
     [InitializeOnLoad]
     internal static class DeviceLifetime
     {
         static DeviceLifetime()
         {
-            EditorApplication.quitting += World.StopAll;
+            EditorApplication.playModeStateChanged += OnPlayModeStateChanged;
+            AssemblyReloadEvents.beforeAssemblyReload += KnurlDevice.StopAll;
+            EditorApplication.quitting += KnurlDevice.StopAll;
+        }
+
+        static void OnPlayModeStateChanged(PlayModeStateChange change)
+        {
+            if (change == PlayModeStateChange.ExitingPlayMode)
+            {
+                KnurlDevice.StopAll();
+            }
         }
     }
 }

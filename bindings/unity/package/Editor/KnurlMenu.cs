@@ -96,8 +96,8 @@ namespace Knurl.Editing
             {
                 return path;
             }
-            string chosen = EditorUtility.OpenFilePanelWithFilters("The glTF file with the tags of " + root.name, "Assets",
-                new[] { "glTF", "gltf,glb" });
+            string chosen = EditorUtility.OpenFilePanelWithFilters("The glTF file with the tags of " + root.name,
+                "Assets", new[] { "glTF", "gltf,glb" });
             if (string.IsNullOrEmpty(chosen))
             {
                 return null;

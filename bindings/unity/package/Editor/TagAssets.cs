@@ -10,8 +10,8 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Editing
 {
-    /// <summary>What the tags of a glTF file are in a Unity project. Assets that Knurl made carry a label, and only those
-    /// are ever changed.</summary>
+    /// <summary>What the tags of a glTF file are in a Unity project. Assets that Knurl made carry a label, and only
+    /// those are ever changed.</summary>
     internal static class TagAssets
     {
         /// <summary>On each asset that was made of a tag; without it, an asset is the user's.</summary>
@@ -107,8 +107,8 @@ namespace Knurl.Editing
             var known = found as KnurlGrating;
             if (known == null || !AssetDatabase.GetLabels(known).Contains(Label))
             {
-                refused.Add(path + " was not made of a tag (it lacks the label " + Label + ") and stays as it is: the tag "
-                    + "of '" + tag.Name + "' is not used");
+                refused.Add(path + " was not made of a tag (it lacks the label " + Label + ") and stays as it is: the "
+                    + "tag of '" + tag.Name + "' is not used");
                 return;
             }
             if (Put(tag, known))

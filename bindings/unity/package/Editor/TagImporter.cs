@@ -38,8 +38,8 @@ namespace Knurl.Editing
                     || path.EndsWith(".glb", StringComparison.OrdinalIgnoreCase));
         }
 
-        /// <summary>One file. Never throws: other importers come after this one. Returns how many tags there were, or -1
-        /// after a warning.</summary>
+        /// <summary>One file. Never throws: other importers come after this one. Returns how many tags there were, or
+        /// -1 after a warning.</summary>
         internal static int Import(string path)
         {
             try
@@ -52,6 +52,11 @@ namespace Knurl.Editing
                 foreach (string sentence in TagAssets.Write(path, tags))
                 {
                     Warn(path, sentence);
+                }
+                if (tags.Count > 0 && GltfText.NamesAxis(path))
+                {
+                    Warn(path, path + ": a tag has an axis, which a grating cannot hold: set Axis of its KnurlSurface "
+                        + "where its ridges are to run along another direction than the mesh's tangents or UVs");
                 }
                 return tags.Count;
             }

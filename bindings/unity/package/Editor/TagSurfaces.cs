@@ -13,9 +13,9 @@ namespace Knurl.Editing
     {
         const string PartMark = " / "; // Knurl's names are "node / material" where a mesh has several primitives
 
-        /// <summary>Adds a KnurlSurface, or updates the one that is there, on each object at or below root whose name is
-        /// a tag's. gratings: one for each tag, or null. Can be undone in one step. Returns what could not be placed, a
-        /// sentence each.</summary>
+        /// <summary>Adds a KnurlSurface, or updates the one that is there, on each object at or below root whose name
+        /// is a tag's. gratings: one for each tag, or null. Can be undone in one step. Returns what could not be
+        /// placed, a sentence each.</summary>
         internal static List<string> Apply(GameObject root, IReadOnlyList<KnurlTag> tags,
             IReadOnlyList<KnurlGrating> gratings)
         {
@@ -89,8 +89,8 @@ namespace Knurl.Editing
             MeshFilter taken = meshes.FirstOrDefault(mesh => mesh.gameObject.name == last);
             return taken == null
                 ? "'" + name + "' has no object with a mesh of that name at or below '" + root.name + "'"
-                : "'" + name + "' shares its object with '" + used[taken.gameObject] + "': a KnurlSurface is felt over all "
-                    + "of a mesh; give each material a mesh of its own";
+                : "'" + name + "' shares its object with '" + used[taken.gameObject] + "': a KnurlSurface is felt over "
+                    + "all of a mesh; give each material a mesh of its own";
         }
 
         static void Put(GameObject owner, KnurlGrating grating, bool doubleSided)

@@ -12,7 +12,7 @@ namespace Knurl
         [NonSerialized] bool isRunning;
         [NonSerialized] bool hasFiles;
         [NonSerialized] bool isPaused;
-        [NonSerialized] bool wantsStart; // at the next frame
+        [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
 
@@ -21,7 +21,7 @@ namespace Knurl
         /// <returns>Whether it runs. An error that says why not goes to the console.</returns>
         public bool StartDevice()
         {
-            wantsStart = false;
+            isNew = false;
             if (isRunning)
             {
                 return true;
@@ -43,7 +43,7 @@ namespace Knurl
         /// <summary>Lets go, by a ramp of the force, and closes the device. Twice is fine.</summary>
         public void StopDevice()
         {
-            wantsStart = false;
+            isNew = false;
             if (isRunning)
             {
                 Release();
@@ -164,16 +164,19 @@ namespace Knurl
 
         void OnEnable()
         {
-            isPaused = false;       // the end of a pause may have come while nobody was told
-            wantsStart = autostart; // in the first frame, when all of the scene is there
+            isPaused = false; // the end of a pause may have come while nobody was told
+            isNew = true;
         }
 
+        /// <summary>It starts in its first frame: all of the scene is there then, and settings that a script gives to a
+        /// component that it has just added count.</summary>
         void Update()
         {
-            if (wantsStart)
+            if (isNew && autostart)
             {
                 StartDevice();
             }
+            isNew = false;
         }
 
         /// <summary>A game that stands still gives no sign of life, and the hand is let go of.</summary>

@@ -45,13 +45,14 @@ namespace Knurl
             }
         }
 
-        /// <summary>Whether anything is touched, in the latest tick.</summary>
+        /// <summary>Whether anything is touched, as of the latest frame: from <see cref="contactStarted"/> to <see
+        /// cref="contactEnded"/>.</summary>
         public bool InContact
         {
-            get { return GetState().in_contact != 0; }
+            get { return touchedId != 0; }
         }
 
-        /// <summary>What was touched in the latest frame, as the events tell it; null for nothing, and for a surface of
+        /// <summary>What is touched, as of the latest frame; null for nothing, and for a surface of
         /// <see cref="LoadGltf"/>.</summary>
         public KnurlSurface Touched
         {

@@ -3,11 +3,11 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>Three gratings side by side, felt with a device, or with the mouse where there is none. Put it on an empty
-    /// object of a new scene and press play: everything else is made here.</summary>
+    /// <summary>Three gratings side by side, felt with a device, or with the mouse where there is none. Put it on an
+    /// empty object of a new scene and press play: everything else is made here.</summary>
     public sealed class KnurlDemo : MonoBehaviour
     {
-        [SerializeField, Tooltip("mouse, touch, falcon, rawhid, fake, ...; the mouse takes over where it does not start")]
+        [SerializeField, Tooltip("mouse, touch, falcon, rawhid, fake; where it does not start, the mouse takes over")]
         string device = "mouse";
 
         [SerializeField, Tooltip("Of the fake device's hand, over the first plate: line, sweep, circle, press or rest")]

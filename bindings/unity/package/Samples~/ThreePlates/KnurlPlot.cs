@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>The latest ticks, as the haptic thread played them: above the height that the grating asks for, below the
-    /// force that is felt. The newest is at the right.</summary>
+    /// <summary>The latest ticks, as the haptic thread played them: above the height that the grating asks for, below
+    /// the force that is felt. The newest is at the right.</summary>
     internal sealed class KnurlPlot
     {
         internal const int Width = 400; // pixels, and ticks
@@ -60,7 +60,8 @@ namespace Knurl.Samples
         internal void Show(Rect rect)
         {
             GUI.DrawTexture(rect, texture);
-            GUI.Label(new Rect(rect.x + 6f, rect.y, 300f, 24f), "height, to " + (1e3f * heightEnd).ToString("F2") + " mm");
+            GUI.Label(new Rect(rect.x + 6f, rect.y, 300f, 24f), "height, to " + (1e3f * heightEnd).ToString("F2")
+                + " mm");
             GUI.Label(new Rect(rect.x + 6f, rect.y + Half, 300f, 24f), "force, to " + forceEnd.ToString("F2") + " N");
         }
 

@@ -50,13 +50,15 @@ namespace Knurl.Tests
                 nodes.Add("{\"name\": \"" + namesAndExtras[i] + "\", \"mesh\": 0" + extras + "}");
             }
             string all = string.Join(", ", Enumerable.Range(0, nodes.Count).Select(i => i.ToString()).ToArray());
-            return "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [" + all + "]}], \"nodes\": ["
-                + string.Join(", ", nodes.ToArray()) + "], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, "
-                + "\"TEXCOORD_0\": 1}}]}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
-                + "\"VEC3\", \"min\": [0, 0, 0], \"max\": [0.1, 0.1, 0]}, {\"bufferView\": 1, \"componentType\": 5126, "
-                + "\"count\": 3, \"type\": \"VEC2\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 0, "
-                + "\"byteOffset\": 36, \"byteLength\": 24}], \"buffers\": [{\"byteLength\": 60, \"uri\": "
-                + "\"data:application/octet-stream;base64," + Convert.ToBase64String(Triangle()) + "\"}]}";
+            return ("{'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [" + all + "]}], 'nodes': [NODES], "
+                + "'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}}]}], 'accessors': ["
+                + "{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3', 'min': [0, 0, 0], "
+                + "'max': [0.1, 0.1, 0]}, {'bufferView': 1, 'componentType': 5126, 'count': 3, 'type': 'VEC2'}"
+                + "], 'bufferViews': [{'buffer': 0, 'byteLength': 36}, "
+                + "{'buffer': 0, 'byteOffset': 36, 'byteLength': 24}], "
+                + "'buffers': [{'byteLength': 60, 'uri': 'data:application/octet-stream;base64,BYTES'}]}")
+                .Replace('\'', '"').Replace("BYTES", Convert.ToBase64String(Triangle()))
+                .Replace("NODES", string.Join(", ", nodes.ToArray()));
         }
 
         static byte[] Triangle()

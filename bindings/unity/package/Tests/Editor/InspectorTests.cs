@@ -29,8 +29,8 @@ namespace Knurl.Tests
                 Assert.IsNotNull(new SerializedObject(surface).FindProperty(field), field);
             }
             var device = Make<KnurlDevice>();
-            foreach (string field in new[] { "device", "stroke", "rate", "workspaceScale", "autostart", "reconnect", "clamp",
-                "contactStarted", "contactEnded", "buttonChanged", "fault" })
+            foreach (string field in new[] { "device", "stroke", "rate", "workspaceScale", "autostart", "reconnect",
+                "clamp", "contactStarted", "contactEnded", "buttonChanged", "fault" })
             {
                 Assert.IsNotNull(new SerializedObject(device).FindProperty(field), field);
             }

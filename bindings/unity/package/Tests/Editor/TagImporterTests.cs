@@ -90,7 +90,8 @@ namespace Knurl.Tests
         public void A_wrong_tag_is_a_warning_that_names_file_object_and_key_and_nothing_is_made()
         {
             string path = files.Write("plate.gltf", "Plate", "{\"knurl_stiffness\": -1}");
-            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: node 'Plate' \\(0\\): knurl_stiffness: expected");
+            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: node 'Plate' \\(0\\): "
+                + "knurl_stiffness: expected");
             Assert.AreEqual(-1, TagImporter.Import(path));
             Assert.IsFalse(AssetDatabase.IsValidFolder(Folder));
         }
@@ -106,6 +107,25 @@ namespace Knurl.Tests
             Assert.AreEqual(1000f, GltfFiles.Grating(Folder + "/Plate.asset").SpatialFrequency.x);
         }
 
+        [TestCase("{\"knurl_axis\": [0, 1, 0], \"knurl_spatial_frequency\": 1000, \"knurl_amplitude\": 0.0002, "
+            + "\"knurl_stiffness\": 400}")]
+        [TestCase("{\"knurl\": {\"version\": 1, \"spatial_frequency\": [1000, 0], \"amplitude\": 0.0002, "
+            + "\"stiffness\": 400, \"axis\" : [0, 1, 0]}}")]
+        public void A_tag_with_an_axis_is_a_warning_for_it_is_the_surfaces(string extras)
+        {
+            string path = files.Write("plate.gltf", "Plate", extras);
+            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: a tag has an axis");
+            Assert.AreEqual(1, TagImporter.Import(path));
+        }
+
+        [Test]
+        public void An_axis_of_somebody_elses_is_none_of_a_tag()
+        {
+            string path = files.Write("plate.gltf", "Plate", "{\"axis\": [0, 1, 0], \"knurl\": {\"version\": 1, "
+                + "\"spatial_frequency\": 1000, \"amplitude\": 0.0002, \"stiffness\": 400}, \"other\": {\"axis\": 1}}");
+            Assert.IsFalse(GltfText.NamesAxis(path));
+        }
+
         [Test]
         public void A_file_that_is_gone_is_a_warning()
         {
@@ -118,7 +138,8 @@ namespace Knurl.Tests
         {
             // Knurl's loader would refuse it.
             string path = GltfFiles.Folder + "/packed.gltf";
-            File.WriteAllText(path, "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}");
+            File.WriteAllText(path, "{\"asset\": {\"version\": \"2.0\"}, "
+                + "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}");
             Assert.AreEqual(0, TagImporter.Import(path));
         }
 
