@@ -22,7 +22,7 @@ rm -f "$out"/*.dll "$out"/*.exe # nothing of a former build is to be found by ac
 "$here/build.sh" "$out" || { echo "unity: 0 passed, 1 failed, 0 skipped"; exit 1; }
 
 # Libraries that are not the package's: see cases/VersionTests.cs.
-mkdir -p "$out/stranger" "$out/old" "$out/empty"
+mkdir -p "$out/stranger" "$out/old" "$out/empty" "$out/rubbish"
 cc=${CC:-cc}
 timeout 60 "$cc" -shared -fPIC -o "$out/stranger/libknurl_unity.so" "$here/stranger.c" &&
     timeout 60 "$cc" -shared -fPIC -DOLD -o "$out/old/libknurl_unity.so" "$here/stranger.c" || exit 1

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Paths over the demo assets, and what `knurl run` makes of them, as doubles that C# reads without rounding:
-FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick).
+FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick). Contact begins
+between two ticks, not on one: else an amplitude's rounding to float would decide which, and cycles be counted from there.
 
 usage: traces.py KNURL ASSETS FOLDER"""
 import array
@@ -18,20 +19,20 @@ os.makedirs(folder, exist_ok=True)
 
 def plate_1d(t):
     """Down onto the first bar, along it, over the crack to the next, up again."""
-    y = max(-0.0012, 0.004 - 0.02 * t) if t < 1.8 else -0.0012 + 0.03 * (t - 1.8)
+    y = max(-0.0012, 0.00401 - 0.02 * t) if t < 1.8 else -0.0012 + 0.03 * (t - 1.8)
     return 0.04 * math.sin(2.0 * math.pi * 0.7 * t), y, 0.02 * max(0.0, t - 1.0)
 
 
 def grid_2d(t):
     """Circles that no mirror maps onto themselves: the centre is off the axes."""
-    y = max(-0.0010, 0.003 - 0.02 * t) if t < 1.8 else -0.0010 + 0.03 * (t - 1.8)
+    y = max(-0.0010, 0.00303 - 0.02 * t) if t < 1.8 else -0.0010 + 0.03 * (t - 1.8)
     a = 2.0 * math.pi * 0.5 * t
     return 0.006 + 0.012 * math.cos(a), y, -0.004 + 0.012 * math.sin(a)
 
 
 def handle(t, profile):
     """Around the handle, along it (x) at the same time, a little inside of where it is round."""
-    depth = min(0.0006, -0.004 + 0.02 * t) if t < 1.8 else 0.0006 - 0.03 * (t - 1.8)
+    depth = min(0.0006, -0.00401 + 0.02 * t) if t < 1.8 else 0.0006 - 0.03 * (t - 1.8)
     x = -0.015 + 0.015 * t
     after = next(i for i, (at, _) in enumerate(profile) if at > x)
     (x0, r0), (x1, r1) = profile[after - 1:after + 1]

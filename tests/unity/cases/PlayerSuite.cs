@@ -119,14 +119,21 @@ namespace Knurl.Tests
             device.MoveHip(new Vector3(0f, -0.001f, 0f));
         }
 
-        /// <summary>What happened to a device, in order, as words.</summary>
+        /// <summary>What happened to a device, in order, as words; without faults, which a host that stalls brings about.
+        /// </summary>
         protected static List<string> Listen(KnurlDevice device)
         {
             var told = new List<string>();
             device.contactStarted.AddListener(s => told.Add("started " + Name(s)));
             device.contactEnded.AddListener(s => told.Add("ended " + Name(s)));
             device.buttonChanged.AddListener((index, isPressed) => told.Add("button " + index + " " + isPressed));
-            device.fault.AddListener((code, text) => told.Add("fault " + code + " " + text));
+            return told;
+        }
+
+        protected static List<string> ListenToFaults(KnurlDevice device)
+        {
+            var told = new List<string>();
+            device.fault.AddListener((code, text) => told.Add(code + " " + text));
             return told;
         }
 

@@ -1,14 +1,14 @@
 /* Our declarations of Unity's plugin interface against Unity's own headers: most of it fails to compile where they
  * differ. C++, as some of those headers are. SPDX-License-Identifier: MIT */
+#include <cstddef> /* first: Unity's headers use NULL without it */
+#include <cstdio>
+#include <type_traits>
+
 #include "unity_abi.h"
 
 #include <IUnityInterface.h>
 #include <IUnityLog.h>
 #include <IUnityProfiler.h>
-
-#include <cstddef>
-#include <cstdio>
-#include <type_traits>
 
 /* One value is handed over as another: pointers as pointers, numbers and enumerations by their size. */
 template <typename OURS, typename THEIRS>
