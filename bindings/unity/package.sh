@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Packs the Unity package with the libraries that were built: OUT_DIR/com.knurl.haptics, a folder to be added from disk
+# or committed to a branch for git URLs, and OUT_DIR/com.knurl.haptics-VERSION.tgz, the same as a tarball.
+# usage: package.sh OUT_DIR LIBRARY...
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+[ $# -ge 2 ] || { echo "usage: package.sh OUT_DIR LIBRARY..." >&2; exit 2; }
+name=com.knurl.haptics
+export SOURCE_DATE_EPOCH=499162500 # npm's: October 1985; strip writes it into Windows libraries
+mkdir -p "$1"
+out=$(cd "$1" && pwd)
+shift
+
+header=$here/../../sdk/include/knurl/base.h
+version=$(sed -n 's/^#define KNURL_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)$/\2/p' "$header" | paste -sd .)
+if ! grep -qx "  \"version\": \"$version\"," "$here/package/package.json"; then
+    echo "package: package/package.json: version: expected $version, as in knurl/base.h" >&2
+    exit 1
+fi
+
+# place_library FILE FOLDER MAGIC STRIP: into the stage, without what is there to debug it.
+place_library() {
+    if [ "$(head -c "${#3}" "$1")" != "$3" ]; then
+        echo "package: $1: expected a library that starts with '${3#$'\x7f'}', found another kind of file" >&2
+        exit 1
+    fi
+    install -m 644 "$1" "$stage/$name/Plugins/$2/"
+    ! command -v "$4" >/dev/null || "$4" --strip-unneeded "$stage/$name/Plugins/$2/$(basename "$1")"
+}
+
+stage=$(mktemp -d "$out/.package.XXXXXX") # beside what it becomes, so that moving it there is one step
+trap 'rm -rf "$stage"' EXIT
+mkdir "$stage/$name"
+# What git ignores, such as a library that somebody put there to try it, stays behind.
+tar -C "$here/package" --exclude='*.so' --exclude='*.dll' -cf - . | tar -C "$stage/$name" -xf -
+find "$stage/$name" -name '.*' -type f -delete
+for library in "$@"; do
+    case $(basename "$library") in
+    libknurl_unity.so) place_library "$library" Linux/x86_64 $'\x7fELF' strip ;;
+    knurl_unity.dll) place_library "$library" Windows/x86_64 MZ x86_64-w64-mingw32-strip ;;
+    *)
+        echo "package: $library: expected libknurl_unity.so or knurl_unity.dll" >&2
+        exit 1
+        ;;
+    esac
+done
+for system in Linux Windows; do # no library, no meta for it
+    if [ -z "$(find "$stage/$name/Plugins/$system" -type f ! -name '*.meta')" ]; then
+        rm -rf "$stage/$name/Plugins/$system" "$stage/$name/Plugins/$system.meta"
+    fi
+done
+"$here/metas.py" --check --packed "$stage/$name" >/dev/null
+find "$stage/$name" -type f -exec chmod 644 {} +
+find "$stage/$name" -type d -exec chmod 755 {} +
+
+# As npm lays it out, and the same bytes for the same files: sorted, of one time and one owner.
+tar -C "$stage" --transform "s,^$name,package,S" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
+    --numeric-owner --format=ustar -cf "$stage/tar" "$name"
+gzip -n -9 <"$stage/tar" >"$stage/tgz"
+[ ! -e "$out/$name" ] || mv "$out/$name" "$stage/old"
+mv "$stage/$name" "$out/$name"
+mv "$stage/tgz" "$out/$name-$version.tgz"
+libraries=$(find "$out/$name/Plugins" -type f ! -name '*.meta' -printf '%f\n' | sort | paste -sd ' ')
+echo "package: $out/$name-$version.tgz holds $libraries"

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    /// <summary>A device in the scene view: the box that its stylus reaches and its axes; while it runs, the HIP, the
+    /// proxy that a surface holds back, and the force.</summary>
+    internal static class DeviceGizmo
+    {
+        const float Axis = 0.01f; // m of the device's
+        const float Hip = 0.002f; // m of the device's: the ball's radius
+        const float MetresPerNewton = 0.02f;
+        static readonly Color Box = new Color(1.0f, 0.62f, 0.2f);
+        static readonly Color Proxy = new Color(0.2f, 0.9f, 1.0f);
+
+        /// <summary>m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a Falcon's
+        /// a cube of 4 inches; fake is a simulated Touch.</summary>
+        static readonly Dictionary<string, Vector3> Reaches = new Dictionary<string, Vector3>
+        {
+            { "touch", new Vector3(0.160f, 0.120f, 0.070f) },
+            { "falcon", new Vector3(0.1016f, 0.1016f, 0.1016f) },
+            { "fake", new Vector3(0.160f, 0.120f, 0.070f) },
+        };
+
+        /// <summary>m of the device's motion; zero where that is not known ("mouse": what the game lets it).</summary>
+        internal static Vector3 ReachOf(string uri)
+        {
+            Vector3 reach;
+            bool known = Reaches.TryGetValue((uri ?? "").Split(':')[0], out reach);
+            return known ? reach : Vector3.zero;
+        }
+
+        [DrawGizmo(GizmoType.Selected | GizmoType.NonSelected | GizmoType.Pickable)]
+        static void Draw(KnurlDevice device, GizmoType type)
+        {
+            Transform place = device.transform;
+            float scale = device.WorkspaceScale;
+            // Without the object's scale, which does not count.
+            Gizmos.matrix = Matrix4x4.TRS(place.position, place.rotation, scale * Vector3.one);
+            Gizmos.color = Box;
+            Gizmos.DrawWireCube(Vector3.zero, ReachOf(device.Device));
+            DrawAxes();
+            Gizmos.matrix = Matrix4x4.identity;
+            if (device.Running)
+            {
+                DrawRun(device, scale);
+            }
+        }
+
+        /// <summary>x to the right and y up are Unity's; z is towards the user: against Unity's.</summary>
+        static void DrawAxes()
+        {
+            Gizmos.color = Color.red;
+            Gizmos.DrawLine(Vector3.zero, Axis * Vector3.right);
+            Gizmos.color = Color.green;
+            Gizmos.DrawLine(Vector3.zero, Axis * Vector3.up);
+            Gizmos.color = Color.blue;
+            Gizmos.DrawLine(Vector3.zero, Axis * Vector3.back);
+        }
+
+        static void DrawRun(KnurlDevice device, float scale)
+        {
+            Gizmos.color = Box;
+            Gizmos.DrawSphere(device.HipPosition, Hip * scale);
+            if (device.InContact)
+            {
+                Gizmos.color = Proxy;
+                Gizmos.DrawWireSphere(device.ProxyPosition, Hip * scale);
+                Gizmos.DrawLine(device.ProxyPosition, device.ProxyPosition + MetresPerNewton * scale * device.Force);
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+using System;
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    /// <summary>Which device and how; in play mode what it is doing, and buttons to start and stop it.</summary>
+    [CustomEditor(typeof(KnurlDevice)), CanEditMultipleObjects]
+    internal sealed class DeviceInspector : Editor
+    {
+        internal static readonly string[] Devices = { "fake", "mouse", "touch", "falcon", "rawhid" };
+        internal static readonly string[] Strokes = { "", "line", "sweep", "circle", "press", "rest" };
+
+        static readonly string[] Events = { "contactStarted", "contactEnded", "buttonChanged", "fault" };
+        static readonly GUIContent Device = new GUIContent("Device", "fake (a simulated hand), mouse (a script " +
+            "calls MoveHip), touch, touch:NAME, falcon, rawhid, rawhid:VID:PID; options follow as ?key=value&...");
+        static readonly GUIContent Known = new GUIContent("Known devices", "Puts one of these into the field above");
+        static readonly GUIContent Stroke = new GUIContent("Stroke", "What the fake device's hand does over the " +
+            "first surface: line, sweep, circle, press or rest; empty: it stands still at the workspace's origin");
+        static readonly GUIContent Rate = new GUIContent("Rate (Hz)", "Ticks a second");
+        static readonly GUIContent Scale = new GUIContent("Workspace Scale", "Metres of the scene per metre that " +
+            "the device moves. Walls feel stiffer by as much");
+        static readonly GUIContent Autostart = new GUIContent("Autostart", "Whether it starts in its first frame");
+        static readonly GUIContent Reconnect = new GUIContent("Reconnect", "Whether a device that was lost is " +
+            "looked for again; otherwise losing it stops this component");
+        static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
+            "device can do are felt at what it can");
+
+        bool showEvents;
+
+        public override void OnInspectorGUI()
+        {
+            serializedObject.Update();
+            SerializedProperty device = serializedObject.FindProperty("device");
+            EditorGUILayout.PropertyField(device, Device);
+            if (EditorGUILayout.DropdownButton(Known, FocusType.Keyboard))
+            {
+                ShowMenu("device", Devices);
+            }
+            if (device.stringValue.StartsWith("fake", StringComparison.Ordinal))
+            {
+                EditorGUILayout.PropertyField(serializedObject.FindProperty("stroke"), Stroke);
+                if (EditorGUILayout.DropdownButton(new GUIContent("Known strokes"), FocusType.Keyboard))
+                {
+                    ShowMenu("stroke", Strokes);
+                }
+            }
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("rate"), Rate);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("workspaceScale"), Scale);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("autostart"), Autostart);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
+            showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
+            for (int i = 0; showEvents && i < Events.Length; i++)
+            {
+                EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
+            }
+            serializedObject.ApplyModifiedProperties();
+            if (!serializedObject.isEditingMultipleObjects && EditorApplication.isPlaying)
+            {
+                ShowState((KnurlDevice)target);
+            }
+        }
+
+        public override bool RequiresConstantRepaint()
+        {
+            return EditorApplication.isPlaying;
+        }
+
+        void ShowMenu(string field, string[] values)
+        {
+            var menu = new GenericMenu();
+            foreach (string value in values)
+            {
+                menu.AddItem(new GUIContent(value == "" ? "none" : value), false, () => Put(field, value));
+            }
+            menu.ShowAsContext();
+        }
+
+        void Put(string field, string value)
+        {
+            if (target == null)
+            {
+                return; // it was deleted while the menu was open
+            }
+            serializedObject.Update();
+            serializedObject.FindProperty(field).stringValue = value;
+            serializedObject.ApplyModifiedProperties();
+        }
+
+        static void ShowState(KnurlDevice device)
+        {
+            if (!device.Running)
+            {
+                EditorGUILayout.HelpBox("It does not run; settings count from the next start on.", MessageType.Info);
+                if (GUILayout.Button("Start"))
+                {
+                    device.StartDevice();
+                }
+                return;
+            }
+            EditorGUILayout.LabelField("Running", device.DeviceName);
+            EditorGUILayout.LabelField("HIP (m)", Units.Place(device.HipPosition));
+            EditorGUILayout.LabelField("Touched", device.Touched != null ? device.Touched.name : "nothing");
+            EditorGUILayout.LabelField("Force (N)", Units.Number(device.Force.magnitude));
+            EditorGUILayout.LabelField("Height", Units.Millimetres(device.Height));
+            EditorGUILayout.LabelField("Temporal frequency (Hz)", Units.Number(device.TemporalFrequency));
+            EditorGUILayout.LabelField("Ticks", device.Ticks + ", " + device.Overruns + " late");
+            if (GUILayout.Button("Stop"))
+            {
+                device.StopDevice();
+            }
+        }
+    }
+}

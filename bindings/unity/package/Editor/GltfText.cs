@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.IO;
+using System.Text;
+using System.Text.RegularExpressions;
+
+namespace Knurl.Editing
+{
+    /// <summary>A first look into glTF files, so that those without tags cost no load, and no warning where they use
+    /// what Knurl does not read (compressed meshes, say).</summary>
+    internal static class GltfText
+    {
+        const uint Magic = 0x46546C67; // "glTF"
+        const int HeaderBytes = 20; // of a .glb and of its first chunk, which is the JSON
+        const int MostJson = 1 << 26; // bytes that are looked at for an axis
+        static readonly Regex Axis = new Regex("\"knurl_axis\"\\s*:|\"knurl\"\\s*:\\s*\\{[^{}]*\"axis\"\\s*:");
+        static readonly byte[] Word = { (byte)'k', (byte)'n', (byte)'u', (byte)'r', (byte)'l' };
+
+        /// <summary>Whether "knurl" stands anywhere in the file's JSON, as it does in every tag.</summary>
+        internal static bool MayHoldTags(string path)
+        {
+            using (FileStream file = File.OpenRead(path))
+            {
+                return Holds(file, JsonLength(file));
+            }
+        }
+
+        /// <summary>Whether a tag has an axis: what the loader tells of a surface does not include it.</summary>
+        internal static bool NamesAxis(string path)
+        {
+            using (FileStream file = File.OpenRead(path))
+            {
+                var json = new byte[Math.Min(JsonLength(file), MostJson)];
+                int count = 0;
+                for (int read = 1; read > 0 && count < json.Length; count += read)
+                {
+                    read = file.Read(json, count, json.Length - count);
+                }
+                return Axis.IsMatch(Encoding.UTF8.GetString(json, 0, count));
+            }
+        }
+
+        /// <summary>Leaves the file where its JSON begins, and returns how many bytes to look at.</summary>
+        static long JsonLength(FileStream file)
+        {
+            var header = new byte[HeaderBytes];
+            int count = file.Read(header, 0, HeaderBytes);
+            if (count == HeaderBytes && BitConverter.ToUInt32(header, 0) == Magic)
+            {
+                return BitConverter.ToUInt32(header, 12);
+            }
+            file.Position = 0;
+            return file.Length;
+        }
+
+        static bool Holds(Stream stream, long length)
+        {
+            var block = new byte[65536];
+            int matched = 0; // bytes of the word; no letter comes twice in it, so that a miss starts anew
+            while (length > 0)
+            {
+                int count = stream.Read(block, 0, (int)Math.Min(length, block.Length));
+                if (count <= 0)
+                {
+                    return false;
+                }
+                length -= count;
+                for (int i = 0; i < count; i++)
+                {
+                    matched = block[i] == Word[matched] ? matched + 1 : block[i] == Word[0] ? 1 : 0;
+                    if (matched == Word.Length)
+                    {
+                        return true;
+                    }
+                }
+            }
+            return false;
+        }
+    }
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    /// <summary>What Knurl adds to the editor's menus.</summary>
+    internal static class KnurlMenu
+    {
+        const string Objects = "GameObject/Knurl/";
+        const string NewDevice = Objects + "Haptic Device";
+        const string AddSurface = Objects + "Add Surface To Selection";
+        const string AddTagged = Objects + "Add Surfaces From glTF Tags";
+        const string ReadTags = "Assets/Knurl/Read Tags";
+        const int Priority = 10; // among the kinds of objects
+
+        [MenuItem(NewDevice, false, Priority)]
+        static void MakeDevice(MenuCommand command)
+        {
+            var made = new GameObject("Haptic Device", typeof(KnurlDevice));
+            GameObjectUtility.SetParentAndAlign(made, command.context as GameObject);
+            Undo.RegisterCreatedObjectUndo(made, "Create Haptic Device");
+            Selection.activeObject = made;
+        }
+
+        [MenuItem(AddSurface, false, Priority + 1)]
+        static void AddSurfaces()
+        {
+            foreach (GameObject owner in Selection.gameObjects.Where(CanBeFelt))
+            {
+                Undo.AddComponent<KnurlSurface>(owner);
+            }
+        }
+
+        [MenuItem(AddSurface, true)]
+        static bool CanAddSurfaces()
+        {
+            return Selection.gameObjects.Any(CanBeFelt);
+        }
+
+        static bool CanBeFelt(GameObject owner)
+        {
+            return owner.GetComponent<MeshFilter>() != null && owner.GetComponent<KnurlSurface>() == null;
+        }
+
+        [MenuItem(AddTagged, false, Priority + 2)]
+        static void AddTaggedSurfaces()
+        {
+            GameObject root = Selection.activeGameObject;
+            string path = FileOf(root);
+            if (path == null)
+            {
+                return; // nobody chose one
+            }
+            int tags = TagImporter.Import(path);
+            if (tags > 0)
+            {
+                AddTaggedSurfaces(root, path);
+            }
+            else if (tags == 0)
+            {
+                Debug.LogWarning("Knurl: " + path + " holds no tag", root);
+            }
+        }
+
+        [MenuItem(AddTagged, true)]
+        static bool CanAddTaggedSurfaces()
+        {
+            return Selection.activeGameObject != null && !EditorUtility.IsPersistent(Selection.activeGameObject);
+        }
+
+        internal static void AddTaggedSurfaces(GameObject root, string path)
+        {
+            IReadOnlyList<KnurlTag> tags = KnurlTags.Read(path);
+            KnurlGrating[] gratings = TagAssets.PathsOf(path, tags.Select(tag => tag.Name))
+                .Select(AssetDatabase.LoadAssetAtPath<KnurlGrating>).ToArray();
+            Undo.IncrementCurrentGroup();
+            Undo.SetCurrentGroupName("Add Knurl Surfaces");
+            List<string> missed = TagSurfaces.Apply(root, tags, gratings);
+            Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
+            foreach (string sentence in missed)
+            {
+                Debug.LogWarning("Knurl: " + path + ": " + sentence, root);
+            }
+        }
+
+        /// <summary>The glTF file that an object was made of, or one that the user chooses; null: none.</summary>
+        static string FileOf(GameObject root)
+        {
+            string path = PrefabUtility.GetPrefabAssetPathOfNearestInstanceRoot(root);
+            if (!string.IsNullOrEmpty(path) && TagImporter.IsGltf(path))
+            {
+                return path;
+            }
+            string chosen = EditorUtility.OpenFilePanelWithFilters("The glTF file with the tags of " + root.name,
+                "Assets", new[] { "glTF", "gltf,glb" });
+            if (string.IsNullOrEmpty(chosen))
+            {
+                return null;
+            }
+            path = FileUtil.GetProjectRelativePath(chosen.Replace('\\', '/'));
+            if (TagImporter.IsGltf(path))
+            {
+                return path;
+            }
+            Debug.LogWarning("Knurl: expected a .gltf or .glb file below the project's Assets, found " + chosen, root);
+            return null;
+        }
+
+        [MenuItem(ReadTags, false, 1000)]
+        static void ReadSelectedTags()
+        {
+            foreach (string path in SelectedFiles())
+            {
+                int tags = TagImporter.Import(path);
+                if (tags >= 0)
+                {
+                    Debug.Log("Knurl: " + path + ": " + (tags == 0 ? "no tag" : tags + " tagged, gratings in "
+                        + TagAssets.FolderOf(path)), AssetDatabase.LoadMainAssetAtPath(path));
+                }
+            }
+        }
+
+        [MenuItem(ReadTags, true)]
+        static bool CanReadTags()
+        {
+            return SelectedFiles().Any();
+        }
+
+        static IEnumerable<string> SelectedFiles()
+        {
+            return Selection.assetGUIDs.Select(AssetDatabase.GUIDToAssetPath).Where(TagImporter.IsGltf);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+using UnityEngine.Rendering;
+
+namespace Knurl.Editing
+{
+    /// <summary>The ridges of a selected surface, where they are felt.</summary>
+    internal static class SurfaceGizmo
+    {
+        const int MostSegments = 8192;
+        const int MostTriangles = 200000; // of more, the editor would stutter while they are moved
+        const float TowardsEye = 0.999f; // else half of each line is hidden by the mesh that it lies in
+        static readonly Color Ink = new Color(1.0f, 0.62f, 0.2f, 0.8f);
+
+        /// <summary>What was drawn last, for it changes seldom.</summary>
+        sealed class Drawing
+        {
+            internal Mesh Mesh;
+            internal KnurlGrating Grating;
+            internal long Version;
+            internal readonly Stripes Stripes = new Stripes();
+            internal Vector3[] Segments;
+            internal int Every;
+        }
+
+        static readonly Dictionary<KnurlSurface, Drawing> Drawings = new Dictionary<KnurlSurface, Drawing>();
+
+        static SurfaceGizmo()
+        {
+            Selection.selectionChanged += Drawings.Clear;
+        }
+
+        [DrawGizmo(GizmoType.Selected | GizmoType.InSelectionHierarchy)]
+        static void Draw(KnurlSurface surface, GizmoType type)
+        {
+            Mesh mesh;
+            if (surface.Grating == null || surface.FindMesh(out mesh) != null)
+            {
+                return; // its inspector says why
+            }
+            Drawing drawing = Update(surface, mesh);
+            Matrix4x4 before = Handles.matrix;
+            Handles.matrix = MoveTowards(Camera.current);
+            Handles.zTest = CompareFunction.LessEqual;
+            Handles.color = Ink;
+            Handles.DrawLines(drawing.Segments);
+            Handles.matrix = before;
+            Handles.zTest = CompareFunction.Always;
+            if (drawing.Segments.Length == 0 && drawing.Every == 0)
+            {
+                Handles.Label(surface.transform.position, "too many triangles to draw their ridges");
+            }
+            else if (drawing.Every > 1)
+            {
+                Handles.Label(surface.transform.position, "each line stands for " + drawing.Every + " ridges");
+            }
+        }
+
+        static Matrix4x4 MoveTowards(Camera eye)
+        {
+            if (eye == null)
+            {
+                return Matrix4x4.identity;
+            }
+            Vector3 place = eye.transform.position;
+            return Matrix4x4.TRS((1f - TowardsEye) * place, Quaternion.identity, TowardsEye * Vector3.one);
+        }
+
+        static Drawing Update(KnurlSurface surface, Mesh mesh)
+        {
+            Drawing drawing;
+            if (!Drawings.TryGetValue(surface, out drawing))
+            {
+                drawing = new Drawing();
+                Drawings.Add(surface, drawing);
+            }
+            KnurlGrating grating = surface.Grating;
+            Stripes stripes = drawing.Stripes;
+            Matrix4x4 place = surface.transform.localToWorldMatrix;
+            bool isSame = drawing.Mesh == mesh && drawing.Grating == grating && drawing.Version == grating.Version
+                && stripes.Axis == surface.Axis && stripes.ToWorld == place;
+            if (!isSame)
+            {
+                Read(drawing, mesh);
+                drawing.Grating = grating;
+                drawing.Version = grating.Version;
+                stripes.ToWorld = place;
+                stripes.Axis = surface.Axis;
+                stripes.SpatialFrequency = grating.SpatialFrequency;
+                stripes.Orientation = grating.Orientation;
+                Lay(drawing);
+            }
+            return drawing;
+        }
+
+        static void Read(Drawing drawing, Mesh mesh)
+        {
+            if (drawing.Mesh != mesh)
+            {
+                drawing.Mesh = mesh;
+                drawing.Stripes.Vertices = mesh.vertices;
+                drawing.Stripes.Tangents = mesh.tangents;
+                drawing.Stripes.Uvs = mesh.uv;
+                drawing.Stripes.Triangles = TrianglesOf(mesh);
+            }
+        }
+
+        static int[] TrianglesOf(Mesh mesh)
+        {
+            var all = new List<int>();
+            for (int part = 0; part < mesh.subMeshCount; part++)
+            {
+                if (mesh.GetTopology(part) == MeshTopology.Triangles)
+                {
+                    all.AddRange(mesh.GetTriangles(part));
+                }
+            }
+            return all.ToArray();
+        }
+
+        /// <summary>Every is 0 where there are too many triangles.</summary>
+        static void Lay(Drawing drawing)
+        {
+            drawing.Segments = new Vector3[0];
+            drawing.Every = 0;
+            if (drawing.Stripes.Triangles.Length / 3 <= MostTriangles)
+            {
+                var segments = new Vector3[2 * MostSegments];
+                int count = drawing.Stripes.Draw(segments, out drawing.Every);
+                Array.Resize(ref segments, 2 * count);
+                drawing.Segments = segments;
+            }
+        }
+    }
+}

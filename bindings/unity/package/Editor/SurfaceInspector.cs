@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    /// <summary>A surface's settings, and why it cannot be felt, or not as asked for.</summary>
+    [CustomEditor(typeof(KnurlSurface)), CanEditMultipleObjects]
+    internal sealed class SurfaceInspector : Editor
+    {
+        const double SecondsBetweenLooks = 0.5; // a mesh may be large
+
+        static readonly GUIContent Grating = new GUIContent("Grating", "How the surface feels: a preset, or an " +
+            "asset made by Create > Knurl > Grating");
+        static readonly GUIContent DoubleSided = new GUIContent("Double Sided", "Whether it can be touched from " +
+            "behind as well");
+        static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
+            "(0, 0, 0): the mesh's tangents, else its UVs");
+
+        string[] warnings = new string[0];
+        double lookAgain;
+
+        public override void OnInspectorGUI()
+        {
+            serializedObject.Update();
+            EditorGUI.BeginChangeCheck();
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("grating"), Grating);
+            Presets.Draw(Take);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
+            if (EditorGUI.EndChangeCheck())
+            {
+                lookAgain = 0.0;
+            }
+            serializedObject.ApplyModifiedProperties();
+            if (!serializedObject.isEditingMultipleObjects)
+            {
+                ShowState((KnurlSurface)target);
+            }
+        }
+
+        public override bool RequiresConstantRepaint()
+        {
+            return EditorApplication.isPlaying;
+        }
+
+        void ShowState(KnurlSurface surface)
+        {
+            bool laysOut = Event.current.type == EventType.Layout; // what is drawn has to be what was laid out
+            if (laysOut && EditorApplication.timeSinceStartup >= lookAgain)
+            {
+                warnings = WarningsOf(surface);
+                lookAgain = EditorApplication.timeSinceStartup + SecondsBetweenLooks;
+            }
+            foreach (string warning in warnings)
+            {
+                EditorGUILayout.HelpBox(warning, MessageType.Warning);
+            }
+            if (!EditorApplication.isPlaying)
+            {
+                return;
+            }
+            EditorGUILayout.LabelField("Triangles felt", Units.Number(surface.TriangleCount));
+            EditorGUILayout.LabelField("Touched", surface.IsTouched ? "yes" : "no");
+        }
+
+        /// <summary>Never throws: an inspector that does draws nothing below.</summary>
+        static string[] WarningsOf(KnurlSurface surface)
+        {
+            try
+            {
+                return surface.GetWarnings();
+            }
+            catch (KnurlException exception)
+            {
+                return new[] { exception.Message };
+            }
+        }
+
+        void Take(KnurlGrating preset)
+        {
+            if (target == null)
+            {
+                return; // it was deleted while the menu was open
+            }
+            serializedObject.Update();
+            serializedObject.FindProperty("grating").objectReferenceValue = preset;
+            serializedObject.ApplyModifiedProperties();
+            lookAgain = 0.0;
+        }
+    }
+}

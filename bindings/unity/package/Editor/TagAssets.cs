@@ -1,0 +1,157 @@
+// Gratings as assets: one for each tagged surface of a glTF file, in a folder beside it. SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Knurl.Editing
+{
+    /// <summary>What the tags of a glTF file are in a Unity project. Assets that Knurl made carry a label, and only
+    /// those are ever changed.</summary>
+    internal static class TagAssets
+    {
+        /// <summary>On each asset that was made of a tag; without it, an asset is the user's.</summary>
+        internal const string Label = "KnurlTag";
+
+        const int LongestName = 80; // characters; Windows has trouble with long paths
+        const string Invalid = "<>:\"/\\|?*[]";
+        static readonly string[] Reserved =
+        {
+            "con", "prn", "aux", "nul", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8", "com9", "lpt1",
+            "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9", "cvs",
+        };
+
+        /// <summary>Where the gratings of a file lie: "Assets/Models/plate.glb Gratings".</summary>
+        internal static string FolderOf(string gltf)
+        {
+            return gltf + " Gratings";
+        }
+
+        /// <summary>The path of each surface's grating: names that every file system takes, and no two the same where
+        /// capitals do not count.</summary>
+        internal static string[] PathsOf(string gltf, IEnumerable<string> surfaces)
+        {
+            var taken = new HashSet<string>(StringComparer.OrdinalIgnoreCase);
+            return surfaces.Select(name => FolderOf(gltf) + "/" + Unique(Sanitise(name), taken) + ".asset").ToArray();
+        }
+
+        internal static string Sanitise(string name)
+        {
+            var clean = new StringBuilder(name.Length);
+            foreach (char c in name)
+            {
+                clean.Append(char.IsControl(c) || char.IsSurrogate(c) || Invalid.IndexOf(c) >= 0 ? '_' : c);
+            }
+            string cut = clean.Length > LongestName ? clean.ToString(0, LongestName) : clean.ToString();
+            cut = cut.Trim().TrimStart('.').TrimEnd('.', '~', ' '); // Unity does not look at .x and x~
+            bool reserved = Array.IndexOf(Reserved, cut.Split('.')[0].TrimEnd().ToLowerInvariant()) >= 0;
+            return cut.Length == 0 ? "surface" : reserved ? "_" + cut : cut;
+        }
+
+        static string Unique(string name, HashSet<string> taken)
+        {
+            string candidate = name;
+            for (int i = 2; !taken.Add(candidate); i++)
+            {
+                candidate = name + " (" + i + ")";
+            }
+            return candidate;
+        }
+
+        /// <summary>Makes or updates the grating of each tag. Returns what was not made, a sentence each.</summary>
+        internal static List<string> Write(string gltf, IReadOnlyList<KnurlTag> tags)
+        {
+            var refused = new List<string>();
+            if (tags.Count == 0)
+            {
+                return refused;
+            }
+            string[] paths = PathsOf(gltf, tags.Select(tag => tag.Name));
+            MakeFolder(FolderOf(gltf));
+            var made = new List<string>();
+            AssetDatabase.StartAssetEditing();
+            try
+            {
+                for (int i = 0; i < tags.Count; i++)
+                {
+                    WriteOne(paths[i], tags[i], made, refused);
+                }
+            }
+            finally
+            {
+                AssetDatabase.StopAssetEditing();
+            }
+            foreach (string path in made)
+            {
+                AssetDatabase.SetLabels(AssetDatabase.LoadMainAssetAtPath(path), new[] { Label });
+                AssetDatabase.WriteImportSettingsIfDirty(path); // labels stand in the meta
+            }
+            return refused;
+        }
+
+        static void WriteOne(string path, KnurlTag tag, List<string> made, List<string> refused)
+        {
+            Object found = AssetDatabase.LoadMainAssetAtPath(path);
+            if (found == null && !File.Exists(path))
+            {
+                var grating = ScriptableObject.CreateInstance<KnurlGrating>();
+                Put(tag, grating);
+                AssetDatabase.CreateAsset(grating, path);
+                made.Add(path);
+                return;
+            }
+            var known = found as KnurlGrating;
+            if (known == null || !AssetDatabase.GetLabels(known).Contains(Label))
+            {
+                refused.Add(path + " was not made of a tag (it lacks the label " + Label + ") and stays as it is: the "
+                    + "tag of '" + tag.Name + "' is not used");
+                return;
+            }
+            if (Put(tag, known))
+            {
+                EditorUtility.SetDirty(known);
+                AssetDatabase.SaveAssetIfDirty(known);
+            }
+        }
+
+        /// <summary>Returns whether anything is another.</summary>
+        internal static bool Put(KnurlTag tag, KnurlGrating grating)
+        {
+            bool same = grating.SpatialFrequency == tag.SpatialFrequency && grating.Amplitude == tag.Amplitude
+                && grating.Stiffness == tag.Stiffness && grating.Damping == tag.Damping
+                && grating.Friction == tag.Friction && grating.Orientation == tag.Orientation
+                && grating.Method == tag.Method;
+            if (!same)
+            {
+                tag.CopyTo(grating);
+            }
+            return !same;
+        }
+
+        static void MakeFolder(string folder)
+        {
+            if (!AssetDatabase.IsValidFolder(folder))
+            {
+                int slash = folder.LastIndexOf('/');
+                AssetDatabase.CreateFolder(folder.Substring(0, slash), folder.Substring(slash + 1));
+            }
+        }
+
+        /// <summary>After a file was moved or renamed: its gratings come along, and keep what refers to them.</summary>
+        internal static void Move(string from, string to)
+        {
+            if (AssetDatabase.IsValidFolder(FolderOf(from)) && !AssetDatabase.IsValidFolder(FolderOf(to)))
+            {
+                string wrong = AssetDatabase.MoveAsset(FolderOf(from), FolderOf(to));
+                if (!string.IsNullOrEmpty(wrong))
+                {
+                    Debug.LogWarning("Knurl: " + FolderOf(from) + " could not be moved along with its file: " + wrong);
+                }
+            }
+        }
+    }
+}

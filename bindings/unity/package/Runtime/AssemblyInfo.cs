@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("Knurl.Haptics.Editor")]
+[assembly: InternalsVisibleTo("Knurl.Haptics.Tests")]
+[assembly: InternalsVisibleTo("Knurl.Haptics.Editor.Tests")]

@@ -1,0 +1,80 @@
+// Unity's axes and Knurl's. SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>Unity is left-handed, Knurl's scene is glTF's, right-handed: x is mirrored, as glTF importers for Unity
+    /// do it, so that a file's surfaces lie where its meshes are drawn. A matrix M becomes F M F with
+    /// F = diag(-1, 1, 1).</summary>
+    internal static unsafe class Axes
+    {
+        /// <summary>A position (m), a direction or a force (N).</summary>
+        internal static void ToScene(Vector3 unity, double* scene)
+        {
+            scene[0] = -(double)unity.x;
+            scene[1] = unity.y;
+            scene[2] = unity.z;
+        }
+
+        /// <summary>A position (m), a direction or a force (N).</summary>
+        internal static Vector3 ToUnity(double* scene)
+        {
+            return new Vector3((float)(0.0 - scene[0]), (float)scene[1], (float)scene[2]); // no minus zero
+        }
+
+        /// <summary>A transform, as three rows of four for knurl_session_split_pose().</summary>
+        internal static void ToScene(Matrix4x4* unity, double* rows)
+        {
+            rows[0] = unity->m00;
+            rows[1] = -(double)unity->m01;
+            rows[2] = -(double)unity->m02;
+            rows[3] = -(double)unity->m03;
+            rows[4] = -(double)unity->m10;
+            rows[5] = unity->m11;
+            rows[6] = unity->m12;
+            rows[7] = unity->m13;
+            rows[8] = -(double)unity->m20;
+            rows[9] = unity->m21;
+            rows[10] = unity->m22;
+            rows[11] = unity->m23;
+        }
+
+        /// <summary>The workspace of a device that stands at a position (m) and is turned by a rotation: its x to the
+        /// right, its y up, its z towards the user, who looks along Unity's z. In scene axes that is F R D with
+        /// D = diag(1, 1, -1): a proper rotation.</summary>
+        internal static void ToWorkspace(Vector3 position, Quaternion rotation, double scale,
+            knurl_workspace* workspace)
+        {
+            double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
+            double twice = 2.0 / (x * x + y * y + z * z + w * w); // a float's quaternion is not quite of length 1
+            double* r = workspace->rotation;
+            NativeMethods.knurl_workspace_init(workspace);
+            ToScene(position, workspace->origin);
+            workspace->scale = scale;
+            r[0] = -(1.0 - twice * (y * y + z * z));
+            r[1] = -(twice * (x * y - z * w));
+            r[2] = twice * (x * z + y * w);
+            r[3] = twice * (x * y + z * w);
+            r[4] = 1.0 - twice * (x * x + z * z);
+            r[5] = -(twice * (y * z - x * w));
+            r[6] = twice * (x * z - y * w);
+            r[7] = twice * (y * z + x * w);
+            r[8] = -(1.0 - twice * (x * x + y * y));
+        }
+
+        /// <summary>to = matrix (3 by 3, row-major) times from.</summary>
+        internal static void Multiply(double* matrix, double* from, double* to)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                to[i] = matrix[3 * i] * from[0] + matrix[3 * i + 1] * from[1] + matrix[3 * i + 2] * from[2];
+            }
+        }
+
+        internal static double Determinant(double* m)
+        {
+            return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6])
+                + m[2] * (m[3] * m[7] - m[4] * m[6]);
+        }
+    }
+}

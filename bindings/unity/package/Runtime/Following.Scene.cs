@@ -1,0 +1,133 @@
+// What a follower does to the scene. SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl
+{
+    internal sealed unsafe partial class Following
+    {
+        static bool Split(Matrix4x4* matrix, knurl_session_pose* pose)
+        {
+            double* rows = stackalloc double[12];
+            Axes.ToScene(matrix, rows);
+            return NativeMethods.knurl_session_split_pose(rows, pose) != 0;
+        }
+
+        void Add(KnurlSurface surface, Follower* f)
+        {
+            knurl_session_pose pose;
+            Mesh mesh;
+            f->made = surface.Made;
+            f->felt = surface.Felt;
+            f->isFlat = Split(&f->seen, &pose) ? 0 : 1;
+            if (f->isFlat != 0 || surface.Grating == null)
+            {
+                return; // its warnings say so
+            }
+            string refusal = surface.FindMesh(out mesh);
+            if (refusal != null)
+            {
+                Complain(surface, refusal);
+                return;
+            }
+            f->id = AddMesh(surface, MeshReader.Read(mesh, pose.rest), &pose);
+            f->way = default(knurl_session_way);
+            Copy(pose.position, f->way.position, 3);
+            Copy(pose.rest, f->rest, 9);
+        }
+
+        /// <summary>Its id, or 0 after an error.</summary>
+        ulong AddMesh(KnurlSurface surface, MeshData data, knurl_session_pose* pose)
+        {
+            knurl_material_desc material;
+            knurl_mesh_desc mesh;
+            knurl_surface_desc desc;
+            double* axis = stackalloc double[3];
+            ulong id = 0;
+            surface.Grating.Describe(&material);
+            NativeMethods.knurl_mesh_desc_init(&mesh, (uint)sizeof(knurl_mesh_desc));
+            NativeMethods.knurl_surface_desc_init(&desc, (uint)sizeof(knurl_surface_desc));
+            mesh.vertex_count = (uint)(data.Positions.Length / 3);
+            mesh.index_count = (ulong)data.Indices.Length;
+            desc.mesh = &mesh;
+            desc.material = &material;
+            desc.double_sided = surface.DoubleSided ? 1u : 0u;
+            Copy(pose->position, desc.position, 3);
+            Copy(pose->quaternion, desc.rotation, 4);
+            Axes.ToScene(surface.Axis, axis);
+            Axes.Multiply(pose->rest, axis, desc.axis); // the axis is the mesh's: scaled like it
+            fixed (byte* name = Utf8.Bytes(surface.name.Replace('\0', ' '), "name"))
+            fixed (float* positions = data.Positions, tangents = data.Tangents, uvs = data.Uvs)
+            fixed (uint* indices = data.Indices)
+            {
+                desc.name = name;
+                mesh.positions = positions;
+                mesh.tangents = tangents;
+                mesh.uvs = uvs;
+                mesh.indices = indices;
+                Tell(surface, NativeMethods.knurl_scene_add_surface(scene, &desc, &id));
+            }
+            return id;
+        }
+
+        void Remove(Follower* f)
+        {
+            if (f->id != 0)
+            {
+                NativeMethods.knurl_scene_remove_surface(scene, f->id); // what that ended is told by the session
+                f->id = 0;
+            }
+        }
+
+        void Feel(KnurlSurface surface, Follower* f)
+        {
+            knurl_material_desc material;
+            f->felt = surface.Felt;
+            if ((object)surface.Grating != null)
+            {
+                surface.Grating.Describe(&material);
+                Tell(surface, NativeMethods.knurl_scene_set_material(scene, f->id, &material));
+            }
+        }
+
+        void Move(KnurlSurface surface, Follower* f)
+        {
+            knurl_session_pose pose;
+            if (!Split(&f->seen, &pose))
+            {
+                Remove(f);
+                f->isFlat = 1;
+            }
+            else if (NativeMethods.knurl_session_same_rest(pose.rest, f->rest) == 0)
+            {
+                Remove(f);
+                Add(surface, f);
+            }
+            else
+            {
+                Tell(surface, NativeMethods.knurl_session_move_surface(session, f->id, &f->way, pose.position,
+                    pose.quaternion));
+            }
+        }
+
+        static void Tell(KnurlSurface surface, int result)
+        {
+            if (result != NativeMethods.KNURL_OK)
+            {
+                Complain(surface, Utf8.Read(NativeMethods.knurl_error_message()));
+            }
+        }
+
+        static void Complain(KnurlSurface surface, string sentence)
+        {
+            Debug.LogError("KnurlSurface '" + surface.name + "': " + sentence, surface);
+        }
+
+        static void Copy(double* from, double* to, int length)
+        {
+            for (int i = 0; i < length; i++)
+            {
+                to[i] = from[i];
+            }
+        }
+    }
+}

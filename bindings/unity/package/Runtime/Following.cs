@@ -1,0 +1,196 @@
+// Surfaces follow their objects into a device's scene. SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>What one session knows of each enabled surface. Main thread. A frame asks nothing of the heap, and nothing
+    /// native for what stands still.</summary>
+    internal sealed unsafe partial class Following
+    {
+        struct Follower
+        {
+            internal ulong id;       // in the scene, or 0: it is not there
+            internal int made, felt; // of its surface, when it was last added or given a material
+            internal int isFlat;     // 1: scaled to nothing, so not in the scene
+            internal Matrix4x4 seen; // of its transform
+            internal knurl_session_way way;
+            internal fixed double rest[9]; // scale, shear and mirror that are worked into its mesh
+        }
+
+        readonly SessionHandle session;
+        readonly knurl_scene* scene; // the session's own: as long as that one lives
+        KnurlSurface[] surfaces = new KnurlSurface[16];
+        Transform[] transforms = new Transform[16];
+        Follower[] followers = new Follower[16];
+        int count;
+        long gratingsSeen;
+
+        internal Following(SessionHandle session)
+        {
+            this.session = session;
+            scene = NativeMethods.knurl_session_scene(session);
+        }
+
+        /// <summary>Adds all surfaces that are enabled, in the order of enabling. Errors go to the console.</summary>
+        internal void Fill()
+        {
+            for (int i = 0; i < World.Surfaces.Count; i++)
+            {
+                Enlist(World.Surfaces[i]);
+            }
+            Follow();
+        }
+
+        /// <summary>A surface that was enabled: it is added by the next <see cref="Follow"/>, with all that is set
+        /// until then.</summary>
+        internal void Enlist(KnurlSurface surface)
+        {
+            if (count == surfaces.Length)
+            {
+                Array.Resize(ref surfaces, 2 * count);
+                Array.Resize(ref transforms, 2 * count);
+                Array.Resize(ref followers, 2 * count);
+            }
+            surfaces[count] = surface;
+            transforms[count] = surface.transform;
+            followers[count] = new Follower { made = surface.Made - 1 };
+            count++;
+        }
+
+        /// <summary>A surface that is disabled, or gone: it is let go of at once.</summary>
+        internal void Drop(KnurlSurface surface)
+        {
+            int i = IndexOf(surface);
+            if (i < 0)
+            {
+                return;
+            }
+            fixed (Follower* f = &followers[i])
+            {
+                Remove(f);
+            }
+            count--;
+            surfaces[i] = surfaces[count];
+            transforms[i] = transforms[count];
+            followers[i] = followers[count];
+            surfaces[count] = null;
+            transforms[count] = null;
+        }
+
+        /// <summary>Takes all out of a scene that stays, because a file brought others.</summary>
+        internal void Clear()
+        {
+            while (count > 0)
+            {
+                Drop(surfaces[count - 1]);
+            }
+        }
+
+        /// <summary>Once a frame: adds what is new, moves what has moved, gives what was changed another material.</summary>
+        internal void Follow()
+        {
+            long changes = KnurlGrating.Changes;
+            for (int i = 0; i < count; i++)
+            {
+                Matrix4x4 now = transforms[i].localToWorldMatrix;
+                fixed (Follower* f = &followers[i])
+                {
+                    FollowOne(surfaces[i], f, &now, changes != gratingsSeen);
+                }
+            }
+            gratingsSeen = changes;
+        }
+
+        /// <summary>The surface of an id, or null.</summary>
+        internal KnurlSurface Find(ulong id)
+        {
+            for (int i = 0; i < count; i++)
+            {
+                if (followers[i].id == id)
+                {
+                    return surfaces[i];
+                }
+            }
+            return null;
+        }
+
+        /// <summary>The triangles of a surface; 0 where it is not in the scene.</summary>
+        internal int CountTriangles(KnurlSurface surface)
+        {
+            int i = IndexOf(surface);
+            knurl_surface_info info;
+            NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
+            return i < 0 || followers[i].id == 0
+                || NativeMethods.knurl_scene_surface_info(scene, followers[i].id, &info) != NativeMethods.KNURL_OK
+                ? 0 : (int)info.triangle_count;
+        }
+
+        /// <summary>What the device cannot do of a surface, a sentence each.</summary>
+        internal void Explain(KnurlSurface surface, List<string> warnings)
+        {
+            const int size = 4096;
+            int i = IndexOf(surface);
+            if (i < 0 || followers[i].id == 0)
+            {
+                return;
+            }
+            byte* text = stackalloc byte[size];
+            NativeMethods.knurl_session_explain(session, followers[i].id, text, size);
+            string all = Utf8.Read(text);
+            if (all != "")
+            {
+                warnings.AddRange(all.Split('\n'));
+            }
+        }
+
+        int IndexOf(KnurlSurface surface)
+        {
+            for (int i = 0; i < count; i++)
+            {
+                if (ReferenceEquals(surfaces[i], surface))
+                {
+                    return i;
+                }
+            }
+            return -1;
+        }
+
+        void FollowOne(KnurlSurface surface, Follower* f, Matrix4x4* now, bool gratingsChanged)
+        {
+            bool hasMoved = !IsSame(now, &f->seen);
+            bool isFeltAnew = f->felt != surface.Felt || (gratingsChanged && surface.WasChangedSince(gratingsSeen));
+            f->seen = *now;
+            if (f->made != surface.Made || (f->id == 0 && (f->isFlat != 0 ? hasMoved : isFeltAnew)))
+            {
+                Remove(f);
+                Add(surface, f);
+            }
+            else if (f->id != 0)
+            {
+                if (isFeltAnew)
+                {
+                    Feel(surface, f);
+                }
+                if (hasMoved)
+                {
+                    Move(surface, f);
+                }
+            }
+        }
+
+        /// <summary>To the last bit: Unity's == takes small ways for none.</summary>
+        static bool IsSame(Matrix4x4* a, Matrix4x4* b)
+        {
+            var x = (ulong*)a;
+            var y = (ulong*)b;
+            ulong difference = 0;
+            for (int i = 0; i < sizeof(Matrix4x4) / sizeof(ulong); i++)
+            {
+                difference |= x[i] ^ y[i];
+            }
+            return difference == 0;
+        }
+    }
+}

@@ -1,0 +1,117 @@
+// Events of a KnurlDevice: what happened since the last frame. Any of their handlers may stop the device, start it
+// anew, or destroy it. SPDX-License-Identifier: MIT
+using System;
+using UnityEngine;
+
+namespace Knurl
+{
+    public sealed partial class KnurlDevice
+    {
+        [NonSerialized] ulong touchedId;      // as told: in the session's scene, or 0
+        [NonSerialized] KnurlSurface touched; // as told: null also for a file's surface
+
+        /// <summary>A surface was disabled: that it is no longer touched is told at once.</summary>
+        internal void LetGoOf(KnurlSurface surface)
+        {
+            if (ReferenceEquals(touched, surface))
+            {
+                LetGo();
+            }
+        }
+
+        unsafe void TellEvents()
+        {
+            int run = runs;
+            knurl_session_event e;
+            while (isRunning && run == runs && NativeMethods.knurl_session_next_event(session, &e) != 0)
+            {
+                switch (e.kind)
+                {
+                    case NativeMethods.KNURL_SESSION_CONTACT_STARTED:
+                        Touch(e.surface);
+                        break;
+                    case NativeMethods.KNURL_SESSION_CONTACT_ENDED:
+                        if (e.surface == touchedId) // else it was disabled, and that was told
+                        {
+                            LetGo();
+                        }
+                        break;
+                    case NativeMethods.KNURL_SESSION_BUTTON:
+                        TellButton(e.code, e.value != 0.0);
+                        break;
+                    case NativeMethods.KNURL_SESSION_FAULT:
+                        TellFault(e.code, e.value);
+                        break;
+                    case NativeMethods.KNURL_SESSION_ENDED:
+                        StopDevice();
+                        break;
+                }
+            }
+        }
+
+        /// <summary>Null is told for a file's surface, but nothing for one that is gone by now.</summary>
+        unsafe void Touch(ulong id)
+        {
+            byte* ignored;
+            KnurlSurface surface = following.Find(id);
+            if ((object)surface == null && NativeMethods.knurl_scene_surface_name(
+                NativeMethods.knurl_session_scene(session), id, &ignored) != NativeMethods.KNURL_OK)
+            {
+                return;
+            }
+            touchedId = id;
+            touched = surface;
+            Tell(contactStarted, surface);
+        }
+
+        void LetGo()
+        {
+            if (touchedId != 0)
+            {
+                KnurlSurface surface = touched;
+                touchedId = 0;
+                touched = null;
+                Tell(contactEnded, surface);
+            }
+        }
+
+        void Tell(KnurlContactEvent what, KnurlSurface surface)
+        {
+            try
+            {
+                what.Invoke(surface);
+            }
+            catch (Exception e)
+            {
+                Debug.LogException(e, this);
+            }
+        }
+
+        void TellButton(int index, bool pressed)
+        {
+            try
+            {
+                buttonChanged.Invoke(index, pressed);
+            }
+            catch (Exception e)
+            {
+                Debug.LogException(e, this);
+            }
+        }
+
+        unsafe void TellFault(int code, double value)
+        {
+            const int size = 256;
+            byte* text = stackalloc byte[size];
+            NativeMethods.knurl_session_fault_text(code, value, text, size);
+            try
+            {
+                fault.Invoke(code, Utf8.Read(text));
+            }
+            catch (Exception e)
+            {
+                Debug.LogException(e, this);
+            }
+        }
+    }
+}

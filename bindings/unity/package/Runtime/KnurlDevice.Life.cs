@@ -1,0 +1,208 @@
+// A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT
+using System;
+using UnityEngine;
+
+namespace Knurl
+{
+    public sealed partial class KnurlDevice
+    {
+        // What runs does not survive a loading of scripts, so none of it may be kept by one.
+        [NonSerialized] SessionHandle session; // while it runs; also between runs where a file was loaded
+        [NonSerialized] Following following;   // as long as the session is open
+        [NonSerialized] bool isRunning;
+        [NonSerialized] bool hasFiles;
+        [NonSerialized] bool isPaused;
+        [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
+        [NonSerialized] int runs;        // so far
+        [NonSerialized] string deviceName;
+
+        /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component
+        /// active and enabled.</summary>
+        /// <returns>Whether it runs. An error that says why not goes to the console.</returns>
+        public bool StartDevice()
+        {
+            isNew = false;
+            if (isRunning)
+            {
+                return true;
+            }
+            try
+            {
+                Demand();
+                Open();
+                Begin();
+            }
+            catch (KnurlException e)
+            {
+                Complain("start", e.Message);
+                Release();
+            }
+            return isRunning;
+        }
+
+        /// <summary>Lets go, by a ramp of the force, and closes the device. Twice is fine.</summary>
+        public void StopDevice()
+        {
+            isNew = false;
+            if (isRunning)
+            {
+                Release();
+                LetGo(); // last: a handler finds a device that is stopped, and may start it
+            }
+        }
+
+        /// <summary>Stops every device and gives back all that is native, for the editor.</summary>
+        internal static void StopAll()
+        {
+            World.StopAll();
+        }
+
+        /// <summary>Stops it and gives back all that is native: what files brought, too.</summary>
+        internal void Shut()
+        {
+            StopDevice();
+            hasFiles = false;
+            Release();
+        }
+
+        internal void Enlist(KnurlSurface surface)
+        {
+            if (following != null)
+            {
+                following.Enlist(surface);
+            }
+        }
+
+        internal void Drop(KnurlSurface surface)
+        {
+            if (following != null)
+            {
+                following.Drop(surface);
+            }
+        }
+
+        void Demand()
+        {
+            Library.Demand();
+            if (!Application.isPlaying || !isActiveAndEnabled)
+            {
+                throw new KnurlException(NativeMethods.KNURL_ERROR_STATE, Application.isPlaying
+                    ? "expected a component that is active and enabled, found one that is not"
+                    : "expected play mode, found edit mode: devices run in a running game");
+            }
+        }
+
+        void NeedSession()
+        {
+            if (session == null)
+            {
+                session = SessionHandle.Create();
+                World.Devices.Add(this);
+            }
+        }
+
+        /// <summary>Opens the device first: where there is none, no mesh need be read.</summary>
+        unsafe void Open()
+        {
+            knurl_session_desc desc;
+            NeedSession();
+            NativeMethods.knurl_session_desc_init(&desc, (uint)sizeof(knurl_session_desc));
+            desc.reconnect = reconnect ? 1u : 0u;
+            desc.clamp = clamp ? 1u : 0u;
+            desc.update_rate_hz = rate;
+            Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
+            fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"))
+            {
+                desc.device = uri;
+                desc.stroke = hand;
+                KnurlException.Check(NativeMethods.knurl_session_open(session, &desc));
+            }
+            following = new Following(session);
+            following.Fill();
+        }
+
+        unsafe void Begin()
+        {
+            const int size = 1024;
+            knurl_device_info info;
+            byte* warning = stackalloc byte[size];
+            KnurlException.Check(NativeMethods.knurl_session_start(session, warning, size));
+            isRunning = true;
+            runs++;
+            NativeMethods.knurl_device_info_init(&info, (uint)sizeof(knurl_device_info));
+            NativeMethods.knurl_device_get_info(NativeMethods.knurl_session_device(session), &info);
+            deviceName = Utf8.Read(info.name);
+            if (warning[0] != 0)
+            {
+                Debug.LogWarning("KnurlDevice '" + name + "': " + Utf8.Read(warning), this);
+            }
+        }
+
+        /// <summary>What was touched is told by <see cref="LetGo"/>, not by the session: what that has left to tell is
+        /// of a run that is over.</summary>
+        unsafe void Release()
+        {
+            knurl_session_event ignored;
+            isRunning = false;
+            if (session != null)
+            {
+                NativeMethods.knurl_session_close(session);
+                while (NativeMethods.knurl_session_next_event(session, &ignored) != 0) { }
+            }
+            if (following != null)
+            {
+                following.Clear();
+                following = null;
+            }
+            if (session != null && !hasFiles)
+            {
+                session.Dispose();
+                session = null;
+                World.Devices.Remove(this);
+            }
+        }
+
+        void OnEnable()
+        {
+            isPaused = false; // the end of a pause may have come while nobody was told
+            isNew = true;
+        }
+
+        /// <summary>It starts in its first frame: all of the scene is there then, and settings that a script gives to a
+        /// component that it has just added count.</summary>
+        void Update()
+        {
+            if (isNew && autostart)
+            {
+                StartDevice();
+            }
+            isNew = false;
+        }
+
+        /// <summary>A game that stands still gives no sign of life, and the hand is let go of.</summary>
+        void LateUpdate()
+        {
+            if (isRunning && !isPaused && Time.timeScale != 0f)
+            {
+                NativeMethods.knurl_unity_update(session);
+                following.Follow();
+                TellEvents();
+            }
+        }
+
+        void OnApplicationPause(bool pause)
+        {
+            isPaused = pause;
+        }
+
+        void OnDisable()
+        {
+            StopDevice();
+        }
+
+        void OnDestroy()
+        {
+            Shut();
+        }
+    }
+}

@@ -1,0 +1,118 @@
+// A KnurlDevice's settings and its events. SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>A force-feedback device, or a simulated one, whose workspace lies in the scene. It runs a haptic
+    /// thread, commonly a thousand times a second, that lets the device feel all <see cref="KnurlSurface"/> components;
+    /// in play mode only. Where the object stands and how it is turned when the device starts, there lies the device's
+    /// workspace: x to the right, y up, the user looking along the object's z, origin at the object; the object's scale
+    /// does not count. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or
+    /// disables the device lets go of the user's hand. All members: main thread.</summary>
+    [AddComponentMenu("Knurl/Knurl Device")]
+    [DefaultExecutionOrder(1000)] // last in a frame, so that what others have moved in it is followed
+    [DisallowMultipleComponent]
+    public sealed partial class KnurlDevice : MonoBehaviour
+    {
+        [SerializeField, Tooltip("Which device: fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
+            + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as all "
+            + "settings do.")]
+        string device = "fake";
+
+        [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, "
+            + "circle, press or rest. Empty: it stands still at the workspace's origin.")]
+        string stroke = "";
+
+        [SerializeField, Min(0f), Tooltip("Ticks a second, 100 to 10000. Hz")]
+        float rate = 1000f;
+
+        [SerializeField, Min(0f), Tooltip("Metres of the scene per metre that the device moves, above 0. Walls feel "
+            + "stiffer by as much.")]
+        float workspaceScale = 1f;
+
+        [SerializeField, Tooltip("Whether it starts in its first frame.")]
+        bool autostart = true;
+
+        [SerializeField, Tooltip("Whether a device that was lost is looked for again; otherwise losing it stops this "
+            + "component.")]
+        bool reconnect = true;
+
+        [SerializeField, Tooltip("Whether walls and textures beyond what the device can do are felt at what it can.")]
+        bool clamp = true;
+
+        /// <summary>A surface is touched; of several, the one pressed deepest. Null for a surface of <see
+        /// cref="LoadGltf"/>. Told in LateUpdate; a touch shorter than a frame is told as well.</summary>
+        public KnurlContactEvent contactStarted = new KnurlContactEvent();
+
+        /// <summary>A surface is not the one touched any more: the finger left, something else is pressed deeper, the
+        /// surface was disabled (then this comes at once) or the device stopped.</summary>
+        public KnurlContactEvent contactEnded = new KnurlContactEvent();
+
+        /// <summary>A button of the device (0: the first) was pressed or released, as of this frame.</summary>
+        public KnurlButtonEvent buttonChanged = new KnurlButtonEvent();
+
+        /// <summary>Something went wrong with the device or the haptic thread (1 to 31), or was well again (32 and
+        /// above), with a sentence.</summary>
+        public KnurlFaultEvent fault = new KnurlFaultEvent();
+
+        /// <summary>Which device: fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
+        /// rawhid:VID:PID; or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the
+        /// next start on, as all settings do, and is checked there.</summary>
+        public string Device
+        {
+            get { return device; }
+            set { device = value; }
+        }
+
+        /// <summary>What the fake device's simulated hand does over the first surface: line, sweep, circle, press or
+        /// rest. Empty, the default: it stands still at the workspace's origin.</summary>
+        public string Stroke
+        {
+            get { return stroke; }
+            set { stroke = value; }
+        }
+
+        /// <summary>Ticks a second (Hz), 100 to 10000. Default 1000.</summary>
+        public float Rate
+        {
+            get { return rate; }
+            set { rate = value; }
+        }
+
+        /// <summary>Metres of the scene per metre that the device moves, above 0. Walls feel stiffer by as much.
+        /// Default 1.</summary>
+        public float WorkspaceScale
+        {
+            get { return workspaceScale; }
+            set { workspaceScale = value; }
+        }
+
+        /// <summary>Whether it starts in the first frame after it was enabled. Default true.</summary>
+        public bool Autostart
+        {
+            get { return autostart; }
+            set { autostart = value; }
+        }
+
+        /// <summary>Whether a device that was lost is looked for again; otherwise losing it stops this component.
+        /// Default true.</summary>
+        public bool Reconnect
+        {
+            get { return reconnect; }
+            set { reconnect = value; }
+        }
+
+        /// <summary>Whether walls and textures beyond what the device can do are felt at what it can. Default
+        /// true.</summary>
+        public bool Clamp
+        {
+            get { return clamp; }
+            set { clamp = value; }
+        }
+
+        void Complain(string what, string sentence)
+        {
+            Debug.LogError("KnurlDevice '" + name + "', " + what + ": " + sentence, this);
+        }
+    }
+}

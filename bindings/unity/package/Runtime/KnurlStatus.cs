@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+namespace Knurl
+{
+    /// <summary>Everything that a device's run counts, since its start; all zeros while it does not run. For people who
+    /// look for what is wrong.</summary>
+    public struct KnurlStatus
+    {
+        /// <summary>Whether the haptic thread runs.</summary>
+        public bool Running;
+
+        /// <summary>Ticks made.</summary>
+        public long Ticks;
+
+        /// <summary>Ticks that came late, by more than half a period.</summary>
+        public long Overruns;
+
+        /// <summary>Times the watchdog let go of the motors, because the haptic thread stood still.</summary>
+        public long Watchdogs;
+
+        /// <summary>Ticks left out because the device was lost or gave no position that can be trusted.</summary>
+        public long Absences;
+
+        /// <summary>Whether such was the latest one.</summary>
+        public bool Absent;
+
+        /// <summary>Whether the haptic thread has the system's real-time priority.</summary>
+        public bool Realtime;
+
+        /// <summary>Whether what a tick needs is locked into RAM.</summary>
+        public bool MemoryLocked;
+
+        /// <summary>How long the computation of a tick took, median (us).</summary>
+        public double TickUsP50;
+
+        /// <summary>How long the computation of a tick took, 99th percentile (us).</summary>
+        public double TickUsP99;
+
+        /// <summary>How long the computation of a tick took at most (us).</summary>
+        public double TickUsMax;
+
+        /// <summary>How late ticks began, median (us).</summary>
+        public double JitterUsP50;
+
+        /// <summary>How late ticks began, 99th percentile (us).</summary>
+        public double JitterUsP99;
+
+        /// <summary>How late ticks began at most (us).</summary>
+        public double JitterUsMax;
+
+        /// <summary>The longest force that the device can play (N).</summary>
+        public double MaxForce;
+
+        /// <summary>Whether the device is gone.</summary>
+        public bool Lost;
+
+        /// <summary>Whether the motors were let go and nothing has taken them up again.</summary>
+        public bool Halted;
+
+        /// <summary>Faults reported, with the news that all is well again.</summary>
+        public long Faults;
+
+        /// <summary>Ticks in contact.</summary>
+        public long ContactTicks;
+
+        /// <summary>Vibration events started (methods S2 and Locked).</summary>
+        public long Events;
+
+        /// <summary>Ticks whose force was shortened to <see cref="MaxForce"/>.</summary>
+        public long ForceLimits;
+
+        /// <summary>Ticks whose motion asked for a frequency above half the rate.</summary>
+        public long FrequencySaturations;
+
+        /// <summary>Ticks whose position or force was not a number.</summary>
+        public long NotFinite;
+
+        /// <summary>Ticks in which a wall that was suddenly there came in as a ramp.</summary>
+        public long Entries;
+
+        /// <summary>Ticks whose force was kept from jumping.</summary>
+        public long Slews;
+
+        /// <summary>Ticks whose force was shortened to what warm motors can hold.</summary>
+        public long Heats;
+
+        /// <summary>Ticks whose force was shortened because a wall gave out more energy than was put in.</summary>
+        public long Passivities;
+
+        /// <summary>The longest force played (N).</summary>
+        public double ForceMax;
+
+        /// <summary>How warm the motors are, by a model: 0 cold to 1, as warm as they may get in the long
+        /// run.</summary>
+        public double Heat;
+
+        /// <summary>Surfaces in the scene.</summary>
+        public long Surfaces;
+
+        /// <summary>Memory that the scene holds (bytes).</summary>
+        public long SceneBytes;
+
+        internal static unsafe KnurlStatus Of(SessionHandle session)
+        {
+            var status = new KnurlStatus { Running = true };
+            status.TellLoop(NativeMethods.knurl_session_loop(session));
+            status.TellDevice(NativeMethods.knurl_session_device(session));
+            status.TellHip(NativeMethods.knurl_session_scene(session));
+            return status;
+        }
+
+        unsafe void TellLoop(knurl_loop* loop)
+        {
+            knurl_loop_stats stats;
+            NativeMethods.knurl_loop_stats_init(&stats, (uint)sizeof(knurl_loop_stats));
+            NativeMethods.knurl_loop_get_stats(loop, &stats);
+            Ticks = (long)stats.ticks;
+            Overruns = (long)stats.overruns;
+            Watchdogs = (long)stats.watchdogs;
+            Absences = (long)stats.absences;
+            Absent = stats.absent != 0;
+            Realtime = stats.realtime != 0;
+            MemoryLocked = stats.memory_locked != 0;
+            TickUsP50 = 1e-3 * stats.tick_ns.p50;
+            TickUsP99 = 1e-3 * stats.tick_ns.p99;
+            TickUsMax = 1e-3 * stats.tick_ns.max;
+            JitterUsP50 = 1e-3 * stats.jitter_ns.p50;
+            JitterUsP99 = 1e-3 * stats.jitter_ns.p99;
+            JitterUsMax = 1e-3 * stats.jitter_ns.max;
+        }
+
+        unsafe void TellDevice(knurl_device* device)
+        {
+            knurl_device_info info;
+            knurl_device_status now;
+            NativeMethods.knurl_device_info_init(&info, (uint)sizeof(knurl_device_info));
+            NativeMethods.knurl_device_status_init(&now, (uint)sizeof(knurl_device_status));
+            NativeMethods.knurl_device_get_info(device, &info);
+            NativeMethods.knurl_device_get_status(device, &now);
+            MaxForce = info.max_force;
+            Lost = now.lost != 0;
+            Halted = now.halted != 0;
+            Faults = (long)now.events;
+        }
+
+        unsafe void TellHip(knurl_scene* scene)
+        {
+            var counts = default(knurl_hip_counts);
+            NativeMethods.knurl_scene_get_tick(scene, 0, null, &counts);
+            ContactTicks = (long)counts.contact_ticks;
+            Events = (long)counts.events;
+            ForceLimits = (long)counts.force_limits;
+            FrequencySaturations = (long)counts.frequency_saturations;
+            NotFinite = (long)counts.not_finite;
+            Entries = (long)counts.entries;
+            Slews = (long)counts.slews;
+            Heats = (long)counts.heats;
+            Passivities = (long)counts.passivities;
+            ForceMax = counts.force_max;
+            Heat = counts.heat;
+            Surfaces = NativeMethods.knurl_scene_surface_count(scene);
+            SceneBytes = (long)NativeMethods.knurl_scene_bytes(scene);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>Makes the mesh of its MeshFilter felt, with every running <see cref="KnurlDevice"/>. The mesh is read
+    /// when a device starts, or when the surface is enabled while one runs, at rest: skins and blend shapes are not
+    /// followed. To have a mesh that was changed read again, disable the surface and enable it. It follows its
+    /// transform, so that what slides under a finger is felt to slide. A scale is worked into the mesh, which is read
+    /// again whenever the scale changes: cheap enough for now and then, not for every frame. Main thread.</summary>
+    [AddComponentMenu("Knurl/Knurl Surface")]
+    [DisallowMultipleComponent]
+    [RequireComponent(typeof(MeshFilter))]
+    public sealed class KnurlSurface : MonoBehaviour
+    {
+        [SerializeField, Tooltip("How it feels.")]
+        KnurlGrating grating;
+
+        [SerializeField, Tooltip("Whether it can be touched from behind as well.")]
+        bool doubleSided;
+
+        [SerializeField, Tooltip("The grating's x direction in the mesh's own axes, of any length. (0, 0, 0): the "
+            + "mesh's tangents, else its UVs; a mesh that has neither needs an axis.")]
+        Vector3 axis;
+
+        /// <summary>How it feels; null: it cannot be felt.</summary>
+        public KnurlGrating Grating
+        {
+            get { return grating; }
+            set
+            {
+                Made += (grating == null) != (value == null) ? 1 : 0;
+                Felt++;
+                grating = value;
+            }
+        }
+
+        /// <summary>Whether it can be touched from behind as well. Default false.</summary>
+        public bool DoubleSided
+        {
+            get { return doubleSided; }
+            set { doubleSided = value; Made++; }
+        }
+
+        /// <summary>The grating's x direction in the mesh's own axes, of any length. (0, 0, 0), the default: the mesh's
+        /// tangents, else its UVs; a mesh that has neither needs an axis.</summary>
+        public Vector3 Axis
+        {
+            get { return axis; }
+            set { axis = value; Made++; }
+        }
+
+        /// <summary>How many triangles are felt with the first device that feels it; 0 while no running device
+        /// does.</summary>
+        public int TriangleCount
+        {
+            get
+            {
+                int count = 0;
+                for (int i = 0; i < World.Devices.Count && count == 0; i++)
+                {
+                    count = World.Devices[i].CountTriangles(this);
+                }
+                return count;
+            }
+        }
+
+        /// <summary>Whether it is what a device touched in the latest frame; of several surfaces in contact, the one
+        /// that is pressed deepest.</summary>
+        public bool IsTouched
+        {
+            get
+            {
+                bool isTouched = false;
+                for (int i = 0; i < World.Devices.Count; i++)
+                {
+                    isTouched |= ReferenceEquals(World.Devices[i].Touched, this);
+                }
+                return isTouched;
+            }
+        }
+
+        /// <summary>Counts what asks for its mesh to be read anew.</summary>
+        internal int Made { get; private set; }
+
+        /// <summary>Counts gratings that it was given.</summary>
+        internal int Felt { get; private set; }
+
+        /// <summary>Why it cannot be felt, or not as asked for: a sentence each. Empty where all is well. In play mode
+        /// this includes what the running devices cannot do. Not for every frame.</summary>
+        public string[] GetWarnings()
+        {
+            var warnings = new List<string>();
+            Mesh mesh;
+            string refusal = FindMesh(out mesh);
+            string omission = refusal == null ? MeshReader.Omission(mesh) : null;
+            if (refusal != null)
+            {
+                warnings.Add(refusal);
+            }
+            if (omission != null)
+            {
+                warnings.Add(omission);
+            }
+            if (grating == null)
+            {
+                warnings.Add("It has no grating: nothing says how it feels.");
+            }
+            if (IsFlat())
+            {
+                warnings.Add("It is scaled to nothing.");
+            }
+            for (int i = 0; i < World.Devices.Count; i++)
+            {
+                World.Devices[i].Explain(this, warnings);
+            }
+            return warnings.ToArray();
+        }
+
+        /// <summary>The mesh that is felt: null where its sentence says that there is none that can be; or null where
+        /// it can.</summary>
+        internal string FindMesh(out Mesh mesh)
+        {
+            var filter = GetComponent<MeshFilter>();
+            var drawn = GetComponent<Renderer>();
+            mesh = filter == null ? null : filter.sharedMesh;
+            string refusal = mesh == null ? "Its MeshFilter has no mesh: there is nothing to feel."
+                : drawn != null && drawn.isPartOfStaticBatch
+                ? "Its mesh was merged with others into '" + mesh.name + "' by static batching: clear Batching Static "
+                    + "among the static flags of its GameObject."
+                : MeshReader.Refusal(mesh);
+            mesh = refusal == null ? mesh : null;
+            return refusal;
+        }
+
+        internal bool WasChangedSince(long gratingsSeen)
+        {
+            return (object)grating != null && grating.Version > gratingsSeen;
+        }
+
+        unsafe bool IsFlat()
+        {
+            Matrix4x4 matrix = transform.localToWorldMatrix;
+            double* rows = stackalloc double[12];
+            knurl_session_pose pose;
+            Axes.ToScene(&matrix, rows);
+            return Library.Check() == null && NativeMethods.knurl_session_split_pose(rows, &pose) == 0;
+        }
+
+        void OnEnable()
+        {
+            World.Enter(this);
+        }
+
+        void OnDisable()
+        {
+            World.Leave(this);
+        }
+
+        void OnValidate()
+        {
+            Made++;
+            Felt++;
+        }
+    }
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>One surface of a glTF file that is tagged as a grating: how it feels, and which one it is. See <see
+    /// cref="KnurlTags.Read"/>.</summary>
+    public sealed class KnurlTag
+    {
+        internal unsafe KnurlTag(knurl_surface_info* info)
+        {
+            knurl_material_desc* material = &info->material;
+            Name = Utf8.Read(info->name);
+            SpatialFrequency = new Vector2((float)material->spatial_frequency[0],
+                (float)material->spatial_frequency[1]);
+            Amplitude = (float)material->amplitude;
+            Stiffness = (float)material->stiffness;
+            Damping = (float)material->damping;
+            Friction = (float)material->friction;
+            Orientation = (float)material->orientation;
+            Method = (GratingMethod)material->method;
+            DoubleSided = info->double_sided != 0;
+        }
+
+        /// <summary>The surface's name: its node's, else its mesh's.</summary>
+        public string Name { get; }
+
+        /// <summary>See <see cref="KnurlGrating.SpatialFrequency"/> (1/m).</summary>
+        public Vector2 SpatialFrequency { get; }
+
+        /// <summary>See <see cref="KnurlGrating.Amplitude"/> (m).</summary>
+        public float Amplitude { get; }
+
+        /// <summary>See <see cref="KnurlGrating.Stiffness"/> (N/m).</summary>
+        public float Stiffness { get; }
+
+        /// <summary>See <see cref="KnurlGrating.Damping"/> (N s/m).</summary>
+        public float Damping { get; }
+
+        /// <summary>See <see cref="KnurlGrating.Friction"/>.</summary>
+        public float Friction { get; }
+
+        /// <summary>See <see cref="KnurlGrating.Orientation"/> (rad).</summary>
+        public float Orientation { get; }
+
+        /// <summary>How ridges are rendered, as it is felt: never <see cref="GratingMethod.Default"/>.</summary>
+        public GratingMethod Method { get; }
+
+        /// <summary>Whether the surface can be touched from behind as well.</summary>
+        public bool DoubleSided { get; }
+
+        /// <summary>Gives a grating these values, all of them.</summary>
+        public void CopyTo(KnurlGrating grating)
+        {
+            grating.SpatialFrequency = SpatialFrequency;
+            grating.Amplitude = Amplitude;
+            grating.Stiffness = Stiffness;
+            grating.Damping = Damping;
+            grating.Friction = Friction;
+            grating.Orientation = Orientation;
+            grating.Method = Method;
+        }
+    }
+}

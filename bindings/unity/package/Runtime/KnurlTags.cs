@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+
+namespace Knurl
+{
+    /// <summary>What is tagged as a grating in glTF files, for importers.</summary>
+    public static class KnurlTags
+    {
+        /// <summary>Reads a .gltf or .glb file on the disk with Knurl's own loader, in edit mode too. Main
+        /// thread.</summary>
+        /// <param name="path">The file; a relative path counts from the process's working directory.</param>
+        /// <returns>Its tagged surfaces, one a node and primitive, in the file's order; none where nothing is
+        /// tagged.</returns>
+        /// <exception cref="KnurlException">The file cannot be read, or does not hold what it should: the loader's
+        /// sentence, which names file, object and key. Or the native library is missing.</exception>
+        public static unsafe IReadOnlyList<KnurlTag> Read(string path)
+        {
+            Library.Demand();
+            knurl_scene* scene = null;
+            KnurlException.Check(NativeMethods.knurl_scene_create(null, &scene));
+            try
+            {
+                fixed (byte* file = Utf8.Bytes(path, "path"))
+                {
+                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(scene, file, null));
+                }
+                return ReadAll(scene);
+            }
+            finally
+            {
+                NativeMethods.knurl_scene_destroy(scene);
+            }
+        }
+
+        static unsafe KnurlTag[] ReadAll(knurl_scene* scene)
+        {
+            var tags = new KnurlTag[NativeMethods.knurl_scene_surface_count(scene)];
+            for (uint i = 0; i < tags.Length; i++)
+            {
+                knurl_surface_info info;
+                NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
+                KnurlException.Check(NativeMethods.knurl_scene_surface_info(scene,
+                    NativeMethods.knurl_scene_surface_at(scene, i), &info));
+                tags[i] = new KnurlTag(&info);
+            }
+            return tags;
+        }
+    }
+}

@@ -1,0 +1,113 @@
+// Whether the native library is there, and the one that this package belongs to. SPDX-License-Identifier: MIT
+using System;
+using System.Reflection;
+using System.Runtime.InteropServices;
+
+namespace Knurl
+{
+    internal static unsafe class Library
+    {
+        const string Remedy = "install the package com.knurl.haptics anew, as a whole, and restart the editor (it "
+            + "keeps a native library loaded until it ends)";
+
+        static bool isChecked;
+        static string wrong;
+
+        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then
+        /// nothing else may be called. It looks once; a failure is looked at again after <see
+        /// cref="ForgetFailure"/>.</summary>
+        internal static string Check()
+        {
+            if (!isChecked)
+            {
+                wrong = Look();
+                isChecked = true;
+            }
+            return wrong;
+        }
+
+        /// <summary>Throws the sentence of <see cref="Check"/> where there is one.</summary>
+        internal static void Demand()
+        {
+            if (Check() != null)
+            {
+                throw new KnurlException(NativeMethods.KNURL_ERROR_UNSUPPORTED, wrong);
+            }
+        }
+
+        /// <summary>Somebody may have put the library where it belongs since.</summary>
+        internal static void ForgetFailure()
+        {
+            isChecked = isChecked && wrong == null;
+        }
+
+        static string Look()
+        {
+            try
+            {
+                string found = Utf8.Read(NativeMethods.knurl_unity_interface());
+                string version = Utf8.Read(NativeMethods.knurl_version_string());
+                return found == NativeMethods.Interface && version == NativeMethods.Version
+                    ? FindWrongSize() : Differs(version, found);
+            }
+            catch (EntryPointNotFoundException)
+            {
+                return Differs(FindVersion(), "none");
+            }
+            catch (DllNotFoundException)
+            {
+                return CannotLoad("it was not found, or a library that it needs was not");
+            }
+            catch (BadImageFormatException)
+            {
+                return CannotLoad("it is made for another processor");
+            }
+        }
+
+        internal static string Differs(string version, string found)
+        {
+            return "The native library " + NativeMethods.Library + " is not the one of this package: expected Knurl "
+                + NativeMethods.Version + " (interface " + NativeMethods.Interface + "), found Knurl " + version
+                + " (interface " + found + "): " + Remedy + ".";
+        }
+
+        static string CannotLoad(string why)
+        {
+            return "The native library " + NativeMethods.Library + " of Knurl " + NativeMethods.Version
+                + " cannot be loaded (" + why + "). There is one for Windows and one for Linux, both on x86_64, in the "
+                + "package's folder Plugins; where it is not there, " + Remedy + ".";
+        }
+
+        static string FindVersion()
+        {
+            try
+            {
+                return Utf8.Read(NativeMethods.knurl_version_string());
+            }
+            catch (EntryPointNotFoundException)
+            {
+                return "of no known version";
+            }
+        }
+
+        /// <summary>Both sides were made from the same headers; what is left is that their compilers lay a struct out
+        /// differently.</summary>
+        static string FindWrongSize()
+        {
+            Assembly assembly = typeof(NativeMethods).Assembly;
+            knurl_unity_layout_row row;
+            for (uint i = 0; NativeMethods.knurl_unity_layout(i, &row) != 0; i++)
+            {
+                Type type = row.field[0] == 0 ? assembly.GetType("Knurl." + Utf8.Read(row.type)) : null;
+                int size = type == null ? (int)row.size : Marshal.SizeOf(type);
+                if (size != (int)row.size)
+                {
+                    return "The native library " + NativeMethods.Library + " (Knurl " + NativeMethods.Version
+                        + ") lays " + type.Name + " out in " + row.size + " bytes, this package's C# (Knurl "
+                        + NativeMethods.Version + ") in " + size + ": " + Remedy + ".";
+                }
+            }
+            return null;
+        }
+    }
+}

@@ -1,0 +1,143 @@
+// Reads meshes as Knurl wants them. SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>A mesh in scene axes.</summary>
+    internal sealed class MeshData
+    {
+        internal float[] Positions; // x, y, z a vertex
+        internal float[] Tangents;  // x, y, z, w a vertex, or null
+        internal float[] Uvs;       // u, v a vertex, or null
+        internal uint[] Indices;    // three a triangle, counter-clockwise from outside
+    }
+
+    internal static unsafe class MeshReader
+    {
+        /// <summary>Why nothing of a mesh can be felt, or null.</summary>
+        internal static string Refusal(Mesh mesh)
+        {
+            if (!mesh.isReadable)
+            {
+                return "Its mesh '" + mesh.name + "' cannot be read: switch Read/Write on in the import settings of "
+                    + "its model.";
+            }
+            return CountTriangles(mesh) > 0 ? null
+                : "Its mesh '" + mesh.name + "' has no triangles"
+                    + Others(mesh, ": expected the topology Triangles, found ") + ".";
+        }
+
+        /// <summary>What of a readable mesh is not felt, or null.</summary>
+        internal static string Omission(Mesh mesh)
+        {
+            string others = Others(mesh, "");
+            return others == "" ? null
+                : "Of its mesh '" + mesh.name + "' only triangles are felt, not " + others + ".";
+        }
+
+        /// <summary>All triangles of a mesh that <see cref="Refusal"/> has nothing against. rest: worked into it, 3 by
+        /// 3, row-major, scene axes.</summary>
+        internal static MeshData Read(Mesh mesh, double* rest)
+        {
+            var data = new MeshData();
+            data.Positions = ReadPositions(mesh, rest);
+            data.Tangents = ReadTangents(mesh, rest);
+            data.Uvs = ReadUvs(mesh);
+            data.Indices = ReadIndices(mesh, Axes.Determinant(rest) < 0.0);
+            return data;
+        }
+
+        static float[] ReadPositions(Mesh mesh, double* rest)
+        {
+            var from = new List<Vector3>();
+            mesh.GetVertices(from);
+            var to = new float[3 * from.Count];
+            for (int i = 0; i < from.Count; i++)
+            {
+                Turn(rest, from[i].x, from[i].y, from[i].z, to, 3 * i);
+            }
+            return to;
+        }
+
+        static float[] ReadTangents(Mesh mesh, double* rest)
+        {
+            var from = new List<Vector4>();
+            mesh.GetTangents(from);
+            var to = from.Count > 0 && from.Count == mesh.vertexCount ? new float[4 * from.Count] : null;
+            for (int i = 0; to != null && i < from.Count; i++)
+            {
+                Turn(rest, from[i].x, from[i].y, from[i].z, to, 4 * i);
+                to[4 * i + 3] = from[i].w;
+            }
+            return to;
+        }
+
+        /// <summary>glTF's v runs down the image, Unity's up.</summary>
+        static float[] ReadUvs(Mesh mesh)
+        {
+            var from = new List<Vector2>();
+            mesh.GetUVs(0, from);
+            var to = from.Count > 0 && from.Count == mesh.vertexCount ? new float[2 * from.Count] : null;
+            for (int i = 0; to != null && i < from.Count; i++)
+            {
+                to[2 * i] = from[i].x;
+                to[2 * i + 1] = 1f - from[i].y;
+            }
+            return to;
+        }
+
+        /// <summary>Unity's front faces are clockwise, in left-handed axes: mirrored, they face in, unless a mirror is
+        /// worked in as well.</summary>
+        static uint[] ReadIndices(Mesh mesh, bool isMirrored)
+        {
+            var to = new uint[3 * CountTriangles(mesh)];
+            int written = 0;
+            for (int part = 0; part < mesh.subMeshCount; part++)
+            {
+                int[] from = mesh.GetTopology(part) == MeshTopology.Triangles ? mesh.GetIndices(part) : null;
+                for (int i = 0; from != null && i + 2 < from.Length; i += 3)
+                {
+                    to[written] = (uint)from[i];
+                    to[written + 1] = (uint)from[isMirrored ? i + 1 : i + 2];
+                    to[written + 2] = (uint)from[isMirrored ? i + 2 : i + 1];
+                    written += 3;
+                }
+            }
+            return to;
+        }
+
+        /// <summary>to = rest F from.</summary>
+        static void Turn(double* rest, double x, double y, double z, float[] to, int at)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                to[at + i] = (float)(rest[3 * i + 1] * y + rest[3 * i + 2] * z - rest[3 * i] * x);
+            }
+        }
+
+        static long CountTriangles(Mesh mesh)
+        {
+            long count = 0;
+            for (int i = 0; i < mesh.subMeshCount; i++)
+            {
+                count += mesh.GetTopology(i) == MeshTopology.Triangles ? mesh.GetIndexCount(i) / 3 : 0;
+            }
+            return count;
+        }
+
+        /// <summary>The submeshes of other topologies, after a beginning; "" where there are none.</summary>
+        static string Others(Mesh mesh, string beginning)
+        {
+            string text = "";
+            for (int i = 0; i < mesh.subMeshCount; i++)
+            {
+                if (mesh.GetTopology(i) != MeshTopology.Triangles)
+                {
+                    text += (text == "" ? beginning : ", ") + mesh.GetTopology(i) + " (submesh " + i + ")";
+                }
+            }
+            return text;
+        }
+    }
+}

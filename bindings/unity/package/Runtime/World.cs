@@ -1,0 +1,73 @@
+// What there is to be felt, and who feels. SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>Main thread. Statics outlive play mode where domains are not loaded anew: they are cleared before each
+    /// one.</summary>
+    internal static class World
+    {
+        /// <summary>Those that are enabled, in the order of enabling.</summary>
+        internal static readonly List<KnurlSurface> Surfaces = new List<KnurlSurface>();
+
+        /// <summary>Those that hold a session: they run, or have loaded a file.</summary>
+        internal static readonly List<KnurlDevice> Devices = new List<KnurlDevice>();
+
+        static bool isHooked;
+
+        internal static void Enter(KnurlSurface surface)
+        {
+            Surfaces.Add(surface);
+            for (int i = 0; i < Devices.Count; i++)
+            {
+                Devices[i].Enlist(surface);
+            }
+        }
+
+        /// <summary>Told at once: a frame later there may be nothing left to tell of. Handlers come last; they may do
+        /// what they like.</summary>
+        internal static void Leave(KnurlSurface surface)
+        {
+            Surfaces.Remove(surface);
+            for (int i = 0; i < Devices.Count; i++)
+            {
+                Devices[i].Drop(surface);
+            }
+            for (int i = Devices.Count - 1; i >= 0; i--)
+            {
+                if (i < Devices.Count)
+                {
+                    Devices[i].LetGoOf(surface);
+                }
+            }
+        }
+
+        /// <summary>Stops all devices and gives all that is native back: when the game ends; in the editor also when
+        /// play mode is left and before scripts are loaded anew.</summary>
+        internal static void StopAll()
+        {
+            for (int i = Devices.Count - 1; i >= 0; i--)
+            {
+                if (i < Devices.Count)
+                {
+                    Devices[i].Shut();
+                }
+            }
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        internal static void Begin()
+        {
+            StopAll();
+            Surfaces.Clear();
+            Devices.Clear();
+            Library.ForgetFailure();
+            if (!isHooked)
+            {
+                isHooked = true;
+                Application.quitting += StopAll;
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl.Samples
+{
+    /// <summary>Three gratings side by side, felt with a device, or with the mouse where there is none. Put it on an
+    /// empty object of a new scene and press play: everything else is made here.</summary>
+    public sealed class KnurlDemo : MonoBehaviour
+    {
+        [SerializeField, Tooltip("mouse, touch, falcon, rawhid, fake; where it does not start, the mouse takes over")]
+        string device = "mouse";
+
+        [SerializeField, Tooltip("Of the fake device's hand, over the first plate: line, sweep, circle, press or rest")]
+        string stroke = "sweep";
+
+        const float Hover = 0.004f; // m above the plates while the button is up
+        const float Deepest = 0.002f; // m
+        const float Step = 0.0001f; // m a notch of the wheel
+        const float Ball = 0.003f; // m: the cursor's diameter
+        static readonly Vector3 WorkspaceCentre = new Vector3(0f, 0.02f, 0f); // a Touch reaches 60 mm below it
+        static readonly Vector3 Eye = new Vector3(0f, 0.17f, -0.13f);
+
+        Camera eye;
+        KnurlDevice haptic;
+        KnurlPlot plot;
+        Transform hip;
+        Transform proxy;
+        float depth = 0.0006f; // m that the mouse's button presses
+        string fault = "";
+
+        /// <summary>The device that feels the plates.</summary>
+        public KnurlDevice Haptic
+        {
+            get { return haptic; }
+        }
+
+        void Start()
+        {
+            KnurlPlates.Make(transform);
+            eye = PlaceCamera();
+            hip = MakeBall("HIP", new Color(1f, 0.62f, 0.2f), Ball);
+            proxy = MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball);
+            plot = new KnurlPlot();
+            haptic = MakeDevice();
+            haptic.fault.AddListener((code, text) => fault = text);
+            if (!haptic.StartDevice() && device != "mouse") // it said why
+            {
+                haptic.Device = "mouse";
+                haptic.StartDevice();
+            }
+        }
+
+        void OnDestroy()
+        {
+            if (plot != null)
+            {
+                plot.Release();
+            }
+        }
+
+        KnurlDevice MakeDevice()
+        {
+            var holder = new GameObject("Haptic Device");
+            holder.transform.SetParent(transform, false);
+            holder.transform.localPosition = WorkspaceCentre;
+            holder.SetActive(false); // so that it does not start before it is told which device it is
+            var made = holder.AddComponent<KnurlDevice>();
+            made.Device = device;
+            made.Stroke = stroke;
+            made.Autostart = false;
+            holder.SetActive(true);
+            return made;
+        }
+
+        Camera PlaceCamera()
+        {
+            Camera found = Camera.main;
+            if (found == null)
+            {
+                found = new GameObject("Camera").AddComponent<Camera>();
+            }
+            found.nearClipPlane = 0.01f; // all of this is the size of a hand
+            found.transform.position = transform.TransformPoint(Eye);
+            found.transform.rotation = transform.rotation * Quaternion.LookRotation(-Eye, Vector3.up);
+            return found;
+        }
+
+        Transform MakeBall(string title, Color color, float diameter)
+        {
+            GameObject made = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            made.name = title;
+            made.transform.SetParent(transform, false);
+            made.transform.localScale = diameter * Vector3.one;
+            made.GetComponent<Renderer>().material.color = color;
+            return made.transform;
+        }
+
+        void Update()
+        {
+            if (haptic.Running && haptic.Device == "mouse")
+            {
+                MoveWithMouse();
+            }
+            hip.position = haptic.HipPosition;
+            proxy.position = haptic.ProxyPosition;
+            proxy.gameObject.SetActive(haptic.InContact);
+            plot.Draw(haptic);
+        }
+
+        /// <summary>The HIP hovers over what the pointer is on, and presses while the left button is down.</summary>
+        void MoveWithMouse()
+        {
+            depth = Mathf.Clamp(depth + Step * KnurlPointer.Notches, Step, Deepest);
+            Ray ray = eye.ScreenPointToRay(KnurlPointer.Position);
+            float distance;
+            if (new Plane(transform.up, transform.position).Raycast(ray, out distance))
+            {
+                haptic.MoveHip(ray.GetPoint(distance) + (KnurlPointer.Pressed ? -depth : Hover) * transform.up);
+            }
+        }
+
+        void OnGUI()
+        {
+            GUI.Label(new Rect(20f, 16f, 600f, 24f), haptic.Running
+                ? haptic.DeviceName + (haptic.Device == "mouse" ? "   press: left button, deeper: wheel" : "")
+                : "no device is running: the console says why");
+            GUI.Label(new Rect(20f, 40f, 600f, 24f), haptic.Touched == null ? "nothing is touched"
+                : haptic.Touched.name + "   " + haptic.TemporalFrequency.ToString("F0") + " Hz   "
+                + (1e3f * haptic.Height).ToString("F2") + " mm   " + haptic.Force.magnitude.ToString("F2") + " N");
+            GUI.Label(new Rect(20f, 64f, 600f, 24f), fault);
+            plot.Show(new Rect(20f, Screen.height - KnurlPlot.Height - 20f, KnurlPlot.Width, KnurlPlot.Height));
+        }
+    }
+}

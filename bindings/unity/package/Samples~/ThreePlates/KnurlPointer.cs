@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+using UnityEngine;
+#if ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
+using UnityEngine.InputSystem;
+#endif
+
+namespace Knurl.Samples
+{
+    /// <summary>The mouse, by whichever input system the project has.</summary>
+    internal static class KnurlPointer
+    {
+#if ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
+        /// <summary>Pixels from the window's lower left.</summary>
+        internal static Vector3 Position
+        {
+            get { return Mouse.current == null ? Vector2.zero : Mouse.current.position.ReadValue(); }
+        }
+
+        internal static bool Pressed
+        {
+            get { return Mouse.current != null && Mouse.current.leftButton.isPressed; }
+        }
+
+        /// <summary>Of the wheel since the last frame, up or down.</summary>
+        internal static float Notches
+        {
+            get { return Mouse.current == null ? 0f : Mathf.Clamp(Mouse.current.scroll.ReadValue().y, -1f, 1f); }
+        }
+#else
+        /// <summary>Pixels from the window's lower left.</summary>
+        internal static Vector3 Position
+        {
+            get { return Input.mousePosition; }
+        }
+
+        internal static bool Pressed
+        {
+            get { return Input.GetMouseButton(0); }
+        }
+
+        /// <summary>Of the wheel since the last frame, up or down.</summary>
+        internal static float Notches
+        {
+            get { return Mathf.Clamp(Input.mouseScrollDelta.y, -1f, 1f); }
+        }
+#endif
+    }
+}

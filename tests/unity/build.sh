@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Compiles the stand-ins, the package and its tests, as C# 7 (what Unity 2021.3 and Debian's mcs both know), with
+# warnings as errors. usage: build.sh FOLDER
+# FOLDER/            the package as an editor compiles it, with tests
+# FOLDER/player/     the package as a player has it: without UNITY_EDITOR
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+[ $# -eq 1 ] || { echo "usage: build.sh FOLDER" >&2; exit 2; }
+command -v mcs >/dev/null || { echo "build.sh: no mcs: apt-get install mono-mcs mono-runtime libmono-cil-dev" >&2; exit 1; }
+mkdir -p "$1/player" "$1/plain"
+out=$(cd "$1" && pwd)
+package=${KNURL_UNITY_PACKAGE:-$root/bindings/unity/package} # one that was packed, or the sources
+shopt -s nullglob globstar
+
+# compile NAME FOLDER-OF-OUTPUT OPTIONS... -- SOURCES: nothing where there are no sources
+compile() {
+    local name=$1 folder=$2 options=()
+    shift 2
+    while [ "$1" != -- ]; do options+=("$1"); shift; done
+    shift
+    [ $# -gt 0 ] || return 0
+    timeout 120 mcs -nologo -langversion:7 -unsafe -warnaserror -debug -lib:"$folder" "${options[@]}" \
+        -out:"$folder/$name" "$@" || { echo "build.sh: $name does not compile" >&2; exit 1; }
+}
+
+unity=(-define:UNITY_2021_3_OR_NEWER,UNITY_STANDALONE,UNITY_STANDALONE_LINUX,UNITY_INCLUDE_TESTS)
+editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX)
+nunit=(-pkg:nunit)
+
+compile UnityEngine.dll "$out" -target:library -- "$here"/stubs/engine/*.cs
+compile UnityEditor.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/editor/*.cs
+cp "$out"/UnityEngine.dll "$out/player/"
+cp "$out"/Unity*.dll "$out/plain/"
+
+# Documents are checked as well: a public member without one is a warning.
+compile Knurl.Haptics.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
+    -doc:"$out/Knurl.Haptics.xml" -- "$package"/Runtime/**/*.cs
+compile Knurl.Haptics.dll "$out/player" -target:library "${unity[@]}" -r:UnityEngine.dll -- "$package"/Runtime/**/*.cs
+compile Knurl.Haptics.Editor.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
+    -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
+for sample in "$package"/Samples~/*/; do
+    name=Sample.$(basename "$sample")
+    compile "$name.dll" "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$sample"**/*.cs
+    compile "$name.dll" "$out/player" -target:library "${unity[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- \
+        "$sample"**/*.cs
+done
+
+# The package's own tests have to compile alone, as they do in Unity; they are run together with cases/, which need
+# the player, other domains, other processes or the files of this repository.
+tests=("${editor[@]}" "${nunit[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll)
+cp "$out"/Knurl.Haptics.dll "$out/plain/"
+compile Knurl.Haptics.Tests.dll "$out/plain" -target:library "${tests[@]}" -- "$package"/Tests/Runtime/**/*.cs
+compile Knurl.Haptics.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEditor.dll -r:System.Xml.dll \
+    -r:System.Xml.Linq.dll -r:System.Web.Extensions.dll -- "$package"/Tests/Runtime/**/*.cs "$here"/cases/*.cs
+editor_tests=("$package"/Tests/Editor/**/*.cs)
+if [ -e "$out/Knurl.Haptics.Editor.dll" ]; then
+    compile Knurl.Haptics.Editor.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEditor.dll \
+        -r:Knurl.Haptics.Editor.dll -r:Knurl.Haptics.Tests.dll -r:Sample.ThreePlates.dll -- \
+        "${editor_tests[@]}" "$here"/editor_cases/*.cs
+fi
+compile Probe.exe "$out" -target:exe "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$here"/probe/*.cs

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Knurl.Tests
+{
+    /// <summary>What changes in a scene while it is felt.</summary>
+    [TestFixture]
+    public class FollowTests : PlayerSuite
+    {
+        static bool IsAbout(float found, float expected)
+        {
+            return Mathf.Abs(found - expected) < 0.01f;
+        }
+
+        [Test]
+        public void ASurfaceIsFeltWhereItGoes()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            s.transform.position = new Vector3(0f, -0.0005f, 0f);
+            Until(() => IsAbout(d.Force.y, 0.2f), "lowered by half");
+            s.transform.rotation = Quaternion.Euler(0f, 0f, 6f); // counter-clockwise about z: the front leans to the left
+            Until(() => d.Force.x < -0.01f && Mathf.Abs(d.Force.x + d.Force.y * Mathf.Tan(6f * Mathf.Deg2Rad)) < 1e-3f, "tilted");
+            s.transform.position = new Vector3(1f, 0f, 0f);
+            Until(() => d.Force == Vector3.zero, "gone");
+        }
+
+        [Test]
+        public void AParentMovesItsSurfaces()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            Transform parent = MakeObject("Parent").transform;
+            s.transform.SetParent(parent, false);
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            parent.position = new Vector3(0f, -0.0005f, 0f);
+            Until(() => IsAbout(d.Force.y, 0.2f), "lowered by half");
+        }
+
+        [Test]
+        public void AGratingThatChangesIsFeltAtOnce()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "400 N/m");
+            s.Grating.Stiffness = 200f;
+            Until(() => IsAbout(d.Force.y, 0.2f), "200 N/m");
+            KnurlGrating other = MakeGrating(0f);
+            other.Stiffness = 300f;
+            s.Grating = other;
+            Until(() => IsAbout(d.Force.y, 0.3f), "another grating, 300 N/m");
+        }
+
+        [Test]
+        public void AValueOutOfItsRangeIsAnErrorAndFeelsAsBefore()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            ExpectError("stiffness");
+            s.Grating.Stiffness = -1f;
+            Player.Frames(5);
+            Assert.That(d.Running);
+            Until(() => IsAbout(d.Force.y, 0.4f), "as before");
+            s.Grating.Stiffness = 200f;
+            Until(() => IsAbout(d.Force.y, 0.2f), "and is well after that");
+        }
+
+        [Test]
+        public void WithoutAGratingNothingIsFelt()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlGrating held = s.Grating;
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            s.Grating = null;
+            Until(() => d.Force == Vector3.zero, "no grating");
+            s.Grating = held;
+            Player.Frames(2);
+            PressAgain(d);
+            Until(() => IsAbout(d.Force.y, 0.4f), "a grating again");
+        }
+
+        [Test]
+        public void ADisabledSurfaceIsNotFelt()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            List<string> told = Listen(d);
+            Until(() => told.Count == 1 && IsAbout(d.Force.y, 0.4f), "pressed");
+            s.enabled = false;
+            Until(() => told.Count == 2, "disabled while touched: ended");
+            Until(() => d.Force == Vector3.zero && !d.InContact && !s.IsTouched, "let go");
+            s.enabled = true;
+            Player.Frames(2);
+            PressAgain(d);
+            Until(() => told.Count == 3 && IsAbout(d.Force.y, 0.4f), "enabled again");
+            s.gameObject.SetActive(false);
+            Until(() => told.Count == 4 && d.Force == Vector3.zero, "inactive");
+            Assert.AreEqual("started Plate, ended Plate, started Plate, ended Plate", Words(told));
+        }
+
+        [Test]
+        public void AScaleThatChangesIsBakedAnew()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            s.transform.localScale = new Vector3(0.2f, 1f, 0.2f);
+            KnurlDevice d = StartMouse(new Vector3(0.04f, 0.02f, 0f));
+            d.MoveHip(new Vector3(0.04f, -0.001f, 0f));
+            Until(() => d.HipPosition.y < -0.0009f, "beside it");
+            Assert.AreEqual(Vector3.zero, d.Force);
+            s.transform.localScale = new Vector3(-1f, 1f, 1f);
+            Player.Frames(3);
+            Assert.AreEqual(1L, d.GetStatus().Surfaces);
+            Assert.AreEqual(2, s.TriangleCount);
+            d.MoveHip(new Vector3(0.04f, 0.01f, 0f));
+            Until(() => d.HipPosition.y > 0.005f, "up");
+            d.MoveHip(new Vector3(0.04f, -0.001f, 0f));
+            Until(() => IsAbout(d.Force.y, 0.4f), "larger, and mirrored: its front is still its front");
+            s.transform.localScale = Vector3.zero;
+            Player.Frames(3);
+            Until(() => d.Force == Vector3.zero, "a scale of nothing is felt as nothing");
+            Contains(string.Join(" ", s.GetWarnings()), "scale");
+            s.transform.localScale = Vector3.one;
+            Player.Frames(3);
+            Assert.AreEqual(1L, d.GetStatus().Surfaces);
+        }
+
+        [Test]
+        public void ASurfaceMayComeAndGoWhileADeviceRuns()
+        {
+            KnurlDevice d = StartResting();
+            KnurlSurface s = MakeSurface(Plate());
+            Player.Frames(2);
+            Assert.AreEqual(1L, d.GetStatus().Surfaces);
+            Assert.AreEqual(2, s.TriangleCount);
+            Object.Destroy(s.gameObject);
+            Player.Frames(2);
+            Assert.AreEqual(0L, d.GetStatus().Surfaces);
+        }
+
+        [Test]
+        public void TwoDevicesFeelTheSameSurface()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice first = StartPressing();
+            KnurlDevice second = StartPressing();
+            Until(() => IsAbout(first.Force.y, 0.4f) && IsAbout(second.Force.y, 0.4f), "both");
+            Assert.That(first.Touched == s && second.Touched == s);
+            first.StopDevice();
+            Player.Frames(2);
+            Assert.That(s.IsTouched, "by the other one still");
+            second.StopDevice();
+            Assert.That(s.IsTouched, Is.False);
+        }
+
+        [Test]
+        public void SharedGratingsTellEverySurface()
+        {
+            KnurlSurface a = MakeSmooth(Plate(0.02f));
+            KnurlSurface b = MakeSmooth(Plate());
+            a.transform.position = new Vector3(0.3f, 0f, 0f);
+            b.Grating = a.Grating;
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "400 N/m");
+            a.Grating.Stiffness = 100f;
+            Until(() => IsAbout(d.Force.y, 0.1f), "100 N/m");
+        }
+    }
+}

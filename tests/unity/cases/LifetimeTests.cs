@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using NUnit.Framework;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Knurl.Tests
+{
+    /// <summary>Whatever a game or an editor does: no haptic thread outlives it, and no hand is held.</summary>
+    [TestFixture]
+    public class LifetimeTests : PlayerSuite
+    {
+        [Test]
+        public void PlayModeWithoutDomainReloadStartsAnewEachTime()
+        {
+            int before = Threads();
+            for (int i = 0; i < 3; i++)
+            {
+                Player.ExitPlayMode();
+                Player.EnterPlayMode();
+                MakeSurface(Plate());
+                KnurlDevice d = MakeDevice("fake", "rest");
+                List<string> told = Listen(d);
+                d.Autostart = true;
+                Until(() => told.Count > 0, "touched");
+                Assert.AreEqual("started Plate", Words(told));
+                Assert.AreEqual(1L, d.GetStatus().Surfaces, "round " + i);
+                Player.ExitPlayMode();
+                Assert.That(d == null);
+                NoMoreThreadsThan(before);
+            }
+            Player.EnterPlayMode();
+        }
+
+        [Test]
+        public void ObjectsThatStayedBehindDoNotComeBack()
+        {
+            // Statics are kept without a domain reload; an object whose OnDisable never came must not be felt.
+            KnurlSurface s = MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            int during = Threads();
+            Player.EnterPlayMode(); // as if the end of the last round had been missed
+            Assert.That(d.Running, Is.False, "what ran is stopped before a new round");
+            Assert.That(Waits(() => Threads() < during));
+            Assert.That(s.IsTouched, Is.False);
+            Assert.DoesNotThrow(() => Player.Frames(3));
+        }
+
+        [Test]
+        public void QuittingStopsEverything()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            Assert.That(Threads(), Is.GreaterThan(before));
+            Player.Quit();
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void QuittingStopsAlsoWhatIsNotDisabledByIt()
+        {
+            // Application.quitting comes before any OnDisable; a player that ends there has let go of the hand.
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            bool isRunning = true;
+            Until(() => d.Touched != null, "touched");
+            Action last = () => isRunning = d.Running;
+            Application.quitting += last; // after the package's own
+            try
+            {
+                Player.Quit();
+            }
+            finally
+            {
+                Application.quitting -= last;
+            }
+            Assert.That(isRunning, Is.False);
+        }
+
+        [Test]
+        public void LeavingASceneStopsItsDevice()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            Player.LeaveScene();
+            Assert.That(d == null);
+            NoMoreThreadsThan(before);
+            Player.Frames(3);
+        }
+
+        [Test]
+        public void ADeviceThatIsKeptGoesOnWithoutTheScene()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Object.DontDestroyOnLoad(d.gameObject);
+            List<string> told = Listen(d);
+            Until(() => told.Count == 1, "touched");
+            Player.LeaveScene();
+            Assert.AreEqual("started Plate, ended Plate", Words(told).Replace("ended null", "ended Plate"));
+            Player.Frames(3);
+            Assert.That(d.Running);
+            Assert.AreEqual(0L, d.GetStatus().Surfaces);
+            Until(() => d.Force == Vector3.zero, "let go");
+        }
+
+        [Test]
+        public void AnAssemblyReloadStopsEverything()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            Player.ReloadAssemblies();
+            Assert.That(d.Running, Is.False);
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void TheEventBeforeAnAssemblyReloadIsEnough()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            Assert.That(Player.AssemblyReload, Is.Not.Null, "somebody listens");
+            Player.AssemblyReload(); // and no OnDisable at all
+            NoMoreThreadsThan(before);
+            Assert.That(d.Running, Is.False);
+        }
+
+        [Test]
+        public void TheEventBeforePlayModeEndsIsEnough()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            Assert.That(Player.PlayModeChanged, Is.Not.Null, "somebody listens");
+            Player.PlayModeChanged((int)UnityEditor.PlayModeStateChange.ExitingPlayMode);
+            NoMoreThreadsThan(before);
+            Assert.That(d.Running, Is.False);
+        }
+
+        [Test]
+        public void DestroyingStopsAtOnce()
+        {
+            int before = Threads();
+            KnurlDevice d = StartResting();
+            Object.Destroy(d.gameObject);
+            Assert.That(d.Running, "not before the frame's end");
+            Player.Frame();
+            Assert.That(d == null);
+            NoMoreThreadsThan(before);
+            KnurlDevice e = StartResting();
+            Object.DestroyImmediate(e);
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void AHandlerMayStopItsDevice()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "rest");
+            List<string> told = Listen(d);
+            d.contactStarted.AddListener(s => d.StopDevice());
+            Assert.That(d.StartDevice());
+            Until(() => !d.Running, "stopped");
+            Player.Frames(3);
+            Assert.AreEqual("started Plate, ended Plate", Words(told));
+        }
+
+        [Test]
+        public void AHandlerMayStartItsDeviceAgain()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "rest");
+            int starts = 0;
+            List<string> told = Listen(d);
+            d.contactEnded.AddListener(s =>
+            {
+                if (!d.Running && ++starts < 3) // a handler finds a device that is stopped, where that is why
+                {
+                    d.StartDevice();
+                }
+            });
+            Assert.That(d.StartDevice());
+            for (int i = 1; i <= 3; i++)
+            {
+                Until(() => d.Touched != null, "touched, round " + i);
+                int count = told.Count;
+                d.StopDevice();
+                Assert.AreEqual(i, starts, Words(told));
+                Assert.AreEqual(i < 3, d.Running, "round " + i);
+                Assert.AreEqual(count + 1, told.Count, Words(told));
+            }
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void AHandlerMayDestroyItsDevice(bool isAtOnce)
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "rest");
+            d.contactStarted.AddListener(s =>
+            {
+                if (isAtOnce)
+                {
+                    Object.DestroyImmediate(d.gameObject);
+                }
+                else
+                {
+                    Object.Destroy(d.gameObject);
+                }
+            });
+            Assert.That(d.StartDevice());
+            Until(() => d == null, "destroyed");
+            Player.Frames(3);
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void AHandlerMayDestroyTheDeviceThatIsBeingDisabled()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            d.contactEnded.AddListener(s => Object.Destroy(d.gameObject));
+            Until(() => d.Touched != null, "touched");
+            d.enabled = false;
+            Player.Frames(3);
+            Assert.That(d == null);
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void AHandlerMayDestroySurfaces()
+        {
+            var all = new List<KnurlSurface>();
+            for (int i = 0; i < 5; i++)
+            {
+                all.Add(MakeSurface(Plate()));
+            }
+            KnurlDevice d = MakeDevice("fake", "rest");
+            int ended = 0;
+            d.contactEnded.AddListener(s =>
+            {
+                ended++;
+                foreach (KnurlSurface each in all)
+                {
+                    if (each != null)
+                    {
+                        Object.DestroyImmediate(each.gameObject);
+                    }
+                }
+            });
+            Assert.That(d.StartDevice());
+            Until(() => d.Touched != null, "touched");
+            Player.Frames(2);
+            foreach (KnurlSurface s in all)
+            {
+                if (s != null)
+                {
+                    s.enabled = false;
+                }
+            }
+            Until(() => ended > 0 && d.GetStatus().Surfaces == 0, "all are destroyed by the handler");
+            Player.Frames(2);
+            Assert.That(d.Running);
+            Assert.AreEqual(1, ended);
+        }
+
+        [Test]
+        public void AHandlerMayMakeSurfaces()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "rest");
+            d.contactStarted.AddListener(s => MakeSurface(Plate()).transform.position = new Vector3(0.2f, 0f, 0f));
+            Assert.That(d.StartDevice());
+            Until(() => d.GetStatus().Surfaces == 2, "made");
+            Player.Frames(2);
+            Assert.That(d.Running);
+        }
+
+        [Test]
+        public void AHandlersExceptionIsLoggedAndNothingElseIsLost()
+        {
+            KnurlSurface s = MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake:?press_at=0.5", "rest");
+            var told = new List<string>();
+            d.contactStarted.AddListener(x => { throw new InvalidOperationException("of started"); });
+            d.buttonChanged.AddListener((index, isPressed) =>
+            {
+                told.Add("button " + isPressed);
+                if (isPressed)
+                {
+                    throw new InvalidOperationException("of pressed");
+                }
+            });
+            d.contactEnded.AddListener(x =>
+            {
+                told.Add("ended");
+                throw new InvalidOperationException("of ended");
+            });
+            ExpectException("of started");
+            ExpectException("of pressed");
+            ExpectException("of ended");
+            Assert.That(d.StartDevice());
+            Until(() => d.Touched != null, "touched");
+            Until(() => told.Count == 2, "the button's events come all the same");
+            Assert.That(d.Running && d.Touched == s);
+            long then = d.Ticks;
+            Until(() => d.Ticks > then + 50, "frames go on");
+            d.StopDevice();
+            Assert.AreEqual("button True, button False, ended", Words(told));
+            Assert.That(d.Running || s.IsTouched, Is.False);
+            Assert.That(Debug.Lines.All(l => l.Type != LogType.Exception || ReferenceEquals(l.Context, d)), "with its context");
+        }
+
+        [Test]
+        public void AnExceptionOfOneDevicesHandlerIsNotTheOthers()
+        {
+            KnurlSurface s = MakeSurface(Plate());
+            KnurlDevice bad = StartResting();
+            KnurlDevice good = StartResting();
+            List<string> told = Listen(good);
+            bad.contactEnded.AddListener(x => { throw new InvalidOperationException("of bad"); });
+            Until(() => bad.Touched == s && good.Touched == s && told.Count == 1, "both");
+            ExpectException("of bad");
+            Object.DestroyImmediate(s.gameObject);
+            Assert.AreEqual(2, told.Count, Words(told));
+            Assert.That(bad.Running && good.Running);
+        }
+
+        // A second look keeps a forgotten handle out of this frame's stack.
+        static unsafe void Forget(int count)
+        {
+            for (int i = 0; i < count; i++)
+            {
+                SessionHandle session = SessionHandle.Create();
+                knurl_session_desc desc;
+                NativeMethods.knurl_session_desc_init(&desc, (uint)sizeof(knurl_session_desc));
+                KnurlException.Check(NativeMethods.knurl_session_open(session, &desc));
+                KnurlException.Check(NativeMethods.knurl_session_start(session, null, 0));
+            }
+        }
+
+        [Test]
+        public void AForgottenHandleEndsItsThread()
+        {
+            int before = Threads();
+            Forget(4);
+            Assert.That(Threads(), Is.GreaterThanOrEqualTo(before + 4));
+            Forget(1); // mono looks at the stack without types: what lies there is written over
+            Assert.That(Waits(() =>
+            {
+                GC.Collect();
+                GC.WaitForPendingFinalizers();
+                return Threads() <= before + 2; // the latest may still be seen from the stack
+            }), "expected about " + before + " threads, found " + Threads());
+            Assert.That(NativeMethods.knurl_session_close_all(), Is.LessThanOrEqualTo(2u));
+        }
+
+        [Test]
+        public void AHandleIsReleasedOnce()
+        {
+            SessionHandle session = SessionHandle.Create();
+            session.Dispose();
+            session.Dispose();
+            Assert.That(session.IsClosed);
+            Assert.Throws<ObjectDisposedException>(() => NativeMethods.knurl_session_close(session));
+        }
+
+        [Test]
+        public void CollectingGarbageWhileItRunsIsHarmless()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "line");
+            Assert.That(d.StartDevice());
+            for (int i = 0; i < 20; i++)
+            {
+                GC.Collect();
+                GC.WaitForPendingFinalizers();
+                Player.Frames(1);
+            }
+            long then = d.Ticks;
+            Until(() => d.Ticks > then + 100 && d.InContact, "goes on");
+        }
+
+        [Test]
+        public void APausedApplicationLetsGo()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            Player.Pause(true);
+            Until(() => d.Force == Vector3.zero, "let go");
+            Assert.That(d.Running, "and holds on to the device");
+            Player.Pause(false);
+            Until(() => d.Force.magnitude > 0.05f, "and comes back");
+        }
+
+        [Test]
+        public void AGameThatStandsStillLetsGo()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            Time.timeScale = 0f;
+            Until(() => d.Force == Vector3.zero, "let go");
+            Assert.That(d.Running, "and holds on to the device");
+            Time.timeScale = 1f;
+            Until(() => d.Force.magnitude > 0.05f, "and comes back");
+        }
+
+        [Test]
+        public void AGameThatHangsLetsGo()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            Assert.That(Waits(() => d.Force == Vector3.zero), "let go without a frame");
+            Until(() => d.Force.magnitude > 0.05f, "and comes back");
+        }
+
+        [Test]
+        public void APauseBeforeTheStartIsNotForgotten()
+        {
+            MakeSurface(Plate());
+            Player.Pause(true);
+            KnurlDevice d = StartResting();
+            Player.Pause(false);
+            Until(() => d.Force.magnitude > 0.05f, "pressed");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Text.RegularExpressions;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace Knurl.Tests
+{
+    /// <summary>For what takes frames: the player sends a component's messages, as Unity does. Nothing waits for a fixed
+    /// time: a state is polled for, for so long that a host which stalls does not matter.</summary>
+    public abstract class PlayerSuite : Suite
+    {
+        [SetUp]
+        public void EnterPlayMode()
+        {
+            Player.Clear();
+            Player.EnterPlayMode();
+        }
+
+        [TearDown]
+        public void LeaveEverything()
+        {
+            Player.Clear();
+            Player.EnterPlayMode();
+        }
+
+        protected static void Until(Func<bool> what, string sentence)
+        {
+            Assert.That(Player.Until(what), sentence);
+        }
+
+        /// <summary>Without frames: for what happens although the game hangs.</summary>
+        protected static bool Waits(Func<bool> what)
+        {
+            DateTime end = DateTime.UtcNow.AddSeconds(20.0);
+            while (!what())
+            {
+                if (DateTime.UtcNow > end)
+                {
+                    return false;
+                }
+                System.Threading.Thread.Sleep(5);
+            }
+            return true;
+        }
+
+        protected static void ExpectError(string part)
+        {
+            LogAssert.Expect(LogType.Error, new Regex(Regex.Escape(part)));
+        }
+
+        protected static void ExpectException(string part)
+        {
+            LogAssert.Expect(LogType.Exception, new Regex(Regex.Escape(part)));
+        }
+
+        protected static int Threads()
+        {
+            return Directory.GetDirectories("/proc/self/task").Length;
+        }
+
+        /// <summary>Ended threads are gone from the list a moment later.</summary>
+        protected static void NoMoreThreadsThan(int before)
+        {
+            Assert.That(Waits(() => Threads() <= before), "expected " + before + " threads, found " + Threads());
+        }
+
+        protected static int Handles()
+        {
+            return Directory.GetFiles("/proc/self/fd").Length;
+        }
+
+        protected static long ResidentKib()
+        {
+            foreach (string line in File.ReadAllLines("/proc/self/status"))
+            {
+                if (line.StartsWith("VmRSS:", StringComparison.Ordinal))
+                {
+                    return long.Parse(Regex.Match(line, "[0-9]+").Value);
+                }
+            }
+            return 0;
+        }
+
+        /// <summary>A running device whose simulated hand rests 1 mm below the first surface.</summary>
+        protected KnurlDevice StartResting()
+        {
+            KnurlDevice device = MakeDevice("fake", "rest");
+            Assert.That(device.StartDevice());
+            return device;
+        }
+
+        /// <summary>A running "mouse" whose HIP is at `at` already.</summary>
+        protected KnurlDevice StartMouse(Vector3 at)
+        {
+            KnurlDevice device = MakeDevice("mouse");
+            Assert.That(device.StartDevice());
+            device.MoveHip(at);
+            Until(() => device.Ticks > 50, "the mouse ticks");
+            return device;
+        }
+
+        /// <summary>Down from 20 mm above a plate at the origin to 1 mm below it.</summary>
+        protected KnurlDevice StartPressing()
+        {
+            KnurlDevice device = StartMouse(new Vector3(0f, 0.02f, 0f));
+            device.MoveHip(new Vector3(0f, -0.001f, 0f));
+            return device;
+        }
+
+        /// <summary>A wall that comes up around a finger is felt when the finger comes again.</summary>
+        protected static void PressAgain(KnurlDevice device)
+        {
+            device.MoveHip(new Vector3(0f, 0.01f, 0f));
+            Until(() => device.HipPosition.y > 0.005f, "up again");
+            device.MoveHip(new Vector3(0f, -0.001f, 0f));
+        }
+
+        /// <summary>What happened to a device, in order, as words; without faults, which a host that stalls brings about.
+        /// </summary>
+        protected static List<string> Listen(KnurlDevice device)
+        {
+            var told = new List<string>();
+            device.contactStarted.AddListener(s => told.Add("started " + Name(s)));
+            device.contactEnded.AddListener(s => told.Add("ended " + Name(s)));
+            device.buttonChanged.AddListener((index, isPressed) => told.Add("button " + index + " " + isPressed));
+            return told;
+        }
+
+        protected static List<string> ListenToFaults(KnurlDevice device)
+        {
+            var told = new List<string>();
+            device.fault.AddListener((code, text) => told.Add(code + " " + text));
+            return told;
+        }
+
+        static string Name(KnurlSurface surface)
+        {
+            return surface == null ? "null" : surface.name;
+        }
+
+        protected static string Words(List<string> told)
+        {
+            return string.Join(", ", told.ToArray());
+        }
+    }
+}

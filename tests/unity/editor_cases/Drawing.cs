@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+using System.Linq;
+using Knurl.Tests;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Cases
+{
+    /// <summary>What inspectors and gizmos draw, as the stand-ins write it down.</summary>
+    [TestFixture]
+    public sealed class Drawing : Suite
+    {
+        [SetUp]
+        public void SetUp()
+        {
+            EditorGUILayout.Drawn.Clear();
+            EditorGUILayout.Answers.Clear();
+            Gizmos.Drawn.Clear();
+            GenericMenu.Shown = null;
+            AssetDatabase.Clear();
+            Selection.objects = new Object[0];
+        }
+
+        static void Draw(Object target)
+        {
+            Hooks.EditorOf(target).OnInspectorGUI();
+        }
+
+        static void AddPreset(string name, float stiffness)
+        {
+            var preset = ScriptableObject.CreateInstance<KnurlGrating>();
+            preset.name = name;
+            preset.Stiffness = stiffness;
+            AssetDatabase.Assets["Packages/com.knurl.haptics/Presets/" + name + ".asset"] = preset;
+        }
+
+        [Test]
+        public void A_grating_is_drawn_with_units_and_explained()
+        {
+            Draw(MakeGrating(1000f));
+            foreach (string label in new[] { "spatialFrequency as Spatial Frequency (1/m)",
+                "amplitude as Amplitude (m)", "stiffness as Stiffness (N/m)", "damping as Damping (N s/m)",
+                "orientation as Orientation (rad)" })
+            {
+                CollectionAssert.Contains(EditorGUILayout.Drawn, "property " + label);
+            }
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Info: A ridge every 1 mm along x, 0.4 mm from bottom to top.");
+        }
+
+        [Test]
+        public void A_grating_that_cannot_be_felt_says_why()
+        {
+            KnurlGrating grating = MakeGrating(1000f);
+            grating.Stiffness = 0f;
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Stiffness: expected more than 0. It cannot be felt.");
+            grating.Stiffness = 400f;
+            grating.SpatialFrequency = new Vector2(1f, -1f);
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Spatial Frequency: expected 0 or more. It cannot be felt.");
+            grating.SpatialFrequency = Vector2.zero;
+            grating.Friction = float.NaN;
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Amplitude, Damping, Friction: expected 0 or more. It cannot be felt.");
+        }
+
+        [Test]
+        public void A_preset_gives_a_grating_its_numbers_and_a_surface_itself()
+        {
+            AddPreset("b", 150f);
+            AddPreset("a", 250f);
+            EditorGUILayout.Answers["Preset"] = true;
+            KnurlGrating grating = MakeGrating(1000f);
+            Draw(grating);
+            Assert.AreEqual(new[] { "a", "b" },
+                GenericMenu.Shown.Items.Keys.Select(title => title.Split(':')[0]).ToArray());
+            GenericMenu.Shown.Items.Last().Value();
+            Assert.AreEqual(150f, grating.Stiffness);
+            KnurlSurface surface = MakeSurface(Plate());
+            Draw(surface);
+            GenericMenu.Shown.Items.First().Value();
+            Assert.AreEqual("a", surface.Grating.name);
+        }
+
+        [Test]
+        public void A_surfaces_warnings_are_drawn_below_it()
+        {
+            KnurlSurface surface = MakeSurface(null);
+            surface.Grating = null;
+            Draw(surface);
+            foreach (string warning in surface.GetWarnings())
+            {
+                CollectionAssert.Contains(EditorGUILayout.Drawn, "Warning: " + warning);
+            }
+            Assert.AreEqual(2, surface.GetWarnings().Length);
+        }
+
+        [Test]
+        public void A_surface_that_is_well_has_none()
+        {
+            Draw(MakeSurface(Plate()));
+            Assert.IsFalse(EditorGUILayout.Drawn.Any(line => line.StartsWith("Warning")));
+        }
+
+        [Test]
+        public void A_device_tells_what_it_does()
+        {
+            KnurlDevice device = MakeDevice();
+            Draw(device);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Info: It does not run; settings count from the next start on.");
+            EditorGUILayout.Drawn.Clear();
+            Assert.IsTrue(device.StartDevice());
+            Draw(device);
+            CollectionAssert.Contains(EditorGUILayout.Drawn, "property rate as Rate (Hz)");
+            CollectionAssert.Contains(EditorGUILayout.Drawn, "label Running: " + device.DeviceName);
+            CollectionAssert.Contains(EditorGUILayout.Drawn, "label Touched: nothing");
+        }
+
+        [Test]
+        public void A_known_device_is_put_into_its_field()
+        {
+            KnurlDevice device = MakeDevice();
+            EditorGUILayout.Answers["Known devices"] = true;
+            Draw(device);
+            GenericMenu.Shown.Items["falcon"]();
+            Assert.AreEqual("falcon", device.Device);
+        }
+
+        [Test]
+        public void A_devices_box_has_the_size_of_what_it_reaches()
+        {
+            KnurlDevice device = MakeDevice("touch");
+            Hooks.DrawGizmo(device);
+            CollectionAssert.Contains(Gizmos.Drawn,
+                "wire cube " + Vector3.zero + " " + new Vector3(0.16f, 0.12f, 0.07f));
+        }
+
+        [Test]
+        public void A_running_device_shows_its_hip()
+        {
+            KnurlDevice device = MakeDevice();
+            Assert.IsTrue(device.StartDevice());
+            Assert.IsTrue(Player.Until(() => device.Ticks > 0));
+            Hooks.DrawGizmo(device);
+            Assert.AreEqual(1, Gizmos.Drawn.Count(line => line.StartsWith("sphere")));
+        }
+
+        [Test]
+        public void A_surfaces_ridges_are_drawn_and_drawn_anew_when_its_grating_changes()
+        {
+            KnurlSurface surface = MakeSurface(Plate(0.0101f)); // 1 mm ridges on two triangles
+            int first = Lines(surface);
+            Assert.That(first, Is.InRange(18, 24));
+            surface.Grating.SpatialFrequency = new Vector2(2000f, 0f);
+            Assert.That(Lines(surface), Is.InRange(36, 46));
+            surface.Grating = null;
+            Assert.AreEqual(0, Lines(surface));
+        }
+
+        static int Lines(KnurlSurface surface)
+        {
+            EditorGUILayout.Drawn.Clear();
+            Hooks.DrawGizmo(surface);
+            string drawn = EditorGUILayout.Drawn.FirstOrDefault(line => line.StartsWith("handle lines "));
+            return drawn == null ? 0 : int.Parse(drawn.Substring("handle lines ".Length));
+        }
+
+        [Test]
+        public void Devices_stop_when_the_editor_quits()
+        {
+            KnurlDevice device = MakeDevice();
+            Assert.IsTrue(device.StartDevice());
+            EditorApplication.Quit();
+            Assert.IsFalse(device.Running);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+using System.Reflection;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+
+namespace Knurl.Cases
+{
+    /// <summary>These cases play.</summary>
+    [SetUpFixture]
+    public class Setup
+    {
+        [SetUp]
+        public void EnterPlayMode()
+        {
+            EditorApplication.Load(Assembly.Load("Knurl.Haptics.Editor"));
+            Player.EnterPlayMode();
+        }
+
+        [TearDown]
+        public void ExitPlayMode()
+        {
+            Player.ExitPlayMode();
+        }
+    }
+}

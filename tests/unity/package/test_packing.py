@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""package.sh makes what the Package Manager takes. The libraries are stand-ins: what is in them does not matter."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import tarfile
+import tempfile
+import time
+import unittest
+
+import package
+from package import metas
+
+REQUIRED = [  # by Unity's manual, "Package layout"
+    "package.json",
+    "README.md",
+    "CHANGELOG.md",
+    "LICENSE.md",
+    "Third Party Notices.md",
+    "Runtime/Knurl.Haptics.asmdef",
+    "Editor/Knurl.Haptics.Editor.asmdef",
+    "Tests/Runtime/Knurl.Haptics.Tests.asmdef",
+    "Tests/Editor/Knurl.Haptics.Editor.Tests.asmdef",
+    "Documentation~/com.knurl.haptics.md",
+]
+LINUX = "Plugins/Linux/x86_64/libknurl_unity.so"
+WINDOWS = "Plugins/Windows/x86_64/knurl_unity.dll"
+
+
+def make_library(path, compiler, magic):
+    """A library with nothing in it, or a file that starts like one where that cannot be made."""
+    if shutil.which(compiler):
+        command = [compiler, "-shared", "-g", "-o", path, "-x", "c", "-"]
+        code = "int knurl_stand_in(void); int knurl_stand_in(void) { return 1; }"
+        subprocess.run(command, input=code, text=True, check=True)
+    else:
+        with open(path, "wb") as file:
+            file.write(magic)
+    return path
+
+
+def make_libraries(case):
+    """A stand-in for each system, for all tests of a class."""
+    holder = tempfile.TemporaryDirectory()
+    case.addClassCleanup(holder.cleanup)
+    case.linux = make_library(os.path.join(holder.name, "libknurl_unity.so"), os.environ.get("CC", "cc"), b"\x7fELF")
+    case.windows = make_library(
+        os.path.join(holder.name, "knurl_unity.dll"), "x86_64-w64-mingw32-gcc-posix", b"MZ"
+    )
+    return holder.name
+
+
+def pack(out, *libraries, program=os.path.join(package.UNITY, "package.sh")):
+    return subprocess.run([program, out, *libraries], capture_output=True, text=True, check=False)
+
+
+def paths_in(out):
+    """The folder and the tarball."""
+    stem = os.path.join(out, "com.knurl.haptics")
+    return stem, f"{stem}-{package.version()}.tgz"
+
+
+class Packed(unittest.TestCase):
+    """What comes out, looked at."""
+
+    @classmethod
+    def setUpClass(cls):
+        out = os.path.join(make_libraries(cls), "out")
+        cls.done = pack(out, cls.linux, cls.windows)
+        cls.stem, cls.tarball = paths_in(out)
+
+    def setUp(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+
+    def test_a_tarball_is_laid_out_as_npm_does(self):
+        with tarfile.open(self.tarball) as tar:
+            members = tar.getmembers()
+        names = [member.name for member in members]
+        self.assertEqual(names[0], "package")
+        self.assertTrue(all(name.startswith("package/") for name in names[1:]))
+        for path in REQUIRED + [LINUX, WINDOWS]:
+            self.assertIn("package/" + path, names)
+        self.assertTrue(all(member.isfile() or member.isdir() for member in members))
+        self.assertEqual({member.uid for member in members} | {member.gid for member in members}, {0})
+        self.assertEqual({member.mode & 0o777 for member in members if member.isfile()}, {0o644})
+
+    def test_a_tarballs_manifest_names_samples_that_are_in_it(self):
+        with tarfile.open(self.tarball) as tar:
+            manifest = json.load(tar.extractfile("package/package.json"))
+            names = tar.getnames()
+        self.assertEqual(manifest["version"], package.version())
+        for sample in manifest["samples"]:
+            self.assertIn(f"package/{sample['path']}/README.md", names)
+            self.assertTrue(any(re.match(rf"package/{sample['path']}/\w+\.cs$", name) for name in names))
+
+    def test_the_folder_is_what_is_in_the_tarball(self):
+        with tarfile.open(self.tarball) as tar:
+            files = {name: tar.extractfile(name).read() for name in tar.getnames() if tar.getmember(name).isfile()}
+        for name, content in files.items():
+            with open(os.path.join(self.stem, name[len("package/") :]), "rb") as file:
+                self.assertEqual(file.read(), content, name)
+        count = sum(len(names) for _, _, names in os.walk(self.stem))
+        self.assertEqual(count, len(files))
+
+    def test_every_meta_of_it_is_right_and_has_its_file(self):
+        self.assertEqual(metas.check(self.stem, True), [])
+
+    def test_what_was_built_to_be_debugged_is_not_what_is_shipped(self):
+        if not shutil.which("strip") or not shutil.which(os.environ.get("CC", "cc")):
+            self.skipTest("no compiler")
+        self.assertLess(os.path.getsize(os.path.join(self.stem, LINUX)), os.path.getsize(self.linux))
+
+
+class Packing(package.InFolder):
+    """How it goes, and goes wrong."""
+
+    @classmethod
+    def setUpClass(cls):
+        make_libraries(cls)
+
+    def setUp(self):
+        super().setUp()
+        self.out = os.path.join(self.folder, "out")
+        self.stem, self.tarball = paths_in(self.out)
+
+    def pack_both(self):
+        done = pack(self.out, self.linux, self.windows)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def expect_nothing_made(self, done, sentence):
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(sentence, done.stderr)
+        self.assertEqual(os.listdir(self.out), [])
+
+    def test_the_same_files_make_the_same_bytes(self):
+        self.pack_both()
+        with open(self.tarball, "rb") as file:
+            first = file.read()
+        time.sleep(1.1)  # the clocks of archives go by seconds
+        os.utime(self.linux)
+        self.pack_both()
+        with open(self.tarball, "rb") as file:
+            self.assertEqual(file.read(), first)
+
+    def test_nothing_else_is_left_behind(self):
+        self.pack_both()
+        self.pack_both()
+        self.assertEqual(sorted(os.listdir(self.out)), [os.path.basename(self.stem), os.path.basename(self.tarball)])
+        self.assertEqual(metas.check(self.stem, True), [])
+
+    def test_for_one_system_alone_the_others_metas_stay_away(self):
+        self.assertEqual(pack(self.out, self.linux).returncode, 0)
+        self.assertEqual(metas.check(self.stem, True), [])
+        self.assertEqual(sorted(os.listdir(os.path.join(self.stem, "Plugins"))), ["Linux", "Linux.meta"])
+
+    def test_a_library_of_another_name_is_refused(self):
+        other = os.path.join(self.folder, "libother.so")
+        shutil.copy(self.linux, other)
+        self.expect_nothing_made(pack(self.out, other), "libother.so: expected libknurl_unity.so or knurl_unity.dll")
+
+    def test_a_library_of_another_kind_is_refused(self):
+        self.write("not a library", "knurl_unity.dll")
+        done = pack(self.out, self.linux, os.path.join(self.folder, "knurl_unity.dll"))
+        self.expect_nothing_made(done, "knurl_unity.dll: expected a library that starts with 'MZ'")
+
+    def copy_of_sources(self):
+        """What package.sh reads, to be broken."""
+        unity = os.path.join(self.folder, "bindings", "unity")
+        package.copy_of_package(os.path.join(unity, "package"))
+        for name in ("metas.py", "package.sh"):
+            shutil.copy(os.path.join(package.UNITY, name), unity)
+        headers = os.path.join("sdk", "include", "knurl")
+        os.makedirs(os.path.join(self.folder, headers))
+        shutil.copy(os.path.join(package.ROOT, headers, "base.h"), os.path.join(self.folder, headers))
+        return unity
+
+    def test_a_version_that_is_not_the_sdks_is_refused(self):
+        unity = self.copy_of_sources()
+        manifest = package.read(unity, "package", "package.json").replace(f'"{package.version()}"', '"0.0.9"')
+        self.write(manifest, unity, "package", "package.json")
+        done = pack(self.out, self.linux, program=os.path.join(unity, "package.sh"))
+        self.expect_nothing_made(done, f"package.json: version: expected {package.version()}")
+
+    def test_a_package_with_a_wrong_meta_is_refused_and_the_last_one_stays(self):
+        self.pack_both()
+        unity = self.copy_of_sources()
+        os.remove(os.path.join(unity, "package", "Editor.meta"))
+        done = pack(self.out, self.linux, program=os.path.join(unity, "package.sh"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("Editor: missing", done.stderr)
+        self.assertEqual(sorted(os.listdir(self.out)), [os.path.basename(self.stem), os.path.basename(self.tarball)])
+
+    def test_a_library_that_somebody_tried_in_the_source_tree_is_not_packed(self):
+        unity = self.copy_of_sources()
+        shutil.copy(self.windows, os.path.join(unity, "package", WINDOWS))
+        self.assertEqual(pack(self.out, self.linux, program=os.path.join(unity, "package.sh")).returncode, 0)
+        self.assertFalse(os.path.exists(os.path.join(self.stem, WINDOWS)))
+
+
+if __name__ == "__main__":
+    unittest.main()

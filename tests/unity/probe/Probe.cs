@@ -1,0 +1,46 @@
+// What a game sees of a native library that may be missing, or another's. SPDX-License-Identifier: MIT
+using System;
+using UnityEngine;
+
+namespace Knurl.Tests
+{
+    internal static class Probe
+    {
+        static int Main()
+        {
+            Player.EnterPlayMode();
+            KnurlDevice device = new GameObject("Device").AddComponent<KnurlDevice>();
+            device.Autostart = false;
+            Console.WriteLine("started: " + device.StartDevice());
+            Console.WriteLine("again: " + device.StartDevice());
+            Console.WriteLine("file: " + device.LoadGltf("nothing.glb"));
+            Console.WriteLine("trace: " + (device.PlayTrace(new double[8], 10) == null ? "none" : "some"));
+            Console.WriteLine("running: " + device.Running + " " + device.Force + " " + device.GetStatus().Ticks);
+            device.MoveHip(Vector3.zero);
+            device.Autostart = true;
+            KnurlSurface surface = new GameObject("Surface").AddComponent<KnurlSurface>();
+            surface.Grating = ScriptableObject.CreateInstance<KnurlGrating>();
+            Console.WriteLine("triangles: " + surface.TriangleCount);
+            foreach (string warning in surface.GetWarnings())
+            {
+                Console.WriteLine("warning: " + warning);
+            }
+            Player.Frames(5);
+            try
+            {
+                KnurlTags.Read("nothing.glb");
+            }
+            catch (KnurlException e)
+            {
+                Console.WriteLine("tags: " + e.Message);
+            }
+            Player.ExitPlayMode();
+            foreach (LogLine line in Debug.Lines)
+            {
+                Console.WriteLine("log: " + line);
+            }
+            Console.WriteLine("end");
+            return 0;
+        }
+    }
+}

@@ -1,0 +1,119 @@
+// Test-only stand-ins, never shipped. Told by the player.
+using System;
+using System.Reflection;
+using System.Runtime.CompilerServices;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    public enum PlayModeStateChange
+    {
+        EnteredEditMode,
+        ExitingEditMode,
+        EnteredPlayMode,
+        ExitingPlayMode
+    }
+
+    /// Faithful: the order of play-mode states. Not: update while editing, which a test calls by Update().
+    public static class EditorApplication
+    {
+        public delegate void CallbackFunction();
+
+        public static event Action<PlayModeStateChange> playModeStateChanged;
+        public static CallbackFunction update;
+        public static CallbackFunction delayCall;
+        public static event Action quitting;
+        public static bool isPlaying { get { return Application.isPlaying; } }
+        public static bool isPlayingOrWillChangePlaymode { get { return Application.isPlaying; } }
+        public static bool isPaused { get; set; }
+        public static double timeSinceStartup { get { return Time.realtimeSinceStartup; } }
+        public static void QueuePlayerLoopUpdate() { }
+        public static void RepaintHierarchyWindow() { }
+
+        static EditorApplication()
+        {
+            Player.PlayModeChanged += state =>
+            {
+                if (playModeStateChanged != null)
+                {
+                    playModeStateChanged((PlayModeStateChange)state);
+                }
+            };
+        }
+
+        /// What the editor does with an assembly that it has loaded.
+        public static void Load(Assembly assembly)
+        {
+            const BindingFlags statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
+            foreach (Type type in assembly.GetTypes())
+            {
+                if (type.IsDefined(typeof(InitializeOnLoadAttribute), false))
+                {
+                    RuntimeHelpers.RunClassConstructor(type.TypeHandle);
+                }
+                foreach (MethodInfo method in type.GetMethods(statics))
+                {
+                    if (method.IsDefined(typeof(InitializeOnLoadMethodAttribute), false))
+                    {
+                        method.Invoke(null, null);
+                    }
+                }
+            }
+        }
+
+        public static void Update()
+        {
+            CallbackFunction late = delayCall;
+            delayCall = null;
+            if (late != null)
+            {
+                late();
+            }
+            if (update != null)
+            {
+                update();
+            }
+        }
+
+        public static void Quit()
+        {
+            if (quitting != null)
+            {
+                quitting();
+            }
+        }
+    }
+
+    public static class AssemblyReloadEvents
+    {
+        public delegate void AssemblyReloadCallback();
+
+        public static event AssemblyReloadCallback beforeAssemblyReload;
+        public static event AssemblyReloadCallback afterAssemblyReload;
+
+        static AssemblyReloadEvents()
+        {
+            Player.AssemblyReload += () =>
+            {
+                if (beforeAssemblyReload != null)
+                {
+                    beforeAssemblyReload();
+                }
+            };
+        }
+
+        public static void After()
+        {
+            if (afterAssemblyReload != null)
+            {
+                afterAssemblyReload();
+            }
+        }
+    }
+
+    public static class SessionState
+    {
+        public static bool GetBool(string key, bool otherwise) { return EditorPrefs.GetBool("session " + key, otherwise); }
+        public static void SetBool(string key, bool value) { EditorPrefs.SetBool("session " + key, value); }
+    }
+}

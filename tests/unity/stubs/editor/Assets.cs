@@ -1,0 +1,291 @@
+// Test-only stand-ins, never shipped. Assets live in memory; files are only there where a test has written them.
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    /// Faithful: paths to objects and back, labels, folders that have to be made first, an asset's name is its file's.
+    /// Not: import, files. An asset's GUID is its path.
+    public static class AssetDatabase
+    {
+        static readonly Dictionary<UnityEngine.Object, string[]> labels = new Dictionary<UnityEngine.Object, string[]>();
+        static readonly HashSet<string> folders = new HashSet<string> { "Assets" };
+
+        public static readonly Dictionary<string, UnityEngine.Object> Assets =
+            new Dictionary<string, UnityEngine.Object>();
+
+        public static void CreateAsset(UnityEngine.Object asset, string path)
+        {
+            if (!IsValidFolder(path.Substring(0, path.LastIndexOf('/'))))
+            {
+                throw new UnityException("Creating asset at path " + path + " failed.");
+            }
+            Assets[path] = asset;
+            asset.name = System.IO.Path.GetFileNameWithoutExtension(path);
+        }
+
+        public static void SaveAssetIfDirty(UnityEngine.Object asset) { }
+        public static bool WriteImportSettingsIfDirty(string path) { return true; }
+        public static string GUIDToAssetPath(string guid) { return guid; }
+        public static UnityEngine.Object LoadMainAssetAtPath(string path)
+        {
+            return LoadAssetAtPath<UnityEngine.Object>(path);
+        }
+
+        public static string[] GetLabels(UnityEngine.Object asset)
+        {
+            return labels.ContainsKey(asset) ? labels[asset] : new string[0];
+        }
+
+        public static void SetLabels(UnityEngine.Object asset, string[] given) { labels[asset] = given; }
+
+        /// Only "t:Class", by the class alone.
+        public static string[] FindAssets(string filter, string[] within)
+        {
+            List<string> found = new List<string>();
+            foreach (KeyValuePair<string, UnityEngine.Object> pair in Assets)
+            {
+                bool inside = Array.Exists(within, folder => pair.Key.StartsWith(folder + "/", StringComparison.Ordinal));
+                if (inside && filter == "t:" + pair.Value.GetType().Name)
+                {
+                    found.Add(pair.Key);
+                }
+            }
+            return found.ToArray();
+        }
+
+        public static string MoveAsset(string from, string to)
+        {
+            foreach (string path in new List<string>(Assets.Keys))
+            {
+                if (path == from || path.StartsWith(from + "/", StringComparison.Ordinal))
+                {
+                    UnityEngine.Object asset = Assets[path];
+                    Assets.Remove(path);
+                    Assets[to + path.Substring(from.Length)] = asset;
+                }
+            }
+            if (folders.Remove(from))
+            {
+                folders.Add(to);
+            }
+            return "";
+        }
+
+        /// Forgets everything.
+        public static void Clear()
+        {
+            Assets.Clear();
+            labels.Clear();
+            folders.Clear();
+            folders.Add("Assets");
+        }
+
+        public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
+        /// With what is below it.
+        public static bool DeleteAsset(string path)
+        {
+            bool found = folders.Remove(path) | Assets.Remove(path);
+            folders.RemoveWhere(folder => folder.StartsWith(path + "/", StringComparison.Ordinal));
+            foreach (string asset in new List<string>(Assets.Keys))
+            {
+                found |= asset.StartsWith(path + "/", StringComparison.Ordinal) && Assets.Remove(asset);
+            }
+            return found;
+        }
+
+        public static void SaveAssets() { }
+        public static void Refresh() { }
+        public static void StartAssetEditing() { }
+        public static void StopAssetEditing() { }
+        public static void ImportAsset(string path) { }
+        public static bool IsValidFolder(string path) { return folders.Contains(path); }
+        public static string CreateFolder(string parent, string name)
+        {
+            folders.Add(parent + "/" + name);
+            return parent + "/" + name;
+        }
+
+        public static T LoadAssetAtPath<T>(string path) where T : UnityEngine.Object
+        {
+            UnityEngine.Object found;
+            return Assets.TryGetValue(path, out found) ? found as T : null;
+        }
+
+        public static UnityEngine.Object[] LoadAllAssetsAtPath(string path)
+        {
+            UnityEngine.Object found = LoadAssetAtPath<UnityEngine.Object>(path);
+            return found == null ? new UnityEngine.Object[0] : new[] { found };
+        }
+
+        public static string GetAssetPath(UnityEngine.Object asset)
+        {
+            foreach (KeyValuePair<string, UnityEngine.Object> pair in Assets)
+            {
+                if (ReferenceEquals(pair.Value, asset))
+                {
+                    return pair.Key;
+                }
+            }
+            return "";
+        }
+
+        public static string GenerateUniqueAssetPath(string path)
+        {
+            string made = path;
+            for (int i = 1; Assets.ContainsKey(made); i++)
+            {
+                int dot = path.LastIndexOf('.');
+                made = path.Substring(0, dot) + " " + i + path.Substring(dot);
+            }
+            return made;
+        }
+    }
+
+    public class AssetImporter : UnityEngine.Object
+    {
+        public string assetPath { get; set; }
+        public string userData { get; set; }
+        public static AssetImporter GetAtPath(string path) { return null; }
+        public void SaveAndReimport() { }
+    }
+
+    public class ModelImporter : AssetImporter
+    {
+        public bool isReadable { get; set; }
+    }
+
+    /// A test makes one and calls its methods.
+    public class AssetPostprocessor
+    {
+        public string assetPath { get; set; }
+        public AssetImporter assetImporter { get; set; }
+        public virtual uint GetVersion() { return 0; }
+        public virtual int GetPostprocessOrder() { return 0; }
+        public void LogWarning(string warning) { Debug.LogWarning(warning); }
+        public void LogError(string error) { Debug.LogError(error); }
+    }
+
+    /// Remembers the steps, and undoes nothing.
+    public static class Undo
+    {
+        public static readonly List<string> Steps = new List<string>();
+        public static void RecordObject(UnityEngine.Object o, string name) { Steps.Add(name); }
+        public static void RecordObjects(UnityEngine.Object[] o, string name) { Steps.Add(name); }
+        public static void RegisterCreatedObjectUndo(UnityEngine.Object o, string name) { Steps.Add(name); }
+        public static void SetCurrentGroupName(string name) { Steps.Add(name); }
+        public static int GetCurrentGroup() { return Steps.Count; }
+        public static void CollapseUndoOperations(int group) { }
+        public static void IncrementCurrentGroup() { }
+        public static void DestroyObjectImmediate(UnityEngine.Object o) { UnityEngine.Object.DestroyImmediate(o); }
+
+        public static void SetTransformParent(Transform t, Transform parent, string name)
+        {
+            Steps.Add(name);
+            t.SetParent(parent);
+        }
+
+        public static T AddComponent<T>(GameObject go) where T : Component
+        {
+            Steps.Add("Add Component");
+            return go.AddComponent<T>();
+        }
+
+        public static Component AddComponent(GameObject go, Type type)
+        {
+            Steps.Add("Add Component");
+            return go.AddComponent(type);
+        }
+    }
+
+    public static class Selection
+    {
+        static UnityEngine.Object[] held = new UnityEngine.Object[0];
+        public static event Action selectionChanged;
+        public static UnityEngine.Object[] objects
+        {
+            get { return held; }
+            set
+            {
+                held = value;
+                if (selectionChanged != null)
+                {
+                    selectionChanged();
+                }
+            }
+        }
+
+        public static UnityEngine.Object activeObject
+        {
+            get { return held.Length > 0 ? held[0] : null; }
+            set { objects = (object)value == null ? new UnityEngine.Object[0] : new[] { value }; }
+        }
+
+        public static GameObject activeGameObject
+        {
+            get { return activeObject as GameObject; }
+            set { activeObject = value; }
+        }
+
+        public static string[] assetGUIDs { get { return Array.FindAll(Array.ConvertAll(held, AssetDatabase.GetAssetPath), path => path != ""); } }
+        public static GameObject[] gameObjects { get { return Array.FindAll(Array.ConvertAll(held, o => o as GameObject), o => o != null); } }
+        public static Transform activeTransform { get { return activeGameObject == null ? null : activeGameObject.transform; } }
+    }
+
+    public static class EditorUtility
+    {
+        public static readonly List<string> Dialogs = new List<string>();
+        public static string Chosen = "";
+        public static void SetDirty(UnityEngine.Object o) { }
+        public static bool IsPersistent(UnityEngine.Object o) { return AssetDatabase.Contains(o); }
+        public static bool DisplayDialog(string title, string message, string ok)
+        {
+            Dialogs.Add(title + ": " + message);
+            return true;
+        }
+        public static string OpenFilePanel(string title, string folder, string extension) { return Chosen; }
+        public static string OpenFilePanelWithFilters(string title, string folder, string[] filters) { return Chosen; }
+        public static string SaveFilePanelInProject(string title, string name, string extension, string message)
+        {
+            return Chosen;
+        }
+    }
+
+    public static class FileUtil
+    {
+        public static string GetProjectRelativePath(string path)
+        {
+            int at = path.IndexOf("Assets/", StringComparison.Ordinal);
+            return at < 0 ? "" : path.Substring(at);
+        }
+    }
+
+    /// There are no prefabs.
+    public static class PrefabUtility
+    {
+        public static bool IsPartOfPrefabInstance(UnityEngine.Object o) { return false; }
+        public static void RecordPrefabInstancePropertyModifications(UnityEngine.Object o) { }
+        public static string GetPrefabAssetPathOfNearestInstanceRoot(UnityEngine.Object o) { return ""; }
+    }
+
+    public static class GameObjectUtility
+    {
+        public static void SetParentAndAlign(GameObject child, GameObject parent)
+        {
+            if (parent != null)
+            {
+                child.transform.SetParent(parent.transform, false);
+            }
+        }
+    }
+
+    public static class EditorPrefs
+    {
+        static readonly Dictionary<string, object> held = new Dictionary<string, object>();
+        public static bool GetBool(string key, bool otherwise) { return held.ContainsKey(key) ? (bool)held[key] : otherwise; }
+        public static void SetBool(string key, bool value) { held[key] = value; }
+        public static string GetString(string key, string otherwise) { return held.ContainsKey(key) ? (string)held[key] : otherwise; }
+        public static void SetString(string key, string value) { held[key] = value; }
+    }
+}

@@ -1,0 +1,272 @@
+// Test-only stand-ins, never shipped. What editors draw is written down in Drawn; fields return what they are given, or
+// what a test has put into Answers under their label.
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
+    public sealed class CustomEditor : Attribute
+    {
+        public Type InspectedType { get; private set; }
+        public bool isFallback { get; set; }
+        public CustomEditor(Type inspectedType) { InspectedType = inspectedType; }
+        public CustomEditor(Type inspectedType, bool editorForChildClasses) { InspectedType = inspectedType; }
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class CanEditMultipleObjects : Attribute { }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class CustomPropertyDrawer : Attribute
+    {
+        public Type Type { get; private set; }
+        public CustomPropertyDrawer(Type type) { Type = type; }
+    }
+
+    [AttributeUsage(AttributeTargets.Method, AllowMultiple = true)]
+    public sealed class MenuItem : Attribute
+    {
+        public string menuItem { get; private set; }
+        public bool validate { get; private set; }
+        public int priority { get; private set; }
+        public MenuItem(string itemName) : this(itemName, false, 1000) { }
+        public MenuItem(string itemName, bool isValidateFunction) : this(itemName, isValidateFunction, 1000) { }
+        public MenuItem(string itemName, bool isValidateFunction, int priority)
+        {
+            menuItem = itemName;
+            validate = isValidateFunction;
+            this.priority = priority;
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class InitializeOnLoadAttribute : Attribute { }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public sealed class InitializeOnLoadMethodAttribute : Attribute { }
+
+    [Flags]
+    public enum GizmoType
+    {
+        Pickable = 1,
+        NotInSelectionHierarchy = 2,
+        Selected = 4,
+        Active = 8,
+        InSelectionHierarchy = 16,
+        NonSelected = 32
+    }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public sealed class DrawGizmo : Attribute
+    {
+        public GizmoType drawOptions { get; private set; }
+        public DrawGizmo(GizmoType gizmo) { drawOptions = gizmo; }
+        public DrawGizmo(GizmoType gizmo, Type drawnType) { drawOptions = gizmo; }
+    }
+
+    public sealed class MenuCommand
+    {
+        public UnityEngine.Object context;
+        public int userData;
+        public MenuCommand(UnityEngine.Object context) { this.context = context; }
+    }
+
+    /// Made by CreateEditor(), which gives it its target and, as Unity does, sends OnEnable.
+    public class Editor : ScriptableObject
+    {
+        UnityEngine.Object[] held = new UnityEngine.Object[0];
+        SerializedObject serialized;
+
+        public UnityEngine.Object target { get { return held.Length > 0 ? held[0] : null; } }
+        public UnityEngine.Object[] targets { get { return held; } }
+        public SerializedObject serializedObject
+        {
+            get { return serialized ?? (serialized = new SerializedObject(held)); }
+        }
+
+        public static Editor CreateEditor(UnityEngine.Object target, Type editorType)
+        {
+            return CreateEditor(new[] { target }, editorType);
+        }
+
+        public static Editor CreateEditor(UnityEngine.Object[] targets, Type editorType)
+        {
+            Editor made = (Editor)Activator.CreateInstance(editorType, true);
+            made.held = targets;
+            MethodInfo enable = editorType.GetMethod("OnEnable",
+                BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+            if (enable != null)
+            {
+                enable.Invoke(made, null);
+            }
+            return made;
+        }
+
+        public virtual void OnInspectorGUI() { DrawDefaultInspector(); }
+        public virtual bool RequiresConstantRepaint() { return false; }
+        public void Repaint() { }
+
+        public bool DrawDefaultInspector()
+        {
+            EditorGUILayout.Drawn.Add("default inspector");
+            return false;
+        }
+
+        public static void DrawPropertiesExcluding(SerializedObject obj, params string[] excluded)
+        {
+            EditorGUILayout.Drawn.Add("default inspector");
+        }
+    }
+
+    public class EditorWindow : ScriptableObject
+    {
+        public Rect position { get; set; }
+        public Vector2 minSize { get; set; }
+        public GUIContent titleContent { get; set; }
+        public static T GetWindow<T>(string title) where T : EditorWindow { return CreateInstance<T>(); }
+        public static T GetWindow<T>() where T : EditorWindow { return CreateInstance<T>(); }
+        public void Show() { }
+        public void Close() { }
+        public void Repaint() { }
+    }
+
+    public class PropertyDrawer
+    {
+        public virtual void OnGUI(Rect position, SerializedProperty property, GUIContent label) { }
+        public virtual float GetPropertyHeight(SerializedProperty property, GUIContent label) { return 18f; }
+    }
+
+    /// The latest that was shown; a test chooses from it.
+    public sealed class GenericMenu
+    {
+        public delegate void MenuFunction();
+
+        public static GenericMenu Shown;
+        public readonly Dictionary<string, MenuFunction> Items = new Dictionary<string, MenuFunction>();
+        public void AddItem(GUIContent content, bool on, MenuFunction func) { Items[content.text] = func; }
+        public void ShowAsContext() { Shown = this; }
+    }
+
+    public enum MessageType
+    {
+        None,
+        Info,
+        Warning,
+        Error
+    }
+
+    public static class EditorGUIUtility
+    {
+        public static float singleLineHeight { get { return 18f; } }
+        public static float standardVerticalSpacing { get { return 2f; } }
+        public static float labelWidth { get; set; }
+        public static bool isProSkin { get { return true; } }
+        public static void PingObject(UnityEngine.Object o) { }
+    }
+
+    /// Writes down what is drawn.
+    public static class EditorGUILayout
+    {
+        public static readonly List<string> Drawn = new List<string>();
+        public static readonly Dictionary<string, object> Answers = new Dictionary<string, object>();
+
+        static T Field<T>(string label, T value)
+        {
+            Drawn.Add("field " + label + " = " + value);
+            object answer;
+            return Answers.TryGetValue(label, out answer) ? (T)answer : value;
+        }
+
+        public static void HelpBox(string message, MessageType type) { Drawn.Add(type + ": " + message); }
+        public static void LabelField(string label) { Drawn.Add("label " + label); }
+        public static void LabelField(string label, string value) { Drawn.Add("label " + label + ": " + value); }
+        public static void LabelField(GUIContent label, GUIContent value) { LabelField(label.text, value.text); }
+        public static void LabelField(GUIContent label) { LabelField(label.text); }
+        public static void Space() { }
+        public static void Space(float width) { }
+        public static float FloatField(string label, float value) { return Field(label, value); }
+        public static float FloatField(GUIContent label, float value) { return Field(label.text, value); }
+        public static string TextField(string label, string value) { return Field(label, value); }
+        public static bool Toggle(string label, bool value) { return Field(label, value); }
+        public static bool Toggle(GUIContent label, bool value) { return Field(label.text, value); }
+        public static int Popup(string label, int index, string[] names) { return Field(label, index); }
+        public static int Popup(GUIContent label, int index, GUIContent[] names) { return Field(label.text, index); }
+        public static bool Foldout(bool open, string label) { return Field(label, open); }
+        public static bool Foldout(bool open, string label, bool toggles) { return Field(label, open); }
+        public static Rect GetControlRect(bool hasLabel, float height) { return new Rect(0f, 0f, 300f, height); }
+        public static Rect GetControlRect() { return new Rect(0f, 0f, 300f, 18f); }
+
+        public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options)
+        {
+            Drawn.Add("property " + property.name);
+            return false;
+        }
+
+        public static bool PropertyField(SerializedProperty property, GUIContent label, params GUILayoutOption[] options)
+        {
+            Drawn.Add("property " + property.name + " as " + label.text);
+            return false;
+        }
+
+        public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options)
+        {
+            return PropertyField(property, options);
+        }
+
+        public static bool DropdownButton(GUIContent content, FocusType focus, params GUILayoutOption[] options)
+        {
+            Drawn.Add("drop-down " + content.text);
+            return Answers.ContainsKey(content.text);
+        }
+
+        public static void BeginHorizontal(params GUILayoutOption[] options) { }
+        public static void EndHorizontal() { }
+        public static void BeginVertical(params GUILayoutOption[] options) { }
+        public static void EndVertical() { }
+    }
+
+    /// Changes and switches are not simulated.
+    public static class EditorGUI
+    {
+        public static int indentLevel { get; set; }
+        public static bool showMixedValue { get; set; }
+        public static void BeginChangeCheck() { }
+        public static bool EndChangeCheck() { return EditorGUILayout.Answers.Count > 0; }
+        public static void DrawRect(Rect rect, Color color) { EditorGUILayout.Drawn.Add("rect"); }
+        public static void LabelField(Rect rect, string text) { EditorGUILayout.Drawn.Add("label " + text); }
+        public static void BeginDisabledGroup(bool disabled) { }
+        public static void EndDisabledGroup() { }
+
+        public sealed class DisabledScope : IDisposable
+        {
+            public DisabledScope(bool disabled) { }
+            public void Dispose() { }
+        }
+
+        public sealed class IndentLevelScope : IDisposable
+        {
+            public IndentLevelScope() { indentLevel++; }
+            public void Dispose() { indentLevel--; }
+        }
+    }
+
+    /// Writes down what is drawn, like Gizmos.
+    public static class Handles
+    {
+        public static Color color { get; set; }
+        public static Matrix4x4 matrix { get; set; }
+        public static UnityEngine.Rendering.CompareFunction zTest { get; set; }
+        public static void DrawLines(Vector3[] segments) { EditorGUILayout.Drawn.Add("handle lines " + segments.Length / 2); }
+        public static void DrawLine(Vector3 a, Vector3 b) { EditorGUILayout.Drawn.Add("handle line " + a + " " + b); }
+        public static void DrawAAPolyLine(float width, params Vector3[] points)
+        {
+            EditorGUILayout.Drawn.Add("handle polyline " + points.Length);
+        }
+        public static void Label(Vector3 at, string text) { EditorGUILayout.Drawn.Add("handle label " + text); }
+        public static void BeginGUI() { }
+        public static void EndGUI() { }
+    }
+}

@@ -1,0 +1,290 @@
+// Test-only stand-ins, never shipped. What belongs to no object: log, time, application, gizmos.
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+
+namespace UnityEngine
+{
+    public enum LogType
+    {
+        Error,
+        Assert,
+        Warning,
+        Log,
+        Exception
+    }
+
+    /// A line of the log, for tests.
+    public sealed class LogLine
+    {
+        public LogType Type;
+        public string Text;
+        public Object Context;
+        public Exception Exception;
+        public override string ToString() { return Type + ": " + Text; }
+    }
+
+    /// Keeps what is logged in Lines, for tests, and tells Application.logMessageReceived.
+    public static class Debug
+    {
+        public static readonly List<LogLine> Lines = new List<LogLine>();
+
+        static void Add(LogType type, object message, Object context, Exception exception)
+        {
+            string text = message == null ? "Null" : message.ToString();
+            lock (Lines)
+            {
+                Lines.Add(new LogLine { Type = type, Text = text, Context = context, Exception = exception });
+            }
+            Application.Tell(text, exception == null ? "" : exception.StackTrace, type);
+        }
+
+        public static bool isDebugBuild { get { return true; } }
+        public static void Log(object message) { Add(LogType.Log, message, null, null); }
+        public static void Log(object message, Object context) { Add(LogType.Log, message, context, null); }
+        public static void LogWarning(object message) { Add(LogType.Warning, message, null, null); }
+        public static void LogWarning(object message, Object context) { Add(LogType.Warning, message, context, null); }
+        public static void LogError(object message) { Add(LogType.Error, message, null, null); }
+        public static void LogError(object message, Object context) { Add(LogType.Error, message, context, null); }
+        public static void LogException(Exception exception) { LogException(exception, null); }
+
+        public static void LogException(Exception exception, Object context)
+        {
+            Add(LogType.Exception, exception.GetType().Name + ": " + exception.Message, context, exception);
+        }
+
+        [Conditional("UNITY_ASSERTIONS")]
+        public static void Assert(bool condition) { }
+
+        public static void DrawLine(Vector3 start, Vector3 end, Color color) { }
+    }
+
+    /// The player moves it; a test may set any of it.
+    public static class Time
+    {
+        static readonly Stopwatch watch = Stopwatch.StartNew();
+        public static float timeScale { get; set; }
+        public static float deltaTime { get; set; }
+        public static float unscaledDeltaTime { get; set; }
+        public static int frameCount { get; set; }
+        public static float time { get; set; }
+        public static float unscaledTime { get; set; }
+        public static float realtimeSinceStartup { get { return (float)watch.Elapsed.TotalSeconds; } }
+        public static double realtimeSinceStartupAsDouble { get { return watch.Elapsed.TotalSeconds; } }
+        static Time() { timeScale = 1f; deltaTime = unscaledDeltaTime = 1f / 60f; }
+    }
+
+    public enum RuntimePlatform
+    {
+        WindowsPlayer = 2,
+        WindowsEditor = 7,
+        LinuxPlayer = 13,
+        LinuxEditor = 16
+    }
+
+    /// Paths are the test's to set.
+    public static class Application
+    {
+        public delegate void LogCallback(string condition, string stackTrace, LogType type);
+
+        public static event LogCallback logMessageReceived;
+        public static event Action quitting;
+        public static event Action<bool> focusChanged;
+        public static bool isPlaying { get; internal set; }
+        public static bool isEditor { get; set; }
+        public static bool isFocused { get { return true; } }
+        public static bool isBatchMode { get { return true; } }
+        public static bool runInBackground { get; set; }
+        public static string dataPath { get; set; }
+        public static string streamingAssetsPath { get; set; }
+        public static string persistentDataPath { get; set; }
+        public static string unityVersion { get { return "2021.3.0f1"; } }
+        public static RuntimePlatform platform { get { return RuntimePlatform.LinuxEditor; } }
+
+        static Application()
+        {
+            isEditor = true;
+            dataPath = streamingAssetsPath = persistentDataPath = Environment.CurrentDirectory;
+        }
+
+        internal static void Tell(string text, string trace, LogType type)
+        {
+            if (logMessageReceived != null)
+            {
+                logMessageReceived(text, trace, type);
+            }
+        }
+
+        internal static void Quitting()
+        {
+            if (quitting == null)
+            {
+                return;
+            }
+            foreach (Delegate call in quitting.GetInvocationList())
+            {
+                try
+                {
+                    ((Action)call)();
+                }
+                catch (Exception e)
+                {
+                    Debug.LogException(e);
+                }
+            }
+        }
+
+        internal static void Focus(bool focus)
+        {
+            if (focusChanged != null)
+            {
+                focusChanged(focus);
+            }
+        }
+
+        public static void Quit() { }
+    }
+
+    /// Records what is drawn.
+    public static class Gizmos
+    {
+        public static readonly List<string> Drawn = new List<string>();
+        public static Color color { get; set; }
+        public static Matrix4x4 matrix { get; set; }
+        static Gizmos() { color = Color.white; matrix = Matrix4x4.identity; }
+        public static void DrawLine(Vector3 a, Vector3 b) { Drawn.Add("line " + a + " " + b); }
+        public static void DrawRay(Vector3 a, Vector3 b) { Drawn.Add("ray " + a + " " + b); }
+        public static void DrawWireCube(Vector3 a, Vector3 b) { Drawn.Add("wire cube " + a + " " + b); }
+        public static void DrawCube(Vector3 a, Vector3 b) { Drawn.Add("cube " + a + " " + b); }
+        public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + Text.Of(r)); }
+        public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + Text.Of(r)); }
+        public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion turned) { Drawn.Add("wire mesh " + mesh.name); }
+    }
+
+    /// What a test sets is what is read.
+    public static class Input
+    {
+        public static Vector3 mousePosition { get; set; }
+        public static Vector2 mouseScrollDelta { get; set; }
+        public static bool[] MouseButtons = new bool[3];
+        public static bool GetMouseButton(int button) { return MouseButtons[button]; }
+        public static bool GetMouseButtonDown(int button) { return MouseButtons[button]; }
+        public static bool GetKey(KeyCode key) { return false; }
+        public static bool GetKeyDown(KeyCode key) { return false; }
+        public static float GetAxis(string axis) { return 0f; }
+    }
+
+    public enum KeyCode
+    {
+        None = 0,
+        Space = 32,
+        Escape = 27,
+        Tab = 9,
+        R = 114,
+        F1 = 282
+    }
+
+    public struct Ray
+    {
+        public Vector3 origin;
+        public Vector3 direction;
+        public Ray(Vector3 origin, Vector3 direction) { this.origin = origin; this.direction = direction; }
+        public Vector3 GetPoint(float distance) { return origin + direction * distance; }
+    }
+
+    public struct Plane
+    {
+        public Vector3 normal;
+        public float distance;
+        public Plane(Vector3 normal, Vector3 point)
+        {
+            this.normal = normal.normalized;
+            distance = -Vector3.Dot(this.normal, point);
+        }
+
+        public bool Raycast(Ray ray, out float enter)
+        {
+            float along = Vector3.Dot(ray.direction, normal);
+            enter = Mathf.Abs(along) < 1e-6f ? 0f : -(Vector3.Dot(ray.origin, normal) + distance) / along;
+            return enter > 0f;
+        }
+    }
+
+    /// Looks straight ahead, one pixel a millimetre, without perspective.
+    public sealed class Camera : Behaviour
+    {
+        public float nearClipPlane { get; set; }
+        public static Camera current { get { return main; } }
+        public static Camera main { get { return Object.FindObjectOfType<Camera>(); } }
+        public Ray ScreenPointToRay(Vector3 p)
+        {
+            return new Ray(transform.TransformPoint(new Vector3(p.x * 0.001f, p.y * 0.001f, 0f)), transform.forward);
+        }
+    }
+
+    public static class Screen
+    {
+        public static int width { get { return 640; } }
+        public static int height { get { return 360; } }
+    }
+}
+
+namespace UnityEngine.TestTools
+{
+    using System.Text.RegularExpressions;
+
+    /// Faithful: an error or exception that nobody expects fails a test, and so does one that is expected and does not
+    /// come; Unity's runner asks by itself, here a test's TearDown asks NoUnexpectedReceived().
+    public static class LogAssert
+    {
+        sealed class Expected
+        {
+            internal LogType Type;
+            internal Regex Pattern;
+        }
+
+        static readonly List<Expected> expected = new List<Expected>();
+        public static bool ignoreFailingMessages { get; set; }
+
+        public static void Expect(LogType type, string message)
+        {
+            Expect(type, new Regex("^" + Regex.Escape(message) + "$"));
+        }
+
+        public static void Expect(LogType type, Regex message)
+        {
+            expected.Add(new Expected { Type = type, Pattern = message });
+        }
+
+        public static void NoUnexpectedReceived()
+        {
+            List<string> wrong = new List<string>();
+            lock (Debug.Lines)
+            {
+                foreach (LogLine line in Debug.Lines)
+                {
+                    int at = expected.FindIndex(e => e.Type == line.Type && e.Pattern.IsMatch(line.Text));
+                    if (at >= 0)
+                    {
+                        expected.RemoveAt(at);
+                    }
+                    else if (line.Type != LogType.Log && line.Type != LogType.Warning && !ignoreFailingMessages)
+                    {
+                        wrong.Add("unexpected " + line + (line.Exception == null ? "" : "\n" + line.Exception));
+                    }
+                }
+                Debug.Lines.Clear();
+            }
+            foreach (Expected e in expected)
+            {
+                wrong.Add("missing " + e.Type + ": " + e.Pattern);
+            }
+            expected.Clear();
+            ignoreFailingMessages = false;
+            if (wrong.Count > 0)
+            {
+                throw new Exception(string.Join("\n", wrong.ToArray()));
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+// Test-only stand-ins, never shipped.
+using System;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    public enum MeshTopology
+    {
+        Triangles = 0,
+        Quads = 2,
+        Lines = 3,
+        LineStrip = 4,
+        Points = 5
+    }
+
+    namespace Rendering
+    {
+        public enum IndexFormat
+        {
+            UInt16,
+            UInt32
+        }
+
+        public enum CompareFunction
+        {
+            Disabled,
+            Never,
+            Less,
+            Equal,
+            LessEqual,
+            Greater,
+            NotEqual,
+            GreaterEqual,
+            Always
+        }
+    }
+
+    /// Faithful: arrays are copies, what is not readable gives an error and nothing, submeshes and topologies.
+    /// Not: checks of index ranges, base vertices (always 0), compression, GPU buffers, skins.
+    public sealed class Mesh : Object
+    {
+        sealed class Part
+        {
+            internal int[] indices = new int[0];
+            internal MeshTopology topology;
+        }
+
+        Vector3[] positions = new Vector3[0];
+        Vector3[] normalArray = new Vector3[0];
+        Vector4[] tangentArray = new Vector4[0];
+        readonly Vector2[][] uvArrays = { new Vector2[0], new Vector2[0], new Vector2[0], new Vector2[0] };
+        readonly List<Part> subMeshes = new List<Part> { new Part() };
+        bool readable = true;
+
+        public Bounds bounds { get; set; }
+        public Rendering.IndexFormat indexFormat { get; set; }
+        public bool isReadable { get { Living(); return readable; } }
+        public int vertexCount { get { Living(); return positions.Length; } }
+
+        public int subMeshCount
+        {
+            get { Living(); return subMeshes.Count; }
+            set
+            {
+                while (subMeshes.Count > value)
+                {
+                    subMeshes.RemoveAt(subMeshes.Count - 1);
+                }
+                while (subMeshes.Count < value)
+                {
+                    subMeshes.Add(new Part());
+                }
+            }
+        }
+
+        bool Allowed(string what)
+        {
+            Living();
+            if (!readable)
+            {
+                Debug.LogError("Not allowed to access " + what + " on mesh '" + held +
+                               "' (isReadable is false; Read/Write must be enabled in import settings)", this);
+            }
+            return readable;
+        }
+
+        T[] Copy<T>(T[] from, string what) { return Allowed(what) ? (T[])from.Clone() : new T[0]; }
+
+        static void Fill<T>(List<T> to, T[] from)
+        {
+            to.Clear();
+            if (to.Capacity < from.Length)
+            {
+                to.Capacity = from.Length;
+            }
+            for (int i = 0; i < from.Length; i++)
+            {
+                to.Add(from[i]);
+            }
+        }
+
+        public Vector3[] vertices
+        {
+            get { return Copy(positions, "vertices"); }
+            set { SetVertices(value); }
+        }
+
+        public Vector3[] normals
+        {
+            get { return Copy(normalArray, "normals"); }
+            set { normalArray = (Vector3[])(value ?? new Vector3[0]).Clone(); }
+        }
+
+        public Vector4[] tangents
+        {
+            get { return Copy(tangentArray, "tangents"); }
+            set { tangentArray = (Vector4[])(value ?? new Vector4[0]).Clone(); }
+        }
+
+        public Vector2[] uv
+        {
+            get { return Copy(uvArrays[0], "uv"); }
+            set { uvArrays[0] = (Vector2[])(value ?? new Vector2[0]).Clone(); }
+        }
+
+        public int[] triangles
+        {
+            get
+            {
+                List<int> all = new List<int>();
+                for (int i = 0; i < subMeshes.Count && Allowed("triangles"); i++)
+                {
+                    all.AddRange(GetTriangles(i));
+                }
+                return all.ToArray();
+            }
+            set { subMeshCount = 1; SetTriangles(value, 0); }
+        }
+
+        public void SetVertices(List<Vector3> value) { SetVertices(value.ToArray()); }
+
+        public void SetVertices(Vector3[] value)
+        {
+            positions = (Vector3[])value.Clone();
+            RecalculateBounds();
+        }
+
+        public void SetNormals(List<Vector3> value) { normals = value.ToArray(); }
+        public void SetNormals(Vector3[] value) { normals = value; }
+        public void SetTangents(List<Vector4> value) { tangents = value.ToArray(); }
+        public void SetTangents(Vector4[] value) { tangents = value; }
+        public void SetUVs(int channel, List<Vector2> value) { uvArrays[channel] = value.ToArray(); }
+        public void SetUVs(int channel, Vector2[] value) { uvArrays[channel] = (Vector2[])value.Clone(); }
+        public void SetTriangles(List<int> value, int part) { SetTriangles(value.ToArray(), part); }
+        public void SetTriangles(int[] value, int part) { SetIndices(value, MeshTopology.Triangles, part); }
+
+        public void SetIndices(int[] value, MeshTopology topology, int part)
+        {
+            subMeshes[part].indices = (int[])value.Clone();
+            subMeshes[part].topology = topology;
+        }
+
+        public void GetVertices(List<Vector3> to) { Fill(to, Allowed("vertices") ? positions : new Vector3[0]); }
+        public void GetNormals(List<Vector3> to) { Fill(to, Allowed("normals") ? normalArray : new Vector3[0]); }
+        public void GetTangents(List<Vector4> to) { Fill(to, Allowed("tangents") ? tangentArray : new Vector4[0]); }
+        public void GetUVs(int channel, List<Vector2> to) { Fill(to, Allowed("uv") ? uvArrays[channel] : new Vector2[0]); }
+        public int[] GetIndices(int part) { return Copy(subMeshes[part].indices, "indices"); }
+        public int[] GetIndices(int part, bool applyBaseVertex) { return GetIndices(part); }
+        public void GetIndices(List<int> to, int part) { Fill(to, Allowed("indices") ? subMeshes[part].indices : new int[0]); }
+        public void GetIndices(List<int> to, int part, bool applyBaseVertex) { GetIndices(to, part); }
+        public void GetTriangles(List<int> to, int part) { Fill(to, GetTriangles(part)); }
+        public void GetTriangles(List<int> to, int part, bool applyBaseVertex) { Fill(to, GetTriangles(part)); }
+        public MeshTopology GetTopology(int part) { Living(); return subMeshes[part].topology; }
+        public uint GetIndexCount(int part) { Living(); return (uint)subMeshes[part].indices.Length; }
+        public uint GetBaseVertex(int part) { Living(); return 0; }
+        public void UploadMeshData(bool markNoLongerReadable) { readable = readable && !markNoLongerReadable; }
+        public void MarkDynamic() { }
+
+        public int[] GetTriangles(int part)
+        {
+            if (!Allowed("triangles"))
+            {
+                return new int[0];
+            }
+            Part p = subMeshes[part];
+            if (p.topology == MeshTopology.Triangles)
+            {
+                return (int[])p.indices.Clone();
+            }
+            List<int> made = new List<int>();
+            for (int i = 0; p.topology == MeshTopology.Quads && i + 3 < p.indices.Length; i += 4)
+            {
+                foreach (int corner in new[] { 0, 1, 2, 0, 2, 3 })
+                {
+                    made.Add(p.indices[i + corner]);
+                }
+            }
+            return made.ToArray();
+        }
+
+        public void RecalculateBounds()
+        {
+            Bounds box = new Bounds(positions.Length > 0 ? positions[0] : Vector3.zero, Vector3.zero);
+            foreach (Vector3 p in positions)
+            {
+                box.Encapsulate(p);
+            }
+            bounds = box;
+        }
+
+        public void RecalculateNormals() { }
+
+        public void Clear()
+        {
+            Living();
+            positions = normalArray = new Vector3[0];
+            tangentArray = new Vector4[0];
+            for (int i = 0; i < uvArrays.Length; i++)
+            {
+                uvArrays[i] = new Vector2[0];
+            }
+            subMeshes.Clear();
+            subMeshes.Add(new Part());
+        }
+    }
+
+    /// Not: `mesh` copies in Unity; here it is the shared one.
+    public sealed class MeshFilter : Component
+    {
+        Mesh shared;
+
+        public Mesh sharedMesh
+        {
+            get { Living(); return shared; }
+            set { Living(); shared = value; }
+        }
+
+        public Mesh mesh
+        {
+            get { return sharedMesh; }
+            set { sharedMesh = value; }
+        }
+    }
+}

@@ -1,0 +1,440 @@
+// Test-only stand-ins, never shipped. Objects, their life and death: destroyed ones equal null, as Unity's do; messages
+// come from Player. No scenes, layers, tags or serialisation.
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+
+namespace UnityEngine
+{
+    [Flags]
+    public enum HideFlags
+    {
+        None = 0,
+        HideInHierarchy = 1,
+        HideInInspector = 2,
+        DontSaveInEditor = 4,
+        NotEditable = 8,
+        DontSaveInBuild = 16,
+        DontUnloadUnusedAsset = 32,
+        DontSave = 52,
+        HideAndDontSave = 61
+    }
+
+    public class UnityException : SystemException
+    {
+        public UnityException(string message) : base(message) { }
+    }
+
+    public class MissingReferenceException : SystemException
+    {
+        public MissingReferenceException(string message) : base(message) { }
+    }
+
+    /// Faithful: ==, implicit bool, Destroy at the frame's end, DestroyImmediate. Not: Instantiate.
+    public class Object
+    {
+        static int lastId;
+        internal bool destroyed;
+        internal string held = "";
+        internal HideFlags flags;
+        readonly int id = ++lastId;
+
+        public string name
+        {
+            get { Living(); return held; }
+            set { Living(); held = value; }
+        }
+
+        public HideFlags hideFlags
+        {
+            get { Living(); return flags; }
+            set { Living(); flags = value; }
+        }
+
+        public int GetInstanceID() { return id; }
+
+        internal void Living()
+        {
+            if (destroyed)
+            {
+                throw new MissingReferenceException("The object of type '" + GetType().Name +
+                    "' has been destroyed but you are still trying to access it.");
+            }
+        }
+
+        static bool Same(Object a, Object b)
+        {
+            if ((object)a == null || (object)b == null)
+            {
+                Object one = (object)a == null ? b : a;
+                return (object)one == null || one.destroyed;
+            }
+            return ReferenceEquals(a, b);
+        }
+
+        public static bool operator ==(Object a, Object b) { return Same(a, b); }
+        public static bool operator !=(Object a, Object b) { return !Same(a, b); }
+        public static implicit operator bool(Object exists) { return !Same(exists, null); }
+        public override bool Equals(object other) { return ReferenceEquals(this, other) || (other == null && destroyed); }
+        public override int GetHashCode() { return id; }
+        public override string ToString() { return destroyed ? "null" : held + " (" + GetType().FullName + ")"; }
+
+        public static void Destroy(Object obj) { Player.DestroyLater(obj); }
+        public static void Destroy(Object obj, float t) { Player.DestroyLater(obj); }
+        public static void DestroyImmediate(Object obj) { Player.DestroyNow(obj); }
+        public static void DestroyImmediate(Object obj, bool allowDestroyingAssets) { Player.DestroyNow(obj); }
+        public static void DontDestroyOnLoad(Object target) { Player.Keep(target); }
+
+        /// Only what is active in the scene, as Unity's.
+        public static T[] FindObjectsOfType<T>() where T : Object
+        {
+            List<T> found = new List<T>();
+            foreach (GameObject go in Player.All())
+            {
+                if (go.activeInHierarchy)
+                {
+                    found.AddRange(go.GetComponents<T>());
+                }
+            }
+            return found.ToArray();
+        }
+
+        public static T FindObjectOfType<T>() where T : Object
+        {
+            T[] all = FindObjectsOfType<T>();
+            return all.Length > 0 ? all[0] : null;
+        }
+    }
+
+    public enum PrimitiveType
+    {
+        Sphere,
+        Capsule,
+        Cylinder,
+        Cube,
+        Plane,
+        Quad
+    }
+
+    /// Faithful: components, required components, activity through parents, the quad's mesh. Not: tags, layers, scenes,
+    /// the meshes of other primitives.
+    public sealed class GameObject : Object
+    {
+        internal readonly List<Component> parts = new List<Component>();
+        internal bool active = true;
+
+        public GameObject() : this("New Game Object") { }
+
+        public GameObject(string name, params Type[] components)
+        {
+            held = name;
+            Player.Add(this);
+            Attach(new Transform());
+            foreach (Type type in components)
+            {
+                AddComponent(type);
+            }
+        }
+
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            GameObject made = new GameObject(type.ToString(), typeof(MeshFilter), typeof(MeshRenderer));
+            if (type == PrimitiveType.Quad)
+            {
+                made.GetComponent<MeshFilter>().sharedMesh = new Mesh
+                {
+                    name = "Quad",
+                    vertices = new[]
+                    {
+                        new Vector3(-0.5f, -0.5f, 0f), new Vector3(0.5f, -0.5f, 0f), new Vector3(-0.5f, 0.5f, 0f),
+                        new Vector3(0.5f, 0.5f, 0f)
+                    },
+                    uv = new[] { new Vector2(0f, 0f), new Vector2(1f, 0f), new Vector2(0f, 1f), new Vector2(1f, 1f) },
+                    triangles = new[] { 0, 3, 1, 3, 0, 2 }
+                };
+            }
+            return made;
+        }
+
+        public Transform transform { get { Living(); return (Transform)parts[0]; } }
+        public GameObject gameObject { get { Living(); return this; } }
+        public bool activeSelf { get { Living(); return active; } }
+
+        public bool activeInHierarchy
+        {
+            get { Living(); return active && (transform.parent == null || transform.parent.gameObject.activeInHierarchy); }
+        }
+
+        public void SetActive(bool value)
+        {
+            Living();
+            if (active != value)
+            {
+                active = value;
+                Player.ActivityChanged(this);
+            }
+        }
+
+        public Component AddComponent(Type type)
+        {
+            Living();
+            if (type.IsDefined(typeof(DisallowMultipleComponent), true) && GetComponent(type) != null)
+            {
+                Debug.LogError("Can't add component '" + type.Name + "' to " + held +
+                               " because such a component is already added to the game object!");
+                return null;
+            }
+            foreach (RequireComponent needed in type.GetCustomAttributes(typeof(RequireComponent), true))
+            {
+                foreach (Type t in new[] { needed.m_Type0, needed.m_Type1, needed.m_Type2 })
+                {
+                    if (t != null && GetComponent(t) == null)
+                    {
+                        AddComponent(t);
+                    }
+                }
+            }
+            Component made = (Component)Activator.CreateInstance(type, true);
+            Attach(made);
+            Player.Added(made);
+            return made;
+        }
+
+        public T AddComponent<T>() where T : Component { return (T)AddComponent(typeof(T)); }
+
+        void Attach(Component made)
+        {
+            made.held = held;
+            made.owner = this;
+            parts.Add(made);
+        }
+
+        public Component GetComponent(Type type)
+        {
+            Living();
+            foreach (Component part in parts)
+            {
+                if (type.IsInstanceOfType(part) && !part.destroyed)
+                {
+                    return part;
+                }
+            }
+            return null;
+        }
+
+        public T GetComponent<T>()
+        {
+            Living();
+            for (int i = 0; i < parts.Count; i++)
+            {
+                if (parts[i] is T && !parts[i].destroyed)
+                {
+                    return (T)(object)parts[i];
+                }
+            }
+            return default(T);
+        }
+
+        public bool TryGetComponent<T>(out T found)
+        {
+            found = GetComponent<T>();
+            return found != null;
+        }
+
+        public T[] GetComponents<T>()
+        {
+            Living();
+            List<T> found = new List<T>();
+            foreach (Component part in parts)
+            {
+                if (part is T && !part.destroyed)
+                {
+                    found.Add((T)(object)part);
+                }
+            }
+            return found.ToArray();
+        }
+
+        public T GetComponentInParent<T>()
+        {
+            for (Transform t = transform; t != null; t = t.parent)
+            {
+                T found = t.gameObject.GetComponent<T>();
+                if (found != null && t.gameObject.activeInHierarchy)
+                {
+                    return found;
+                }
+            }
+            return default(T);
+        }
+
+        public T[] GetComponentsInChildren<T>() { return GetComponentsInChildren<T>(false); }
+
+        public T[] GetComponentsInChildren<T>(bool includeInactive)
+        {
+            List<T> found = new List<T>();
+            if (includeInactive || activeInHierarchy)
+            {
+                found.AddRange(GetComponents<T>());
+            }
+            foreach (Transform child in transform.children)
+            {
+                found.AddRange(child.gameObject.GetComponentsInChildren<T>(includeInactive));
+            }
+            return found.ToArray();
+        }
+
+        public T GetComponentInChildren<T>()
+        {
+            T[] found = GetComponentsInChildren<T>();
+            return found.Length > 0 ? found[0] : default(T);
+        }
+    }
+
+    /// Faithful: ways to its object and its neighbours.
+    public class Component : Object
+    {
+        internal GameObject owner;
+
+        public GameObject gameObject
+        {
+            get
+            {
+                Living();
+                if ((object)owner == null)
+                {
+                    throw new UnityException("get_gameObject is not allowed to be called from a constructor");
+                }
+                return owner;
+            }
+        }
+
+        public Transform transform { get { return gameObject.transform; } }
+        public new string name
+        {
+            get { return gameObject.name; }
+            set { gameObject.name = value; }
+        }
+
+        public override string ToString()
+        {
+            return destroyed || (object)owner == null ? "null" : owner.held + " (" + GetType().FullName + ")";
+        }
+
+        public T GetComponent<T>() { return gameObject.GetComponent<T>(); }
+        public Component GetComponent(Type type) { return gameObject.GetComponent(type); }
+        public bool TryGetComponent<T>(out T found) { return gameObject.TryGetComponent(out found); }
+        public T[] GetComponents<T>() { return gameObject.GetComponents<T>(); }
+        public T GetComponentInParent<T>() { return gameObject.GetComponentInParent<T>(); }
+        public T GetComponentInChildren<T>() { return gameObject.GetComponentInChildren<T>(); }
+        public T[] GetComponentsInChildren<T>() { return gameObject.GetComponentsInChildren<T>(); }
+    }
+
+    /// Faithful: OnEnable and OnDisable come at once.
+    public class Behaviour : Component
+    {
+        internal bool on = true;
+
+        public bool enabled
+        {
+            get { Living(); return on; }
+            set
+            {
+                Living();
+                if (on != value)
+                {
+                    on = value;
+                    Player.EnabledChanged(this);
+                }
+            }
+        }
+
+        public bool isActiveAndEnabled { get { return !destroyed && on && gameObject.activeInHierarchy; } }
+    }
+
+    /// Not: coroutines, Invoke, SendMessage.
+    public class MonoBehaviour : Behaviour
+    {
+        internal bool woken, running, started;
+        public bool useGUILayout { get; set; }
+        public static void print(object message) { Debug.Log(message); }
+    }
+
+    /// Faithful: OnEnable on creation, OnDisable and OnDestroy on the end, in edit mode too. Not: assets' loading.
+    public class ScriptableObject : Object
+    {
+        public static T CreateInstance<T>() where T : ScriptableObject { return (T)CreateInstance(typeof(T)); }
+
+        public static ScriptableObject CreateInstance(Type type)
+        {
+            ScriptableObject made = (ScriptableObject)Activator.CreateInstance(type, true);
+            Player.Send(made, "Awake");
+            Player.Send(made, "OnEnable");
+            return made;
+        }
+    }
+
+    public class Material : Object
+    {
+        public Color color { get; set; }
+        public Texture mainTexture { get; set; }
+    }
+
+    public class Shader : Object { }
+
+    public class Texture : Object
+    {
+        public int width { get; protected set; }
+        public int height { get; protected set; }
+        public int anisoLevel { get; set; }
+    }
+
+    public enum TextureFormat
+    {
+        RGBA32 = 4
+    }
+
+    /// Keeps its pixels, for tests to look at.
+    public class Texture2D : Texture
+    {
+        public Color32[] Pixels;
+        public Texture2D() { }
+        public Texture2D(int width, int height, TextureFormat format, bool mipChain)
+        {
+            this.width = width;
+            this.height = height;
+        }
+
+        public void SetPixels32(Color32[] colors)
+        {
+            if (colors.Length != width * height)
+            {
+                throw new UnityException("SetPixels32 called with invalid number of pixels in the array");
+            }
+            Pixels = colors;
+        }
+
+        public void Apply() { }
+        public static Texture2D whiteTexture { get { return new Texture2D(); } }
+    }
+
+    public class Renderer : Component
+    {
+        public bool enabled { get; set; }
+        public Material sharedMaterial { get; set; } = new Material();
+        public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
+        public Bounds bounds { get; set; }
+        public bool isPartOfStaticBatch { get; internal set; }
+    }
+
+    public class MeshRenderer : Renderer { }
+
+    /// Text out of a file of the project.
+    public class TextAsset : Object
+    {
+        public TextAsset() { }
+        public TextAsset(string text) { this.text = text; }
+        public string text { get; private set; }
+        public byte[] bytes { get { return System.Text.Encoding.UTF8.GetBytes(text); } }
+    }
+}

@@ -1,0 +1,175 @@
+// Test-only stand-in, never shipped.
+using System.Collections;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    /// Faithful: the maths of hierarchies in float, with Unity's rotation and lossyScale where parents scale unevenly
+    /// (the product of the rotations); hasChanged. Not: sibling order, events.
+    public class Transform : Component, IEnumerable
+    {
+        internal readonly List<Transform> children = new List<Transform>();
+        Transform above;
+        Vector3 ownPosition;
+        Quaternion ownRotation = Quaternion.identity;
+        Vector3 ownScale = Vector3.one;
+        bool changed = true;
+        Matrix4x4 kept;
+        bool isKept;
+
+        public bool hasChanged
+        {
+            get { Living(); return changed; }
+            set { Living(); changed = value; }
+        }
+
+        void Touch()
+        {
+            changed = true;
+            isKept = false;
+            for (int i = 0; i < children.Count; i++)
+            {
+                children[i].Touch();
+            }
+        }
+
+        public Vector3 localPosition
+        {
+            get { Living(); return ownPosition; }
+            set { Living(); ownPosition = value; Touch(); }
+        }
+
+        public Quaternion localRotation
+        {
+            get { Living(); return ownRotation; }
+            set { Living(); ownRotation = value.normalized; Touch(); }
+        }
+
+        public Vector3 localScale
+        {
+            get { Living(); return ownScale; }
+            set { Living(); ownScale = value; Touch(); }
+        }
+
+        public Vector3 localEulerAngles
+        {
+            get { return localRotation.eulerAngles; }
+            set { localRotation = Quaternion.Euler(value); }
+        }
+
+        public Vector3 eulerAngles
+        {
+            get { return rotation.eulerAngles; }
+            set { rotation = Quaternion.Euler(value); }
+        }
+
+        public Vector3 position
+        {
+            get { Living(); return (object)above == null ? ownPosition : above.TransformPoint(ownPosition); }
+            set { localPosition = (object)above == null ? value : above.InverseTransformPoint(value); }
+        }
+
+        public Quaternion rotation
+        {
+            get { Living(); return (object)above == null ? ownRotation : above.rotation * ownRotation; }
+            set { localRotation = (object)above == null ? value : Quaternion.Inverse(above.rotation) * value; }
+        }
+
+        public Vector3 lossyScale
+        {
+            get
+            {
+                Matrix4x4 m = Matrix4x4.Rotate(Quaternion.Inverse(rotation)) * localToWorldMatrix;
+                return new Vector3(m.m00, m.m11, m.m22);
+            }
+        }
+
+        public Matrix4x4 localToWorldMatrix
+        {
+            get
+            {
+                Living();
+                if (!isKept) // reading it is cheap in Unity, and frames are measured
+                {
+                    Matrix4x4 own = Matrix4x4.TRS(ownPosition, ownRotation, ownScale);
+                    kept = (object)above == null ? own : above.localToWorldMatrix * own;
+                    isKept = true;
+                }
+                return kept;
+            }
+        }
+
+        public Matrix4x4 worldToLocalMatrix { get { return localToWorldMatrix.inverse; } }
+        public Vector3 right { get { return rotation * Vector3.right; } }
+        public Vector3 up { get { return rotation * Vector3.up; } }
+        public Vector3 forward { get { return rotation * Vector3.forward; } }
+
+        public Transform parent
+        {
+            get { Living(); return above; }
+            set { SetParent(value, true); }
+        }
+
+        public Transform root { get { return (object)above == null ? this : above.root; } }
+        public int childCount { get { Living(); return children.Count; } }
+        public Transform GetChild(int index) { Living(); return children[index]; }
+        public IEnumerator GetEnumerator() { return children.ToArray().GetEnumerator(); }
+        public void SetParent(Transform p) { SetParent(p, true); }
+
+        public void SetParent(Transform p, bool worldPositionStays)
+        {
+            Living();
+            bool was = gameObject.activeInHierarchy;
+            Vector3 at = position;
+            Quaternion turned = rotation;
+            Vector3 scaled = lossyScale;
+            if ((object)above != null)
+            {
+                above.children.Remove(this);
+            }
+            above = p == null ? null : p;
+            if ((object)above != null)
+            {
+                above.children.Add(this);
+            }
+            if (worldPositionStays)
+            {
+                rotation = turned;
+                position = at;
+                Vector3 s = (object)above == null ? Vector3.one : above.lossyScale;
+                ownScale = new Vector3(scaled.x / s.x, scaled.y / s.y, scaled.z / s.z);
+            }
+            Touch();
+            if (gameObject.activeInHierarchy != was)
+            {
+                Player.ActivityChanged(gameObject);
+            }
+        }
+
+        internal void Detach()
+        {
+            if ((object)above != null && !above.destroyed)
+            {
+                above.children.Remove(this);
+            }
+        }
+
+        public Vector3 TransformPoint(Vector3 p) { return localToWorldMatrix.MultiplyPoint3x4(p); }
+        public Vector3 TransformVector(Vector3 v) { return localToWorldMatrix.MultiplyVector(v); }
+        public Vector3 TransformDirection(Vector3 v) { return rotation * v; }
+        public Vector3 InverseTransformPoint(Vector3 p) { return worldToLocalMatrix.MultiplyPoint3x4(p); }
+        public Vector3 InverseTransformDirection(Vector3 v) { return Quaternion.Inverse(rotation) * v; }
+
+        public void SetPositionAndRotation(Vector3 p, Quaternion q)
+        {
+            rotation = q;
+            position = p;
+        }
+
+        public void GetPositionAndRotation(out Vector3 p, out Quaternion q)
+        {
+            p = position;
+            q = rotation;
+        }
+    }
+}

@@ -1,0 +1,271 @@
+// Test-only stand-ins, never shipped. Vectors, colours and boxes: Unity's names, floats and near-equality of ==.
+using System;
+using System.Globalization;
+
+namespace UnityEngine
+{
+    [Serializable]
+    public struct Vector2 : IEquatable<Vector2>
+    {
+        public float x, y;
+
+        public Vector2(float x, float y) { this.x = x; this.y = y; }
+
+        public static Vector2 zero { get { return new Vector2(0f, 0f); } }
+        public static Vector2 one { get { return new Vector2(1f, 1f); } }
+        public static Vector2 right { get { return new Vector2(1f, 0f); } }
+        public static Vector2 up { get { return new Vector2(0f, 1f); } }
+        public float sqrMagnitude { get { return x * x + y * y; } }
+        public float magnitude { get { return (float)Math.Sqrt(sqrMagnitude); } }
+
+        public float this[int index]
+        {
+            get { return index == 0 ? x : y; }
+            set { if (index == 0) x = value; else y = value; }
+        }
+
+        public void Set(float newX, float newY) { x = newX; y = newY; }
+        public static float Dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
+        public static Vector2 operator +(Vector2 a, Vector2 b) { return new Vector2(a.x + b.x, a.y + b.y); }
+        public static Vector2 operator -(Vector2 a, Vector2 b) { return new Vector2(a.x - b.x, a.y - b.y); }
+        public static Vector2 operator -(Vector2 a) { return new Vector2(-a.x, -a.y); }
+        public static Vector2 operator *(Vector2 a, float s) { return new Vector2(a.x * s, a.y * s); }
+        public static Vector2 operator *(float s, Vector2 a) { return a * s; }
+        public static Vector2 operator /(Vector2 a, float s) { return new Vector2(a.x / s, a.y / s); }
+        public static bool operator ==(Vector2 a, Vector2 b) { return (a - b).sqrMagnitude < 9.99999944e-11f; }
+        public static bool operator !=(Vector2 a, Vector2 b) { return !(a == b); }
+        public static implicit operator Vector3(Vector2 v) { return new Vector3(v.x, v.y, 0f); }
+        public static implicit operator Vector2(Vector3 v) { return new Vector2(v.x, v.y); }
+        public bool Equals(Vector2 other) { return x.Equals(other.x) && y.Equals(other.y); }
+        public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
+        public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2); }
+        public override string ToString() { return Text.Of(x, y); }
+    }
+
+    [Serializable]
+    public struct Vector3 : IEquatable<Vector3>
+    {
+        public float x, y, z;
+
+        public Vector3(float x, float y, float z) { this.x = x; this.y = y; this.z = z; }
+        public Vector3(float x, float y) { this.x = x; this.y = y; z = 0f; }
+
+        public static Vector3 zero { get { return new Vector3(0f, 0f, 0f); } }
+        public static Vector3 one { get { return new Vector3(1f, 1f, 1f); } }
+        public static Vector3 right { get { return new Vector3(1f, 0f, 0f); } }
+        public static Vector3 left { get { return new Vector3(-1f, 0f, 0f); } }
+        public static Vector3 up { get { return new Vector3(0f, 1f, 0f); } }
+        public static Vector3 down { get { return new Vector3(0f, -1f, 0f); } }
+        public static Vector3 forward { get { return new Vector3(0f, 0f, 1f); } }
+        public static Vector3 back { get { return new Vector3(0f, 0f, -1f); } }
+        public float sqrMagnitude { get { return x * x + y * y + z * z; } }
+        public float magnitude { get { return (float)Math.Sqrt(sqrMagnitude); } }
+        public Vector3 normalized
+        {
+            get { float length = magnitude; return length > 1e-5f ? this / length : zero; }
+        }
+
+        public float this[int index]
+        {
+            get { return index == 0 ? x : index == 1 ? y : z; }
+            set { if (index == 0) x = value; else if (index == 1) y = value; else z = value; }
+        }
+
+        public void Set(float newX, float newY, float newZ) { x = newX; y = newY; z = newZ; }
+        public void Normalize() { this = normalized; }
+        public static float Dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+        public static float Distance(Vector3 a, Vector3 b) { return (a - b).magnitude; }
+        public static float Magnitude(Vector3 a) { return a.magnitude; }
+        public static Vector3 Normalize(Vector3 a) { return a.normalized; }
+        public static Vector3 Scale(Vector3 a, Vector3 b) { return new Vector3(a.x * b.x, a.y * b.y, a.z * b.z); }
+        public static Vector3 Lerp(Vector3 a, Vector3 b, float t)
+        {
+            return a + (b - a) * Math.Max(0f, Math.Min(1f, t));
+        }
+        public static Vector3 Min(Vector3 a, Vector3 b)
+        {
+            return new Vector3(Math.Min(a.x, b.x), Math.Min(a.y, b.y), Math.Min(a.z, b.z));
+        }
+        public static Vector3 Max(Vector3 a, Vector3 b)
+        {
+            return new Vector3(Math.Max(a.x, b.x), Math.Max(a.y, b.y), Math.Max(a.z, b.z));
+        }
+        public static Vector3 Cross(Vector3 a, Vector3 b)
+        {
+            return new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+        }
+        public static Vector3 ProjectOnPlane(Vector3 v, Vector3 n) { return v - n * (Dot(v, n) / Dot(n, n)); }
+        public static Vector3 operator +(Vector3 a, Vector3 b) { return new Vector3(a.x + b.x, a.y + b.y, a.z + b.z); }
+        public static Vector3 operator -(Vector3 a, Vector3 b) { return new Vector3(a.x - b.x, a.y - b.y, a.z - b.z); }
+        public static Vector3 operator -(Vector3 a) { return new Vector3(-a.x, -a.y, -a.z); }
+        public static Vector3 operator *(Vector3 a, float s) { return new Vector3(a.x * s, a.y * s, a.z * s); }
+        public static Vector3 operator *(float s, Vector3 a) { return a * s; }
+        public static Vector3 operator /(Vector3 a, float s) { return new Vector3(a.x / s, a.y / s, a.z / s); }
+        public static bool operator ==(Vector3 a, Vector3 b) { return (a - b).sqrMagnitude < 9.99999944e-11f; }
+        public static bool operator !=(Vector3 a, Vector3 b) { return !(a == b); }
+        public bool Equals(Vector3 other) { return x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z); }
+        public override bool Equals(object other) { return other is Vector3 && Equals((Vector3)other); }
+        public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2); }
+        public override string ToString() { return Text.Of(x, y, z); }
+    }
+
+    [Serializable]
+    public struct Vector4 : IEquatable<Vector4>
+    {
+        public float x, y, z, w;
+
+        public Vector4(float x, float y, float z, float w) { this.x = x; this.y = y; this.z = z; this.w = w; }
+        public Vector4(float x, float y, float z) { this.x = x; this.y = y; this.z = z; w = 0f; }
+
+        public static Vector4 zero { get { return new Vector4(0f, 0f, 0f, 0f); } }
+        public float sqrMagnitude { get { return x * x + y * y + z * z + w * w; } }
+
+        public float this[int index]
+        {
+            get { return index == 0 ? x : index == 1 ? y : index == 2 ? z : w; }
+            set { if (index == 0) x = value; else if (index == 1) y = value; else if (index == 2) z = value; else w = value; }
+        }
+
+        public static Vector4 operator -(Vector4 a, Vector4 b)
+        {
+            return new Vector4(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w);
+        }
+        public static bool operator ==(Vector4 a, Vector4 b) { return (a - b).sqrMagnitude < 9.99999944e-11f; }
+        public static bool operator !=(Vector4 a, Vector4 b) { return !(a == b); }
+        public static implicit operator Vector4(Vector3 v) { return new Vector4(v.x, v.y, v.z, 0f); }
+        public static implicit operator Vector3(Vector4 v) { return new Vector3(v.x, v.y, v.z); }
+        public bool Equals(Vector4 o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
+        public override bool Equals(object other) { return other is Vector4 && Equals((Vector4)other); }
+        public override int GetHashCode() { return x.GetHashCode() ^ y.GetHashCode() ^ z.GetHashCode() ^ w.GetHashCode(); }
+        public override string ToString() { return Text.Of(x, y, z, w); }
+    }
+
+    /// Four floats; no colour spaces.
+    [Serializable]
+    public struct Color : IEquatable<Color>
+    {
+        public float r, g, b, a;
+
+        public Color(float r, float g, float b, float a) { this.r = r; this.g = g; this.b = b; this.a = a; }
+        public Color(float r, float g, float b) { this.r = r; this.g = g; this.b = b; a = 1f; }
+
+        public static Color white { get { return new Color(1f, 1f, 1f); } }
+        public static Color black { get { return new Color(0f, 0f, 0f); } }
+        public static Color grey { get { return new Color(0.5f, 0.5f, 0.5f); } }
+        public static Color gray { get { return grey; } }
+        public static Color red { get { return new Color(1f, 0f, 0f); } }
+        public static Color green { get { return new Color(0f, 1f, 0f); } }
+        public static Color blue { get { return new Color(0f, 0f, 1f); } }
+        public static Color cyan { get { return new Color(0f, 1f, 1f); } }
+        public static Color yellow { get { return new Color(1f, 0.92f, 0.016f); } }
+        public static Color clear { get { return new Color(0f, 0f, 0f, 0f); } }
+        public static Color operator *(Color c, float s) { return new Color(c.r * s, c.g * s, c.b * s, c.a * s); }
+        public static bool operator ==(Color a, Color b) { return a.Equals(b); }
+        public static bool operator !=(Color a, Color b) { return !a.Equals(b); }
+        public static Color Lerp(Color p, Color q, float t)
+        {
+            t = Math.Max(0f, Math.Min(1f, t));
+            return new Color(p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t, p.b + (q.b - p.b) * t, p.a + (q.a - p.a) * t);
+        }
+        public bool Equals(Color o) { return r.Equals(o.r) && g.Equals(o.g) && b.Equals(o.b) && a.Equals(o.a); }
+        public override bool Equals(object other) { return other is Color && Equals((Color)other); }
+        public override int GetHashCode() { return r.GetHashCode() ^ g.GetHashCode() ^ b.GetHashCode() ^ a.GetHashCode(); }
+        public override string ToString() { return "RGBA" + Text.Of(r, g, b, a); }
+    }
+
+    [Serializable]
+    public struct Color32
+    {
+        public byte r, g, b, a;
+        public Color32(byte r, byte g, byte b, byte a) { this.r = r; this.g = g; this.b = b; this.a = a; }
+    }
+
+    [Serializable]
+    public struct Bounds
+    {
+        public Vector3 center;
+        public Vector3 extents;
+
+        public Bounds(Vector3 center, Vector3 size) { this.center = center; extents = size * 0.5f; }
+
+        public Vector3 size { get { return extents * 2f; } set { extents = value * 0.5f; } }
+        public Vector3 min { get { return center - extents; } }
+        public Vector3 max { get { return center + extents; } }
+        public void SetMinMax(Vector3 low, Vector3 high) { extents = (high - low) * 0.5f; center = low + extents; }
+        public void Encapsulate(Vector3 point) { SetMinMax(Vector3.Min(min, point), Vector3.Max(max, point)); }
+        public bool Contains(Vector3 p) { return Vector3.Min(p, min).Equals(min) && Vector3.Max(p, max).Equals(max); }
+    }
+
+    [Serializable]
+    public struct Rect
+    {
+        public float x, y, width, height;
+
+        public Rect(float x, float y, float width, float height)
+        {
+            this.x = x;
+            this.y = y;
+            this.width = width;
+            this.height = height;
+        }
+
+        public float xMin { get { return x; } }
+        public float xMax { get { return x + width; } }
+        public float yMin { get { return y; } }
+        public float yMax { get { return y + height; } }
+        public Vector2 center { get { return new Vector2(x + 0.5f * width, y + 0.5f * height); } }
+        public bool Contains(Vector2 p) { return p.x >= x && p.x < xMax && p.y >= y && p.y < yMax; }
+    }
+
+    /// The functions that the package uses, in float as Unity's.
+    public static class Mathf
+    {
+        public const float PI = (float)Math.PI;
+        public const float Deg2Rad = PI / 180f;
+        public const float Rad2Deg = 180f / PI;
+        public const float Infinity = float.PositiveInfinity;
+        public const float Epsilon = 1.17549435E-38f;
+
+        public static float Abs(float f) { return Math.Abs(f); }
+        public static int Abs(int f) { return Math.Abs(f); }
+        public static float Sqrt(float f) { return (float)Math.Sqrt(f); }
+        public static float Sin(float f) { return (float)Math.Sin(f); }
+        public static float Cos(float f) { return (float)Math.Cos(f); }
+        public static float Tan(float f) { return (float)Math.Tan(f); }
+        public static float Atan2(float y, float x) { return (float)Math.Atan2(y, x); }
+        public static float Acos(float f) { return (float)Math.Acos(f); }
+        public static float Pow(float f, float p) { return (float)Math.Pow(f, p); }
+        public static float Floor(float f) { return (float)Math.Floor(f); }
+        public static float Round(float f) { return (float)Math.Round(f); }
+        public static int RoundToInt(float f) { return (int)Math.Round(f); }
+        public static int FloorToInt(float f) { return (int)Math.Floor(f); }
+        public static int CeilToInt(float f) { return (int)Math.Ceiling(f); }
+        public static float Min(float a, float b) { return a < b ? a : b; }
+        public static float Max(float a, float b) { return a > b ? a : b; }
+        public static int Min(int a, int b) { return a < b ? a : b; }
+        public static int Max(int a, int b) { return a > b ? a : b; }
+        public static float Clamp(float v, float low, float high) { return v < low ? low : v > high ? high : v; }
+        public static int Clamp(int v, int low, int high) { return v < low ? low : v > high ? high : v; }
+        public static float Clamp01(float v) { return Clamp(v, 0f, 1f); }
+        public static float Lerp(float a, float b, float t) { return a + (b - a) * Clamp01(t); }
+        public static float Repeat(float t, float length) { return t - Floor(t / length) * length; }
+        public static float Sign(float f) { return f >= 0f ? 1f : -1f; }
+        public static bool Approximately(float a, float b)
+        {
+            return Abs(b - a) < Max(1E-06f * Max(Abs(a), Abs(b)), Epsilon * 8f);
+        }
+    }
+
+    internal static class Text
+    {
+        internal static string Of(params float[] values)
+        {
+            string[] parts = new string[values.Length];
+            for (int i = 0; i < values.Length; i++)
+            {
+                parts[i] = values[i].ToString("G7", CultureInfo.InvariantCulture);
+            }
+            return "(" + string.Join(", ", parts) + ")";
+        }
+    }
+}
