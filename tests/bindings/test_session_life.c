@@ -11,7 +11,7 @@ static int thread_count(void) {
     int count = 0;
     DIR *folder = opendir("/proc/self/task");
     assert_non_null(folder);
-    while (readdir(folder)) {
+    while (folder && readdir(folder)) {
         count++;
     }
     (void)closedir(folder);
