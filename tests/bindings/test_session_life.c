@@ -10,8 +10,11 @@ static const uint8_t zeros[sizeof(knurl_session_state)];
 static int thread_count(void) {
     int count = 0;
     DIR *folder = opendir("/proc/self/task");
-    assert_non_null(folder);
-    while (folder && readdir(folder)) {
+    if (!folder) {
+        fail_msg("there is no /proc");
+        return 0;
+    }
+    while (readdir(folder)) {
         count++;
     }
     (void)closedir(folder);
