@@ -29,7 +29,7 @@ static int nobody_runs(void) {
     while (thread_count() > others_than_ours && knurl_system_now_ns() - begin < PATIENCE_NS) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
-    return thread_count() == others_than_ours;
+    return thread_count() <= others_than_ours;
 }
 
 static void open_fake(knurl_session *s) {
@@ -305,6 +305,10 @@ TEST(sessions_are_destroyed_on_another_thread_while_all_are_closed) {
     }
 }
 
+static void do_nothing(void *argument) {
+    (void)argument;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_session_is_closed_and_its_scene_is_empty),
@@ -322,6 +326,11 @@ int main(void) {
         cmocka_unit_test(those_that_were_destroyed_are_not_among_all),
         cmocka_unit_test(sessions_are_destroyed_on_another_thread_while_all_are_closed),
     };
+    knurl_thread *first = knurl_system_start_thread(do_nothing, NULL, (size_t)64 * 1024);
+    if (first) { /* the thread sanitizer brings one of its own along */
+        knurl_system_join_thread(first);
+    }
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 20000000);
     others_than_ours = thread_count();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
