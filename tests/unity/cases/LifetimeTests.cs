@@ -56,7 +56,7 @@ namespace Knurl.Tests
             MakeSurface(Plate());
             KnurlDevice d = StartResting();
             Until(() => d.Touched != null, "touched");
-            Assert.That(Threads(), Is.GreaterThan(before));
+            Assert.That(Threads(), Is.GreaterThan(before), "there is something to count");
             Player.Quit();
             NoMoreThreadsThan(before);
         }

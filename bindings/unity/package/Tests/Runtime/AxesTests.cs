@@ -149,6 +149,17 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void UvsCountFromWhereFilesCountThem()
+        {
+            // v is 0 at the bottom in Unity and at the top in glTF: a crest at v = 1, and 7.5 ridges on, a groove at v = 0.
+            KnurlSurface surface = MakeSurface(Plate(0.1f));
+            surface.Grating.SpatialFrequency = new Vector2(0f, 75f);
+            surface.Grating.Method = GratingMethod.S1;
+            AreNear(new Vector3(0f, 0.48f, 0f), PressDown(0f, 0.0495f), 1e-4, "at v = 0.995");
+            AreNear(new Vector3(0f, 0.32f, 0f), PressDown(0f, -0.0495f), 1e-4, "at v = 0.005");
+        }
+
+        [Test]
         public void AnAxisIsTheMeshesOwn()
         {
             KnurlSurface surface = MakeSurface(Plate());
