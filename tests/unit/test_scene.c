@@ -262,6 +262,25 @@ TEST(mesh_needs_a_direction_and_s1_coordinates) {
     shape_free(&sheet);
 }
 
+TEST(info_tells_the_axis_that_was_given) {
+    knurl_scene *scene = NULL;
+    knurl_surface_info info;
+    surface_parts parts = surface_plane();
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
+    assert_int_equal(knurl_scene_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    for (int i = 0; i < 3; i++) {
+        CHECK_SAME(info.axis[i], 0.0);
+    }
+    parts.desc.axis[0] = -3.0;
+    parts.desc.axis[1] = 4.0;
+    assert_int_equal(knurl_scene_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    CHECK_CLOSE(info.axis[0], -0.6, 1e-15);
+    CHECK_CLOSE(info.axis[1], 0.8, 1e-15);
+    CHECK_SAME(info.axis[2], 0.0);
+    knurl_scene_destroy(scene);
+}
+
 TEST(unknown_names_are_answered_with_the_known) {
     static const char *const names[] = {"bark", "silk", "bark"};
     surface_parts parts = surface_plane();
@@ -355,6 +374,7 @@ int main(void) {
         cmocka_unit_test(places_out_of_range_are_refused_by_name),
         cmocka_unit_test(surface_is_exactly_one_shape_with_a_material),
         cmocka_unit_test(mesh_needs_a_direction_and_s1_coordinates),
+        cmocka_unit_test(info_tells_the_axis_that_was_given),
         cmocka_unit_test(unknown_names_are_answered_with_the_known),
         cmocka_unit_test(hips_are_configured_within_their_ranges),
         cmocka_unit_test(workspace_left_open_is_centred_on_all_bounds),

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "baddf7d948069bff"
+#define KNURL_UNITY_INTERFACE "ac58491557321f0a"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -190,7 +190,7 @@
     FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
     FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
     FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
-    STRUCT(knurl_surface_info, 312) \
+    STRUCT(knurl_surface_info, 336) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -211,6 +211,7 @@
     FIELD(knurl_surface_info, model_error, "model_error", 296, 8) \
     FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 304, 4) \
     FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
+    FIELD(knurl_surface_info, axis, "axis", 312, 24) \
     STRUCT(knurl_tick_input, 56) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \

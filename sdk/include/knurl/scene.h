@@ -134,6 +134,7 @@ typedef struct knurl_surface_info {
     double model_error;           /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;      /**< triangles left out because another has the same corners, facing the other way */
     uint32_t reserved;            /**< 0 */
+    double axis[3];               /**< unit, the surface's frame: the axis that was given; 0 without one */
 } knurl_surface_info;
 
 /** What a device says at one tick. */

@@ -131,6 +131,9 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
     memset(info, 0, sizeof *info);
     info->name = surface->name;
     info->material = surface->record->material;
+    if (surface->has_axis) {
+        vec3_copy(surface->axis, info->axis);
+    }
     const double now = knurl_scene_time(scene);
     knurl_motion_at(&surface->record->motion, now, &pose);
     knurl_surface_bounds(surface, &surface->record->motion, now, info->bounds_min, info->bounds_max);

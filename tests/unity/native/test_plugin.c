@@ -236,7 +236,9 @@ TEST(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory) {
     assert_int_equal(after.threads, before.threads);
     assert_int_equal(after.handles, before.handles);
     assert_true(after.bytes < before.bytes + (int64_t)ROUNDS * BYTES_LEFT);
+#if !defined(__SANITIZE_ADDRESS__) /* which maps memory of its own */
     assert_true(after.maps <= before.maps + 5);
+#endif
 }
 
 int main(void) {

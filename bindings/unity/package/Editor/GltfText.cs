@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 using System;
 using System.IO;
-using System.Text;
-using System.Text.RegularExpressions;
 
 namespace Knurl.Editing
 {
@@ -12,8 +10,6 @@ namespace Knurl.Editing
     {
         const uint Magic = 0x46546C67; // "glTF"
         const int HeaderBytes = 20; // of a .glb and of its first chunk, which is the JSON
-        const int MostJson = 1 << 26; // bytes that are looked at for an axis
-        static readonly Regex Axis = new Regex("\"knurl_axis\"\\s*:|\"knurl\"\\s*:\\s*\\{[^{}]*\"axis\"\\s*:");
         static readonly byte[] Word = { (byte)'k', (byte)'n', (byte)'u', (byte)'r', (byte)'l' };
 
         /// <summary>Whether "knurl" stands anywhere in the file's JSON, as it does in every tag.</summary>
@@ -22,21 +18,6 @@ namespace Knurl.Editing
             using (FileStream file = File.OpenRead(path))
             {
                 return Holds(file, JsonLength(file));
-            }
-        }
-
-        /// <summary>Whether a tag has an axis: what the loader tells of a surface does not include it.</summary>
-        internal static bool NamesAxis(string path)
-        {
-            using (FileStream file = File.OpenRead(path))
-            {
-                var json = new byte[Math.Min(JsonLength(file), MostJson)];
-                int count = 0;
-                for (int read = 1; read > 0 && count < json.Length; count += read)
-                {
-                    read = file.Read(json, count, json.Length - count);
-                }
-                return Axis.IsMatch(Encoding.UTF8.GetString(json, 0, count));
             }
         }
 

@@ -53,11 +53,6 @@ namespace Knurl.Editing
                 {
                     Warn(path, sentence);
                 }
-                if (tags.Count > 0 && GltfText.NamesAxis(path))
-                {
-                    Warn(path, path + ": a tag has an axis, which a grating cannot hold: set Axis of its KnurlSurface "
-                        + "where its ridges are to run along another direction than the mesh's tangents or UVs");
-                }
                 return tags.Count;
             }
             catch (KnurlException exception)

@@ -36,7 +36,7 @@ namespace Knurl.Editing
                 else
                 {
                     used.Add(found, tags[i].Name);
-                    Put(found, gratings[i], tags[i].DoubleSided);
+                    Put(found, gratings[i], tags[i]);
                 }
             }
             return missed;
@@ -93,7 +93,7 @@ namespace Knurl.Editing
                     + "all of a mesh; give each material a mesh of its own";
         }
 
-        static void Put(GameObject owner, KnurlGrating grating, bool doubleSided)
+        static void Put(GameObject owner, KnurlGrating grating, KnurlTag tag)
         {
             var surface = owner.GetComponent<KnurlSurface>();
             if (surface == null)
@@ -102,7 +102,11 @@ namespace Knurl.Editing
             }
             Undo.RecordObject(surface, "Add Knurl Surfaces");
             surface.Grating = grating;
-            surface.DoubleSided = doubleSided;
+            surface.DoubleSided = tag.DoubleSided;
+            if (tag.Axis != Vector3.zero) // else it may have one of its own
+            {
+                surface.Axis = Axes.ToMesh(tag.Axis, owner.transform.localToWorldMatrix);
+            }
             if (PrefabUtility.IsPartOfPrefabInstance(surface))
             {
                 PrefabUtility.RecordPrefabInstancePropertyModifications(surface);

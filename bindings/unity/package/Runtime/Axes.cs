@@ -62,6 +62,27 @@ namespace Knurl
             r[8] = -(1.0 - twice * (x * x + y * y));
         }
 
+        /// <summary>The direction in a mesh that an object's scale, shear and mirror turn into another, which is given in
+        /// the object's own axes: what <see cref="KnurlTag.Axis"/> is for <see cref="KnurlSurface.Axis"/>. Zero where the
+        /// object has no volume.</summary>
+        internal static Vector3 ToMesh(Vector3 scaled, Matrix4x4 place)
+        {
+            knurl_session_pose pose;
+            double* rows = stackalloc double[12];
+            double* a = stackalloc double[3];
+            ToScene(&place, rows);
+            if (NativeMethods.knurl_session_split_pose(rows, &pose) == 0)
+            {
+                return Vector3.zero;
+            }
+            ToScene(scaled, a);
+            double* rest = pose.rest; // upper triangular
+            a[2] /= rest[8];
+            a[1] = (a[1] - rest[5] * a[2]) / rest[4];
+            a[0] = (a[0] - rest[1] * a[1] - rest[2] * a[2]) / rest[0];
+            return ToUnity(a).normalized;
+        }
+
         /// <summary>to = matrix (3 by 3, row-major) times from.</summary>
         internal static void Multiply(double* matrix, double* from, double* to)
         {

@@ -20,6 +20,7 @@ namespace Knurl
             Orientation = (float)material->orientation;
             Method = (GratingMethod)material->method;
             DoubleSided = info->double_sided != 0;
+            Axis = Axes.ToUnity(info->axis);
         }
 
         /// <summary>The surface's name: its node's, else its mesh's.</summary>
@@ -48,6 +49,10 @@ namespace Knurl
 
         /// <summary>Whether the surface can be touched from behind as well.</summary>
         public bool DoubleSided { get; }
+
+        /// <summary>The grating's x where the tag has an axis: of length 1, in the axes of the object that shows the
+        /// surface, after its scale. Zero where it has none.</summary>
+        public Vector3 Axis { get; }
 
         /// <summary>Gives a grating these values, all of them.</summary>
         public void CopyTo(KnurlGrating grating)

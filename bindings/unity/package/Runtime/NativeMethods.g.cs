@@ -307,6 +307,7 @@ namespace Knurl
         public double model_error;
         public uint reversed_twins;
         public uint reserved;
+        public fixed double axis[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -539,7 +540,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "baddf7d948069bff";
+        internal const string Interface = "ac58491557321f0a";
 
         internal const string Version = "0.1.0";
 

@@ -107,25 +107,6 @@ namespace Knurl.Tests
             Assert.AreEqual(1000f, GltfFiles.Grating(Folder + "/Plate.asset").SpatialFrequency.x);
         }
 
-        [TestCase("{\"knurl_axis\": [0, 1, 0], \"knurl_spatial_frequency\": 1000, \"knurl_amplitude\": 0.0002, "
-            + "\"knurl_stiffness\": 400}")]
-        [TestCase("{\"knurl\": {\"version\": 1, \"spatial_frequency\": [1000, 0], \"amplitude\": 0.0002, "
-            + "\"stiffness\": 400, \"axis\" : [0, 1, 0]}}")]
-        public void A_tag_with_an_axis_is_a_warning_for_it_is_the_surfaces(string extras)
-        {
-            string path = files.Write("plate.gltf", "Plate", extras);
-            ExpectWarning("^Knurl: Assets/KnurlEditorTests/plate\\.gltf: a tag has an axis");
-            Assert.AreEqual(1, TagImporter.Import(path));
-        }
-
-        [Test]
-        public void An_axis_of_somebody_elses_is_none_of_a_tag()
-        {
-            string path = files.Write("plate.gltf", "Plate", "{\"axis\": [0, 1, 0], \"knurl\": {\"version\": 1, "
-                + "\"spatial_frequency\": 1000, \"amplitude\": 0.0002, \"stiffness\": 400}, \"other\": {\"axis\": 1}}");
-            Assert.IsFalse(GltfText.NamesAxis(path));
-        }
-
         [Test]
         public void A_file_that_is_gone_is_a_warning()
         {

@@ -71,6 +71,18 @@ namespace Knurl.Tests
             Assert.AreEqual(Vector3.up, surface.Axis);
         }
 
+        /// <summary>It is the mesh's, so it comes through whatever the node is scaled by; x is mirrored.</summary>
+        [Test]
+        public void A_tags_axis_is_the_surfaces()
+        {
+            GameObject a = Felt("A");
+            a.transform.localScale = new Vector3(2f, 1f, -3f);
+            Apply("A\", \"scale\": [2, 1, -3], \"unused\": \"", "{\"knurl_axis\": [1, 2, 3], "
+                + GltfFiles.Tag(1000).Substring(1));
+            Vector3 axis = a.GetComponent<KnurlSurface>().Axis;
+            Assert.AreEqual(0f, (new Vector3(-1f, 2f, 3f).normalized - axis).magnitude, 1e-6f);
+        }
+
         [Test]
         public void Objects_that_share_a_name_take_its_tags_in_turn()
         {
