@@ -6,6 +6,7 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -ge 2 ] || { echo "usage: package.sh OUT_DIR LIBRARY..." >&2; exit 2; }
 name=com.knurl.haptics
+export SOURCE_DATE_EPOCH=499162500 # npm's: October 1985; strip writes it into Windows libraries
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
 shift
@@ -53,7 +54,7 @@ find "$stage/$name" -type f -exec chmod 644 {} +
 find "$stage/$name" -type d -exec chmod 755 {} +
 
 # As npm lays it out, and the same bytes for the same files: sorted, of one time and one owner.
-tar -C "$stage" --transform "s,^$name,package,S" --sort=name --mtime='1985-10-26 08:15:00Z' --owner=0 --group=0 \
+tar -C "$stage" --transform "s,^$name,package,S" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
     --numeric-owner --format=ustar -cf "$stage/tar" "$name"
 gzip -n -9 <"$stage/tar" >"$stage/tgz"
 [ ! -e "$out/$name" ] || mv "$out/$name" "$stage/old"

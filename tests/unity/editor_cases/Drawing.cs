@@ -50,6 +50,26 @@ namespace Knurl.Cases
         }
 
         [Test]
+        public void A_grating_that_cannot_be_felt_says_why()
+        {
+            KnurlGrating grating = MakeGrating(1000f);
+            grating.Stiffness = 0f;
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Stiffness: expected more than 0. It cannot be felt.");
+            grating.Stiffness = 400f;
+            grating.SpatialFrequency = new Vector2(1f, -1f);
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Spatial Frequency: expected 0 or more. It cannot be felt.");
+            grating.SpatialFrequency = Vector2.zero;
+            grating.Friction = float.NaN;
+            Draw(grating);
+            CollectionAssert.Contains(EditorGUILayout.Drawn,
+                "Error: Amplitude, Damping, Friction: expected 0 or more. It cannot be felt.");
+        }
+
+        [Test]
         public void A_preset_gives_a_grating_its_numbers_and_a_surface_itself()
         {
             AddPreset("b", 150f);

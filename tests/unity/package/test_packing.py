@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 import tarfile
+import tempfile
+import time
 import unittest
 
 import package
@@ -39,30 +41,40 @@ def make_library(path, compiler, magic):
     return path
 
 
-class Packing(package.InFolder):
+def make_libraries(case):
+    """A stand-in for each system, for all tests of a class."""
+    holder = tempfile.TemporaryDirectory()
+    case.addClassCleanup(holder.cleanup)
+    case.linux = make_library(os.path.join(holder.name, "libknurl_unity.so"), os.environ.get("CC", "cc"), b"\x7fELF")
+    case.windows = make_library(
+        os.path.join(holder.name, "knurl_unity.dll"), "x86_64-w64-mingw32-gcc-posix", b"MZ"
+    )
+    return holder.name
+
+
+def pack(out, *libraries, program=os.path.join(package.UNITY, "package.sh")):
+    return subprocess.run([program, out, *libraries], capture_output=True, text=True, check=False)
+
+
+def paths_in(out):
+    """The folder and the tarball."""
+    stem = os.path.join(out, "com.knurl.haptics")
+    return stem, f"{stem}-{package.version()}.tgz"
+
+
+class Packed(unittest.TestCase):
+    """What comes out, looked at."""
+
+    @classmethod
+    def setUpClass(cls):
+        out = os.path.join(make_libraries(cls), "out")
+        cls.done = pack(out, cls.linux, cls.windows)
+        cls.stem, cls.tarball = paths_in(out)
+
     def setUp(self):
-        super().setUp()
-        compiler = os.environ.get("CC", "cc")
-        self.linux = make_library(os.path.join(self.folder, "libknurl_unity.so"), compiler, b"\x7fELF")
-        self.windows = make_library(os.path.join(self.folder, "knurl_unity.dll"), "x86_64-w64-mingw32-gcc-posix", b"MZ")
-        self.out = os.path.join(self.folder, "out")
-        self.stem = os.path.join(self.out, "com.knurl.haptics")
-        self.tarball = f"{self.stem}-{package.version()}.tgz"
-
-    def pack(self, *libraries, program=os.path.join(package.UNITY, "package.sh")):
-        return subprocess.run([program, self.out, *libraries], capture_output=True, text=True, check=False)
-
-    def pack_both(self):
-        done = self.pack(self.linux, self.windows)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-    def expect_nothing_made(self, done, sentence):
-        self.assertEqual(done.returncode, 1)
-        self.assertIn(sentence, done.stderr)
-        self.assertEqual(os.listdir(self.out), [])
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
 
     def test_a_tarball_is_laid_out_as_npm_does(self):
-        self.pack_both()
         with tarfile.open(self.tarball) as tar:
             members = tar.getmembers()
         names = [member.name for member in members]
@@ -75,7 +87,6 @@ class Packing(package.InFolder):
         self.assertEqual({member.mode & 0o777 for member in members if member.isfile()}, {0o644})
 
     def test_a_tarballs_manifest_names_samples_that_are_in_it(self):
-        self.pack_both()
         with tarfile.open(self.tarball) as tar:
             manifest = json.load(tar.extractfile("package/package.json"))
             names = tar.getnames()
@@ -85,7 +96,6 @@ class Packing(package.InFolder):
             self.assertTrue(any(re.match(rf"package/{sample['path']}/\w+\.cs$", name) for name in names))
 
     def test_the_folder_is_what_is_in_the_tarball(self):
-        self.pack_both()
         with tarfile.open(self.tarball) as tar:
             files = {name: tar.extractfile(name).read() for name in tar.getnames() if tar.getmember(name).isfile()}
         for name, content in files.items():
@@ -95,13 +105,40 @@ class Packing(package.InFolder):
         self.assertEqual(count, len(files))
 
     def test_every_meta_of_it_is_right_and_has_its_file(self):
-        self.pack_both()
         self.assertEqual(metas.check(self.stem, True), [])
+
+    def test_what_was_built_to_be_debugged_is_not_what_is_shipped(self):
+        if not shutil.which("strip") or not shutil.which(os.environ.get("CC", "cc")):
+            self.skipTest("no compiler")
+        self.assertLess(os.path.getsize(os.path.join(self.stem, LINUX)), os.path.getsize(self.linux))
+
+
+class Packing(package.InFolder):
+    """How it goes, and goes wrong."""
+
+    @classmethod
+    def setUpClass(cls):
+        make_libraries(cls)
+
+    def setUp(self):
+        super().setUp()
+        self.out = os.path.join(self.folder, "out")
+        self.stem, self.tarball = paths_in(self.out)
+
+    def pack_both(self):
+        done = pack(self.out, self.linux, self.windows)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def expect_nothing_made(self, done, sentence):
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(sentence, done.stderr)
+        self.assertEqual(os.listdir(self.out), [])
 
     def test_the_same_files_make_the_same_bytes(self):
         self.pack_both()
         with open(self.tarball, "rb") as file:
             first = file.read()
+        time.sleep(1.1)  # the clocks of archives go by seconds
         os.utime(self.linux)
         self.pack_both()
         with open(self.tarball, "rb") as file:
@@ -111,26 +148,21 @@ class Packing(package.InFolder):
         self.pack_both()
         self.pack_both()
         self.assertEqual(sorted(os.listdir(self.out)), [os.path.basename(self.stem), os.path.basename(self.tarball)])
-
-    def test_what_was_built_to_be_debugged_is_not_what_is_shipped(self):
-        if not shutil.which("strip") or not shutil.which(os.environ.get("CC", "cc")):
-            self.skipTest("no compiler")
-        self.pack_both()
-        self.assertLess(os.path.getsize(os.path.join(self.stem, LINUX)), os.path.getsize(self.linux))
+        self.assertEqual(metas.check(self.stem, True), [])
 
     def test_for_one_system_alone_the_others_metas_stay_away(self):
-        self.assertEqual(self.pack(self.linux).returncode, 0)
+        self.assertEqual(pack(self.out, self.linux).returncode, 0)
         self.assertEqual(metas.check(self.stem, True), [])
         self.assertEqual(sorted(os.listdir(os.path.join(self.stem, "Plugins"))), ["Linux", "Linux.meta"])
 
     def test_a_library_of_another_name_is_refused(self):
         other = os.path.join(self.folder, "libother.so")
         shutil.copy(self.linux, other)
-        self.expect_nothing_made(self.pack(other), "libother.so: expected libknurl_unity.so or knurl_unity.dll")
+        self.expect_nothing_made(pack(self.out, other), "libother.so: expected libknurl_unity.so or knurl_unity.dll")
 
     def test_a_library_of_another_kind_is_refused(self):
         self.write("not a library", "knurl_unity.dll")
-        done = self.pack(self.linux, self.windows)
+        done = pack(self.out, self.linux, os.path.join(self.folder, "knurl_unity.dll"))
         self.expect_nothing_made(done, "knurl_unity.dll: expected a library that starts with 'MZ'")
 
     def copy_of_sources(self):
@@ -148,14 +180,14 @@ class Packing(package.InFolder):
         unity = self.copy_of_sources()
         manifest = package.read(unity, "package", "package.json").replace(f'"{package.version()}"', '"0.0.9"')
         self.write(manifest, unity, "package", "package.json")
-        done = self.pack(self.linux, program=os.path.join(unity, "package.sh"))
+        done = pack(self.out, self.linux, program=os.path.join(unity, "package.sh"))
         self.expect_nothing_made(done, f"package.json: version: expected {package.version()}")
 
     def test_a_package_with_a_wrong_meta_is_refused_and_the_last_one_stays(self):
         self.pack_both()
         unity = self.copy_of_sources()
         os.remove(os.path.join(unity, "package", "Editor.meta"))
-        done = self.pack(self.linux, program=os.path.join(unity, "package.sh"))
+        done = pack(self.out, self.linux, program=os.path.join(unity, "package.sh"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("Editor: missing", done.stderr)
         self.assertEqual(sorted(os.listdir(self.out)), [os.path.basename(self.stem), os.path.basename(self.tarball)])
@@ -163,7 +195,7 @@ class Packing(package.InFolder):
     def test_a_library_that_somebody_tried_in_the_source_tree_is_not_packed(self):
         unity = self.copy_of_sources()
         shutil.copy(self.windows, os.path.join(unity, "package", WINDOWS))
-        self.assertEqual(self.pack(self.linux, program=os.path.join(unity, "package.sh")).returncode, 0)
+        self.assertEqual(pack(self.out, self.linux, program=os.path.join(unity, "package.sh")).returncode, 0)
         self.assertFalse(os.path.exists(os.path.join(self.stem, WINDOWS)))
 
 

@@ -38,7 +38,10 @@ namespace Knurl.Editing
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects)
             {
-                EditorGUILayout.HelpBox(Explain((KnurlGrating)target), MessageType.Info);
+                var grating = (KnurlGrating)target;
+                string wrong = FindWrong(grating);
+                MessageType type = wrong == null ? MessageType.Info : MessageType.Error;
+                EditorGUILayout.HelpBox(wrong ?? Explain(grating), type);
             }
         }
 
@@ -60,6 +63,18 @@ namespace Knurl.Editing
                 to.CopyFromSerializedProperty(from.FindProperty(field));
             }
             to.ApplyModifiedProperties();
+        }
+
+        /// <summary>Why it cannot be felt; null where it can.</summary>
+        static string FindWrong(KnurlGrating grating)
+        {
+            Vector2 frequency = grating.SpatialFrequency;
+            return !(grating.Stiffness > 0f) ? "Stiffness: expected more than 0. It cannot be felt."
+                : !(frequency.x >= 0f && frequency.y >= 0f)
+                ? "Spatial Frequency: expected 0 or more. It cannot be felt."
+                : !(grating.Amplitude >= 0f && grating.Damping >= 0f && grating.Friction >= 0f)
+                ? "Amplitude, Damping, Friction: expected 0 or more. It cannot be felt."
+                : null;
         }
 
         static string Explain(KnurlGrating grating)
