@@ -91,7 +91,8 @@ KNURL_API knurl_result knurl_session_create(knurl_session **session);
  * [game thread; or, once nobody uses the session, any thread] */
 KNURL_API void knurl_session_destroy(knurl_session *session);
 
-/** Closes every session of the process: before a library is unloaded. Returns how many were running. [game thread] */
+/** Closes every session of the process: before a library is unloaded. Returns how many were running. [game thread; what
+ * nobody uses may be destroyed on others meanwhile] */
 KNURL_API uint32_t knurl_session_close_all(void);
 
 /** The session's scene, for surfaces: knurl_scene_add_surface() and so on, knurl_gltf_load_file(). It is the same from
@@ -101,11 +102,11 @@ KNURL_API knurl_scene *knurl_session_scene(knurl_session *session);
 /** The device of an open session, for knurl_device_get_info() and so on; null while closed. [game thread] */
 KNURL_API knurl_device *knurl_session_device(knurl_session *session);
 
-/** The loop of a started session, for knurl_loop_get_stats(); null otherwise. [game thread] */
+/** The loop of a session that was started or has played, for knurl_loop_get_stats(); null otherwise. [game thread] */
 KNURL_API knurl_loop *knurl_session_loop(knurl_session *session);
 
-/** Opens the device. Errors: KNURL_ERROR_STATE (open already), KNURL_ERROR_ARGUMENT (which field), and those of
- * knurl_device_open(). [game thread] */
+/** Opens the device. Errors: KNURL_ERROR_STATE (open already), KNURL_ERROR_ARGUMENT (which field), KNURL_ERROR_UNKNOWN
+ * (stroke), and those of knurl_device_open(). [game thread] */
 KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc);
 
 /** Commits the scene where that has not happened, sets up its HIP, lays the fake hand's stroke and starts the haptic
@@ -125,23 +126,25 @@ KNURL_API knurl_result knurl_session_play(knurl_session *session, const double *
  * knurl_session_next_event(). Surfaces stay. Twice is fine. [game thread] */
 KNURL_API void knurl_session_close(knurl_session *session);
 
-/** A sign of life, once a frame, and collects what happened since the last. Nothing is asked of the heap.
- * [game thread] */
+/** A sign of life, once a frame, and collects what happened since the last. Nothing is asked of the heap; what nobody
+ * fetches is kept up to a bound, the latest of it. [game thread] */
 KNURL_API void knurl_session_update(knurl_session *session);
 
 /** The next event, oldest first: 1, or 0 where there is none. A touch shorter than a frame is told as well; what comes
- * back within a frame was never away. Closing in the middle is fine. [game thread] */
+ * back within a frame was never away; each start has its end. Of faults no more than 64 are told an update, so that a
+ * frame ends however slowly they are handled. Closing in the middle is fine. [game thread] */
 KNURL_API uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *event);
 
-/** A fault's sentence with its value and unit, as "no position came for too long (0.012 s)"; cut off after `size` - 1
- * bytes. [any thread] */
+/** A fault's sentence with its value and unit, as "no position came for too long (0.012 s)". Texts in a caller's buffer
+ * are UTF-8, end with a 0 and are cut off after a whole character where `size` bytes do not hold them. [any thread] */
 KNURL_API void knurl_session_fault_text(int32_t code, double value, char *text, uint32_t size);
 
 /** What the run is doing. [game thread] */
 KNURL_API void knurl_session_get_state(const knurl_session *session, knurl_session_state *state);
 
 /** The latest ticks, at most KNURL_SESSION_HISTORY, oldest first: two floats each, the grating's height (m) and the
- * force along the normal (N). rows: room for `count` ticks. Returns how many there were. [game thread] */
+ * force along the normal (N). rows: room for `count` ticks. Returns how many there were; none while closed.
+ * [game thread] */
 KNURL_API uint32_t knurl_session_get_history(const knurl_session *session, uint32_t count, float *rows);
 
 /** Moves the HIP of the device "mouse" (scene, m). What comes in steps is smoothed: it lags 25 ms behind. Errors:
@@ -154,8 +157,8 @@ KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const doub
 KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
                                                   const double position[3], const double rotation[4]);
 
-/** Why a surface of an open session cannot be felt, or not as asked for: a sentence a line, "" where all is well; cut
- * off after `size` - 1 bytes. [game thread] */
+/** Why a surface of an open session cannot be felt, or, once that is started, not as asked for: a sentence a line, ""
+ * where all is well; cut off after `size` - 1 bytes. [game thread] */
 KNURL_API void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size);
 
 /** Splits a matrix (row-major, three rows of four, the last column m): 1, or 0, with the pose untouched, where it has

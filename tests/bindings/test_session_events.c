@@ -101,6 +101,34 @@ TEST(several_touches_of_a_frame_are_told_in_their_order) {
     knurl_session_destroy(t.s);
 }
 
+TEST(each_of_them_is_told_once_and_the_last_at_the_end) {
+    three t;
+    set_up(&t, "fake");
+    press_on(&t, 0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
+    press_on(&t, 2);
+    press_on(&t, 1);
+    press_on(&t, 2);
+    knurl_session_update(t.s);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_event(t.s, STARTED, t.plate[1]);
+    check_event(t.s, ENDED, t.plate[1]);
+    check_event(t.s, STARTED, t.plate[2]);
+    for (int i = 0; i < 5; i++) {
+        press_on(&t, i % 2);
+    }
+    lift(t.s);
+    knurl_session_update(t.s);
+    check_event(t.s, ENDED, t.plate[2]);
+    check_event(t.s, STARTED, t.plate[0]);
+    check_event(t.s, ENDED, t.plate[0]);
+    check_event(t.s, STARTED, t.plate[1]);
+    check_event(t.s, ENDED, t.plate[1]);
+    check_no_event(t.s);
+    knurl_session_destroy(t.s);
+}
+
 TEST(a_surface_that_is_taken_out_is_let_go_of) {
     three t;
     set_up(&t, "fake");
@@ -341,6 +369,7 @@ int main(void) {
         cmocka_unit_test(a_touch_shorter_than_a_frame_is_told),
         cmocka_unit_test(what_comes_back_within_a_frame_was_never_away),
         cmocka_unit_test(several_touches_of_a_frame_are_told_in_their_order),
+        cmocka_unit_test(each_of_them_is_told_once_and_the_last_at_the_end),
         cmocka_unit_test(a_surface_that_is_taken_out_is_let_go_of),
         cmocka_unit_test(a_touch_of_what_is_gone_by_now_is_not_told),
         cmocka_unit_test(each_start_has_its_end_however_long_nobody_asked),

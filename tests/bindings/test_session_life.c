@@ -10,7 +10,10 @@ static const uint8_t zeros[sizeof(knurl_session_state)];
 static int thread_count(void) {
     int count = 0;
     DIR *folder = opendir("/proc/self/task");
-    assert_non_null(folder);
+    if (!folder) {
+        fail_msg("there is no /proc");
+        return 0;
+    }
     while (readdir(folder)) {
         count++;
     }
@@ -18,13 +21,15 @@ static int thread_count(void) {
     return count - 2; /* . and .. */
 }
 
-/* The system may still list a thread that was joined. */
-static int threads_are(int count) {
+static int others_than_ours; /* threads, before the first session */
+
+/* The system lists a thread for a while after it was joined. */
+static int nobody_runs(void) {
     const int64_t begin = knurl_system_now_ns();
-    while (thread_count() != count && knurl_system_now_ns() - begin < PATIENCE_NS) {
+    while (thread_count() > others_than_ours && knurl_system_now_ns() - begin < PATIENCE_NS) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
-    return thread_count() == count;
+    return thread_count() <= others_than_ours;
 }
 
 static void open_fake(knurl_session *s) {
@@ -209,13 +214,13 @@ TEST(a_scene_that_the_caller_committed_is_fine) {
 }
 
 TEST(destroying_what_runs_ends_its_threads) {
-    const int before = thread_count();
+    assert_true(nobody_runs());
     knurl_session *s = make_session();
     open_fake(s);
     start(s);
-    assert_true(thread_count() > before);
+    assert_true(thread_count() > others_than_ours);
     knurl_session_destroy(s);
-    assert_true(threads_are(before));
+    assert_true(nobody_runs());
     s = make_session();
     open_fake(s);
     knurl_session_destroy(s); /* open */
@@ -223,12 +228,11 @@ TEST(destroying_what_runs_ends_its_threads) {
     open_fake(s);
     start(s);
     knurl_session_close(s);
-    assert_true(threads_are(before));
+    assert_true(nobody_runs());
     knurl_session_destroy(s); /* closed */
 }
 
 TEST(all_are_closed_and_those_that_ran_are_counted) {
-    const int before = thread_count();
     knurl_session *s[4];
     for (int i = 0; i < 4; i++) {
         s[i] = make_session();
@@ -239,7 +243,7 @@ TEST(all_are_closed_and_those_that_ran_are_counted) {
     start(s[0]);
     start(s[2]);
     assert_int_equal(knurl_session_close_all(), 2);
-    assert_true(threads_are(before));
+    assert_true(nobody_runs());
     for (int i = 0; i < 4; i++) {
         check_closed(s[i]);
     }
@@ -301,6 +305,10 @@ TEST(sessions_are_destroyed_on_another_thread_while_all_are_closed) {
     }
 }
 
+static void do_nothing(void *argument) {
+    (void)argument;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_session_is_closed_and_its_scene_is_empty),
@@ -318,5 +326,11 @@ int main(void) {
         cmocka_unit_test(those_that_were_destroyed_are_not_among_all),
         cmocka_unit_test(sessions_are_destroyed_on_another_thread_while_all_are_closed),
     };
+    knurl_thread *first = knurl_system_start_thread(do_nothing, NULL, (size_t)64 * 1024);
+    if (first) { /* the thread sanitizer brings one of its own along */
+        knurl_system_join_thread(first);
+    }
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 20000000);
+    others_than_ours = thread_count();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

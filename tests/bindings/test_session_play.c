@@ -12,6 +12,7 @@ enum { ROWS = sizeof path / sizeof *path / 4 };
 static knurl_surface add_rough_plate(knurl_scene *scene) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_DEFAULT, 1000.0, 0.0, 0.0002);
+    parts.material.stiffness = 1500.0; /* a Touch promises 1020: clamped, it is another plate */
     parts.material.damping = 0.5;
     parts.material.friction = 0.3;
     return add_surface(scene, &parts);

@@ -106,17 +106,13 @@ void device_release(device *d) {
     }
     if (d->slot >= 0) {
         for (surface *s = surfaces; s; s = s->next) {
-            if (d->has_files) {
-                follow_remove(d, s);
-            }
-            s->ids[d->slot] = 0;
+            follow_remove(d, s);
         }
         devices[d->slot] = NULL;
         d->slot = -1;
     }
-    if (!d->has_files) {
-        knurl_session_destroy(d->session);
-        d->session = NULL;
+    if (d->session) { /* what is left are files' surfaces */
+        knurl_scene_collect(knurl_session_scene(d->session));
     }
 }
 

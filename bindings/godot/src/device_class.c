@@ -27,8 +27,8 @@ static int init(void *self) {
 
 static void finish(void *self) {
     device *d = self;
-    d->has_files = 0;
     device_release(d);
+    knurl_session_destroy(d->session);
     free(d->uri);
     free(d->stroke);
 }
@@ -183,12 +183,7 @@ static void load_gltf(void *self, const void *const *arguments, void *result) {
     failed = failed ? failed : knurl_gltf_load_file(knurl_session_scene(d->session), path, &report);
     if (failed) {
         (void)device_fail("KnurlDevice.load_gltf", failed);
-        if (!d->runs && !d->has_files) {
-            knurl_session_destroy(d->session);
-            d->session = NULL;
-        }
     } else {
-        d->has_files = 1;
         count = (int64_t)report.surfaces;
     }
     free(path);

@@ -48,7 +48,7 @@ void trace_play(void *self, const void *const *arguments, void *result) {
     const knurl_result failed = play(d, arguments[0], ticks, &forces, &played);
     if (failed) {
         (void)device_fail("KnurlDevice.play_trace", failed);
-    } else {
+    } else if (forces) {
         give(forces, played, result);
     }
     if (!d->runs) {

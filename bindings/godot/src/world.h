@@ -32,9 +32,8 @@ typedef struct device {
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */
     uint8_t runs;
-    uint8_t has_files;      /* the scene holds what files brought */
     int slot;               /* -1: does not run */
-    knurl_session *session; /* or null; kept between runs where its scene holds what files brought */
+    knurl_session *session; /* or null: never started yet, and no file loaded */
     knurl_workspace workspace;
     knurl_surface touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
