@@ -22,10 +22,13 @@ rm -f "$out"/*.dll "$out"/*.exe # nothing of a former build is to be found by ac
 "$here/build.sh" "$out" || { echo "unity: 0 passed, 1 failed, 0 skipped"; exit 1; }
 
 # Libraries that are not the package's: see cases/VersionTests.cs.
-mkdir -p "$out/stranger" "$out/old" "$out/empty" "$out/rubbish"
-cc=${CC:-cc}
-timeout 60 "$cc" -shared -fPIC -o "$out/stranger/libknurl_unity.so" "$here/stranger.c" &&
-    timeout 60 "$cc" -shared -fPIC -DOLD -o "$out/old/libknurl_unity.so" "$here/stranger.c" || exit 1
+mkdir -p "$out/empty" "$out/rubbish"
+version=$(sed -n 's/.*string Version = "\(.*\)";/\1/p' "$root/bindings/unity/package/Runtime/NativeMethods.g.cs")
+stranger() { # NAME VERSION OPTIONS...
+    mkdir -p "$out/$1"
+    timeout 60 "${CC:-cc}" -shared -fPIC -DVERSION="\"$2\"" "${@:3}" -o "$out/$1/libknurl_unity.so" "$here/stranger.c"
+}
+stranger stranger 9.8.7 && stranger twin "$version" && stranger old 0.0.9 -DOLD || exit 1
 
 # What the C tool makes of the same paths: see cases/TraceTests.cs.
 timeout 120 python3 "$here/traces.py" "$tool" "$root/assets" "$out/traces" || exit 1

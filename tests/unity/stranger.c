@@ -1,17 +1,13 @@
-/* Libraries of the package's name that are not its own: of another interface, or older than interfaces.
- * SPDX-License-Identifier: MIT */
+/* Libraries of the package's name that are not its own: of another version, of its version but another interface, or
+ * older than interfaces. SPDX-License-Identifier: MIT */
 const char *knurl_version_string(void);
 const char *knurl_unity_interface(void);
 
-#ifdef OLD
 const char *knurl_version_string(void) {
-    return "0.0.9";
-}
-#else
-const char *knurl_version_string(void) {
-    return "9.8.7";
+    return VERSION;
 }
 
+#ifndef OLD
 const char *knurl_unity_interface(void) {
     return "0123456789abcdef";
 }

@@ -70,6 +70,12 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void AnotherInterfaceOfTheSameVersionIsRefusedAsWell()
+        {
+            Fails(Probe("twin"), NativeMethods.Version, NativeMethods.Interface, "0123456789abcdef");
+        }
+
+        [Test]
         public void ALibraryFromBeforeInterfacesIsOneSentenceWithBothVersions()
         {
             Fails(Probe("old"), NativeMethods.Version, "0.0.9");
