@@ -24,11 +24,11 @@ rm -f "$out"/*.dll "$out"/*.exe # nothing of a former build is to be found by ac
 # Libraries that are not the package's: see cases/VersionTests.cs.
 mkdir -p "$out/empty" "$out/rubbish"
 version=$(sed -n 's/.*string Version = "\(.*\)";/\1/p' "$root/bindings/unity/package/Runtime/NativeMethods.g.cs")
-stranger() { # NAME VERSION OPTIONS...
+stranger() { # NAME OPTIONS...
     mkdir -p "$out/$1"
-    timeout 60 "${CC:-cc}" -shared -fPIC -DVERSION="\"$2\"" "${@:3}" -o "$out/$1/libknurl_unity.so" "$here/stranger.c"
+    timeout 60 "${CC:-cc}" -shared -fPIC "${@:2}" -o "$out/$1/libknurl_unity.so" "$here/stranger.c"
 }
-stranger stranger 9.8.7 && stranger twin "$version" && stranger old 0.0.9 -DOLD || exit 1
+stranger stranger && stranger twin -DVERSION="\"$version\"" && stranger old -DVERSION='"0.0.9"' -DOLD || exit 1
 
 # What the C tool makes of the same paths: see cases/TraceTests.cs.
 timeout 120 python3 "$here/traces.py" "$tool" "$root/assets" "$out/traces" || exit 1
