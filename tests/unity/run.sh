@@ -24,11 +24,12 @@ rm -f "$out"/*.dll "$out"/*.exe # nothing of a former build is to be found by ac
 # Libraries that are not the package's: see cases/VersionTests.cs.
 mkdir -p "$out/empty" "$out/rubbish"
 version=$(sed -n 's/.*string Version = "\(.*\)";/\1/p' "$root/bindings/unity/package/Runtime/NativeMethods.g.cs")
-stranger() { # NAME OPTIONS...
+stranger() { # NAME VERSION [INTERFACE]: without one it is older than interfaces
     mkdir -p "$out/$1"
-    timeout 60 "${CC:-cc}" -shared -fPIC "${@:2}" -o "$out/$1/libknurl_unity.so" "$here/stranger.c"
+    printf 'const char *%s(void) { return "%s"; }\n' knurl_version_string "$2" ${3:+knurl_unity_interface "$3"} |
+        timeout 60 "${CC:-cc}" -shared -fPIC -o "$out/$1/libknurl_unity.so" -x c -
 }
-stranger stranger && stranger twin -DVERSION="\"$version\"" && stranger old -DVERSION='"0.0.9"' -DOLD || exit 1
+stranger stranger 9.8.7 0123456789abcdef && stranger twin "$version" 0123456789abcdef && stranger old 0.0.9 || exit 1
 
 # What the C tool makes of the same paths: see cases/TraceTests.cs.
 timeout 120 python3 "$here/traces.py" "$tool" "$root/assets" "$out/traces" || exit 1
