@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
+using UnityEngine.TestTools;
 using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
@@ -329,15 +330,98 @@ namespace Knurl.Tests
         public void AnExceptionOfOneDevicesHandlerIsNotTheOthers()
         {
             KnurlSurface s = MakeSurface(Plate());
-            KnurlDevice bad = StartResting();
-            KnurlDevice good = StartResting();
-            List<string> told = Listen(good);
+            KnurlDevice before = StartResting(), bad = StartResting(), after = StartResting();
+            List<string> first = Listen(before), last = Listen(after);
             bad.contactEnded.AddListener(x => { throw new InvalidOperationException("of bad"); });
-            Until(() => bad.Touched == s && good.Touched == s && told.Count == 1, "both");
+            Until(() => bad.Touched == s && before.Touched == s && after.Touched == s, "all");
+            int told = first.Count + last.Count;
             ExpectException("of bad");
             Object.DestroyImmediate(s.gameObject);
-            Assert.AreEqual(2, told.Count, Words(told));
-            Assert.That(bad.Running && good.Running);
+            Assert.AreEqual(told + 2, first.Count + last.Count);
+            Assert.That(before.Running && bad.Running && after.Running);
+        }
+
+        [TestCase("destroy")]
+        [TestCase("quit")]
+        [TestCase("play mode")]
+        [TestCase("scene")]
+        [TestCase("reload")]
+        [TestCase("disable")]
+        public void AHandlerThatStartsAgainHoldsNothingOpen(string end)
+        {
+            int before = Threads();
+            KnurlSurface surface = MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            d.contactEnded.AddListener(s => d.StartDevice());
+            Until(() => d.Touched == surface, "touched");
+            LogAssert.ignoreFailingMessages = true; // that it cannot be started may be said
+            switch (end)
+            {
+                case "destroy":
+                    Object.DestroyImmediate(d.gameObject);
+                    break;
+                case "quit":
+                    Player.Quit();
+                    break;
+                case "play mode":
+                    Player.ExitPlayMode();
+                    break;
+                case "scene":
+                    Player.LeaveScene();
+                    break;
+                case "reload":
+                    Player.ReloadAssemblies();
+                    break;
+                default:
+                    d.enabled = false;
+                    break;
+            }
+            NoMoreThreadsThan(before);
+            Assert.AreEqual(0u, NativeMethods.knurl_session_close_all(), "sessions that run");
+        }
+
+        [Test]
+        public void AHandlerMayLeaveTheScene()
+        {
+            int before = Threads();
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake", "rest"), other = StartResting();
+            d.contactStarted.AddListener(s => Player.LeaveScene());
+            Assert.That(d.StartDevice());
+            Until(() => d == null && other == null, "gone");
+            Player.Frames(2);
+            NoMoreThreadsThan(before);
+        }
+
+        [Test]
+        public void AHandlerMayDestroyAnotherDevice()
+        {
+            KnurlSurface surface = MakeSurface(Plate());
+            KnurlDevice first = StartResting(), second = StartResting(), third = StartResting();
+            Until(() => first.Touched != null && second.Touched != null && third.Touched != null, "all");
+            second.contactEnded.AddListener(s =>
+            {
+                Object.DestroyImmediate(first.gameObject);
+                Object.DestroyImmediate(third.gameObject);
+            });
+            surface.enabled = false;
+            Player.Frames(2);
+            Assert.That(first == null && third == null && second.Running);
+        }
+
+        [Test]
+        public void AHandlerMayDisableItsDevice()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = MakeDevice("fake:?press_at=0.5", "rest");
+            List<string> told = Listen(d);
+            d.buttonChanged.AddListener((index, isPressed) => d.enabled = false);
+            Assert.That(d.StartDevice());
+            Until(() => !d.enabled, "a button");
+            Player.Frames(3);
+            Assert.That(d.Running, Is.False);
+            Assert.That(told.Contains("button 0 True") && !told.Contains("button 0 False"), Words(told));
+            Assert.AreEqual(told.Count(t => t.StartsWith("started")), told.Count(t => t.StartsWith("ended")), Words(told));
         }
 
         // A second look keeps a forgotten handle out of this frame's stack.
