@@ -31,10 +31,7 @@ namespace Knurl
                         Touch(e.surface);
                         break;
                     case NativeMethods.KNURL_SESSION_CONTACT_ENDED:
-                        if (e.surface == touchedId) // else it was disabled, and that was told
-                        {
-                            LetGo();
-                        }
+                        LetGo(); // nothing where its surface was disabled: that was told
                         break;
                     case NativeMethods.KNURL_SESSION_BUTTON:
                         TellButton(e.code, e.value != 0.0);
