@@ -22,8 +22,9 @@ namespace Knurl.Tests
             Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
             s.transform.position = new Vector3(0f, -0.0005f, 0f);
             Until(() => IsAbout(d.Force.y, 0.2f), "lowered by half");
-            s.transform.rotation = Quaternion.Euler(0f, 0f, 6f); // counter-clockwise about z: the front leans to the left
-            Until(() => d.Force.x < -0.01f && Mathf.Abs(d.Force.x + d.Force.y * Mathf.Tan(6f * Mathf.Deg2Rad)) < 1e-3f, "tilted");
+            s.transform.rotation = Quaternion.Euler(0f, 0f, 6f); // counter-clockwise: its front leans left
+            Until(() => d.Force.x < -0.01f &&
+                Mathf.Abs(d.Force.x + d.Force.y * Mathf.Tan(6f * Mathf.Deg2Rad)) < 1e-3f, "tilted");
             s.transform.position = new Vector3(1f, 0f, 0f);
             Until(() => d.Force == Vector3.zero, "gone");
         }
