@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What the package costs a game's thread in a frame. Times are printed, not asserted: machines differ, and
-    /// this is mono with stand-ins, not Unity. What is allocated is asserted.</summary>
+    /// <summary>What the package costs a game's thread in a frame. Times are printed, not asserted: machines differ,
+    /// and this is mono with stand-ins, not Unity. What is allocated is asserted.</summary>
     [TestFixture]
     public class CostTests : PlayerSuite
     {
@@ -76,8 +76,8 @@ namespace Knurl.Tests
                 System.Threading.Thread.Sleep(1);
             }
             times.Sort();
-            Console.WriteLine("note: {0} surfaces, {1} move: median {2:f0} us, p99 {3:f0} us, max {4:f0} us a frame", Surfaces,
-                moving, times[Frames / 2], times[Frames * 99 / 100], times[Frames - 1]);
+            Console.WriteLine("note: {0} surfaces, {1} move: median {2:f0} us, p99 {3:f0} us, max {4:f0} us a frame",
+                Surfaces, moving, times[Frames / 2], times[Frames * 99 / 100], times[Frames - 1]);
         }
 
         [Test]

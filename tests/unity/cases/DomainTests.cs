@@ -4,8 +4,8 @@ using NUnit.Framework;
 
 namespace Knurl.Tests
 {
-    /// <summary>Play mode with domain reload: the scripts' domain is unloaded while the haptic thread runs, and the native
-    /// library stays.</summary>
+    /// <summary>Play mode with domain reload: the scripts' domain is unloaded while the haptic thread runs, and the
+    /// native library stays.</summary>
     [TestFixture]
     public class DomainTests : PlayerSuite
     {
@@ -13,7 +13,8 @@ namespace Knurl.Tests
         {
             var setup = new AppDomainSetup { ApplicationBase = Repository.Folder };
             AppDomain domain = AppDomain.CreateDomain("scripts", null, setup);
-            game = (Playing)domain.CreateInstanceFromAndUnwrap(typeof(Playing).Assembly.Location, typeof(Playing).FullName);
+            game = (Playing)domain.CreateInstanceFromAndUnwrap(typeof(Playing).Assembly.Location,
+                typeof(Playing).FullName);
             return domain;
         }
 

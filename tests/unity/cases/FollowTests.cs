@@ -22,8 +22,9 @@ namespace Knurl.Tests
             Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
             s.transform.position = new Vector3(0f, -0.0005f, 0f);
             Until(() => IsAbout(d.Force.y, 0.2f), "lowered by half");
-            s.transform.rotation = Quaternion.Euler(0f, 0f, 6f); // counter-clockwise about z: the front leans to the left
-            Until(() => d.Force.x < -0.01f && Mathf.Abs(d.Force.x + d.Force.y * Mathf.Tan(6f * Mathf.Deg2Rad)) < 1e-3f, "tilted");
+            s.transform.rotation = Quaternion.Euler(0f, 0f, 6f); // counter-clockwise: its front leans left
+            Until(() => d.Force.x < -0.01f &&
+                Mathf.Abs(d.Force.x + d.Force.y * Mathf.Tan(6f * Mathf.Deg2Rad)) < 1e-3f, "tilted");
             s.transform.position = new Vector3(1f, 0f, 0f);
             Until(() => d.Force == Vector3.zero, "gone");
         }
@@ -168,6 +169,57 @@ namespace Knurl.Tests
             Until(() => IsAbout(d.Force.y, 0.4f), "400 N/m");
             a.Grating.Stiffness = 100f;
             Until(() => IsAbout(d.Force.y, 0.1f), "100 N/m");
+        }
+
+        [Test]
+        public void WhatIsDestroyedWhileItIsFeltIsNoCrash()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            Object.DestroyImmediate(s.GetComponent<MeshFilter>().sharedMesh);
+            Player.Frames(3);
+            Assert.That(d.Running, "its mesh was copied");
+            Object.DestroyImmediate(s.Grating);
+            s.transform.position = new Vector3(0f, -0.0005f, 0f);
+            Player.Frames(3);
+            Assert.That(d.Running);
+            Assert.That(s.GetWarnings().Length, Is.GreaterThan(0));
+            UnityEngine.TestTools.LogAssert.ignoreFailingMessages = true; // that it cannot be felt may be said
+            s.enabled = false;
+            s.enabled = true;
+            Player.Frames(3);
+            Until(() => d.Running && d.Force == Vector3.zero, "nothing is left to feel");
+        }
+
+        [Test]
+        public void ANewMeshIsReadWhenItsSurfaceIsEnabledAgain()
+        {
+            KnurlSurface s = MakeSmooth(Plate(0.02f));
+            KnurlDevice d = StartResting();
+            Mesh large = Plate();
+            large.SetIndices(new[] { 0, 1, 2 }, MeshTopology.Triangles, 0);
+            s.GetComponent<MeshFilter>().sharedMesh = large;
+            Assert.AreEqual(2, s.TriangleCount);
+            s.enabled = false;
+            Player.Frames(1);
+            s.enabled = true;
+            Player.Frames(2);
+            Assert.AreEqual(1, s.TriangleCount);
+            Assert.AreEqual(1L, d.GetStatus().Surfaces);
+        }
+
+        [Test]
+        public void DoubleSidedAndAxisCountWhileItRuns()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            s.transform.rotation = Quaternion.Euler(180f, 0f, 0f); // its front faces down
+            KnurlDevice d = StartMouse(new Vector3(0f, 0.02f, 0f));
+            s.DoubleSided = true;
+            s.Axis = new Vector3(0f, 0f, 1f);
+            Player.Frames(2);
+            d.MoveHip(new Vector3(0f, -0.001f, 0f));
+            Until(() => IsAbout(d.Force.y, 0.4f), "held by its back");
         }
     }
 }

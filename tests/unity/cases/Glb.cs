@@ -101,14 +101,16 @@ namespace Knurl.Tests
                 }
                 foreach (object primitive in (object[])Object(Array("meshes")[Number(node, "mesh")])["primitives"])
                 {
-                    Dictionary<string, object> material = Object(Array("materials")[Number(Object(primitive), "material")]);
+                    Dictionary<string, object> material =
+                        Object(Array("materials")[Number(Object(primitive), "material")]);
                     Dictionary<string, object> tag = Tag(material);
                     if (tag.Count > 0)
                     {
                         found.Add(new Tagged
                         {
                             Name = (string)node["name"], Primitive = Object(primitive), Tag = tag,
-                            Translation = node.ContainsKey("translation") ? Vector((object[])node["translation"]) : Vector3.zero,
+                            Translation = node.ContainsKey("translation") ? Vector((object[])node["translation"])
+                                : Vector3.zero,
                             IsDoubleSided = material.ContainsKey("doubleSided") && (bool)material["doubleSided"]
                         });
                     }

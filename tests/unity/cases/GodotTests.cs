@@ -31,7 +31,7 @@ namespace Knurl.Tests
         {
             string name;
             return Renamed.TryGetValue(godot, out name) ? name
-                : string.Concat(godot.Split('_').Select(part => char.ToUpperInvariant(part[0]) + part.Substring(1)).ToArray());
+                : string.Concat(godot.Split('_').Select(p => char.ToUpperInvariant(p[0]) + p.Substring(1)).ToArray());
         }
 
         static XElement Reference(Type type)
@@ -41,7 +41,8 @@ namespace Knurl.Tests
 
         UnityEngine.Object Make(Type type)
         {
-            return typeof(ScriptableObject).IsAssignableFrom(type) ? Made<UnityEngine.Object>(ScriptableObject.CreateInstance(type))
+            return typeof(ScriptableObject).IsAssignableFrom(type)
+                ? Made<UnityEngine.Object>(ScriptableObject.CreateInstance(type))
                 : MakeObject("Any").AddComponent(type);
         }
 
@@ -80,7 +81,8 @@ namespace Knurl.Tests
                 string name = (string)member.Attribute("name");
                 PropertyInfo property = type.GetProperty(Name(name));
                 Assert.That(property, Is.Not.Null, name + " as " + Name(name));
-                Assert.AreEqual((string)member.Attribute("setter") != "", property.GetSetMethod() != null, name + " can be set");
+                Assert.AreEqual((string)member.Attribute("setter") != "", property.GetSetMethod() != null,
+                    name + " can be set");
                 if (member.Attribute("default") != null)
                 {
                     object expected = Parse((string)member.Attribute("default"), property.PropertyType);
@@ -130,12 +132,14 @@ namespace Knurl.Tests
             // NUMBER(name, ...) or {"name", ...}, as far as its hint.
             foreach (Match row in Regex.Matches(text, @"(?:NUMBER\((\w+)|\{""(\w+)"")[^{}]*?suffix:([^""]+)"""))
             {
-                string name = row.Groups[1].Success ? row.Groups[1].Value : row.Groups[2].Value, unit = row.Groups[3].Value;
+                string name = row.Groups[1].Success ? row.Groups[1].Value : row.Groups[2].Value,
+                    unit = row.Groups[3].Value;
                 string own = char.ToLowerInvariant(Name(name)[0]) + Name(name).Substring(1);
                 FieldInfo field = type.GetField(own, BindingFlags.Instance | BindingFlags.NonPublic);
                 Assert.That(field, Is.Not.Null, own);
                 var tip = (TooltipAttribute)field.GetCustomAttributes(typeof(TooltipAttribute), false).Single();
-                Assert.That(tip.tooltip.EndsWith(" " + unit), own + ": expected " + unit + " at the end of '" + tip.tooltip + "'");
+                Assert.That(tip.tooltip.EndsWith(" " + unit),
+                    own + ": expected " + unit + " at the end of '" + tip.tooltip + "'");
                 count++;
             }
             Assert.That(count, Is.GreaterThanOrEqualTo(least));

@@ -10,8 +10,8 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Tests
 {
-    /// <summary>For what takes frames: the player sends a component's messages, as Unity does. Nothing waits for a fixed
-    /// time: a state is polled for, for so long that a host which stalls does not matter.</summary>
+    /// <summary>For what takes frames: the player sends a component's messages, as Unity does. Nothing waits for a
+    /// fixed time: a state is polled for, for so long that a host which stalls does not matter.</summary>
     public abstract class PlayerSuite : Suite
     {
         [SetUp]
@@ -90,7 +90,8 @@ namespace Knurl.Tests
         /// <summary>Ended threads are gone from the list a moment later.</summary>
         protected static void NoMoreThreadsThan(int before)
         {
-            Assert.That(Waits(() => Threads() <= before), "expected " + before + " threads, found " + Words(ThreadNames()));
+            Assert.That(Waits(() => Threads() <= before),
+                "expected " + before + " threads, found " + Words(ThreadNames()));
         }
 
         protected static int Handles()
@@ -144,8 +145,8 @@ namespace Knurl.Tests
             device.MoveHip(new Vector3(0f, -0.001f, 0f));
         }
 
-        /// <summary>What happened to a device, in order, as words; without faults, which a host that stalls brings about.
-        /// </summary>
+        /// <summary>What happened to a device, in order, as words; without faults, which a host that stalls brings
+        /// about.</summary>
         protected static List<string> Listen(KnurlDevice device)
         {
             var told = new List<string>();

@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>A game in a domain of its own, as an editor's scripts are. It lives in no test class, so that NUnit is not
-    /// loaded there.</summary>
+    /// <summary>A game in a domain of its own, as an editor's scripts are. It lives in no test class, so that NUnit is
+    /// not loaded there.</summary>
     public sealed class Playing : MarshalByRefObject
     {
         KnurlDevice device;
@@ -15,7 +15,10 @@ namespace Knurl.Tests
         {
             Player.EnterPlayMode();
             var mesh = new Mesh();
-            mesh.vertices = new[] { new Vector3(-1, 0, -1), new Vector3(-1, 0, 1), new Vector3(1, 0, 1), new Vector3(1, 0, -1) };
+            mesh.vertices = new[]
+            {
+                new Vector3(-1, 0, -1), new Vector3(-1, 0, 1), new Vector3(1, 0, 1), new Vector3(1, 0, -1)
+            };
             mesh.uv = new[] { new Vector2(0, 0), new Vector2(0, 1), new Vector2(1, 1), new Vector2(1, 0) };
             mesh.triangles = new[] { 0, 1, 2, 0, 2, 3 };
             var plate = new GameObject("Plate");

@@ -128,7 +128,8 @@ namespace Knurl.Tests
             foreach (Glb.Tagged tagged in file.Surfaces())
             {
                 KnurlSurface surface = MakeSurface(Import(file, tagged.Primitive));
-                surface.transform.position = new Vector3(-tagged.Translation.x, tagged.Translation.y, tagged.Translation.z);
+                surface.transform.position = new Vector3(-tagged.Translation.x, tagged.Translation.y,
+                    tagged.Translation.z);
                 surface.Grating.SpatialFrequency = Glb.Frequency(tagged.Tag);
                 surface.Grating.Amplitude = (float)Glb.Value(tagged.Tag, "amplitude", 0.0);
                 surface.Grating.Stiffness = (float)Glb.Value(tagged.Tag, "stiffness", 0.0);
@@ -138,7 +139,8 @@ namespace Knurl.Tests
             KnurlDevice device = MakeDevice();
             device.Clamp = false;
             int tick;
-            double difference = LargestDifference(expected, device.PlayTrace(Rows(asset), expected.Length / 3), out tick);
+            double difference = LargestDifference(expected, device.PlayTrace(Rows(asset), expected.Length / 3),
+                out tick);
             Console.WriteLine("note: {0} from Unity's meshes: at most {1:g3} N off", asset, difference);
             Assert.That(difference, Is.LessThan(1e-4), "tick " + tick);
         }

@@ -7,8 +7,8 @@ using NUnit.Framework;
 
 namespace Knurl.Tests
 {
-    /// <summary>A native library that is missing, or not the package's own. Each time in a process of its own: a library
-    /// that is loaded stays.</summary>
+    /// <summary>A native library that is missing, or not the package's own. Each time in a process of its own: a
+    /// library that is loaded stays.</summary>
     [TestFixture]
     public class VersionTests : Suite
     {
@@ -16,7 +16,8 @@ namespace Knurl.Tests
         static List<string> Probe(string folder)
         {
             string path = folder == null ? null : Path.Combine(Repository.Folder, folder);
-            var start = new ProcessStartInfo("timeout", "60 mono \"" + Path.Combine(Repository.Folder, "Probe.exe") + "\"")
+            string probe = Path.Combine(Repository.Folder, "Probe.exe");
+            var start = new ProcessStartInfo("timeout", "60 mono \"" + probe + "\"")
             {
                 UseShellExecute = false,
                 RedirectStandardOutput = true,
@@ -53,14 +54,16 @@ namespace Knurl.Tests
             }
             Assert.That(lines.Exists(l => l.StartsWith("tags: ")), all);
             int logs = lines.Count(l => l.StartsWith("log: "));
-            Assert.That(lines.Skip(lines.FindIndex(l => l.StartsWith("log: "))).Count(), Is.EqualTo(logs + 1), "a line each:\n" + all);
+            Assert.That(lines.Skip(lines.FindIndex(l => l.StartsWith("log: "))).Count(), Is.EqualTo(logs + 1),
+                "a line each:\n" + all);
         }
 
         [Test]
         public void ThePackagesOwnLibraryIsTaken()
         {
             List<string> lines = Probe(null);
-            Assert.That(lines.Contains("started: True") && lines.Contains("again: True"), string.Join("\n", lines.ToArray()));
+            Assert.That(lines.Contains("started: True") && lines.Contains("again: True"),
+                string.Join("\n", lines.ToArray()));
         }
 
         [Test]

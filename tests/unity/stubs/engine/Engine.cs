@@ -158,7 +158,7 @@ namespace UnityEngine
         public static void DrawCube(Vector3 a, Vector3 b) { Drawn.Add("cube " + a + " " + b); }
         public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + Text.Of(r)); }
         public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + Text.Of(r)); }
-        public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion turned) { Drawn.Add("wire mesh " + mesh.name); }
+        public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion q) { Drawn.Add("wire mesh " + mesh.name); }
     }
 
     /// What a test sets is what is read.

@@ -1,6 +1,6 @@
-// Test-only stand-ins, never shipped. Faithful: a listener's exception leaves Invoke and keeps those behind it from being
-// called; who is added during a call is called from the next on; nothing is allocated by a call. Not: listeners that a
-// scene stores.
+// Test-only stand-ins, never shipped. Faithful: a listener's exception leaves Invoke and keeps those behind it from
+// being called; who is added during a call is called from the next on; nothing is allocated by a call. Not: listeners
+// that a scene stores.
 using System;
 using System.Collections.Generic;
 

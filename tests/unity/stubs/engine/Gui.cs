@@ -53,7 +53,12 @@ namespace UnityEngine
     public static class GUILayout
     {
         public static void Label(string text, params GUILayoutOption[] options) { GUI.Drawn.Add("label " + text); }
-        public static bool Button(string text, params GUILayoutOption[] options) { GUI.Drawn.Add("button " + text); return false; }
+        public static bool Button(string text, params GUILayoutOption[] options)
+        {
+            GUI.Drawn.Add("button " + text);
+            return false;
+        }
+
         public static bool Button(GUIContent text, params GUILayoutOption[] options) { return Button(text.text); }
         public static bool Toggle(bool value, string text, params GUILayoutOption[] options) { return value; }
         public static float HorizontalSlider(float value, float low, float high, params GUILayoutOption[] options)

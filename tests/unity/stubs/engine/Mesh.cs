@@ -163,10 +163,10 @@ namespace UnityEngine
         public void GetVertices(List<Vector3> to) { Fill(to, Allowed("vertices") ? positions : new Vector3[0]); }
         public void GetNormals(List<Vector3> to) { Fill(to, Allowed("normals") ? normalArray : new Vector3[0]); }
         public void GetTangents(List<Vector4> to) { Fill(to, Allowed("tangents") ? tangentArray : new Vector4[0]); }
-        public void GetUVs(int channel, List<Vector2> to) { Fill(to, Allowed("uv") ? uvArrays[channel] : new Vector2[0]); }
+        public void GetUVs(int i, List<Vector2> to) { Fill(to, Allowed("uv") ? uvArrays[i] : new Vector2[0]); }
         public int[] GetIndices(int part) { return Copy(subMeshes[part].indices, "indices"); }
         public int[] GetIndices(int part, bool applyBaseVertex) { return GetIndices(part); }
-        public void GetIndices(List<int> to, int part) { Fill(to, Allowed("indices") ? subMeshes[part].indices : new int[0]); }
+        public void GetIndices(List<int> to, int part) { Fill(to, GetIndices(part)); }
         public void GetIndices(List<int> to, int part, bool applyBaseVertex) { GetIndices(to, part); }
         public void GetTriangles(List<int> to, int part) { Fill(to, GetTriangles(part)); }
         public void GetTriangles(List<int> to, int part, bool applyBaseVertex) { Fill(to, GetTriangles(part)); }

@@ -75,7 +75,7 @@ namespace UnityEngine
         public static bool operator ==(Object a, Object b) { return Same(a, b); }
         public static bool operator !=(Object a, Object b) { return !Same(a, b); }
         public static implicit operator bool(Object exists) { return !Same(exists, null); }
-        public override bool Equals(object other) { return ReferenceEquals(this, other) || (other == null && destroyed); }
+        public override bool Equals(object other) { return other == null ? destroyed : ReferenceEquals(this, other); }
         public override int GetHashCode() { return id; }
         public override string ToString() { return destroyed ? "null" : held + " (" + GetType().FullName + ")"; }
 
@@ -162,7 +162,11 @@ namespace UnityEngine
 
         public bool activeInHierarchy
         {
-            get { Living(); return active && (transform.parent == null || transform.parent.gameObject.activeInHierarchy); }
+            get
+            {
+                Living();
+                return active && (transform.parent == null || transform.parent.gameObject.activeInHierarchy);
+            }
         }
 
         public void SetActive(bool value)

@@ -100,7 +100,7 @@ namespace UnityEngine
         public static bool operator !=(Quaternion a, Quaternion b) { return !(a == b); }
         public bool Equals(Quaternion o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
         public override bool Equals(object other) { return other is Quaternion && Equals((Quaternion)other); }
-        public override int GetHashCode() { return x.GetHashCode() ^ y.GetHashCode() ^ z.GetHashCode() ^ w.GetHashCode(); }
+        public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
         public override string ToString() { return Text.Of(x, y, z, w); }
     }
 
@@ -243,7 +243,8 @@ namespace UnityEngine
             get
             {
                 Vector3 s = lossyScale;
-                Vector3 a = (Vector3)GetColumn(0) / s.x, b = (Vector3)GetColumn(1) / s.y, c = (Vector3)GetColumn(2) / s.z;
+                Vector3 a = (Vector3)GetColumn(0) / s.x, b = (Vector3)GetColumn(1) / s.y,
+                    c = (Vector3)GetColumn(2) / s.z;
                 float xx = 1f + a.x - b.y - c.z, yy = 1f - a.x + b.y - c.z, zz = 1f - a.x - b.y + c.z;
                 float ww = 1f + a.x + b.y + c.z;
                 Quaternion q;

@@ -123,7 +123,13 @@ namespace UnityEngine
         public float this[int index]
         {
             get { return index == 0 ? x : index == 1 ? y : index == 2 ? z : w; }
-            set { if (index == 0) x = value; else if (index == 1) y = value; else if (index == 2) z = value; else w = value; }
+            set
+            {
+                if (index == 0) x = value;
+                else if (index == 1) y = value;
+                else if (index == 2) z = value;
+                else w = value;
+            }
         }
 
         public static Vector4 operator -(Vector4 a, Vector4 b)
@@ -136,7 +142,7 @@ namespace UnityEngine
         public static implicit operator Vector3(Vector4 v) { return new Vector3(v.x, v.y, v.z); }
         public bool Equals(Vector4 o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
         public override bool Equals(object other) { return other is Vector4 && Equals((Vector4)other); }
-        public override int GetHashCode() { return x.GetHashCode() ^ y.GetHashCode() ^ z.GetHashCode() ^ w.GetHashCode(); }
+        public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
         public override string ToString() { return Text.Of(x, y, z, w); }
     }
 
@@ -165,11 +171,12 @@ namespace UnityEngine
         public static Color Lerp(Color p, Color q, float t)
         {
             t = Math.Max(0f, Math.Min(1f, t));
-            return new Color(p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t, p.b + (q.b - p.b) * t, p.a + (q.a - p.a) * t);
+            return new Color(p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t, p.b + (q.b - p.b) * t,
+                p.a + (q.a - p.a) * t);
         }
         public bool Equals(Color o) { return r.Equals(o.r) && g.Equals(o.g) && b.Equals(o.b) && a.Equals(o.a); }
         public override bool Equals(object other) { return other is Color && Equals((Color)other); }
-        public override int GetHashCode() { return r.GetHashCode() ^ g.GetHashCode() ^ b.GetHashCode() ^ a.GetHashCode(); }
+        public override int GetHashCode() { return r.GetHashCode() ^ (g.GetHashCode() << 2) ^ b.GetHashCode(); }
         public override string ToString() { return "RGBA" + Text.Of(r, g, b, a); }
     }
 

@@ -83,7 +83,8 @@ namespace Knurl.Tests
             Matrix4x4 m = own.localToWorldMatrix;
             Vector3 up = m.inverse.transpose.MultiplyVector(Vector3.up).normalized;
             AreNear(Wall(up), Press(m.MultiplyPoint3x4(new Vector3(0.04f, 0f, 0.02f)), up), 2e-4, "inside");
-            AreNear(Wall(up), Press(m.MultiplyPoint3x4(new Vector3(-0.045f, 0f, 0.025f)), up), 2e-4, "inside, a corner");
+            AreNear(Wall(up), Press(m.MultiplyPoint3x4(new Vector3(-0.045f, 0f, 0.025f)), up), 2e-4,
+                "inside, a corner");
             AreNear(Vector3.zero, Press(m.MultiplyPoint3x4(new Vector3(0.06f, 0f, 0f)), up), 0.0, "beyond x");
             AreNear(Vector3.zero, Press(m.MultiplyPoint3x4(new Vector3(0f, 0f, -0.036f)), up), 0.0, "beyond z");
             AreNear(Vector3.zero, Press(m.MultiplyPoint3x4(Vector3.zero), -up), 0.0, "from behind");
@@ -151,7 +152,7 @@ namespace Knurl.Tests
         [Test]
         public void UvsCountFromWhereFilesCountThem()
         {
-            // v is 0 at the bottom in Unity and at the top in glTF: a crest at v = 1, and 7.5 ridges on, a groove at v = 0.
+            // v is 0 at the bottom in Unity and at the top in glTF: a crest at v = 1; 7.5 ridges on, at v = 0, a groove.
             KnurlSurface surface = MakeSurface(Plate(0.1f));
             surface.Grating.SpatialFrequency = new Vector2(0f, 75f);
             surface.Grating.Method = GratingMethod.S1;
@@ -193,7 +194,8 @@ namespace Knurl.Tests
             Assert.That(device.StartDevice());
             knurl_workspace workspace;
             SessionHandle session = SessionOf(device);
-            Assert.AreEqual(0, NativeMethods.knurl_scene_get_workspace(NativeMethods.knurl_session_scene(session), 0, &workspace));
+            Assert.AreEqual(0, NativeMethods.knurl_scene_get_workspace(NativeMethods.knurl_session_scene(session), 0,
+                &workspace));
             Assert.AreEqual(0, NativeMethods.knurl_workspace_check(&workspace));
             Transform t = device.transform;
             AreNear(t.position, ToUnity(&workspace, 0, 0, 0), 1e-6, "the origin");

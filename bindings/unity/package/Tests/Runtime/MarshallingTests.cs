@@ -12,6 +12,7 @@ namespace Knurl.Tests
     [TestFixture]
     public unsafe class MarshallingTests : Suite
     {
+        const BindingFlags Statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
         const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
 
         static readonly Assembly Package = typeof(KnurlDevice).Assembly;
@@ -30,7 +31,8 @@ namespace Knurl.Tests
         /// <summary>Not Marshal.SizeOf: what a pointer steps over, which is what C sees.</summary>
         static int SizeOf(Type type)
         {
-            MethodInfo method = typeof(MarshallingTests).GetMethod("Step", BindingFlags.Static | BindingFlags.NonPublic);
+            MethodInfo method = typeof(MarshallingTests).GetMethod("Step",
+                BindingFlags.Static | BindingFlags.NonPublic);
             return (int)method.MakeGenericMethod(type).Invoke(null, null);
         }
 
@@ -112,7 +114,8 @@ namespace Knurl.Tests
             foreach (Type type in Package.GetTypes())
             {
                 int fields = type.GetFields(Fields).Length;
-                if (type.IsValueType && !type.IsEnum && type.Name.StartsWith("knurl_", StringComparison.Ordinal) && fields > 0)
+                if (type.IsValueType && !type.IsEnum && type.Name.StartsWith("knurl_", StringComparison.Ordinal) &&
+                    fields > 0)
                 {
                     Assert.That(known.ContainsKey(type.Name), type.Name);
                     Assert.AreEqual(fields, known[type.Name], "fields of " + type.Name);
@@ -124,7 +127,7 @@ namespace Knurl.Tests
         public void EveryFunctionIsInTheLibrary()
         {
             int functions = 0;
-            foreach (MethodInfo method in typeof(NativeMethods).GetMethods(BindingFlags.Static | BindingFlags.NonPublic))
+            foreach (MethodInfo method in typeof(NativeMethods).GetMethods(Statics))
             {
                 if ((method.Attributes & MethodAttributes.PinvokeImpl) != 0)
                 {
@@ -221,6 +224,30 @@ namespace Knurl.Tests
             Assert.AreEqual(0.05, loop.watchdog_s);
             Assert.AreEqual(0.0, loop.heartbeat_s);
             Assert.AreEqual(0u, loop.reconnect);
+        }
+
+        [Test]
+        public void EveryInitWritesTheSizeThatItIsGiven()
+        {
+            const int room = 1 << 16;
+            IntPtr memory = Marshal.AllocHGlobal(room);
+            int functions = 0;
+            foreach (MethodInfo method in typeof(NativeMethods).GetMethods(Statics))
+            {
+                ParameterInfo[] parameters = method.GetParameters();
+                if (method.Name.EndsWith("_init", StringComparison.Ordinal) && parameters.Length == 2 &&
+                    parameters[0].ParameterType.IsPointer && parameters[1].ParameterType == typeof(uint))
+                {
+                    int size = SizeOf(parameters[0].ParameterType.GetElementType());
+                    Fill((void*)memory, room);
+                    method.Invoke(null, new[] { Pointer.Box((void*)memory, parameters[0].ParameterType), (uint)size });
+                    Assert.AreEqual(size, *(int*)memory, method.Name);
+                    Assert.AreEqual(0x5a5a5a5a, *(int*)(memory + size), method.Name + " writes beyond the struct");
+                    functions++;
+                }
+            }
+            Marshal.FreeHGlobal(memory);
+            Assert.That(functions, Is.GreaterThanOrEqualTo(15));
         }
 
         // So that a default is written and not found.

@@ -74,16 +74,6 @@ namespace Knurl.Tests
         }
 
         [Test]
-        public void IndicesThatNameNoVertexAreNoCrash()
-        {
-            Mesh mesh = Plate();
-            mesh.SetIndices(new[] { 0, 1, 99 }, MeshTopology.Triangles, 0);
-            MakeSmooth(mesh);
-            LogAssert.ignoreFailingMessages = true;
-            AreNear(Vector3.zero, PressDown(0f, 0f), 0.0);
-        }
-
-        [Test]
         public void AVertexThatIsNoNumberIsNoCrash()
         {
             Mesh mesh = Plate();

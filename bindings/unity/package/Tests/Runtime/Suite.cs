@@ -49,7 +49,10 @@ namespace Knurl.Tests
             float h = 0.5f * size;
             Mesh mesh = Made(new Mesh());
             mesh.name = "plate";
-            mesh.vertices = new[] { new Vector3(-h, 0, -h), new Vector3(-h, 0, h), new Vector3(h, 0, h), new Vector3(h, 0, -h) };
+            mesh.vertices = new[]
+            {
+                new Vector3(-h, 0, -h), new Vector3(-h, 0, h), new Vector3(h, 0, h), new Vector3(h, 0, -h)
+            };
             mesh.uv = new[] { new Vector2(0, 0), new Vector2(0, 1), new Vector2(1, 1), new Vector2(1, 0) };
             mesh.triangles = new[] { 0, 1, 2, 0, 2, 3 }; // clockwise, seen from above: Unity's front
             return mesh;
@@ -135,8 +138,8 @@ namespace Knurl.Tests
             return up * (float)(Stiffness * Depth);
         }
 
-        /// <summary>How many ridges are crossed on 40 mm along `direction`, through `centre`, on a wall that faces up, by
-        /// method S1, which knows nothing but positions.</summary>
+        /// <summary>How many ridges are crossed on 40 mm along `direction`, through `centre`, on a wall that faces up,
+        /// by method S1, which knows nothing but positions.</summary>
         protected int Ridges(KnurlSurface surface, Vector3 centre, Vector3 direction)
         {
             surface.Grating.Method = GratingMethod.S1;

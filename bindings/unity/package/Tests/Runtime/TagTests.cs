@@ -11,7 +11,20 @@ namespace Knurl.Tests
     [TestFixture]
     public class TagTests : Suite
     {
-        const string Material = "{\"name\": \"m\", \"doubleSided\": DOUBLE, \"extras\": {\"knurl\": TAG}}";
+        // One triangle with uvs; ' stands for ".
+        const string Template = @"{
+            'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0, 'name': 'Fläche'}],
+            'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}, 'material': 0}]}],
+            'materials': [{'name': 'm', 'doubleSided': DOUBLE, 'extras': {'knurl': TAG}}],
+            'accessors': [
+                {'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3', 'min': [0, 0, -0.1],
+                    'max': [0.1, 0, 0]},
+                {'bufferView': 1, 'componentType': 5126, 'count': 3, 'type': 'VEC2'}],
+            'bufferViews': [{'buffer': 0, 'byteLength': 36}, {'buffer': 0, 'byteOffset': 36, 'byteLength': 24}],
+            'buffers': [{'byteLength': 60, 'uri': 'data:application/octet-stream;base64,DATA'}]}";
+
+        const string Plain = "{'version': 1, 'spatial_frequency': 800, 'amplitude': 0.0001, 'stiffness': 300}";
+
         string folder;
 
         [SetUp]
@@ -27,31 +40,23 @@ namespace Knurl.Tests
             Directory.Delete(folder, true);
         }
 
-        // One triangle with uvs, whose material carries `tag`.
         string Write(string name, string tag, bool isDoubleSided = false)
         {
             var floats = new[] { 0f, 0f, 0f, 0.1f, 0f, 0f, 0f, 0f, -0.1f, 0f, 0f, 1f, 0f, 0f, 1f };
             var bytes = new byte[4 * floats.Length];
             Buffer.BlockCopy(floats, 0, bytes, 0, bytes.Length);
-            string json = "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0,"
-                + " \"name\": \"Fläche\"}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1},"
-                + " \"material\": 0}]}], \"materials\": [" + Material.Replace("TAG", tag).Replace("DOUBLE",
-                isDoubleSided ? "true" : "false") + "], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3,"
-                + " \"type\": \"VEC3\", \"min\": [0, 0, -0.1], \"max\": [0.1, 0, 0]}, {\"bufferView\": 1, \"componentType\": 5126,"
-                + " \"count\": 3, \"type\": \"VEC2\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 0,"
-                + " \"byteOffset\": 36, \"byteLength\": 24}], \"buffers\": [{\"byteLength\": 60, \"uri\":"
-                + " \"data:application/octet-stream;base64," + Convert.ToBase64String(bytes) + "\"}]}";
             string path = Path.Combine(folder, name);
-            File.WriteAllText(path, json);
+            File.WriteAllText(path, Template.Replace("TAG", tag).Replace("DOUBLE", isDoubleSided ? "true" : "false")
+                .Replace('\'', '"').Replace("DATA", Convert.ToBase64String(bytes)));
             return path;
         }
 
         [Test]
         public void AllKeysAreRead()
         {
-            IReadOnlyList<KnurlTag> tags = KnurlTags.Read(Write("a.gltf", "{\"version\": 1, \"spatial_frequency\": [500, 250],"
-                + " \"amplitude\": 0.0003, \"stiffness\": 350, \"damping\": 1.5, \"friction\": 0.25, \"orientation\": 0.5,"
-                + " \"method\": \"S1\"}", true));
+            IReadOnlyList<KnurlTag> tags = KnurlTags.Read(Write("a.gltf", "{'version': 1, 'spatial_frequency': [500, 250],"
+                + " 'amplitude': 0.0003, 'stiffness': 350, 'damping': 1.5, 'friction': 0.25, 'orientation': 0.5,"
+                + " 'method': 'S1'}", true));
             Assert.AreEqual(1, tags.Count);
             KnurlTag tag = tags[0];
             Assert.AreEqual("Fläche", tag.Name);
@@ -68,7 +73,7 @@ namespace Knurl.Tests
         [Test]
         public void OneNumberIsAFrequencyAlongX()
         {
-            string path = Write("ä b.gltf", "{\"version\": 1, \"spatial_frequency\": 800, \"amplitude\": 0.0001, \"stiffness\": 300}");
+            string path = Write("ä b.gltf", Plain);
             KnurlTag tag = KnurlTags.Read(path)[0];
             Assert.AreEqual(new Vector2(800f, 0f), tag.SpatialFrequency);
             Assert.That(tag.DoubleSided, Is.False);
@@ -77,7 +82,7 @@ namespace Knurl.Tests
         [Test]
         public void ATagFillsAGrating()
         {
-            string path = Write("a.gltf", "{\"version\": 1, \"spatial_frequency\": 800, \"amplitude\": 0.0001, \"stiffness\": 300}");
+            string path = Write("a.gltf", Plain);
             KnurlGrating grating = Made(ScriptableObject.CreateInstance<KnurlGrating>());
             KnurlTags.Read(path)[0].CopyTo(grating);
             Assert.AreEqual(new Vector2(800f, 0f), grating.SpatialFrequency);
@@ -85,11 +90,13 @@ namespace Knurl.Tests
             Assert.AreEqual(300f, grating.Stiffness);
         }
 
-        [TestCase("{\"version\": 1, \"spatial_frequency\": 800, \"amplitude\": 0.0001}", "stiffness")]
-        [TestCase("{\"version\": 1, \"spatial_frequency\": 800, \"amplitude\": -1, \"stiffness\": 300}", "amplitude")]
-        [TestCase("{\"version\": 1, \"spatial_frequency\": 800, \"amplitude\": 0, \"stiffness\": 300, \"stifness\": 1}", "stifness")]
-        [TestCase("{\"version\": 2, \"spatial_frequency\": 800, \"amplitude\": 0, \"stiffness\": 300}", "version")]
-        [TestCase("{\"version\": 1, \"spatial_frequency\": \"much\", \"amplitude\": 0, \"stiffness\": 300}", "spatial_frequency")]
+        [TestCase("{'version': 1, 'spatial_frequency': 800, 'amplitude': 0.0001}", "stiffness")]
+        [TestCase("{'version': 1, 'spatial_frequency': 800, 'amplitude': -1, 'stiffness': 300}", "amplitude")]
+        [TestCase("{'version': 1, 'spatial_frequency': 800, 'amplitude': 0, 'stiffness': 300, 'stifness': 1}",
+            "stifness")]
+        [TestCase("{'version': 2, 'spatial_frequency': 800, 'amplitude': 0, 'stiffness': 300}", "version")]
+        [TestCase("{'version': 1, 'spatial_frequency': 'much', 'amplitude': 0, 'stiffness': 300}",
+            "spatial_frequency")]
         public void AWrongTagIsASentenceThatNamesFileAndKey(string tag, string key)
         {
             string path = Write("wrong.gltf", tag);
