@@ -276,5 +276,17 @@ namespace Knurl.Tests
             }
             Assert.That(d.Running);
         }
+
+        [Test]
+        public void WhatIsGoneIsNotFeltByALaterDevice()
+        {
+            KnurlSurface gone = MakeSmooth(Plate()), off = MakeSmooth(Plate());
+            Object.DestroyImmediate(gone.gameObject);
+            off.enabled = false;
+            KnurlDevice d = StartPressing();
+            Until(() => d.HipPosition.y < -0.0009f, "through both");
+            Assert.AreEqual(Vector3.zero, d.Force);
+            Assert.AreEqual(0L, d.GetStatus().Surfaces);
+        }
     }
 }
