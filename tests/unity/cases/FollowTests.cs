@@ -221,5 +221,72 @@ namespace Knurl.Tests
             d.MoveHip(new Vector3(0f, -0.001f, 0f));
             Until(() => IsAbout(d.Force.y, 0.4f), "held by its back");
         }
+
+        [Test]
+        public void AScaleThatNeverRestsLeavesNothingBehind()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartResting();
+            long bytes = 0;
+            for (int i = 0; i < 300; i++)
+            {
+                s.transform.localScale = new Vector3(1f + 0.001f * i, 1f, 1f);
+                Player.Frames(1);
+                if (i == 50)
+                {
+                    bytes = d.GetStatus().SceneBytes;
+                }
+            }
+            Assert.AreEqual(1L, d.GetStatus().Surfaces);
+            Until(() => d.GetStatus().SceneBytes <= bytes + bytes / 10, "expected about " + bytes + " bytes");
+        }
+
+        [TestCase(float.NaN)]
+        [TestCase(float.PositiveInfinity)]
+        public void ATransformThatIsNoNumberIsNoCrashAndNoFlood(float value)
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            UnityEngine.TestTools.LogAssert.ignoreFailingMessages = true;
+            for (int i = 0; i < 100; i++)
+            {
+                s.transform.position = new Vector3(value, 0.001f * i, 0f);
+                Player.Frames(1);
+            }
+            Assert.That(d.Running && !float.IsNaN(d.Force.y));
+            Assert.That(Debug.Lines.Count, Is.LessThan(10), "lines in the log for 100 frames");
+            s.transform.position = Vector3.zero;
+            Player.Frames(2);
+            PressAgain(d);
+            Until(() => IsAbout(d.Force.y, 0.4f), "and is well after that");
+        }
+
+        [Test]
+        public void AnErrorIsToldOnceAndNotOnceAFrame()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            ExpectError("stiffness");
+            s.Grating.Stiffness = -1f;
+            for (int i = 0; i < 50; i++)
+            {
+                s.transform.position = new Vector3(0f, 0f, 0.0001f * i);
+                Player.Frames(1);
+            }
+            Assert.That(d.Running);
+        }
+
+        [Test]
+        public void WhatIsGoneIsNotFeltByALaterDevice()
+        {
+            KnurlSurface gone = MakeSmooth(Plate()), off = MakeSmooth(Plate());
+            Object.DestroyImmediate(gone.gameObject);
+            off.enabled = false;
+            KnurlDevice d = StartPressing();
+            Until(() => d.HipPosition.y < -0.0009f, "through both");
+            Assert.AreEqual(Vector3.zero, d.Force);
+            Assert.AreEqual(0L, d.GetStatus().Surfaces);
+        }
     }
 }

@@ -240,7 +240,7 @@ namespace Knurl.Tests
                 {
                     int size = SizeOf(parameters[0].ParameterType.GetElementType());
                     Fill((void*)memory, room);
-                    method.Invoke(null, new[] { Pointer.Box((void*)memory, parameters[0].ParameterType), (uint)size });
+                    method.Invoke(null, new object[] { memory, (uint)size });
                     Assert.AreEqual(size, *(int*)memory, method.Name);
                     Assert.AreEqual(0x5a5a5a5a, *(int*)(memory + size), method.Name + " writes beyond the struct");
                     functions++;
