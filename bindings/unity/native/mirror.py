@@ -388,7 +388,7 @@ def check(texts):
             print(f"mirror.py: {path.relative_to(ROOT)} is not what the headers say:", file=sys.stderr)
             print(differences(found, texts[key]), file=sys.stderr)
     if wrong:
-        print("mirror.py: run it without --check, and commit what it writes", file=sys.stderr)
+        print("mirror.py: `./run mirror` makes them anew; commit what it writes", file=sys.stderr)
     return wrong
 
 
