@@ -137,10 +137,12 @@ static int next_button(knurl_session *s, knurl_session_event *event) {
 
 static int next_fault(knurl_session *s, knurl_session_event *event) {
     knurl_device_event fault;
-    if (s->faults_due == 0 || !knurl_device_next_event(s->device, &fault)) {
-        return 0;
-    }
-    s->faults_due--;
+    do {
+        if (s->faults_due == 0 || !knurl_device_next_event(s->device, &fault)) {
+            return 0;
+        }
+        s->faults_due--;
+    } while (s->is_mouse && fault.code == KNURL_FAULT_SILENT); /* nobody has moved it yet */
     event->kind = KNURL_SESSION_FAULT;
     event->code = fault.code;
     event->value = fault.value;
