@@ -42,7 +42,7 @@ namespace Knurl.Samples
             proxy = MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball);
             plot = new KnurlPlot();
             haptic = MakeDevice();
-            haptic.fault.AddListener((code, text) => fault = text);
+            haptic.fault.AddListener((code, text) => fault = code < 32 ? text : ""); // from 32 on it is well again
             if (!haptic.StartDevice() && device != "mouse") // it said why
             {
                 haptic.Device = "mouse";
