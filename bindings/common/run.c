@@ -1,6 +1,7 @@
 /* A session's runs: open, start or play, close. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +26,19 @@ static knurl_result check(const knurl_session_desc *d) {
     return knurl_workspace_check(&d->workspace);
 }
 
+static knurl_result open_device(knurl_session *session, const char *device) {
+    char unknown[512];
+    if (strcmp(device, "mouse") == 0) {
+        return knurl_mouse_open(&session->mouse, &session->device);
+    }
+    const knurl_result result = knurl_device_open(device, &session->device);
+    if (result == KNURL_ERROR_UNKNOWN) { /* it does not know what is known here */
+        (void)snprintf(unknown, sizeof unknown, "%s", knurl_error_message());
+        return knurl_fail(result, "%s; or mouse, which the game moves", unknown);
+    }
+    return result;
+}
+
 knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc) {
     if (session->device) {
         return knurl_fail(KNURL_ERROR_STATE, "session: expected one that is closed, found one that is open");
@@ -35,19 +49,16 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     }
     const char *device = desc->device ? desc->device : "fake";
     const uint32_t is_fake = strncmp(device, "fake", strlen("fake")) == 0;
-    const uint32_t is_mouse = strcmp(device, "mouse") == 0;
     int32_t stroke = 0;
     if (is_fake && desc->stroke && desc->stroke[0]) {
         result = knurl_stroke_from_name(desc->stroke, &stroke);
     }
-    result = result ? result
-                    : (is_mouse ? knurl_mouse_open(&session->mouse, &session->device)
-                                : knurl_device_open(device, &session->device));
+    result = result ? result : open_device(session, device);
     if (!result) {
         session->desc = *desc;
         session->desc.device = session->desc.stroke = NULL; /* the caller's, and looked at */
         session->is_fake = is_fake;
-        session->is_mouse = is_mouse;
+        session->is_mouse = strcmp(device, "mouse") == 0;
         session->stroke = stroke;
     }
     return result;

@@ -81,7 +81,7 @@ typedef struct knurl_session_pose {
     double rest[9]; /**< row-major scale, shear and mirror: baked into meshes; exactly 1 where it is within 1e-5 */
 } knurl_session_pose;
 
-/** Fills in defaults; `size` is the caller's sizeof. */
+/** Fills in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size);
 
 /** Makes a session with an empty scene. Errors: KNURL_ERROR_MEMORY. [game thread] */

@@ -107,8 +107,8 @@ TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
     const knurl_session_desc good = describe("fake", "");
     knurl_session_desc bad[10];
     const knurl_result codes[10] = {[5] = KNURL_ERROR_UNKNOWN, [6] = KNURL_ERROR_UNKNOWN};
-    const char *words[10] = {"update_rate_hz", "update_rate_hz", "heartbeat_s", "reconnect", "clamp",
-                             "nonsense",       "wiggle",         "scale",       "bytes",     "speed"};
+    const char *words[10] = {"update_rate_hz",       "update_rate_hz", "heartbeat_s", "reconnect", "clamp",
+                             "'nonsense'; or mouse", "wiggle",         "scale",       "bytes",     "speed"};
     knurl_session *s = make_session();
     for (int i = 0; i < 10; i++) {
         bad[i] = good;

@@ -11,6 +11,10 @@ command -v mcs >/dev/null || { echo "build.sh: no mcs: apt-get install mono-mcs 
 mkdir -p "$1/player" "$1/plain"
 out=$(cd "$1" && pwd)
 package=${KNURL_UNITY_PACKAGE:-$root/bindings/unity/package} # one that was packed, or the sources
+if [ ! -e "$package/package.json" ]; then
+    echo "build.sh: KNURL_UNITY_PACKAGE: expected a folder that holds package.json, found $package" >&2
+    exit 1
+fi
 shopt -s nullglob globstar
 
 # compile NAME FOLDER-OF-OUTPUT OPTIONS... -- SOURCES: nothing where there are no sources

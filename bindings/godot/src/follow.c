@@ -102,8 +102,8 @@ void follow_remove(device *d, surface *s) {
     const knurl_surface id = s->ids[d->slot];
     if (id) {
         s->ids[d->slot] = 0;
-        (void)knurl_scene_remove_surface(knurl_session_scene(d->session),
-                                         id); /* what that ended is told by signals.c */
+        /* what that ends is told by signals.c */
+        (void)knurl_scene_remove_surface(knurl_session_scene(d->session), id);
     }
 }
 
