@@ -1,0 +1,212 @@
+/* A device of a caller's functions: what must be there, what may fail, and what it is told to be. What it does then:
+ * test_functions.c. SPDX-License-Identifier: MIT */
+#include "home.h"
+
+#include "device/driver.h"
+
+#include <pthread.h>
+
+static home h; /* set up anew by each test */
+
+/* --- what the system may refuse; linked with --wrap --- */
+
+static int refuse_memory;
+static int refuse_threads;
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuse_memory ? NULL : __real_calloc(count, size);
+}
+
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*entry)(void *), void *argument) {
+    return refuse_threads ? 11 /* EAGAIN */ : __real_pthread_create(thread, how, entry, argument);
+}
+
+/* --- what must be there --- */
+
+TEST(a_function_that_is_required_and_missing_is_named) {
+    static const char *const names[] = {"get_info", "read", "write"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, (uint32_t)i % 2);
+        f.get_info = i == 0 ? NULL : f.get_info;
+        f.read = i == 1 ? NULL : f.read;
+        f.write = i == 2 ? NULL : f.write;
+        CHECK_REFUSED(knurl_device_open_functions(&f, &device), KNURL_ERROR_ARGUMENT, device);
+        check_message(names[i]);
+        assert_int_equal(h.order, 0); /* nothing was called */
+    }
+}
+
+/* A force is played for 10 ms at most, which two ticks have to fit into. */
+TEST(what_blocks_wants_200_ticks_a_second) {
+    knurl_device *device = home_open(&h, 1);
+    char nothing = 0;
+    CHECK_REFUSED(knurl_device_start(device, 199.0), KNURL_ERROR_UNSUPPORTED, nothing);
+    check_message("200");
+    assert_int_equal(h.starts, 1); /* nobody was bothered with it */
+    assert_int_equal(knurl_device_start(device, 200.0), KNURL_OK);
+    knurl_device_close(device);
+    device = home_open(&h, 0);
+    assert_int_equal(knurl_device_start(device, 100.0), KNURL_OK);
+    knurl_device_close(device);
+}
+
+static double told_force; /* what the next one says of its motors */
+
+static void tell_force(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = told_force;
+}
+
+TEST(a_force_must_be_promised) {
+    static const double wrong[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, 1);
+        f.get_info = tell_force;
+        told_force = wrong[i];
+        CHECK_REFUSED(knurl_device_open_functions(&f, &device), KNURL_ERROR_ARGUMENT, device);
+        check_message("max_force");
+        assert_int_equal(h.order, 0);
+    }
+}
+
+TEST(a_struct_that_nobody_filled_in_is_refused) {
+    knurl_device *device = NULL;
+    struct {
+        knurl_device_functions functions;
+        uint64_t beyond;
+    } newer;
+    memset(&h, 0, sizeof h);
+    memset(&newer, 0, sizeof newer);
+    CHECK_REFUSED(knurl_device_open_functions(NULL, &device), KNURL_ERROR_ARGUMENT, device);
+    CHECK_REFUSED(knurl_device_open_functions(&newer.functions, &device), KNURL_ERROR_ARGUMENT, device);
+    newer.functions = home_functions(&h, 0);
+    newer.functions.struct_size = sizeof newer;
+    newer.beyond = 1;
+    CHECK_REFUSED(knurl_device_open_functions(&newer.functions, &device), KNURL_ERROR_UNSUPPORTED, device);
+}
+
+TEST(without_memory_or_threads_it_is_an_error_and_nothing_is_left_behind) {
+    for (int i = 0; i < 2; i++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        const knurl_device_functions f = home_functions(&h, 1);
+        refuse_memory = i == 0;
+        refuse_threads = i == 1;
+        const knurl_result result = knurl_device_open_functions(&f, &device);
+        refuse_memory = refuse_threads = 0;
+        assert_int_equal(result, i == 0 ? KNURL_ERROR_MEMORY : KNURL_ERROR_SYSTEM);
+        assert_null(device);
+        assert_int_equal(h.reads + h.writes + h.closes, 0); /* the functions stay the caller's */
+    }
+}
+
+TEST(a_start_that_fails_is_passed_on) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device *device = NULL;
+        memset(&h, 0, sizeof h);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        const knurl_device_functions f = home_functions(&h, blocking);
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_ERROR_UNSUPPORTED);
+        assert_null(device);
+        assert_int_equal(h.starts, 1);
+        const uint64_t order = h.order;
+        sleep_ns(5000000);
+        assert_int_equal(knurl_load_acquire(&h.order), order); /* no thread goes on with it */
+        device = home_open(&h, blocking);
+        h.start_gives = KNURL_ERROR_UNSUPPORTED;
+        assert_int_equal(knurl_device_start(device, 3000.0), KNURL_ERROR_UNSUPPORTED);
+        CHECK_SAME(h.rate, 3000.0L);
+        knurl_device_close(device);
+    }
+}
+
+/* --- what it is --- */
+
+static void tell_little(void *user, knurl_device_info *info) {
+    (void)user;
+    memset(info->name, 'x', sizeof info->name); /* and no end */
+    info->max_force = 1.0;
+}
+
+TEST(what_its_owner_does_not_say_promises_nothing) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        knurl_device *device = NULL;
+        knurl_device_info info;
+        memset(&h, 0, sizeof h);
+        knurl_device_functions f = home_functions(&h, blocking);
+        f.get_info = tell_little;
+        assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+        knurl_device_info_init(&info, sizeof info);
+        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        assert_int_equal(strlen(info.name), sizeof info.name - 1);
+        CHECK_SAME(info.max_force, 1.0L);
+        assert_true(isinf(info.continuous_force) && isinf(info.max_stiffness) && isinf(info.max_damping));
+        assert_true(info.heat_time > 0.0);
+        CHECK_SAME(info.resolution, 0.0L);
+        CHECK_SAME(info.native_rate, blocking ? 1000.0L : 0.0L);
+        knurl_device_close(device);
+    }
+}
+
+static void tell_much(void *user, knurl_device_info *info) {
+    tell_little(user, info);
+    (void)strcpy(info->name, "ours");
+    info->native_rate = 500.0;
+    info->resolution = 0.001;
+    info->continuous_force = 0.5;
+    info->delay = 3.0;
+    info->workspace_min[2] = -0.25;
+}
+
+TEST(what_its_owner_says_is_passed_on) {
+    knurl_device *device = NULL;
+    knurl_device_info info;
+    memset(&h, 0, sizeof h);
+    knurl_device_functions f = home_functions(&h, 1);
+    f.get_info = tell_much;
+    assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "ours");
+    CHECK_SAME(info.native_rate, 500.0L);
+    CHECK_SAME(info.resolution, (long double)0.001);
+    CHECK_SAME(info.continuous_force, 0.5L);
+    CHECK_SAME(info.delay, 3.0L);
+    CHECK_SAME(info.workspace_min[2], -0.25L);
+    assert_int_equal(info.struct_size, sizeof info);
+    knurl_device_close(device);
+}
+
+TEST(outputs_whose_size_nobody_set_are_refused_and_untouched) {
+    knurl_device *device = home_open(&h, 0);
+    knurl_device_info info;
+    knurl_device_status status;
+    memset(&info, 0, sizeof info);
+    memset(&status, 0, sizeof status);
+    CHECK_REFUSED(knurl_device_get_info(device, &info), KNURL_ERROR_ARGUMENT, info);
+    CHECK_REFUSED(knurl_device_get_status(device, &status), KNURL_ERROR_ARGUMENT, status);
+    knurl_device_close(device);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_function_that_is_required_and_missing_is_named),
+        cmocka_unit_test(a_force_must_be_promised),
+        cmocka_unit_test(a_struct_that_nobody_filled_in_is_refused),
+        cmocka_unit_test(without_memory_or_threads_it_is_an_error_and_nothing_is_left_behind),
+        cmocka_unit_test(a_start_that_fails_is_passed_on),
+        cmocka_unit_test(what_its_owner_does_not_say_promises_nothing),
+        cmocka_unit_test(what_its_owner_says_is_passed_on),
+        cmocka_unit_test(outputs_whose_size_nobody_set_are_refused_and_untouched),
+        cmocka_unit_test(what_blocks_wants_200_ticks_a_second),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
