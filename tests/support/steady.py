@@ -3,24 +3,30 @@
 
 usage: steady.py COMMAND...
 
-Shared machines stand still for tens of milliseconds now and then. Drivers let go of the motors after 10 ms without a
-sign of life, as they should, and a test that expected a force then fails for no fault of theirs. While the command runs,
-a process on each CPU watches for how long it is kept waiting. A command that fails is run again, up to ATTEMPTS times,
-where some CPU stood still for NOTICED seconds or more; without that it has failed. Where every attempt met a halt of
-FATAL seconds, nothing can be said here, and that is a skip (77). Crashes and what sanitizers report are never tried
-again. SPDX-License-Identifier: MIT
+Shared machines stand still for tens of milliseconds now and then. Drivers zero the force after 10 ms without a new one,
+as they should, and a test that expected a force then fails for no fault of theirs. While the command runs, a process on
+each CPU watches for how long it is kept waiting. A command that fails is run again, up to ATTEMPTS times, where some CPU
+stood still for NOTICED seconds or more; without that it has failed.
+
+A failure that repeats is a failure, whatever the machine did: halts come at any time, so they fail now this check and now
+that. Where the same check has failed in each of REPEATS attempts (the same line of the same test), the command has
+failed. Only where the attempts have no failing check in common, and each met a halt of FATAL seconds, can nothing be said
+here, and that is a skip (77). Crashes and what sanitizers report are never tried again. SPDX-License-Identifier: MIT
 """
 import mmap
 import os
+import re
 import signal
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 ATTEMPTS = 5
 NOTICED = 0.003  # s: the shortest limit in a driver, 5 ms, less the 2 ms that a thread may be late by itself
-FATAL = 0.010  # s: KNURL_LINK_PATIENCE, after which every driver has to let go
+FATAL = 0.010  # s: KNURL_LINK_PATIENCE, after which every driver has to zero the force
+REPEATS = 3  # attempts that fail at the same check: a failure
 PAUSE = 3.0  # s before the second attempt; twice as long before each further one
 NAP = 0.001
 REPORTED = 66  # ThreadSanitizer's exit code; the others are told to use it too
@@ -42,8 +48,40 @@ def watch(cpu, page, place):
     os._exit(0)
 
 
+def failing_checks(code, output):
+    """What failed, as a set that can be compared between attempts: cmocka's file:line of each failed test; where there is
+    none (a script's test), the first line that tells of a failure, else the last one, without its numbers; where nothing
+    was printed, the exit code."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    found = {match[1] for line in lines if (match := re.match(r"\[\s*LINE\s*\] --- (\S+:\d+): error", line))}
+    if found:
+        return found
+    if not lines:
+        return {f"exit {code}"}
+    told = [line for line in lines if re.search(r"fail|error|expected", line, re.IGNORECASE)]
+    return {re.sub(r"[\d.]+", "#", (told or lines[-1:])[0])}
+
+
+def run(command, environment):
+    """The command's exit code, and what it printed, which is passed on as it comes."""
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    output = []
+
+    def copy():
+        for line in process.stdout:
+            output.append(line)
+            sys.stdout.buffer.write(line)
+            sys.stdout.flush()
+
+    copier = threading.Thread(target=copy, daemon=True)
+    copier.start()
+    code = process.wait()
+    copier.join(timeout=5)  # a child that the test left behind may hold the pipe open
+    return code, b"".join(output).decode(errors="replace")
+
+
 def attempt(command, environment):
-    """The command's exit code, and the longest halt (s) while it ran."""
+    """The command's exit code, the longest halt (s) while it ran, and what it printed."""
     cpus = sorted(os.sched_getaffinity(0))
     page = mmap.mmap(-1, 8 * len(cpus))
     watchers = []
@@ -53,12 +91,12 @@ def attempt(command, environment):
             watch(cpu, page, place)
         watchers.append(child)
     try:
-        code = subprocess.call(command, env=environment)
+        code, output = run(command, environment)
     finally:
         for child in watchers:
             os.kill(child, signal.SIGKILL)
             os.waitpid(child, 0)
-    return code, max(struct.unpack(f"{len(cpus)}d", page))
+    return code, max(struct.unpack(f"{len(cpus)}d", page)), output
 
 
 def main(command):
@@ -66,19 +104,26 @@ def main(command):
     for name in ("ASAN_OPTIONS", "UBSAN_OPTIONS"):
         environment[name] = ":".join(filter(None, [environment.get(name), f"exitcode={REPORTED}"]))
     halts = []
+    common = None  # the checks that failed in every attempt
     for count in range(1, ATTEMPTS + 1):
-        code, halt = attempt(command, environment)
+        code, halt, output = attempt(command, environment)
         halts.append(halt)
         if code in (0, SKIPPED, REPORTED) or code < 0 or code > 128 or halt < NOTICED:
             return code if code >= 0 else 128 - code
         print(f"steady: failed (exit {code}) while this machine stood still for {1e3 * halt:.1f} ms: "
               f"attempt {count} of {ATTEMPTS}", flush=True)
+        failed = failing_checks(code, output)
+        common = failed if common is None else common & failed
+        if count >= REPEATS and common:
+            print(f"steady: the same failure in {count} of {count} attempts is no fault of the machine: "
+                  f"{', '.join(sorted(common))}", flush=True)
+            return code
         if count < ATTEMPTS:
             time.sleep(PAUSE * 2 ** (count - 1))
     if min(halts) < FATAL:
         return code
     print(f"skipped: {os.path.basename(command[-1])} keeps real time, and this machine does not: it stood still for "
-          f"{1e3 * min(halts):.0f} ms or more in each of {ATTEMPTS} attempts", flush=True)
+          f"{1e3 * min(halts):.0f} ms or more in each of {ATTEMPTS} attempts, which failed at different checks", flush=True)
     return SKIPPED
 
 
