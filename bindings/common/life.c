@@ -59,6 +59,7 @@ knurl_result knurl_session_create(knurl_session **session) {
         free(made);
         return result;
     }
+    made->handle = KNURL_HANDLE_SESSION;
     enter(made);
     *session = made;
     return KNURL_OK;
@@ -69,6 +70,7 @@ void knurl_session_destroy(knurl_session *session) {
         leave(session); /* first: from here on knurl_session_close_all() does not see it */
         knurl_session_close(session);
         knurl_scene_destroy(session->scene);
+        knurl_handle_clear(&session->handle);
         free(session);
     }
 }

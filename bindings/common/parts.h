@@ -3,6 +3,7 @@
 #ifndef KNURL_COMMON_PARTS_H
 #define KNURL_COMMON_PARTS_H
 
+#include "base/handle.h"
 #include "board.h"
 #include "mouse.h"
 #include "session.h"
@@ -11,6 +12,7 @@
 enum { KNURL_SESSION_TOUCHES = 128 };
 
 struct knurl_session {
+    uint32_t handle;                /* KNURL_HANDLE_SESSION, first */
     knurl_session *next, *previous; /* of the process's, see life.c */
     knurl_scene *scene;
     knurl_device *device; /* or null: closed */

@@ -98,7 +98,7 @@ static exp_session begin(int32_t experiment, int32_t answers) {
     exp_session s;
     memset(&device, 0, sizeof device);
     memset(&s, 0, sizeof s);
-    device.device.driver = &bench_driver;
+    knurl_device_init(&device.device, &bench_driver);
     device.device.max_force = 3.3;
     device.press_at = device.move_at = UINT64_MAX;
     s.design = exp_design_of(experiment);

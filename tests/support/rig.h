@@ -116,7 +116,7 @@ static inline void rig_force(uint64_t tick, const knurl_device_sample *sample, d
 /** Sets a rig up, once a test: 2 N motors, a force of 1 N along y, its own clock, no watchdog to need one. */
 static inline void rig_init(rig *r) {
     memset(r, 0, sizeof *r);
-    r->device.driver = &rig_driver;
+    knurl_device_init(&r->device, &rig_driver);
     r->device.max_force = 2.0;
     r->reads_left = UINT64_MAX;
     r->writes_left = UINT64_MAX;

@@ -3,6 +3,7 @@
 #include "support/close.h"
 
 #include "base/base.h"
+#include "base/handle.h"
 #include "base/histogram.h"
 #include "base/seqlock.h"
 #include "base/system.h"
@@ -304,6 +305,32 @@ TEST(a_snapshot_is_never_torn_and_never_older_than_the_one_before) {
     assert_int_equal(latest, SNAPSHOTS); /* what is read after the last write is the last write */
 }
 
+/* --- handles --- */
+
+TEST(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one) {
+    uint32_t scene[2] = {KNURL_HANDLE_SCENE, 0};
+    const void *none = NULL;
+    assert_false(KNURL_BAD_HANDLE(scene, SCENE));
+    assert_true(KNURL_IS_HANDLE(scene, SCENE));
+    assert_true(KNURL_BAD_HANDLE(none, SCENE));
+    assert_string_equal(knurl_error_message(), "none: expected a scene, found null");
+    assert_true(KNURL_BAD_HANDLE(scene, DEVICE));
+    assert_string_equal(knurl_error_message(), "scene: expected a device, found a scene");
+    assert_true(KNURL_BAD_HANDLE((char *)scene + 1, SCENE)); /* no object begins there */
+    knurl_handle_clear(scene);
+    assert_false(KNURL_IS_HANDLE(scene, SCENE));
+    assert_true(KNURL_BAD_HANDLE(scene, SCENE));
+    assert_string_equal(knurl_error_message(),
+                        "scene: expected a scene, found a handle that is none, or was destroyed already");
+}
+
+TEST(a_null_parameter_is_named) {
+    const double *rows = NULL;
+    assert_true(KNURL_IS_NULL(rows));
+    assert_string_equal(knurl_error_message(), "rows: expected a pointer, found null");
+    assert_false(KNURL_IS_NULL(&rows));
+}
+
 /* --- time and threads --- */
 
 TEST(sleeping_ends_at_its_deadline_and_not_before) {
@@ -353,6 +380,8 @@ int main(void) {
         cmocka_unit_test(values_below_32_are_told_exactly),
         cmocka_unit_test(an_empty_histogram_gives_zero_and_its_extremes_hold),
         cmocka_unit_test(a_snapshot_is_never_torn_and_never_older_than_the_one_before),
+        cmocka_unit_test(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one),
+        cmocka_unit_test(a_null_parameter_is_named),
         cmocka_unit_test(sleeping_ends_at_its_deadline_and_not_before),
         cmocka_unit_test(a_thread_runs_its_entry_and_has_an_id_of_its_own),
         cmocka_unit_test(a_thread_that_the_system_refuses_is_null),

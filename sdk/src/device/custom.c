@@ -56,7 +56,7 @@ static void custom_close(knurl_device *device) {
     if (c->functions.close) {
         c->functions.close(c->functions.user);
     }
-    free(c);
+    knurl_device_free(device);
 }
 
 static void custom_info(const knurl_device *device, knurl_device_info *info) {
@@ -152,7 +152,7 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "device: could not get %u bytes", (unsigned)sizeof *made);
     }
-    made->base.driver = &custom_driver;
+    knurl_device_init(&made->base, &custom_driver);
     made->base.max_force = info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;

@@ -2,7 +2,10 @@
 #ifndef KNURL_SRC_DRIVER_H
 #define KNURL_SRC_DRIVER_H
 
+#include "base/handle.h"
 #include "device/events.h"
+
+#include <stdlib.h>
 
 /* Where listings go: counts all, keeps what there is room for. */
 typedef struct knurl_listings {
@@ -19,10 +22,10 @@ typedef struct knurl_driver {
     const char *uri; /* what a URI begins with, up to a ':' */
     /* What is connected; at least one entry, with a reason where nothing is. [game thread] */
     void (*list)(knurl_listings *listings);
-    /* options: what follows "uri:", or "". Makes a zeroed knurl_device with driver and max_force set, ready to be
-     * started. Errors: as knurl_device_open(). */
+    /* options: what follows "uri:", or "". Makes a zeroed knurl_device with knurl_device_init() and max_force set,
+     * ready to be started. Errors: as knurl_device_open(). */
     knurl_result (*open)(const char *options, knurl_device **device);
-    /* The motors have been let go of, or are now. */
+    /* The motors have been let go of, or are now; ends with knurl_device_free(). */
     void (*close)(knurl_device *device);
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
     /* Null where there is nothing to tell beyond what every device tells. */
@@ -53,8 +56,9 @@ typedef struct knurl_position_check {
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
 
-/* First member of every driver's own struct; zeroed but for driver and max_force. */
+/* First member of every driver's own struct; zeroed but for handle, driver and max_force. */
 struct knurl_device {
+    uint32_t handle; /* KNURL_HANDLE_DEVICE, first */
     const knurl_driver *driver;
     double max_force;        /* N */
     double max_speed;        /* m/s: faster than any hand; 0: positions may jump (the fake device plays traces) */
@@ -68,6 +72,18 @@ struct knurl_device {
     uint32_t quiet;   /* 1: the latest force that went out was 0, and none is on its way */
     uint32_t buttons; /* of the latest reading */
 };
+
+/* What a driver's zeroed device begins with. */
+static inline void knurl_device_init(knurl_device *device, const knurl_driver *driver) {
+    device->handle = KNURL_HANDLE_DEVICE;
+    device->driver = driver;
+}
+
+/* The end of a driver's own struct, from calloc(). */
+static inline void knurl_device_free(knurl_device *device) {
+    knurl_handle_clear(&device->handle);
+    free(device);
+}
 
 /* s without a tick after which a device that owns the servo thread counts as lost. */
 #define KNURL_SERVE_GIVE_UP 1.0

@@ -194,6 +194,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof *made);
     }
+    made->handle = KNURL_HANDLE_LOOP;
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
@@ -318,6 +319,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
         knurl_system_join_thread(loop->keeper);
     }
     knurl_system_unlock_memory(loop, sizeof *loop);
+    knurl_handle_clear(&loop->handle);
     free(loop);
 }
 

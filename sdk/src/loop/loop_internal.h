@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_LOOP_H
 #define KNURL_SRC_LOOP_H
 
+#include "base/handle.h"
 #include "base/histogram.h"
 #include "base/system.h"
 #include "device/driver.h"
@@ -24,6 +25,7 @@ void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
 int64_t knurl_pace_wait(knurl_pace *pace, int *overrun);
 
 struct knurl_loop {
+    uint32_t handle; /* KNURL_HANDLE_LOOP, first */
     knurl_loop_desc desc;
     knurl_clock clock;
     knurl_thread *thread;

@@ -44,6 +44,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     if (!made) {
         return KNURL_ERROR_MEMORY;
     }
+    made->handle = KNURL_HANDLE_SCENE;
     made->heap = heap;
     for (int i = 0; i < 2; i++) {
         knurl_system_mutex_init(&made->mutexes[i]);
@@ -89,6 +90,7 @@ void knurl_scene_destroy(knurl_scene *scene) {
     for (int i = 0; i < 2; i++) {
         knurl_system_mutex_destroy(&scene->mutexes[i]);
     }
+    knurl_handle_clear(&scene->handle);
     knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
     heap.lock = NULL;
     knurl_heap_free(&heap, scene);

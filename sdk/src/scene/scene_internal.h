@@ -4,6 +4,7 @@
 #ifndef KNURL_SRC_SCENE_H
 #define KNURL_SRC_SCENE_H
 
+#include "base/handle.h"
 #include "base/heap.h"
 #include "base/seqlock.h"
 #include "base/system.h"
@@ -128,14 +129,15 @@ typedef struct knurl_hip {
 } knurl_hip;
 
 struct knurl_scene {
+    uint32_t handle; /* KNURL_HANDLE_SCENE, first */
     /* read by ticks */
+    uint32_t committed;
     knurl_world *world; /* atomic */
     uint64_t epoch;     /* atomic; from 1 */
     uint64_t version;   /* atomic; from 1: what near lists were made of has changed */
     knurl_hip *hips;
     uint32_t hip_count;
     uint32_t full_model;
-    uint32_t committed;
     uint64_t apart[2]; /* what edits write begins in another cache line */
 
     /* for edits, under the lock */

@@ -126,7 +126,7 @@ TEST(the_kernel_is_asked_for_nothing) {
         int status = -1;
         memset(&io, 0, sizeof io);
         memset(&linked, 0, sizeof linked);
-        linked.driver = &io_driver;
+        knurl_device_init(&linked, &io_driver);
         linked.max_force = HOME_FORCE;
         linked.max_speed = 10.0;
         linked.link = &io;

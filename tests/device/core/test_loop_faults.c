@@ -50,7 +50,7 @@ static void init(void) {
     extra_driver = rig_driver;
     extra_driver.read = extra_read;
     extra_driver.reopen = extra_reopen;
-    r.device.driver = &extra_driver;
+    knurl_device_init(&r.device, &extra_driver);
     extra.start = r.now;
 }
 

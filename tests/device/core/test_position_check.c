@@ -238,7 +238,7 @@ TEST(exchanges_that_take_long_do_not_make_a_hand_jump) {
     knurl_device device;
     memset(&io, 0, sizeof io);
     memset(&device, 0, sizeof device);
-    device.driver = &driver;
+    knurl_device_init(&device, &driver);
     device.max_speed = KNURL_HAND_SPEED;
     device.link = &io;
     io.device = &device;

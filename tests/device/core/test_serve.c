@@ -149,7 +149,7 @@ static void force(uint64_t tick, const knurl_device_sample *sample, double f[3],
 static void begin(void) {
     memset(&s, 0, sizeof s);
     memset(&t, 0, sizeof t);
-    s.device.driver = &servo_driver;
+    knurl_device_init(&s.device, &servo_driver);
     s.device.max_force = 2.0;
     knurl_loop_desc_init(&t.desc, sizeof t.desc);
     t.desc.device = &s.device;

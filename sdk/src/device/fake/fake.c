@@ -39,7 +39,7 @@ static knurl_result fake_open(const char *options, knurl_device **device) {
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "device fake: could not get %u bytes", (unsigned)sizeof *made);
     }
-    made->base.driver = &knurl_fake_driver;
+    knurl_device_init(&made->base, &knurl_fake_driver);
     made->base.max_force = settings.max_force;
     made->settings = settings;
     knurl_stroke_desc_init(&made->stroke, sizeof made->stroke);
@@ -50,7 +50,7 @@ static knurl_result fake_open(const char *options, knurl_device **device) {
 
 static void fake_close(knurl_device *device) {
     free(of(device)->trace);
-    free(of(device));
+    knurl_device_free(device);
 }
 
 static void fake_info(const knurl_device *device, knurl_device_info *info) {

@@ -240,7 +240,7 @@ knurl_result knurl_falcon_open_on(const knurl_falcon_bus *bus, const char *optio
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': could not get %lu bytes", (unsigned long)sizeof *made);
     }
-    made->base.driver = &knurl_falcon_driver;
+    knurl_device_init(&made->base, &knurl_falcon_driver);
     made->base.max_force = MAX_FORCE;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->bus = *bus;
@@ -266,7 +266,7 @@ static void falcon_list(knurl_listings *listings) {
 
 static void falcon_close(knurl_device *device) {
     disconnect(of(device));
-    free(device);
+    knurl_device_free(device);
 }
 
 /* As the fake device's preset "falcon" has it, but for the workspace; sources there. */

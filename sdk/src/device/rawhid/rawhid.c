@@ -276,7 +276,7 @@ knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus,
     }
     made->bus = bus;
     knurl_result result = read_options(options, made);
-    made->base.driver = &knurl_rawhid_driver;
+    knurl_device_init(&made->base, &knurl_rawhid_driver);
     made->base.max_force = made->geometry.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     result = result ? result : connect(made, 0);
@@ -295,7 +295,7 @@ static void rawhid_close(knurl_device *device) {
     rawhid *r = of(device);
     knurl_link_close(&r->link); /* its last exchanges let go of the motors */
     close_port(r);
-    free(r);
+    knurl_device_free(device);
 }
 
 static knurl_result rawhid_reopen(knurl_device *device) {

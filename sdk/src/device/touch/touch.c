@@ -63,7 +63,7 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
         return result;
     }
     take_slot(made);
-    made->base.driver = &knurl_touch_driver;
+    knurl_device_init(&made->base, &knurl_touch_driver);
     made->base.max_force = made->info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->base.quiet = 1;
@@ -91,9 +91,11 @@ static void touch_close(knurl_device *device) {
         touch_unschedule(t);
         touch_disconnect(t);
         t->slot->owner = NULL;
-        free(t);
+        knurl_device_free(device);
         hd_release();
-    } /* else HD hangs inside of a call for this device: what that may still use is left to it */
+    } else { /* HD hangs inside of a call for this device: what that may still use is left to it */
+        knurl_handle_clear(&device->handle);
+    }
     unlock();
 }
 

@@ -1,0 +1,63 @@
+/* What tells a live object from null, from an object of another kind and from one that was destroyed: a number that is
+ * the first member of each and is cleared when it is destroyed. A destroyed one is recognised as long as nobody has got
+ * its memory: this finds mistakes, it does not allow them. Header only, so that bindings/common can use it, which links
+ * with nothing of the library but its public functions. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HANDLE_H
+#define KNURL_SRC_HANDLE_H
+
+#include <knurl/base.h>
+
+/* The kinds: numbers that memory does not hold by chance. */
+#define KNURL_HANDLE_SCENE   0x5343a61du
+#define KNURL_HANDLE_DEVICE  0x4456b72eu
+#define KNURL_HANDLE_LOOP    0x4c50c83fu
+#define KNURL_HANDLE_SESSION 0x5353d94bu
+
+/* Clears an object's number before its memory is freed; volatile, or the compiler would leave the store out. */
+static inline void knurl_handle_clear(uint32_t *number) {
+    *(volatile uint32_t *)number = 0;
+}
+
+/* The number where a caller's handle points to, 0 for null. It may have been freed: sanitizers are told to look away.
+ */
+#if defined(__GNUC__)
+__attribute__((no_sanitize("address"), no_sanitize("thread")))
+#endif
+static inline uint32_t knurl_handle_number(const void *handle) {
+    return handle && (uintptr_t)handle % sizeof(uint32_t) == 0 ? *(const volatile uint32_t *)handle : 0;
+}
+
+static inline const char *knurl_handle_kind(uint32_t number) {
+    return number == KNURL_HANDLE_SCENE     ? "a scene"
+           : number == KNURL_HANDLE_DEVICE  ? "a device"
+           : number == KNURL_HANDLE_LOOP    ? "a loop"
+           : number == KNURL_HANDLE_SESSION ? "a session"
+                                            : "a handle that is none, or was destroyed already";
+}
+
+static inline int knurl_is_bad_handle(const void *handle, uint32_t kind, const char *name) {
+    const uint32_t number = knurl_handle_number(handle);
+    if (number == kind) {
+        return 0;
+    }
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected %s, found %s", name, knurl_handle_kind(kind),
+                     handle ? knurl_handle_kind(number) : "null");
+    return 1;
+}
+
+static inline int knurl_is_null(const void *pointer, const char *name) {
+    if (!pointer) {
+        (void)knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a pointer, found null", name);
+    }
+    return !pointer;
+}
+
+/* For public functions: 1, with the thread's error message set, where the parameter `handle` is no live object of the
+ * kind (SCENE, DEVICE, LOOP, SESSION), or where the parameter `pointer` is null. Not in a tick: see KNURL_IS_HANDLE. */
+#define KNURL_BAD_HANDLE(handle, kind) knurl_is_bad_handle((handle), KNURL_HANDLE_##kind, #handle)
+#define KNURL_IS_NULL(pointer)         knurl_is_null((pointer), #pointer)
+
+/* The same for the haptic path, without a message: 1 where it is a live object of the kind. */
+#define KNURL_IS_HANDLE(handle, kind) (knurl_handle_number(handle) == KNURL_HANDLE_##kind)
+
+#endif
