@@ -89,7 +89,7 @@ static inline void flat_mesh_frame(const knurl_mesh *mesh, const double *axis, c
     if (axis) {
         vec3_copy(axis, x);
     } else {
-        knurl_mesh_frame(mesh, c, x, place);
+        knurl_mesh_frame(mesh, c, x, y, place);
     }
     add3(x, -dot3(x, c->normal), c->normal, x);
     vec3_normalise(x);

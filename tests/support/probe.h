@@ -20,7 +20,7 @@ typedef struct probe {
 static inline probe probe_plane(double half_x, double half_y) {
     probe p;
     memset(&p, 0, sizeof p);
-    knurl_plane_from_rectangle((const double[2]){half_x, half_y}, &p.plane);
+    knurl_plane_from_rectangle((const double[2]){half_x, half_y}, NULL, &p.plane);
     return p;
 }
 

@@ -44,6 +44,8 @@ typedef struct knurl_mesh {
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */
+    int32_t has_axis;        /* 1: x runs along this axis, not by tangents or uvs */
+    double axis[3];          /* unit */
     double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
     double stretch_u[3];     /* min, mean, max over area of su / |dP/du|; 1 without uvs */
 } knurl_mesh;
@@ -93,6 +95,10 @@ uint64_t knurl_table_slots(uint64_t entries);
 /* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
  * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
 knurl_result knurl_mesh_join(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *places, uint32_t place_count);
+
+/* min, mean, max of d(surface coordinate)/d(metre along x): uvs by their own stretch, an axis by how much of it is
+ * tangent. */
+void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]);
 
 /* Part of knurl_mesh_create(): uv_scale and stretch_u. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh);

@@ -1,8 +1,10 @@
-/* Surface coordinates on a mesh: tangents and uvs at a contact, and how far the uvs stretch.
+/* Surface coordinates on a mesh: by an axis, or by tangents and uvs, and how far the uvs stretch.
  * SPDX-License-Identifier: MIT */
 #include "contact/contact.h"
 
 #include "base/vec3.h"
+
+#include <string.h>
 
 /* A triangle's edges, and how u and v change along them. */
 typedef struct uv_edges {
@@ -91,9 +93,33 @@ static double steepness2(double c1, double c2, const uv_edges *e) {
     return vec3_dot(along, along);
 }
 
+void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]) {
+    if (!mesh->has_axis) {
+        memcpy(stretch, mesh->stretch_u, 3 * sizeof *stretch);
+        return;
+    }
+    double area = 0.0;
+    double sum = 0.0;
+    stretch[0] = 1.0;
+    stretch[2] = 0.0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        knurl_triangle t;
+        double tangent[3];
+        knurl_mesh_triangle(mesh, i, &t);
+        vec3_copy(mesh->axis, tangent);
+        vec3_make_tangent(t.normal, tangent);
+        const double length = vec3_length(tangent);
+        stretch[0] = fmin(stretch[0], length);
+        stretch[2] = fmax(stretch[2], length);
+        area += t.area2;
+        sum += t.area2 * length;
+    }
+    stretch[1] = sum / area;
+}
+
 /* The velocity in the triangle's plane, in its edges: v = a edge1 + b edge2. */
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
-                     double *steepest) {
+static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                        double *steepest) {
     uv_edges e;
     double across[3];
     double turned[3];
@@ -117,7 +143,7 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
 
 /* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. Of dP/du and
  * dP/dv only the directions are asked for, so nothing is divided. */
-void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
+static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
     uv_edges e;
     x[0] = x[1] = x[2] = coordinates[0] = coordinates[1] = 0.0;
     if (find_uv_edges(mesh, contact->triangle, &e)) {
@@ -141,4 +167,41 @@ void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, doub
                       contact->weights[2] * (double)mesh->tangents[3 * (size_t)at[2] + axis];
         }
     }
+}
+
+/* x is made tangent to the contact's normal, which is no face's at edges. */
+void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
+                      double coordinates[2]) {
+    double along[3];
+    if (mesh->has_axis) {
+        vec3_copy(mesh->axis, along);
+    } else {
+        frame_by_uvs(mesh, contact, along, coordinates);
+    }
+    vec3_copy(along, x);
+    vec3_make_tangent(contact->normal, x);
+    const double length2 = vec3_dot(x, x);
+    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* like a post on the surface: any direction is as good */
+        vec3_any_tangent(contact->normal, x);
+    } else {
+        vec3_scale(1.0 / sqrt(length2), x, x);
+    }
+    vec3_cross(contact->normal, x, y);
+    if (mesh->has_axis) {
+        coordinates[0] = vec3_dot(contact->proxy, mesh->axis);
+        coordinates[1] = vec3_dot(contact->proxy, y);
+    }
+}
+
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                     double *steepest) {
+    double x[3], y[3], coordinates[2];
+    if (!mesh->has_axis) {
+        return rates_by_uvs(mesh, contact, velocity, rates, steepest);
+    }
+    knurl_mesh_frame(mesh, contact, x, y, coordinates);
+    rates[0] = vec3_dot(velocity, mesh->axis);
+    rates[1] = vec3_dot(velocity, y);
+    *steepest = 1.0;
+    return 1;
 }

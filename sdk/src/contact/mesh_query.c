@@ -105,3 +105,42 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
     }
     return best < 1.5 ? side : 0;
 }
+
+/* The first front face on, then beside, then under the middle of the bounds; else what is nearest to the middle. */
+static void find_front_face(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
+    static const double from[6][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
+    double centre[3];
+    double size = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        centre[axis] = 0.5 * ((double)mesh->nodes[0].min[axis] + (double)mesh->nodes[0].max[axis]);
+        size += (double)mesh->nodes[0].max[axis] - (double)mesh->nodes[0].min[axis];
+    }
+    for (int i = 0; i < 6; i++) {
+        double direction[3];
+        double outside[3];
+        double opposite[3];
+        knurl_triangle t;
+        mat3_mul_transposed(rotation, from[i], direction);
+        vec3_madd(centre, size, direction, outside);
+        vec3_madd(centre, -size, direction, opposite);
+        if (knurl_mesh_cross(mesh, outside, opposite, 0, &anchor->triangle)) {
+            knurl_mesh_triangle(mesh, anchor->triangle, &t);
+            double offset[3];
+            vec3_sub(t.corners[0], outside, offset);
+            const double s = vec3_dot(offset, t.normal) / vec3_dot(direction, t.normal);
+            vec3_madd(outside, s, direction, anchor->proxy);
+            return;
+        }
+    }
+    (void)knurl_mesh_closest(mesh, centre, 2.0 * size, anchor);
+}
+
+void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
+    knurl_triangle t;
+    memset(anchor, 0, sizeof *anchor);
+    find_front_face(mesh, rotation, anchor);
+    /* once more as a nearest point, for its weights and its face's normal */
+    (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), anchor);
+    knurl_mesh_triangle(mesh, anchor->triangle, &t);
+    vec3_copy(t.normal, anchor->normal);
+}

@@ -5,7 +5,21 @@
 
 #include <string.h>
 
-void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane) {
+/* Where it stands across the plane like a post, any direction is as good. */
+static void set_axis(const double axis[3], knurl_plane *plane) {
+    const double along = hypot(axis[0], axis[1]);
+    if (along > 1e-9) {
+        for (int i = 0; i < 2; i++) {
+            plane->x[i] = axis[i] / along;
+            plane->map[0][i] = axis[i];
+        }
+        plane->map[1][0] = -plane->x[1];
+        plane->map[1][1] = plane->x[0];
+        plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = along;
+    }
+}
+
+void knurl_plane_from_rectangle(const double half_extents[2], const double axis[3], knurl_plane *plane) {
     memset(plane, 0, sizeof *plane);
     plane->half_extents[0] = half_extents[0];
     plane->half_extents[1] = half_extents[1];
@@ -13,6 +27,9 @@ void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane
     plane->map[0][0] = plane->map[1][1] = 1.0;
     plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
     plane->has_coordinates = 1;
+    if (axis) {
+        set_axis(axis, plane);
+    }
 }
 
 /* By counting the edges that a ray along x crosses: even outside, odd inside. An edge owns its lower end but not its
@@ -93,19 +110,21 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     return 1;
 }
 
-void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double coordinates[2]) {
+void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
+                       double coordinates[2]) {
     const double *p = contact->proxy;
     x[0] = plane->x[0];
     x[1] = plane->x[1];
     x[2] = 0.0;
+    vec3_cross(contact->normal, x, y);
     for (int i = 0; i < 2; i++) {
         coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
     }
     coordinates[1] *= contact->normal[2]; /* y = n x x: from behind it runs the other way */
 }
 
-void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
-                       double rates[2], double *steepest) {
+int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
+                      double *steepest) {
     double most = 0.0;
     for (int i = 0; i < 2; i++) {
         const double *map = plane->map[i];
@@ -115,4 +134,5 @@ void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, c
     }
     rates[1] *= contact->normal[2];
     *steepest = most == 1.0 ? 1.0 : sqrt(most);
+    return plane->has_coordinates;
 }

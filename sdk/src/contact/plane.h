@@ -38,8 +38,8 @@ typedef struct knurl_plane {
     int32_t double_sided;    /* 1: there were reversed twins */
 } knurl_plane;
 
-/* A rectangle: x along its x, coordinates in metres from its centre. */
-void knurl_plane_from_rectangle(const double half_extents[2], knurl_plane *plane);
+/* A rectangle, coordinates in metres from its centre. axis: unit, the grating's x; or null: the rectangle's. */
+void knurl_plane_from_rectangle(const double half_extents[2], const double axis[3], knurl_plane *plane);
 
 /* A flat mesh as a plane with its true outline. desc: checked by knurl_mesh_check(). axis: unit, the grating's x in the
  * mesh's frame, or null: tangents, else uvs. position, rotation: where the plane's frame stands in the mesh's. *why: a
@@ -68,14 +68,14 @@ uint64_t knurl_plane_bytes(const knurl_plane *plane);
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) KNURL_NONBLOCKING;
 
-/* Which way the grating's x runs at a contact (unit, tangent, in the plane's frame), and where on the grating it is (m;
+/* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
  * not turned by the material's orientation). Allowed in a tick. */
-void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3],
+void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
                        double coordinates[2]) KNURL_NONBLOCKING;
 
 /* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
- * Allowed in a tick. */
-void knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
-                       double rates[2], double *steepest) KNURL_NONBLOCKING;
+ * 0: the plane has no coordinates. Allowed in a tick. */
+int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
+                      double *steepest) KNURL_NONBLOCKING;
 
 #endif

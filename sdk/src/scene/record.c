@@ -46,7 +46,7 @@ knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (m.method == KNURL_S1 && !smooth && !knurl_surface_has_coordinates(surface)) {
+    if (m.method == KNURL_S1 && !smooth && !surface->shape.has_coordinates) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }

@@ -8,7 +8,8 @@
 #include "base/heap.h"
 #include "base/seqlock.h"
 #include "base/system.h"
-#include "contact/plane.h"
+#include "contact/bvh.h"
+#include "contact/shape.h"
 #include "scene/guard.h"
 #include "scene/pose.h"
 
@@ -40,21 +41,16 @@ typedef struct knurl_record {
 typedef struct knurl_surface_data {
     knurl_retired retired;
     knurl_record *record; /* atomic: the newest */
-    knurl_mesh *mesh;     /* null: a plane */
-    knurl_plane *plane;
-    double axis[3]; /* unit, shape's frame; used where has_axis */
-    int32_t has_axis;
-    int32_t double_sided;
+    knurl_shape shape;
+    int32_t double_sided; /* 1: by its description or its shape */
     uint32_t place;
     uint32_t generation;
+    uint32_t moved; /* edits: 1 once it was moved since the world was built */
     knurl_surface id;
     knurl_pose local; /* the shape's frame in the surface's */
-    double low[3];    /* the shape's bounds in its own frame, m */
-    double high[3];
+    double axis[3];   /* unit, surface's frame; 0: none was given */
     char *name;
-    const char *shape; /* what was given */
-    const char *why;   /* this model */
-    uint32_t moved;    /* edits: 1 once it was moved since the world was built */
+    const char *given; /* "plane" or "mesh" */
 } knurl_surface_data;
 
 /* Where all surfaces are, for finding those near a HIP: a hierarchy over those that stand still, and a list of those
@@ -227,9 +223,6 @@ void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *
  * by how much at most in a metre along the surface. 0, and untouched, where there are no coordinates. */
 int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
                         const double velocity[3], double rates[2], double *steepest) KNURL_NONBLOCKING;
-
-/* 1: it has uvs or an axis, or is a plane, so that there is a place on the grating to go by. */
-int knurl_surface_has_coordinates(const knurl_surface_data *surface);
 
 /* --- HIPs --- */
 

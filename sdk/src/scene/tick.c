@@ -198,11 +198,6 @@ static int comes_near(const knurl_hip *hip, const knurl_near *near, const double
     return 1;
 }
 
-static int find_contact(touch *t, const knurl_contact_query *query, knurl_near *near) {
-    return t->surface->mesh ? knurl_mesh_contact(t->surface->mesh, query, &near->contact, &t->contact)
-                            : knurl_plane_contact(t->surface->plane, query, &near->contact, &t->contact);
-}
-
 /* Where a HIP comes from that has slid off a surface, as long as it is behind where the surface was. */
 static void hand_over(const knurl_hip *hip, const double position[3], handover *over) {
     double offset[3];
@@ -236,7 +231,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
     place_hip(hip, out->hip, near, &t, &query);
     query.reach = t.record->reach;
     query.double_sided = t.surface->double_sided;
-    int held = find_contact(&t, &query, near);
+    int held = knurl_shape_contact(&t.surface->shape, &query, &near->contact, &t.contact);
     if (!held && near->in_contact) {
         vec3_copy(near->proxy, hip->left_proxy);
         vec3_copy(near->normal, hip->left_normal);
@@ -245,7 +240,7 @@ static void ask(const knurl_world *world, knurl_hip *hip, knurl_near *near, hand
         hip->left_time = over->given ? hip->time : -1.0;
     } else if (!held && over->given && query.has_previous) {
         knurl_pose_to_own(t.pose, over->from, query.previous);
-        held = find_contact(&t, &query, near);
+        held = knurl_shape_contact(&t.surface->shape, &query, &near->contact, &t.contact);
     }
     if (held && !near->in_contact) {
         if (out->contacts == KNURL_MAX_CONTACTS) { /* beyond what is felt at once; asked again at the next tick */

@@ -1,0 +1,197 @@
+/* From a description to a plane or a mesh, and the table of what each of the two does. SPDX-License-Identifier: MIT */
+#include "contact/shape.h"
+
+#include "base/base.h"
+#include "base/vec3.h"
+#include "contact/plane.h"
+
+#include <string.h>
+
+void knurl_plane_desc_init(knurl_plane_desc *desc, uint32_t size) {
+    const knurl_plane_desc defaults = {.half_extents = {0.05, 0.05}};
+    knurl_desc_write(&defaults, sizeof defaults, desc, size);
+}
+
+void knurl_mesh_desc_init(knurl_mesh_desc *desc, uint32_t size) {
+    const knurl_mesh_desc defaults = {0};
+    knurl_desc_write(&defaults, sizeof defaults, desc, size);
+}
+
+/* --- the plane's row of the table --- */
+
+static int plane_contact(const void *plane, const knurl_contact_query *query, knurl_contact_state *state,
+                         knurl_contact *contact) KNURL_NONBLOCKING {
+    return knurl_plane_contact(plane, query, state, contact);
+}
+
+static void plane_frame(const void *plane, const knurl_contact *contact, double x[3], double y[3],
+                        double coordinates[2]) KNURL_NONBLOCKING {
+    knurl_plane_frame(plane, contact, x, y, coordinates);
+}
+
+static int plane_rates(const void *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
+                       double *steepest) KNURL_NONBLOCKING {
+    return knurl_plane_rates(plane, contact, velocity, rates, steepest);
+}
+
+static void plane_anchor(const void *geometry, const double rotation[9], knurl_contact *anchor) {
+    const knurl_plane *plane = geometry;
+    (void)rotation;
+    memset(anchor, 0, sizeof *anchor);
+    anchor->proxy[0] = plane->inside[0];
+    anchor->proxy[1] = plane->inside[1];
+    anchor->normal[2] = 1.0;
+}
+
+static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
+    const knurl_plane *plane = geometry;
+    const knurl_shape_facts made = {.model = plane->outline ? "plane+outline" : "plane",
+                                    .bytes = knurl_plane_bytes(plane),
+                                    .triangle_count = plane->triangle_count,
+                                    .dropped = plane->dropped,
+                                    .reversed_twins = plane->reversed_twins,
+                                    .error = plane->flatness,
+                                    .stretch = {plane->stretch[0], plane->stretch[1], plane->stretch[2]}};
+    *facts = made;
+}
+
+static void plane_destroy(knurl_heap *heap, void *plane) {
+    knurl_plane_destroy(heap, plane);
+}
+
+static const knurl_shape_functions plane_functions = {plane_contact, plane_frame, plane_rates,
+                                                      plane_anchor,  plane_facts, plane_destroy};
+
+/* --- the mesh's --- */
+
+static int mesh_contact(const void *mesh, const knurl_contact_query *query, knurl_contact_state *state,
+                        knurl_contact *contact) KNURL_NONBLOCKING {
+    return knurl_mesh_contact(mesh, query, state, contact);
+}
+
+static void mesh_frame(const void *mesh, const knurl_contact *contact, double x[3], double y[3],
+                       double coordinates[2]) KNURL_NONBLOCKING {
+    knurl_mesh_frame(mesh, contact, x, y, coordinates);
+}
+
+static int mesh_rates(const void *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                      double *steepest) KNURL_NONBLOCKING {
+    return knurl_mesh_rates(mesh, contact, velocity, rates, steepest);
+}
+
+static void mesh_anchor(const void *mesh, const double rotation[9], knurl_contact *anchor) {
+    knurl_mesh_anchor(mesh, rotation, anchor);
+}
+
+static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
+    const knurl_mesh *mesh = geometry;
+    knurl_shape_facts made = {.model = "mesh+bvh",
+                              .bytes = knurl_mesh_bytes(mesh),
+                              .triangle_count = mesh->triangle_count,
+                              .dropped = mesh->dropped,
+                              .reversed_twins = mesh->reversed_twins,
+                              .error = 0.0}; /* meshes are given as floats, and kept as they are given */
+    knurl_mesh_stretch(mesh, made.stretch);
+    *facts = made;
+}
+
+static void mesh_destroy(knurl_heap *heap, void *mesh) {
+    knurl_mesh_destroy(heap, mesh);
+}
+
+static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_frame, mesh_rates,
+                                                     mesh_anchor,  mesh_facts, mesh_destroy};
+
+/* --- creation --- */
+
+static void set_plane(knurl_shape *shape, knurl_plane *plane) {
+    shape->functions = &plane_functions;
+    shape->geometry = plane;
+    for (int axis = 0; axis < 2; axis++) {
+        shape->low[axis] = -plane->half_extents[axis];
+        shape->high[axis] = plane->half_extents[axis];
+    }
+    shape->has_coordinates = plane->has_coordinates;
+    shape->double_sided = plane->double_sided;
+}
+
+static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
+    shape->functions = &mesh_functions;
+    shape->geometry = mesh;
+    for (int i = 0; i < 3; i++) {
+        shape->low[i] = (double)mesh->nodes[0].min[i];
+        shape->high[i] = (double)mesh->nodes[0].max[i];
+    }
+    if (axis) {
+        vec3_copy(axis, mesh->axis);
+        mesh->has_axis = 1;
+    }
+    shape->has_coordinates = mesh->uvs || axis;
+    shape->double_sided = mesh->double_sided;
+}
+
+static knurl_result check_extent(const char *key, double value) {
+    if (!(value > 0.0 && isfinite(value))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number > 0 (m), found %g", key, value);
+    }
+    return KNURL_OK;
+}
+
+static knurl_result from_plane(knurl_heap *heap, const knurl_shape_desc *d, knurl_shape *shape) {
+    knurl_plane_desc desc;
+    knurl_plane_desc_init(&desc, sizeof desc);
+    knurl_result result = knurl_desc_read("knurl_plane_desc", d->plane, &desc, sizeof desc);
+    result = result ? result : check_extent("plane.half_extents[0]", desc.half_extents[0]);
+    result = result ? result : check_extent("plane.half_extents[1]", desc.half_extents[1]);
+    if (result) {
+        return result;
+    }
+    knurl_plane *plane = knurl_heap_alloc(heap, 1, sizeof *plane);
+    if (!plane) {
+        return KNURL_ERROR_MEMORY;
+    }
+    knurl_plane_from_rectangle(desc.half_extents, d->axis, plane);
+    shape->why = "given as a plane";
+    set_plane(shape, plane);
+    return KNURL_OK;
+}
+
+static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl_shape *shape, double position[3],
+                              double rotation[9]) {
+    knurl_mesh_desc desc;
+    knurl_plane *plane = NULL;
+    knurl_mesh *mesh = NULL;
+    knurl_mesh_desc_init(&desc, sizeof desc);
+    knurl_result result = knurl_desc_read("knurl_mesh_desc", d->mesh, &desc, sizeof desc);
+    result = result ? result : knurl_mesh_check(&desc);
+    if (!result && !d->axis && !desc.uvs && !desc.tangents) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: a mesh with neither tangents nor uvs needs one, found none");
+    }
+    shape->why = "the full model was asked for (KNURL_FULL_MESHES)";
+    if (!result && !d->full_model) {
+        result = knurl_plane_from_mesh(heap, &desc, d->axis, &plane, position, rotation, &shape->why);
+    }
+    if (!result && !plane) {
+        result = knurl_mesh_create(heap, &desc, &mesh);
+    }
+    if (plane) {
+        set_plane(shape, plane);
+    } else if (mesh) {
+        set_mesh(shape, mesh, d->axis);
+    }
+    return result;
+}
+
+knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, knurl_shape *shape, double position[3],
+                                double rotation[9]) {
+    memset(shape, 0, sizeof *shape);
+    for (int i = 0; i < 9; i++) {
+        rotation[i] = i % 4 == 0 ? 1.0 : 0.0;
+    }
+    position[0] = position[1] = position[2] = 0.0;
+    if (!desc->plane == !desc->mesh) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "shape: expected exactly one of plane and mesh, found %s",
+                          desc->plane ? "both" : "none");
+    }
+    return desc->mesh ? from_mesh(heap, desc, shape, position, rotation) : from_plane(heap, desc, shape);
+}

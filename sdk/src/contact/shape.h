@@ -1,0 +1,98 @@
+/* A shape that can be touched, in its own frame: a bounded plane or a triangle mesh. Which of the two is asked once,
+ * when it is created; from then on a table of functions answers. Immutable once created.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SHAPE_H
+#define KNURL_SRC_SHAPE_H
+
+#include "base/heap.h"
+#include "contact/contact.h"
+
+#include <knurl/contact.h>
+
+/* What a shape came to be. */
+typedef struct knurl_shape_facts {
+    const char *model;       /* static */
+    uint64_t bytes;          /* of the heap */
+    uint32_t triangle_count; /* of the mesh it was given as, without those left out; 0: it was given as a plane */
+    uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
+    uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
+    double error;            /* m: how far the model is off what was given */
+    double stretch[3];       /* min, mean, max of d(surface coordinate)/d(metre along x) */
+} knurl_shape_facts;
+
+/* What every kind of shape can do. geometry: a shape's. Shared descriptions stand at knurl_shape_contact() and below.
+ */
+typedef struct knurl_shape_functions {
+    int (*contact)(const void *geometry, const knurl_contact_query *query, knurl_contact_state *state,
+                   knurl_contact *contact) KNURL_NONBLOCKING;
+    void (*frame)(const void *geometry, const knurl_contact *contact, double x[3], double y[3],
+                  double coordinates[2]) KNURL_NONBLOCKING;
+    int (*rates)(const void *geometry, const knurl_contact *contact, const double velocity[3], double rates[2],
+                 double *steepest) KNURL_NONBLOCKING;
+    void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
+    void (*facts)(const void *geometry, knurl_shape_facts *facts);
+    void (*destroy)(knurl_heap *heap, void *geometry);
+} knurl_shape_functions;
+
+typedef struct knurl_shape {
+    const knurl_shape_functions *functions;
+    void *geometry; /* what the functions are given */
+    double low[3];  /* bounds, m */
+    double high[3];
+    int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres say where on a grating a point is */
+    int32_t double_sided;    /* 1: it was given with both sides of every triangle */
+    const char *why;         /* static: why this model */
+} knurl_shape;
+
+/* What a shape is made from. */
+typedef struct knurl_shape_desc {
+    const knurl_plane_desc *plane; /* exactly one of these two is not null */
+    const knurl_mesh_desc *mesh;
+    const double *axis; /* unit, in the frame of what is given: the grating's x; or null: tangents, else uvs */
+    int32_t full_model; /* 1: a mesh stays a mesh, also where it is flat */
+} knurl_shape_desc;
+
+/* position, rotation (row-major): where the shape's own frame stands in the frame of what was given.
+ * Errors: KNURL_ERROR_ARGUMENT (what, which, expected, found), KNURL_ERROR_MEMORY; *shape is zeroed then. */
+knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, knurl_shape *shape, double position[3],
+                                double rotation[9]);
+
+/* A zeroed shape is allowed. */
+static inline void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape) {
+    if (shape->functions) {
+        shape->functions->destroy(heap, shape->geometry);
+    }
+}
+
+/* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
+ * state. Allowed in a tick. */
+static inline int knurl_shape_contact(const knurl_shape *shape, const knurl_contact_query *query,
+                                      knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING {
+    return shape->functions->contact(shape->geometry, query, state, contact);
+}
+
+/* The surface's tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and where on the
+ * grating it is (m). Allowed in a tick. */
+static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_contact *contact, double x[3], double y[3],
+                                     double coordinates[2]) KNURL_NONBLOCKING {
+    shape->functions->frame(shape->geometry, contact, x, y, coordinates);
+}
+
+/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre
+ * along the surface. 0 and not to be used where there are no coordinates. Allowed in a tick. */
+static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contact *contact, const double velocity[3],
+                                    double rates[2], double *steepest) KNURL_NONBLOCKING {
+    return shape->functions->rates(shape->geometry, contact, velocity, rates, steepest);
+}
+
+/* A place for a stroke to begin, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh what a
+ * hand would meet first. rotation (row-major): from the shape's axes to the scene's. */
+static inline void knurl_shape_anchor(const knurl_shape *shape, const double rotation[9], knurl_contact *anchor) {
+    shape->functions->anchor(shape->geometry, rotation, anchor);
+}
+
+static inline void knurl_shape_get_facts(const knurl_shape *shape, knurl_shape_facts *facts) {
+    shape->functions->facts(shape->geometry, facts);
+}
+
+#endif
