@@ -1,22 +1,33 @@
-/* Output of the tool and the studies: files that are there whole or not at all, numbers that read back.
- * SPDX-License-Identifier: MIT */
+/* Output of the tool and the studies: files that are there whole or not at all and never replace an input, numbers that
+ * read back. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_OUT_H
 #define KNURL_SAMPLES_OUT_H
 
 #include <stdio.h>
 
-/* A file that is written beside its path and renamed at the end. A device or pipe is written straight to. */
+/* A file that is written beside its path, under a name that nobody can guess, and renamed at the end. Standard output
+ * ("-", or a path to the same file), devices, pipes and FIFOs are written straight to. */
 typedef struct out_file {
     FILE *stream;
     char *path;
     char *partial; /* null: written straight to */
+    int slot;      /* of `partial` among what a signal removes; -1: none was free */
 } out_file;
 
-/* 0, or 1 having said why in one line on stderr. */
+/* This file was read: no output may replace it. It is known by device and inode, whatever it is called. A path that
+ * does not exist, and a stream that is no file, are passed over. */
+void out_protect(const char *path);
+void out_protect_stream(FILE *stream);
+
+/* 0, or 1 having said why in one line on stderr. Where SIGINT, SIGTERM or SIGHUP would end the process, they take what
+ * is unfinished away first. */
 int out_open(out_file *file, const char *path);
 
 /* Closes and renames; 0, or 1 having said why. */
 int out_keep(out_file *file);
+
+/* Closes and leaves what there is under its temporary name (`partial`). */
+void out_leave(out_file *file);
 
 /* Closes and removes; does nothing after out_keep(), or on a zeroed file. */
 void out_discard(out_file *file);

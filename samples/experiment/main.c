@@ -28,7 +28,7 @@ static const char help[] =
     "  --out CSV           default experiment-N-NAME-sound-yes.csv here, with -reduced where it is. What people\n"
     "                      answered is never written over\n"
     "\n"
-    "Ctrl-C ends a session; what was answered until then stays in CSV.part.\n"
+    "Ctrl-C ends a session; what was answered until then stays beside CSV, in a .part file whose name is told.\n"
     "Exit codes: 0 done, 1 failed, 2 wrong usage or unknown device.\n";
 
 typedef struct options {

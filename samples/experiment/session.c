@@ -3,7 +3,6 @@
 
 #include "out.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -45,7 +44,7 @@ static int play(const exp_session *session, const exp_trial *trials, uint32_t co
                 outcome.rt_s = 0.0;
             }
             exp_write_record(stream, session, i + 1, &trials[i], &outcome);
-            (void)fflush(stream); /* what a person has answered outlives a power cut, in the .part */
+            (void)fflush(stream); /* what a person has answered outlives a power cut, in the temporary file */
             add(sum, &outcome);
         }
     }
@@ -70,34 +69,14 @@ static void report(const exp_session *session, const totals *t) {
     printf("written: %s\n", session->out);
 }
 
-/* The file is not kept; what people answered stays beside it, as .part. */
+/* The file is not kept; what people answered stays beside it. */
 static void abandon(const exp_session *session, out_file *file, const totals *t) {
     if (session->answers != EXP_SIMULATED && t->trials > 0 && file->partial) {
         fprintf(stderr, "knurl_experiment: note: what was answered (trials: %u) is in %s\n", (unsigned)t->trials,
                 file->partial);
-        free(file->partial);
-        file->partial = NULL; /* out_discard() removes nothing then */
+        out_leave(file);
     }
     out_discard(file);
-}
-
-/* Neither the file nor an earlier .part may hold what people answered. */
-static int check_out(const char *path) {
-    char part[1200];
-    const int length = snprintf(part, sizeof part, "%s.part", path);
-    const char *names[2] = {path, part};
-    if (length < 0 || (size_t)length >= sizeof part) {
-        return exp_error(EXP_FAILURE, "%s: the path is too long", path);
-    }
-    for (int i = 0; i < 2; i++) {
-        if (!exp_may_replace(names[i])) {
-            return exp_error(EXP_FAILURE,
-                             "%s: is there already and not a file of simulated answers; choose another "
-                             "--out or --subject",
-                             names[i]);
-        }
-    }
-    return EXP_OK;
 }
 
 int exp_run_session(exp_session *session) {
@@ -106,7 +85,12 @@ int exp_run_session(exp_session *session) {
     out_file file;
     const uint32_t count = exp_plan(session->design, session->seed, session->reduced, trials);
     memset(&sum, 0, sizeof sum);
-    if (check_out(session->out) || out_open(&file, session->out)) {
+    if (!exp_may_replace(session->out)) {
+        return exp_error(EXP_FAILURE,
+                         "%s: is there already and not a file of simulated answers; choose another --out or --subject",
+                         session->out);
+    }
+    if (out_open(&file, session->out)) {
         return EXP_FAILURE;
     }
     fprintf(file.stream, "%s\n", exp_csv_header);

@@ -27,11 +27,10 @@ typedef struct run {
     uint64_t ticks; /* wanted */
 } run;
 
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted; /* by this signal */
 
 static void on_signal(int number) {
-    (void)number;
-    interrupted = 1;
+    interrupted = number;
 }
 
 static int read_options(int argc, char **argv, run_options *o) {
@@ -85,12 +84,34 @@ static knurl_result set_methods(knurl_scene *scene, int32_t method) {
     return KNURL_OK;
 }
 
+static void protect_file(void *user, const char *path) {
+    (void)user;
+    out_protect(path);
+}
+
+/* Files that a device's URI names: what follows geometry=, firmware= and library=. */
+static void protect_device_files(const char *uri) {
+    const char *pair = strchr(uri, '?');
+    while (pair) {
+        char path[4096];
+        const char *value = pair + 1 + strcspn(pair + 1, "=&");
+        if (*value == '=') {
+            (void)snprintf(path, sizeof path, "%.*s", (int)strcspn(value + 1, "&"), value + 1);
+            out_protect(path); /* a number is no file's name, as a rule */
+        }
+        pair = strchr(pair + 1, '&');
+    }
+}
+
 static int load(run *r) {
     const run_options *o = &r->options;
+    knurl_gltf_report report;
     knurl_scene_desc desc;
+    knurl_gltf_report_init(&report, sizeof report);
+    report.file_read = protect_file;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.full_model = o->full_model ? KNURL_FULL_ALL : 0;
-    if (knurl_scene_create(&desc, &r->scene) || knurl_gltf_load_file(r->scene, o->path, NULL) ||
+    if (knurl_scene_create(&desc, &r->scene) || knurl_gltf_load_file(r->scene, o->path, &report) ||
         (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }
@@ -116,6 +137,7 @@ static int lay(run *r, knurl_surface surface, double *last_t) {
 
 static int open_device(run *r) {
     const run_options *o = &r->options;
+    protect_device_files(o->device ? o->device : "");
     const knurl_result result = knurl_device_open(o->device ? o->device : "fake", &r->device);
     if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
         const int is_usage = result == KNURL_ERROR_UNKNOWN || result == KNURL_ERROR_ARGUMENT;
@@ -301,7 +323,13 @@ static int perform(run *r) {
     if (!r->options.fast && !stats.realtime) {
         fputs("knurl: note: real-time scheduling is not permitted here (see ulimit -r); timing may suffer\n", stderr);
     }
-    code = recorder_close(&r->recorder, 1);
+    const int cut_short = interrupted && stats.ticks < r->ticks;
+    code = recorder_close(&r->recorder, !cut_short);
+    if (cut_short) {
+        code = tool_error(TOOL_INTERRUPTED + interrupted, "run: interrupted after %llu of %llu ticks%s%s",
+                          (unsigned long long)stats.ticks, (unsigned long long)r->ticks,
+                          r->options.out ? "; not written: " : "", r->options.out ? r->options.out : "");
+    }
     if (stats.state != KNURL_LOOP_LOST && stats.absent && stats.ticks < r->ticks && !interrupted) {
         code = tool_error(TOOL_FAILURE, "run: no position for %g s, after %llu ticks", GIVE_UP_S,
                           (unsigned long long)stats.ticks);

@@ -120,6 +120,7 @@ int tool_read_csv(const char *path, const char *const *names, uint32_t count, to
     if (!stream) {
         return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
     }
+    out_protect_stream(stream);
     const int code = read_rows(path, stream, names, table);
     (void)fclose(stream);
     if (code != TOOL_OK) {

@@ -21,7 +21,8 @@ static const char help[] =
     "      --rate HZ                       update rate, 100 to 10000; default 1000\n"
     "      --method S1|S2|locked           for all surfaces, instead of their own\n"
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"
-    "      --out CSV                       what was felt, a row a tick\n"
+    "      --out CSV                       what was felt, a row a tick; - is standard output. Never a file that is read;\n"
+    "                                      there whole or not at all\n"
     "      --full-model                    without the reductions: to compare what is felt\n"
     "      --clamp                         walls and textures within what the device can do\n"
     "      --pretty                        JSON over several lines\n"
@@ -37,7 +38,8 @@ static const char help[] =
     "  knurl devices [--json]              what is connected, what is not and why, and the fake device's settings\n"
     "  knurl --version\n"
     "\n"
-    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device.\n";
+    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 128 + N ended early by signal N\n"
+    "(nothing is written then).\n";
 
 static const struct {
     const char *name;

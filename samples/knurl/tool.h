@@ -10,8 +10,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Exit codes. */
-enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2 };
+/* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
+enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_INTERRUPTED = 128 };
 
 /* Prints "knurl: ..." as one line on stderr; returns `code`. */
 int tool_error(int code, const char *format, ...);

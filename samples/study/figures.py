@@ -21,8 +21,8 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    from style import (ACCENT, ASKED, GREY, INK, METHODS, PALE, RULE, SOFT, STYLE, BadInput, heading, read_table, save,
-                       say)
+    from style import (ACCENT, ASKED, GREY, INK, METHODS, PALE, RULE, SOFT, STYLE, BadInput, heading, open_input,
+                       read_table, save, say)
 except ImportError as missing:
     sys.exit(f"figures.py: {missing} for {sys.executable}; apt-get install python3-matplotlib, "
              "then use /usr/bin/python3")
@@ -294,7 +294,7 @@ def draw(path):
     if end != ".json" or name not in figures:
         raise BadInput(f"{path}: expected a study's JSON, one of {', '.join(f'{n}.json' for n in figures)}")
     try:
-        with open(path, encoding="utf-8") as file:
+        with open_input(path) as file:
             data = json.load(file)
     except (OSError, ValueError) as error:
         raise BadInput(f"{path}: expected JSON, found: {getattr(error, 'strerror', None) or error}") from None

@@ -9,7 +9,7 @@ import textwrap
 import matplotlib.pyplot as plt
 import numpy as np
 
-from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading
+from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading, open_input
 
 COLUMNS = 4
 COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d"}
@@ -19,7 +19,7 @@ SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay"}  # what i
 def read_traces(folder, table):
     """{id: {series: (t, value)}}"""
     traces = {}
-    with open(os.path.join(folder, table), newline="", encoding="utf-8") as stream:
+    with open_input(os.path.join(folder, table), newline="") as stream:
         for row in csv.DictReader(stream):
             series = traces.setdefault(row["id"], {}).setdefault(row["series"], ([], []))
             series[0].append(float(row["t"]))

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from style import GREY, INK, METHODS
+from style import GREY, INK, METHODS, open_input
 
 OTHERS = ["#3a3a3a"]  # methods that style.py has no colour for yet
 MARKERS = {"none": "o", "ideal": "D", "difference": "v", "lowpass": "^", "foaw": "s"}
@@ -23,7 +23,7 @@ PANELS = [("net_worst", "net force, worst (A)", "pushes where it should only vib
 
 
 def read(folder, table):
-    with open(os.path.join(folder, table), newline="", encoding="utf-8") as stream:
+    with open_input(os.path.join(folder, table), newline="") as stream:
         rows = list(csv.DictReader(stream))
     text = {"method", "velocity", "positions"}
     return [{key: value if key in text else float(value) for key, value in row.items()} for row in rows]

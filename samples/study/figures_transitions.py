@@ -8,12 +8,12 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 
-from style import INK, METHODS, RULE, heading
+from style import INK, METHODS, RULE, heading, open_input
 
 
 def draw_transitions(data, folder):
     series = {}
-    with open(os.path.join(folder, data["table"]), newline="", encoding="utf-8") as stream:
+    with open_input(os.path.join(folder, data["table"]), newline="") as stream:
         for row in csv.DictReader(stream):
             ticks, heights = series.setdefault((row["transition"], row["method"]), ([], []))
             ticks.append(int(row["tick"]))

@@ -21,7 +21,7 @@ try:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
 
-    from style import ACCENT, ASKED, GREY, INK, PALE, RULE, SHADES, SOFT, STYLE, BadInput, save, say
+    from style import ACCENT, ASKED, GREY, INK, PALE, RULE, SHADES, SOFT, STYLE, BadInput, open_input, save, say
 except ImportError as missing:
     sys.exit(f"plot.py: {missing} for {sys.executable}; apt-get install python3-matplotlib, then use /usr/bin/python3")
 
@@ -53,7 +53,7 @@ def parse(path, reader):
 def read_run(path):
     """Reads and checks a run. Rows without a time are left out; what is not finite becomes NaN."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open_input(path, newline="") as file:
             data, names = parse(path, csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise BadInput(f"{path}: expected a CSV file, found: {getattr(error, 'strerror', None) or error}") from None

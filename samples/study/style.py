@@ -4,6 +4,10 @@ SPDX-License-Identifier: MIT
 """
 import csv
 import os
+import secrets
+import signal
+import stat
+import sys
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
@@ -23,6 +27,17 @@ class BadInput(Exception):
     """One line for the user: which file, what was expected, what was found."""
 
 
+INPUTS = []  # the files that were read: (device, inode)
+
+
+def open_input(path, **how):
+    """open() for reading; save() does not replace what was read, whatever it is called."""
+    file = open(path, encoding="utf-8", **how)
+    found = os.fstat(file.fileno())
+    INPUTS.append((found.st_dev, found.st_ino))
+    return file
+
+
 def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, dx=0, dy=0, within="axes fraction"):
     ax.annotate(text, (x, y), xycoords=within, xytext=(dx, dy), textcoords="offset points", ha=ha, va=va, fontsize=size,
                 color=color)
@@ -32,7 +47,7 @@ def read_table(folder, name):
     """FOLDER/NAME as {column: array}: of floats where every cell is one (an empty cell is NaN), else of text."""
     path = os.path.join(folder, name)
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open_input(path, newline="") as file:
             header, *rows = csv.reader(file)
     except (OSError, UnicodeDecodeError, csv.Error, ValueError) as error:
         raise BadInput(f"{path}: expected a CSV file, found: {getattr(error, 'strerror', None) or error}") from None
@@ -55,14 +70,36 @@ def heading(figure, title, words, left=0.065):
     figure.text(left, 1 - 0.57 / height, words, color=GREY, va="center")
 
 
+def write_png(figure, file):
+    figure.savefig(file, format="png", metadata={"Software": None})
+
+
 def save(figure, out):
-    """Writes beside `out` and renames, so that half a picture never stands there."""
-    part = f"{out}.{os.getpid()}.part"
+    """Writes beside `out`, under a name that nobody can guess, and renames, so that half a picture never stands there.
+    What is no regular file (/dev/stdout, a FIFO) is written straight to."""
     try:
-        figure.savefig(part, format="png", metadata={"Software": None})
-        os.replace(part, out)
+        found = os.stat(out) if os.path.exists(out) else None
+        if found and (found.st_dev, found.st_ino) in INPUTS:
+            raise BadInput(f"{out}: expected an output of its own, found a file that is read: it would be replaced")
+        if found and (not stat.S_ISREG(found.st_mode) or out.startswith(("/dev/", "/proc/"))):
+            with open(out, "wb") as file:
+                write_png(figure, file)
+        else:
+            replace(figure, out)
     except OSError as error:
         raise BadInput(f"{out}: expected a place to write a PNG to, found: {error.strerror or error}") from None
+
+
+def replace(figure, out):
+    folder, name = os.path.split(out)
+    part = os.path.join(folder, f"{name[:200]}.{secrets.token_hex(8)}.part")
+    handler = signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))  # so that `finally` is run
+    handle = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
+    try:
+        with open(handle, "wb") as file:
+            write_png(figure, file)
+        os.replace(part, out)
     finally:
         if os.path.exists(part):
             os.remove(part)
+        signal.signal(signal.SIGTERM, handler)

@@ -111,10 +111,6 @@ TEST(what_people_answered_is_never_written_over) {
     assert_string_equal(text, HEADER GOOD);
     free(text);
     (void)remove(path);
-    write_text(tool_path("people.csv.part"), HEADER GOOD);
-    p = RUN("3", "--fast", "--out", path);
-    check_failed(&p, 1, "people.csv.part: is there already");
-    (void)remove(tool_path("people.csv.part"));
 }
 
 /* --- analysis --- */

@@ -299,11 +299,6 @@ TEST(a_lost_device_may_be_looked_for) {
     process_free(&p);
 }
 
-static void pause_ms(long ms) {
-    const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
-    (void)nanosleep(&time, NULL);
-}
-
 /* 5000 N/m is beyond (0.5 + 2 N s/m)/1.5 ms and the 1020 N/m of a Touch: a line each. A demo's plate is within both. */
 TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
     static const char tag[] = "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.00002,"
@@ -328,48 +323,6 @@ TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
     assert_true(forces[1] < 0.9 * forces[0]); /* the hand's spring gives way to either */
 }
 
-/* A real-time run of a minute, as soon as it records. */
-static process start_long_run(void) {
-    const char *const arguments[] = {KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out",
-                                     tool_path("out.csv"), NULL};
-    (void)remove(tool_path("out.csv"));
-    const process p = process_start(arguments, NULL);
-    for (int tries = 0; tries < 1000 && files_that_end(".part") == 0; tries++) {
-        pause_ms(10);
-    }
-    assert_int_equal(files_that_end(".part"), 1);
-    assert_false(file_exists(tool_path("out.csv"))); /* half a file is not there under its name */
-    pause_ms(300);
-    return p;
-}
-
-TEST(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv) {
-    static const int signals[] = {SIGINT, SIGTERM};
-    for (size_t i = 0; i < COUNT_OF(signals); i++) {
-        process p = start_long_run();
-        assert_int_equal(kill(p.pid, signals[i]), 0);
-        process_finish(&p);
-        check_done(&p);
-        const double ticks = json_number_of(p.out, "ticks");
-        assert_true(ticks > 0.0 && ticks < 30000.0);
-        free(read_run(tool_path("out.csv"), (size_t)ticks));
-        check_no_leftovers();
-        process_free(&p);
-    }
-}
-
-TEST(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing) {
-    process p = start_long_run();
-    assert_int_equal(mkdir(tool_path("out.csv"), 0777), 0);
-    assert_int_equal(kill(p.pid, SIGINT), 0);
-    process_finish(&p);
-    assert_int_equal(p.exit_code, 1);
-    assert_non_null(strstr(p.err, "out.csv"));
-    check_no_leftovers();
-    assert_int_equal(rmdir(tool_path("out.csv")), 0);
-    process_free(&p);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_trace_on_a_plate_gives_the_forces_of_the_equations),
@@ -384,8 +337,6 @@ int main(void) {
         cmocka_unit_test(an_output_may_be_a_device),
         cmocka_unit_test(a_lost_device_is_a_failure_whose_csv_is_whole),
         cmocka_unit_test(a_lost_device_may_be_looked_for),
-        cmocka_unit_test(a_signal_ends_a_real_time_run_cleanly_with_a_whole_csv),
-        cmocka_unit_test(an_output_whose_name_is_taken_meanwhile_is_a_failure_and_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

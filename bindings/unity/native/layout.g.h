@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "ac58491557321f0a"
+#define KNURL_UNITY_INTERFACE "c2abcec05fd4b41d"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -255,11 +255,13 @@
     FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
-    STRUCT(knurl_gltf_report, 16) \
+    STRUCT(knurl_gltf_report, 32) \
     FIELD(knurl_gltf_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \
     FIELD(knurl_gltf_report, skipped, "skipped", 8, 4) \
     FIELD(knurl_gltf_report, reserved, "reserved", 12, 4) \
+    FIELD(knurl_gltf_report, file_read, "file_read", 16, 8) \
+    FIELD(knurl_gltf_report, user, "user", 24, 8) \
     STRUCT(knurl_clock, 24) \
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \

@@ -16,6 +16,11 @@ typedef struct knurl_gltf_report {
     uint32_t surfaces; /**< added to the scene: one a node and tagged primitive */
     uint32_t skipped;  /**< primitives that carry no tag, one a node that shows them */
     uint32_t reserved; /**< 0 */
+    /** The caller's, set after knurl_gltf_report_init(), or null: told of every file that was read, the glTF file
+     * before its buffers, so that it can be watched, or kept from being written over. path: UTF-8, valid during the
+     * call. Called also where the load fails later. */
+    void (*file_read)(void *user, const char *path);
+    void *user; /**< passed to file_read */
 } knurl_gltf_report;
 
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */

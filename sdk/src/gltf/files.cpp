@@ -89,7 +89,10 @@ std::vector<unsigned char> read_uri(const std::string &uri, uint64_t size, const
             return read_data_uri(uri, size);
         if (!resources.folder)
             throw Failure(KNURL_ERROR_IO, "an external file cannot be read, for no folder was given: embed the buffer");
-        return read_regular_start(locate(uri, *resources.folder), size);
+        const fs::path file = locate(uri, *resources.folder);
+        std::vector<unsigned char> bytes = read_regular_start(file, size);
+        resources.listener.tell(file);
+        return bytes;
     } catch (const Failure &failure) {
         refuse(where + ": uri " + in_quotes(uri), failure.what(), failure.code());
     }

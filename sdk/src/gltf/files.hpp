@@ -24,10 +24,22 @@ struct Bytes {
 /** A whole regular file of at most bytes_max. */
 std::vector<unsigned char> read_file(const std::filesystem::path &path);
 
+/** Whoever wants to know which files were read. */
+struct Listener {
+    void (*file_read)(void *user, const char *path) = nullptr;
+    void *user = nullptr;
+
+    void tell(const std::filesystem::path &path) const {
+        if (file_read != nullptr)
+            file_read(user, path.u8string().c_str());
+    }
+};
+
 /** Where a glTF file's buffers may come from. */
 struct Resources {
     std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
     std::optional<std::filesystem::path> folder; ///< external files lie in it or below; none: they are refused
+    Listener listener;                           ///< told of external files
 };
 
 /** The first `size` bytes of what a buffer's URI names: data: or a file below the folder. where: for messages. */

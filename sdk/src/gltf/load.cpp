@@ -101,7 +101,8 @@ void add_instance(Addition &addition, const Instance &instance, const std::strin
     addition.add(surface, where);
 }
 
-knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder) {
+knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder,
+                               const Listener &listener) {
     const Container container = split(bytes);
     const nlohmann::json root = parse_json(container.json);
     const Outline outline = read_outline(root);
@@ -109,7 +110,7 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
     report.skipped = outline.skipped;
     if (outline.instances.empty())
         return report; // no buffer is read for nothing
-    const tinygltf::Model model = load_model(filter(root, outline), {container.bin, std::move(folder)});
+    const tinygltf::Model model = load_model(filter(root, outline), {container.bin, std::move(folder), listener});
     Placement placement(model, outline.parents);
     Names names(scene);
     Addition addition(scene);
@@ -132,6 +133,11 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
 /// What a report held in version 0.1; callers of that version know no more.
 constexpr uint32_t report_size_first = 16;
 
+Listener listener_of(const knurl_gltf_report *report) {
+    return report != nullptr && report->struct_size >= sizeof *report ? Listener{report->file_read, report->user}
+                                                                      : Listener{};
+}
+
 /// Runs `load` and turns what it throws into a result and a message that starts with the file's name.
 template <typename Load>
 knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &load) {
@@ -141,9 +147,12 @@ knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &lo
             return knurl_fail(KNURL_ERROR_ARGUMENT,
                               "knurl_gltf_report.struct_size: expected what knurl_gltf_report_init() sets, found %u",
                               report->struct_size);
-        knurl_gltf_report made = load();
+        const Listener listener = listener_of(report);
+        knurl_gltf_report made = load(listener);
         if (report != nullptr) {
             made.struct_size = report->struct_size;
+            made.file_read = listener.file_read;
+            made.user = listener.user;
             std::memcpy(report, &made, std::min<size_t>(made.struct_size, sizeof made));
         }
         return KNURL_OK;
@@ -180,12 +189,13 @@ void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
 knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report) {
     if (scene == nullptr || path == nullptr)
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_gltf_load_file: expected a scene and a path, found null");
-    return knurl::gltf::guarded(path, report, [&] {
+    return knurl::gltf::guarded(path, report, [&](const knurl::gltf::Listener &listener) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
             throw Failure(KNURL_ERROR_FORMAT, "expected a name that ends in .gltf or .glb");
         const std::vector<unsigned char> bytes = knurl::gltf::read_file(file);
-        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path());
+        listener.tell(file);
+        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path(), listener);
     });
 }
 
@@ -193,13 +203,13 @@ knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64
                                     const char *folder, knurl_gltf_report *report) {
     if (scene == nullptr || (data == nullptr && size != 0))
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_gltf_load_memory: expected a scene and data, found null");
-    return knurl::gltf::guarded(name, report, [&] {
+    return knurl::gltf::guarded(name, report, [&](const knurl::gltf::Listener &listener) {
         if (size > knurl::gltf::bytes_max)
             throw Failure(KNURL_ERROR_IO, "expected at most 1 GiB, found " + std::to_string(size) + " bytes");
         std::optional<fs::path> root;
         if (folder != nullptr)
             root = fs::u8path(folder);
         return knurl::gltf::add_surfaces(scene, {static_cast<const unsigned char *>(data), static_cast<size_t>(size)},
-                                         std::move(root));
+                                         std::move(root), listener);
     });
 }

@@ -376,6 +376,8 @@ namespace Knurl
         public uint surfaces;
         public uint skipped;
         public uint reserved;
+        public IntPtr file_read;
+        public IntPtr user;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -523,6 +525,9 @@ namespace Knurl
     internal unsafe delegate void knurl_device_functions_close(IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_gltf_report_file_read(IntPtr user, byte* path);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
         IntPtr user);
 
@@ -540,7 +545,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "ac58491557321f0a";
+        internal const string Interface = "c2abcec05fd4b41d";
 
         internal const string Version = "0.1.0";
 

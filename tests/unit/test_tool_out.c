@@ -1,0 +1,277 @@
+/* What the tool writes never replaces what it reads, and is there whole or not at all. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/tool.h"
+
+#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+#define TAG                                                                                                            \
+    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+
+static void copy_file(const char *from, const char *to) {
+    char *bytes = read_file(from);
+    struct stat info;
+    assert_int_equal(stat(from, &info), 0);
+    write_file(to, bytes, (size_t)info.st_size);
+    free(bytes);
+}
+
+/* A run that is refused, and leaves `kept` (a file that it reads) as it was: byte for byte, the same inode. */
+static void check_kept(const char *kept, const char *scene, const char *trace, const char *out) {
+    struct stat before;
+    struct stat after;
+    char *first = read_file(kept);
+    assert_int_equal(stat(kept, &before), 0);
+    process p = RUN_TOOL("run", scene, "--fast", "--seconds", "0.01", "--out", out, trace ? "--trace" : NULL, trace);
+    check_refused(&p, 1, "a file that is read", out);
+    char *second = read_file(kept);
+    assert_int_equal(stat(kept, &after), 0);
+    assert_int_equal(before.st_ino, after.st_ino);
+    assert_int_equal(before.st_size, after.st_size);
+    assert_memory_equal(first, second, (size_t)before.st_size);
+    free(first);
+    free(second);
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+TEST(a_run_does_not_replace_its_model_whatever_it_is_called) {
+    char spelled[1100];
+    const char *model = tool_path("x.glb");
+    copy_file(plate, model);
+    (void)snprintf(spelled, sizeof spelled, "%s/./x.glb", tool_folder);
+    assert_int_equal(symlink("x.glb", tool_path("link.csv")), 0);
+    assert_int_equal(link(model, tool_path("hard.csv")), 0);
+    check_kept(model, model, NULL, model);
+    check_kept(model, model, NULL, spelled);
+    check_kept(model, model, NULL, tool_path("link.csv"));
+    check_kept(model, model, NULL, tool_path("hard.csv"));
+    check_kept(model, tool_path("x.glb"), NULL, tool_path("x.glb"));
+}
+
+TEST(a_run_does_not_replace_its_trace) {
+    write_text(tool_path("r.csv"), "t,x,y,z\n0,0,0.001,0\n0.1,0,-0.001,0\n");
+    check_kept(tool_path("r.csv"), plate, tool_path("r.csv"), tool_path("r.csv"));
+}
+
+TEST(a_run_does_not_replace_the_buffer_of_its_model) {
+    const char *model = write_plate("plate.gltf", TAG);
+    check_kept(tool_path("plate.bin"), model, NULL, tool_path("plate.bin"));
+}
+
+/* Whoever may write into the folder could otherwise have any file of the user's overwritten. */
+TEST(a_link_where_an_unfinished_file_was_expected_is_not_followed) {
+    write_text(tool_path("victim"), "mine\n");
+    assert_int_equal(symlink("victim", tool_path("out.csv.part")), 0);
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
+    check_done(&p);
+    process_free(&p);
+    char *text = read_file(tool_path("victim"));
+    assert_string_equal(text, "mine\n");
+    free(text);
+    assert_int_equal(remove(tool_path("out.csv.part")), 0);
+}
+
+TEST(an_output_has_the_mode_that_the_umask_gives) {
+    struct stat info;
+    const mode_t before = umask(027);
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
+    (void)umask(before);
+    check_done(&p);
+    process_free(&p);
+    assert_int_equal(stat(tool_path("out.csv"), &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+}
+
+/* Names end at 255 bytes; the unfinished file's is no longer than that either. */
+TEST(an_output_may_have_the_longest_name) {
+    char name[256];
+    memset(name, 'n', sizeof name - 1);
+    name[255] = '\0';
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path(name));
+    check_done(&p);
+    process_free(&p);
+    assert_true(file_exists(tool_path(name)));
+}
+
+TEST(standard_output_takes_the_rows_and_then_the_summary) {
+    static const char *const names[] = {"-", "/dev/stdout"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", names[i]);
+        check_done(&p);
+        assert_true(strncmp(p.out, HEADER, strlen(HEADER)) == 0);
+        assert_int_equal(lines_in(p.out), 12);
+        assert_non_null(strstr(p.out, "\"ticks\": 10,"));
+        process_free(&p);
+    }
+    assert_false(file_exists("-"));
+}
+
+/* As `knurl run ... --out /dev/stdout > all.txt`: the link in /dev stays. */
+TEST(standard_output_that_is_a_file_is_written_on_not_replaced) {
+    const char *const arguments[] = {KNURL_TEST_TOOL, "run",   plate,         "--fast", "--seconds",
+                                     "0.01",          "--out", "/dev/stdout", NULL};
+    struct stat before;
+    struct stat after;
+    write_text(tool_path("all.txt"), "");
+    assert_int_equal(lstat("/dev/stdout", &before), 0);
+    process p = process_start(arguments, tool_path("all.txt"));
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    assert_int_equal(lstat("/dev/stdout", &after), 0);
+    assert_int_equal(before.st_ino, after.st_ino);
+    char *text = read_file(tool_path("all.txt"));
+    assert_true(strncmp(text, HEADER, strlen(HEADER)) == 0);
+    assert_int_equal(lines_in(text), 12);
+    free(text);
+}
+
+TEST(a_fifo_is_written_to_and_stays_one) {
+    const char *fifo = tool_path("fifo");
+    struct stat info;
+    assert_int_equal(mkfifo(fifo, 0600), 0);
+    const char *const reader[] = {"/bin/cat", fifo, NULL};
+    process cat = process_start(reader, NULL);
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", fifo);
+    process_finish(&cat);
+    check_done(&p);
+    assert_int_equal(lines_in(cat.out), 11);
+    assert_int_equal(stat(fifo, &info), 0);
+    assert_true(S_ISFIFO(info.st_mode));
+    process_free(&p);
+    process_free(&cat);
+}
+
+static void pause_ms(long ms) {
+    const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
+    (void)nanosleep(&time, NULL);
+}
+
+static void wait_for_part(void) {
+    for (int tries = 0; tries < 1000 && files_that_end(".part") == 0; tries++) {
+        pause_ms(10);
+    }
+    assert_true(files_that_end(".part") > 0);
+}
+
+/* What was there before stays, and the exit code says that there is nothing new. */
+TEST(an_interrupted_run_leaves_no_short_file) {
+    static const int signals[] = {SIGINT, SIGTERM};
+    const char *const arguments[] = {KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out",
+                                     tool_path("out.csv"), NULL};
+    write_text(tool_path("out.csv"), "mine\n");
+    for (size_t i = 0; i < COUNT_OF(signals); i++) {
+        process p = process_start(arguments, NULL);
+        wait_for_part();
+        pause_ms(200);
+        assert_int_equal(kill(p.pid, signals[i]), 0);
+        process_finish(&p);
+        assert_int_equal(p.exit_code, 128 + signals[i]);
+        assert_non_null(strstr(p.err, "interrupted after"));
+        assert_non_null(strstr(p.out, "\"ticks\": ")); /* the summary is told all the same */
+        process_free(&p);
+        char *text = read_file(tool_path("out.csv"));
+        assert_string_equal(text, "mine\n");
+        free(text);
+        assert_int_equal(files_that_end(".part"), 0);
+    }
+}
+
+/* A whole file that cannot have its name is a failure, and leaves nothing. */
+TEST(a_name_that_is_taken_meanwhile_is_a_failure) {
+    const char *const arguments[] = {KNURL_TEST_TOOL,        "run", plate, "--seconds", "1", "--out",
+                                     tool_path("taken.csv"), NULL};
+    process p = process_start(arguments, NULL);
+    wait_for_part();
+    assert_int_equal(mkdir(tool_path("taken.csv"), 0777), 0);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "taken.csv"));
+    assert_int_equal(files_that_end(".part"), 0);
+    process_free(&p);
+}
+
+/* A study does not handle signals: its unfinished files go, and it ends by the signal. */
+TEST(a_study_that_is_ended_leaves_nothing) {
+    const char *const arguments[] = {KNURL_TEST_TOOL, "study", "velocity", "--out", tool_folder, NULL};
+    process p = process_start(arguments, NULL);
+    wait_for_part();
+    assert_int_equal(kill(p.pid, SIGTERM), 0);
+    process_finish(&p);
+    assert_int_equal(p.signal, SIGTERM);
+    process_free(&p);
+    assert_int_equal(files_that_end(".part"), 0);
+    assert_false(file_exists(tool_path("velocity.csv")));
+}
+
+/* --- pictures --- */
+
+#define PYTHON "/usr/bin/python3"
+#define PLOT   KNURL_TEST_ASSETS "/../samples/study/plot.py"
+
+static int can_plot(void) {
+    const char *const arguments[] = {PYTHON, "-c", "import matplotlib", NULL};
+    process p = process_start(arguments, NULL);
+    process_finish(&p);
+    process_free(&p);
+    return p.exit_code == 0;
+}
+
+TEST(a_picture_does_not_replace_the_run_that_it_shows) {
+    if (!can_plot()) {
+        print_message("skipped: no matplotlib for " PYTHON "\n");
+        skip();
+    }
+    const char *run = tool_path("run.csv");
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.5", "--out", run);
+    check_done(&p);
+    process_free(&p);
+    assert_int_equal(link(run, tool_path("run.png")), 0);
+    const char *const outputs[] = {run, tool_path("run.png")};
+    for (size_t i = 0; i < COUNT_OF(outputs); i++) {
+        char *before = read_file(run);
+        const char *const arguments[] = {PYTHON, PLOT, run, "--out", outputs[i], NULL};
+        p = process_start(arguments, NULL);
+        process_finish(&p);
+        assert_int_equal(p.exit_code, 1);
+        assert_non_null(strstr(p.err, "a file that is read"));
+        process_free(&p);
+        char *after = read_file(run);
+        assert_string_equal(before, after);
+        free(before);
+        free(after);
+    }
+    const char *const good[] = {PYTHON, PLOT, run, "--out", tool_path("good.png"), NULL};
+    p = process_start(good, NULL);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    assert_true(file_exists(tool_path("good.png")));
+    const char *const straight[] = {PYTHON, PLOT, run, "--out", "/dev/stdout", NULL};
+    p = process_start(straight, NULL);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 0);
+    assert_memory_equal(p.out, "\x89PNG", 4);
+    process_free(&p);
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_does_not_replace_its_model_whatever_it_is_called),
+        cmocka_unit_test(a_run_does_not_replace_its_trace),
+        cmocka_unit_test(a_run_does_not_replace_the_buffer_of_its_model),
+        cmocka_unit_test(a_link_where_an_unfinished_file_was_expected_is_not_followed),
+        cmocka_unit_test(an_output_has_the_mode_that_the_umask_gives),
+        cmocka_unit_test(an_output_may_have_the_longest_name),
+        cmocka_unit_test(standard_output_takes_the_rows_and_then_the_summary),
+        cmocka_unit_test(standard_output_that_is_a_file_is_written_on_not_replaced),
+        cmocka_unit_test(a_fifo_is_written_to_and_stays_one),
+        cmocka_unit_test(an_interrupted_run_leaves_no_short_file),
+        cmocka_unit_test(a_name_that_is_taken_meanwhile_is_a_failure),
+        cmocka_unit_test(a_study_that_is_ended_leaves_nothing),
+        cmocka_unit_test(a_picture_does_not_replace_the_run_that_it_shows),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
