@@ -194,7 +194,7 @@ TEST(a_name_that_is_taken_meanwhile_is_a_failure) {
 
 /* A study does not handle signals: its unfinished files go, and it ends by the signal. */
 TEST(a_study_that_is_ended_leaves_nothing) {
-    const char *const arguments[] = {KNURL_TEST_TOOL, "study", "velocity", "--out", tool_folder, NULL};
+    const char *const arguments[] = {KNURL_TEST_TOOL, "study", "gratings", "--out", tool_folder, NULL};
     process p = process_start(arguments, NULL);
     wait_for_part();
     assert_int_equal(kill(p.pid, SIGTERM), 0);
@@ -202,7 +202,7 @@ TEST(a_study_that_is_ended_leaves_nothing) {
     assert_int_equal(p.signal, SIGTERM);
     process_free(&p);
     assert_int_equal(files_that_end(".part"), 0);
-    assert_false(file_exists(tool_path("velocity.csv")));
+    assert_false(file_exists(tool_path("gratings.csv")));
 }
 
 /* --- pictures --- */
