@@ -22,6 +22,7 @@ int main(void) {
     surface.rotation[0] = -0.70710678118654752; /* a quarter turn about x: the plane's front looks up, towards +y */
     surface.rotation[3] = 0.70710678118654752;
 
+    (void)knurl_device_zero_on_exit(0); /* whatever ends this program, its device is left without force */
     knurl_loop_desc desc;
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.tick_limit = 2000; /* at 1 kHz */

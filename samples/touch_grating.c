@@ -136,7 +136,7 @@ int main(int argc, char **argv) {
         }
     }
     sample s = {0};
-    (void)knurl_device_let_go_on_crash(); /* before the handler of ours, with which Ctrl-C ends by the ramp */
+    (void)knurl_device_zero_on_exit(0); /* before the handler of ours, with which Ctrl-C ends by the ramp */
     (void)signal(SIGINT, on_interrupt);
     const int failed = start(&s, uri, seconds) != KNURL_OK;
     while (!failed && !interrupted && !knurl_loop_wait(s.loop, 0.1)) {

@@ -53,6 +53,7 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     if (is_fake && desc->stroke && desc->stroke[0]) {
         result = knurl_stroke_from_name(desc->stroke, &stroke);
     }
+    (void)knurl_device_zero_on_exit(1); /* the engine's C# recovers from null references, which are faults */
     result = result ? result : open_device(session, device);
     if (!result) {
         session->desc = *desc;

@@ -166,6 +166,7 @@ static int run(int argc, char **argv) {
                          knurl_error_message());
     }
     struct sigaction action;
+    (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a session by the ramp */
     memset(&action, 0, sizeof action);
     action.sa_handler = on_signal;
     (void)sigaction(SIGINT, &action, NULL);

@@ -347,7 +347,7 @@ int cmd_run(int argc, char **argv) {
     int code = read_options(argc, argv, &r.options);
     if (code == TOOL_OK) {
         struct sigaction action;
-        (void)knurl_device_let_go_on_crash(); /* before the handlers below, which end a run by the ramp */
+        (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a run by the ramp */
         memset(&action, 0, sizeof action);
         action.sa_handler = on_signal;
         (void)sigaction(SIGINT, &action, NULL);

@@ -1,5 +1,5 @@
-/* What base asks of Windows beyond what test_base sees: real-time threads, libraries, and letting go when a process
- * ends. The last starts this program again, which then dies as it is told. SPDX-License-Identifier: MIT */
+/* What base asks of Windows beyond what test_base sees: real-time threads, libraries, and what is done before a
+ * process ends. The last starts this program again, which then dies as it is told. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "base/system.h"
@@ -79,11 +79,11 @@ TEST(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line) {
     }
 }
 
-/* --- letting go --- */
+/* --- ends --- */
 
 static HANDLE told;
 
-static void let_go(void) {
+static void zero(void) {
     (void)SetEvent(told);
 }
 
@@ -105,7 +105,8 @@ static int die(const char *how, const char *event) {
     if (strcmp(how, "filter") == 0) {
         (void)SetUnhandledExceptionFilter(hosts_filter);
     }
-    if (!told || !knurl_system_on_crash(let_go) || !knurl_system_on_crash(let_go)) {
+    static const knurl_exit_actions actions = {zero, zero, zero};
+    if (!told || !knurl_system_on_exit(&actions, 0) || !knurl_system_on_exit(&actions, 0)) {
         return 1;
     }
     if (strcmp(how, "abort") == 0) {
@@ -122,8 +123,8 @@ static int die(const char *how, const char *event) {
     return 0;
 }
 
-/* How the child ended, and whether it let go before. */
-static DWORD end_of(const char *how, int *let_gone) {
+/* How the child ended, and whether forces were zeroed before. */
+static DWORD end_of(const char *how, int *is_zeroed) {
     char program[1024];
     char line[2048];
     char event[64];
@@ -132,35 +133,36 @@ static DWORD end_of(const char *how, int *let_gone) {
     DWORD code = 0;
     memset(&startup, 0, sizeof startup);
     startup.cb = sizeof startup;
-    (void)snprintf(event, sizeof event, "knurl-let-go-%lu", (unsigned long)GetCurrentProcessId());
-    HANDLE let = CreateEventA(NULL, TRUE, FALSE, event);
+    (void)snprintf(event, sizeof event, "knurl-zero-%lu", (unsigned long)GetCurrentProcessId());
+    HANDLE zeroed = CreateEventA(NULL, TRUE, FALSE, event);
     assert_true(GetModuleFileNameA(NULL, program, sizeof program) < sizeof program);
     (void)snprintf(line, sizeof line, "\"%s\" %s %s", program, how, event);
     assert_true(CreateProcessA(NULL, line, NULL, NULL, FALSE, CREATE_NO_WINDOW, NULL, NULL, &startup, &child));
     assert_int_equal(WaitForSingleObject(child.hProcess, 30000), WAIT_OBJECT_0);
     assert_true(GetExitCodeProcess(child.hProcess, &code));
-    *let_gone = WaitForSingleObject(let, 0) == WAIT_OBJECT_0;
+    *is_zeroed = WaitForSingleObject(zeroed, 0) == WAIT_OBJECT_0;
     (void)CloseHandle(child.hThread);
     (void)CloseHandle(child.hProcess);
-    (void)CloseHandle(let);
+    (void)CloseHandle(zeroed);
     return code;
 }
 
-TEST(a_process_lets_go_before_it_ends_as_it_would_have) {
+TEST(a_process_zeroes_forces_before_it_ends_as_it_would_have) {
     static const struct {
         const char *how;
         DWORD code;
-        int lets_go;
-    } cases[] = {
-        {"return", 0, 0},  {"fault", (DWORD)STATUS_ACCESS_VIOLATION, 1}, {"thread", (DWORD)STATUS_ACCESS_VIOLATION, 1},
-        {"filter", 43, 1}, /* the host's own filter comes next */
-        {"abort", 3, 1},   {"ctrl-c", (DWORD)STATUS_CONTROL_C_EXIT, 1}};
+    } cases[] = {{"return", 0}, /* and exit() */
+                 {"fault", (DWORD)STATUS_ACCESS_VIOLATION},
+                 {"thread", (DWORD)STATUS_ACCESS_VIOLATION},
+                 {"filter", 43}, /* the host's own filter comes next */
+                 {"abort", 3},
+                 {"ctrl-c", (DWORD)STATUS_CONTROL_C_EXIT}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        int let_gone = -1;
-        const DWORD code = end_of(cases[i].how, &let_gone);
+        int is_zeroed = -1;
+        const DWORD code = end_of(cases[i].how, &is_zeroed);
         const int by_wine = code == 0 && cases[i].code == (DWORD)STATUS_CONTROL_C_EXIT; /* it tells no more */
-        if ((code != cases[i].code && !by_wine) || let_gone != cases[i].lets_go) {
-            fail_msg("%s: ended with %#lx, let go: %d", cases[i].how, (unsigned long)code, let_gone);
+        if ((code != cases[i].code && !by_wine) || is_zeroed != 1) {
+            fail_msg("%s: ended with %#lx, zeroed: %d", cases[i].how, (unsigned long)code, is_zeroed);
         }
     }
 }
@@ -170,7 +172,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_real_time_thread_is_time_critical_and_never_wakes_before_its_deadline),
         cmocka_unit_test(a_library_is_loaded_by_a_path_in_utf8),
         cmocka_unit_test(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line),
-        cmocka_unit_test(a_process_lets_go_before_it_ends_as_it_would_have),
+        cmocka_unit_test(a_process_zeroes_forces_before_it_ends_as_it_would_have),
     };
     return argc == 3 ? die(argv[1], argv[2]) : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "c2abcec05fd4b41d"
+#define KNURL_UNITY_INTERFACE "12253d86eac19752"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \

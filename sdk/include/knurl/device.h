@@ -216,14 +216,29 @@ KNURL_API void knurl_device_release_halt(knurl_device *device);
 /** 1 while halted. [any thread] */
 KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
-/** Opt-in: when the process crashes or is told to end (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGHUP,
- * SIGINT), all open devices are told to let go, up to 20 ms are waited until they have, and the signal goes on to
- * whatever handled it before. From then on no force goes out, also where that handler lets the process live. The thread
- * that writes to a device has to be alive for it: an I/O thread, or the haptic one where there is none. What cannot be
- * caught (SIGKILL, power) is left to the device itself. A runtime that uses these signals for its own ends (mono: null
- * references) installs its handlers after this call, or does without. The calling thread gets a stack for handlers
- * where it has none. Twice is fine. Errors: KNURL_ERROR_SYSTEM. [game thread] */
-KNURL_API knurl_result knurl_device_let_go_on_crash(void);
+/** Opt-in: zeroes the forces of all open devices before the process ends or stops. Up to 20 ms are waited until zero
+ * has been sent, which takes the thread that writes to the device: an I/O thread, or the haptic one where there is
+ * none.
+ *
+ * - exit(), a return from main(), quick_exit(), and being unloaded (dlclose()).
+ * - SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT: then what handled them before is called, or they end the process.
+ * - SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ, SIGTRAP, SIGSYS, SIGPROF,
+ *   SIGVTALRM, SIGPOLL, SIGPWR, SIGSTKFLT where they are at their default, which ends the process.
+ * - SIGTSTP (Ctrl-Z), SIGTTIN, SIGTTOU at their default, which stops it; after SIGCONT the devices are halted, so that
+ * a loop's forces come back by the ramp.
+ * - Windows: exceptions that nobody handles, abort(), the console's events, exit().
+ *
+ * Signals that are ignored stay ignored; those of the last two groups that have a handler are left to it, and handlers
+ * that are installed later replace this one: install them first, or hand on what they get. Real-time signals are left
+ * alone. After an end has begun no force goes out any more, also where a handler lets the process live. SIGKILL,
+ * SIGSTOP, _exit() and a machine that stands still cannot be seen from within: see ?guard=1 at knurl_device_open().
+ *
+ * @param faults_recover 0; or 1 in a process whose runtime recovers from SIGSEGV, SIGBUS, SIGFPE or SIGILL, as C#'s do
+ * at a null reference: a handler that these have is left alone as well.
+ *
+ * The calling thread gets a stack for handlers where it has none. The first call counts, later ones change nothing.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_SYSTEM. [game thread] */
+KNURL_API knurl_result knurl_device_zero_on_exit(uint32_t faults_recover);
 
 /** The keys of a fake URI, their units, defaults and meaning, a line each; static. [any thread] */
 KNURL_API const char *knurl_fake_keys(void);

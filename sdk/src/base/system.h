@@ -1,4 +1,4 @@
-/* What Knurl asks of the operating system: time, threads, locked memory, crashes, libraries. One implementation a
+/* What Knurl asks of the operating system: time, threads, locked memory, ends, libraries. One implementation a
  * system. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SYSTEM_H
 #define KNURL_SRC_SYSTEM_H
@@ -33,9 +33,17 @@ void knurl_system_mutex_destroy(knurl_mutex *mutex);
 void knurl_system_mutex_lock(knurl_mutex *mutex);
 void knurl_system_mutex_unlock(knurl_mutex *mutex);
 
-/* Has `let_go` called when a signal ends the process, before whatever handled the signal until now; 0 when the system
- * refuses. `let_go` may use the clock, naps and atomics. Later calls change nothing. */
-int knurl_system_on_crash(void (*let_go)(void));
+/* What is done before the process ends or stops: the clock, naps and atomics are all that these may use. */
+typedef struct knurl_exit_actions {
+    void (*end)(void);    /* before an end, once or more often */
+    void (*stop)(void);   /* before the process is stopped as a job of its terminal */
+    void (*resume)(void); /* when it goes on after that */
+} knurl_exit_actions;
+
+/* Has `actions` (kept) called at exit() and before every signal that ends or stops the process, unless the host handles
+ * or ignores it. Handlers of crashes are called after `end`; with faults_recover, those of SIGSEGV, SIGBUS, SIGFPE and
+ * SIGILL are left alone too. 0: the system refused. Later calls change nothing. */
+int knurl_system_on_exit(const knurl_exit_actions *actions, int faults_recover);
 
 /* Libraries that are loaded at run time. Null: `why` says what the system says. */
 typedef struct knurl_library knurl_library;

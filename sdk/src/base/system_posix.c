@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,6 +67,22 @@ static void *run_thread(void *argument) {
     return NULL;
 }
 
+/* A handler of the host's must not run on a haptic or an I/O thread, and what zeroes forces before the process ends
+ * waits for those. What a thread does itself stays its own. */
+static int create(knurl_thread *thread, const pthread_attr_t *attributes) {
+    static const int own[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT};
+    sigset_t others;
+    sigset_t before;
+    (void)sigfillset(&others);
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+        (void)sigdelset(&others, own[i]);
+    }
+    (void)pthread_sigmask(SIG_SETMASK, &others, &before); /* a thread inherits it */
+    const int failed = pthread_create(&thread->handle, attributes, run_thread, thread);
+    (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return failed;
+}
+
 knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *argument, size_t stack_bytes) {
     knurl_thread *thread = calloc(1, sizeof *thread);
     pthread_attr_t attributes;
@@ -75,8 +92,7 @@ knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *arg
     }
     thread->entry = entry;
     thread->argument = argument;
-    const int failed = pthread_attr_setstacksize(&attributes, stack_bytes) ||
-                       pthread_create(&thread->handle, &attributes, run_thread, thread);
+    const int failed = pthread_attr_setstacksize(&attributes, stack_bytes) || create(thread, &attributes);
     (void)pthread_attr_destroy(&attributes);
     if (failed) {
         free(thread);

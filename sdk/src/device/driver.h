@@ -97,15 +97,15 @@ static inline void knurl_device_free(knurl_device *device) {
 /* Looks for a lost device again. KNURL_OK: it is there. [not the haptic thread, while nobody reads or writes] */
 knurl_result knurl_device_reopen(knurl_device *device);
 
-/* 1: the process is about to end, and no force may go out any more (crash.c). [any thread] */
-uint32_t knurl_device_ends(void);
+/* 1: the process is about to end or to stop, and no force may go out (exit.c). [any thread] */
+uint32_t knurl_device_must_be_zero(void);
 
 /* Around sending a force, on the thread that sends it: the device is not quiet from before a force goes out until after
  * none has; a force that would go out while the process ends becomes none. */
 void knurl_device_before_force(knurl_device *device, double force[3]);
 void knurl_device_after_force(knurl_device *device, const double force[3]);
 
-/* Open devices, for crash.c. [game thread] */
+/* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);
 void knurl_device_unregister(knurl_device *device);
 

@@ -545,7 +545,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "c2abcec05fd4b41d";
+        internal const string Interface = "12253d86eac19752";
 
         internal const string Version = "0.1.0";
 
@@ -719,7 +719,7 @@ namespace Knurl
         internal static extern uint knurl_device_is_halted(knurl_device* device);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_let_go_on_crash();
+        internal static extern int knurl_device_zero_on_exit(uint faults_recover);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* knurl_fake_keys();

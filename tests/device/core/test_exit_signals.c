@@ -1,6 +1,7 @@
-/* A process that is ended by a signal lets go of its motors first. Children crash; what their device's motors do stands
- * in memory that they share with the test. SPDX-License-Identifier: MIT */
+/* What knurl_device_zero_on_exit() does at signals, and to the host's handlers. Children end; what their device's
+ * motors do stands in memory that they share with the test. SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* MAP_ANONYMOUS */
+#define _ISOC11_SOURCE  1 /* quick_exit() */
 
 #include "home.h"
 
@@ -40,7 +41,9 @@ static int unshare(void **state) {
 
 /* --- what children do --- */
 
-static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGHUP, SIGINT};
+static const int ends[] = {SIGSEGV, SIGBUS,    SIGFPE,  SIGILL,  SIGABRT,   SIGTERM, SIGHUP,  SIGINT,
+                           SIGQUIT, SIGPIPE,   SIGUSR1, SIGUSR2, SIGXCPU,   SIGXFSZ, SIGTRAP, SIGSYS,
+                           SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT, SIGALRM};
 
 /* No handlers of sanitizers, no core files, no noise; and no child lives for ever. */
 static void be_a_child(void) {
@@ -115,7 +118,7 @@ static knurl_device *open_and_push(uint32_t blocking) {
 }
 
 static void install(void) {
-    if (knurl_device_let_go_on_crash()) {
+    if (knurl_device_zero_on_exit(0)) {
         _exit(102);
     }
 }
@@ -148,13 +151,19 @@ static void check_limp(void) {
 
 /* --- signals --- */
 
+/* What forces do in a process that lives on: 1: they go out as before. */
+static uint32_t still_pushes(void) {
+    sleep_ns(30000000);
+    return knurl_load_acquire(&m->device.limp_since) == 0;
+}
+
 static void crash_with_force(int number) {
     (void)open_and_push(1);
     install();
     crash_by(number);
 }
 
-TEST(whatever_signal_ends_the_process_its_motors_are_let_go_before) {
+TEST(whatever_signal_ends_the_process_forces_are_zeroed_before) {
     for (size_t i = 0; i < COUNT_OF(ends); i++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(crash_with_force, ends[i]), ends[i]);
@@ -325,6 +334,88 @@ TEST(a_device_that_has_no_force_or_is_gone_is_not_waited_for) {
     }
 }
 
+/* --- stops --- */
+
+static void stop_by(int number) {
+    (void)setpgid(0, 0); /* a group that no shell looks after is not stopped */
+    (void)open_and_push(1);
+    install();
+    for (int k = 0; k < 2; k++) {
+        crash_by(number);
+        m->reached++;
+        for (int64_t until = now_ns() + 2000000000; m->device.motor[1] < 1.0 && now_ns() < until;) {
+            sleep_ns(1000000);
+        }
+    }
+    exit(0);
+}
+
+/* The first force that went out after `count` writes, and the last of all. */
+static double first_force_after(uint64_t count) {
+    for (uint64_t i = count; i < m->device.writes; i++) {
+        if (m->device.log[i % HOME_LOG].force[1] > 0.0) {
+            return m->device.log[i % HOME_LOG].force[1];
+        }
+    }
+    return 0.0;
+}
+
+/* Ctrl-Z, and fg: twice. */
+TEST(a_stop_zeroes_forces_and_they_come_back_by_the_ramp) {
+    static const int numbers[] = {SIGTSTP, SIGTTIN, SIGTTOU};
+    for (size_t i = 0; i < COUNT_OF(numbers); i++) {
+        int status = 0;
+        memset(m, 0, sizeof *m);
+        const pid_t pid = fork();
+        if (pid == 0) {
+            be_a_child();
+            stop_by(numbers[i]);
+        }
+        for (uint32_t k = 0; k < 2; k++) {
+            assert_int_equal(waitpid(pid, &status, WUNTRACED), pid);
+            assert_true(WIFSTOPPED(status) && WSTOPSIG(status) == numbers[i]);
+            assert_int_equal(m->reached, k);
+            check_limp();
+            const uint64_t count = m->device.writes;
+            assert_int_equal(kill(pid, SIGCONT), 0);
+            for (int64_t until = now_ns() + 2000000000; m->device.motor[1] < 1.0 && now_ns() < until;) {
+                sleep_ns(1000000);
+            }
+            CHECK_SAME(m->device.motor[1], 1.0L);
+            assert_true(first_force_after(count) < 0.5);
+        }
+        assert_int_equal(waitpid(pid, &status, 0), pid);
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+        check_limp();
+    }
+}
+
+/* --- exit() --- */
+
+static void fork_and_exit(int number) {
+    int status = 0;
+    (void)number;
+    (void)open_and_push(1);
+    install();
+    const pid_t pid = fork();
+    if (pid == 0) {
+        exit(3);
+    }
+    const int64_t begun = now_ns();
+    (void)waitpid(pid, &status, 0);
+    m->reached = still_pushes() && now_ns() - begun < 60000000;
+    m->handled = (uint32_t)WEXITSTATUS(status);
+    quick_exit(0);
+}
+
+/* Its child has no thread that could write; quick_exit() is seen, too. */
+TEST(the_exit_of_a_child_that_was_forked_changes_nothing) {
+    assert_int_equal(run(fork_and_exit, 0), 0);
+    assert_int_equal(m->reached, 1);
+    assert_int_equal(m->handled, 3);
+    check_limp();
+}
+
 /* --- handlers from before --- */
 
 static void on_plain(int number) {
@@ -353,15 +444,15 @@ static void handle(int number, int flags, void (*plain)(int)) {
 }
 
 static void crash_with_handler(int is_siginfo) {
-    handle(SIGTERM, is_siginfo ? SA_SIGINFO : 0, is_siginfo ? NULL : on_plain);
+    handle(SIGSEGV, is_siginfo ? SA_SIGINFO : 0, is_siginfo ? NULL : on_plain);
     (void)open_and_push(1);
     install();
-    crash_by(SIGTERM);
+    crash_by(SIGSEGV);
     m->reached = 1;
     _exit(7);
 }
 
-TEST(a_handler_from_before_is_called_with_the_motors_let_go_and_decides) {
+TEST(a_handler_of_crashes_is_called_with_zero_force_and_decides) {
     for (int is_siginfo = 0; is_siginfo < 2; is_siginfo++) {
         memset(m, 0, sizeof *m);
         const int status = run(crash_with_handler, is_siginfo);
@@ -372,6 +463,56 @@ TEST(a_handler_from_before_is_called_with_the_motors_let_go_and_decides) {
         assert_true(m->handled_limp > 0);
         check_limp();
     }
+}
+
+static void be_signalled(int number) {
+    handle(number, 0, on_plain);
+    (void)open_and_push(1);
+    install();
+    crash_by(number);
+    m->reached = still_pushes();
+    exit(7);
+}
+
+/* SIGHUP that has a game read its settings anew is no end; but the exit() that follows is one. */
+TEST(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes) {
+    static const int numbers[] = {SIGTERM, SIGHUP, SIGINT, SIGUSR1, SIGALRM, SIGPROF, SIGTSTP};
+    for (size_t i = 0; i < COUNT_OF(numbers); i++) {
+        memset(m, 0, sizeof *m);
+        const int status = run(be_signalled, numbers[i]);
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+        assert_int_equal(m->handled, 1);
+        assert_int_equal(m->handled_limp, 0);
+        assert_int_equal(m->reached, 1);
+        check_limp();
+    }
+}
+
+/* As C# at a null reference: the handler mends what was wrong, and the program goes on. */
+static void recover_from_a_fault(int flag) {
+    handle(SIGSEGV, 0, on_plain);
+    (void)open_and_push(1);
+    if (knurl_device_zero_on_exit((uint32_t)flag)) {
+        _exit(102);
+    }
+    crash_by(SIGSEGV);
+    m->reached = still_pushes();
+    crash_by(SIGABRT);
+}
+
+TEST(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces) {
+    for (int flag = 0; flag < 2; flag++) {
+        memset(m, 0, sizeof *m);
+        check_ended_by(run(recover_from_a_fault, flag), SIGABRT);
+        assert_int_equal(m->handled, 1);
+        assert_int_equal(m->reached, flag);
+        check_limp();
+    }
+}
+
+TEST(a_flag_that_is_none_is_refused) {
+    assert_int_equal(knurl_device_zero_on_exit(2), KNURL_ERROR_ARGUMENT);
+    check_message("expected 0 or 1, found 2");
 }
 
 /* A default that was installed with the flag of another kind of handler. */
@@ -394,7 +535,7 @@ TEST(a_default_is_a_default_whatever_its_flags) {
 static void read_through_a_signal(int flags) {
     int ends_of_pipe[2];
     char byte = 0;
-    handle(SIGTERM, flags, on_plain);
+    handle(SIGBUS, flags, on_plain);
     install();
     if (pipe(ends_of_pipe)) {
         _exit(106);
@@ -402,7 +543,7 @@ static void read_through_a_signal(int flags) {
     const pid_t parent = getpid();
     if (fork() == 0) {
         sleep_ns(30000000);
-        (void)kill(parent, SIGTERM);
+        (void)kill(parent, SIGBUS);
         sleep_ns(60000000);
         _exit(write(ends_of_pipe[1], "x", 1) != 1);
     }
@@ -429,7 +570,7 @@ static void end_at_the_second_signal(int number) {
 }
 
 TEST(a_handler_for_one_time_is_called_one_time) {
-    check_ended_by(run(end_at_the_second_signal, SIGINT), SIGINT);
+    check_ended_by(run(end_at_the_second_signal, SIGSEGV), SIGSEGV);
     assert_int_equal(m->handled, 1);
     assert_int_equal(m->reached, 1);
     CHECK_SAME(m->device.motor[1], 0.0L);
@@ -464,7 +605,7 @@ static void install_twice(int number) {
 }
 
 TEST(installing_it_twice_is_fine) {
-    const int status = run(install_twice, SIGTERM);
+    const int status = run(install_twice, SIGSEGV);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 8);
     assert_int_equal(m->handled, 1);
     check_limp();
@@ -472,16 +613,21 @@ TEST(installing_it_twice_is_fine) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(whatever_signal_ends_the_process_its_motors_are_let_go_before, share, unshare),
+        cmocka_unit_test_setup_teardown(whatever_signal_ends_the_process_forces_are_zeroed_before, share, unshare),
         cmocka_unit_test_setup_teardown(without_having_asked_for_it_the_force_stays, share, unshare),
         cmocka_unit_test_setup_teardown(a_fault_on_the_games_thread_or_in_a_tick_lets_go, share, unshare),
         cmocka_unit_test_setup_teardown(a_fault_in_the_exchange_itself_ends_it_after_the_wait, share, unshare),
         cmocka_unit_test_setup_teardown(a_device_without_an_io_thread_is_let_go_by_the_haptic_thread, share, unshare),
         cmocka_unit_test_setup_teardown(without_a_device_nobody_waits, share, unshare),
         cmocka_unit_test_setup_teardown(a_device_that_hangs_is_waited_for_20_ms_and_no_longer, share, unshare),
-        cmocka_unit_test_setup_teardown(a_handler_from_before_is_called_with_the_motors_let_go_and_decides, share,
-                                        unshare),
+        cmocka_unit_test_setup_teardown(a_handler_of_crashes_is_called_with_zero_force_and_decides, share, unshare),
         cmocka_unit_test_setup_teardown(what_was_ignored_stays_ignored, share, unshare),
+        cmocka_unit_test_setup_teardown(a_stop_zeroes_forces_and_they_come_back_by_the_ramp, share, unshare),
+        cmocka_unit_test_setup_teardown(the_exit_of_a_child_that_was_forked_changes_nothing, share, unshare),
+        cmocka_unit_test_setup_teardown(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, unshare),
+        cmocka_unit_test_setup_teardown(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces, share,
+                                        unshare),
+        cmocka_unit_test(a_flag_that_is_none_is_refused),
         cmocka_unit_test_setup_teardown(installing_it_twice_is_fine, share, unshare),
         cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
         cmocka_unit_test_setup_teardown(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare),

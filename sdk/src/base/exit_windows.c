@@ -1,30 +1,37 @@
-/* Windows: what is done before an exception, abort() or the console ends the process. TerminateProcess() and
- * __fastfail() leave no time for anything. SPDX-License-Identifier: MIT */
+/* Windows: what is done before an exception, abort(), the console or exit() ends the process. TerminateProcess() and
+ * __fastfail() leave no time for anything; at the exit() of a program whose Knurl is a DLL, all other threads have
+ * ended already, so that nobody is left who could send. SPDX-License-Identifier: MIT */
 #include "base/system.h"
 
 #include <windows.h>
 
 #include <signal.h>
+#include <stdlib.h>
 
-static void (*let_go)(void);
+static const knurl_exit_actions *actions;
 static LPTOP_LEVEL_EXCEPTION_FILTER filter_before;
 static void (*abort_before)(int number);
 
+static void end(void) {
+    actions->end();
+}
+
+/* Only for exceptions that nobody handled, so not for those that a runtime recovers from. */
 static LONG WINAPI on_exception(EXCEPTION_POINTERS *what) {
-    let_go();
+    end();
     return filter_before ? filter_before(what) : EXCEPTION_CONTINUE_SEARCH;
 }
 
 /* Ctrl-C, Ctrl-Break, the console's close button, logging off, shutting down; in a thread of the system's. */
 static BOOL WINAPI on_console(DWORD event) {
     (void)event;
-    let_go();
+    end();
     return FALSE; /* on to the handler from before; the last one ends the process */
 }
 
 /* abort() raises no exception. */
 static void on_abort(int number) {
-    let_go();
+    end();
     if (abort_before != SIG_DFL && abort_before != SIG_IGN) {
         abort_before(number);
     } /* else abort() goes on when this returns */
@@ -39,13 +46,26 @@ static BOOL CALLBACK install(INIT_ONCE *once, void *parameter, void **context) {
     (void)context;
     filter_before = SetUnhandledExceptionFilter(on_exception);
     abort_before = signal(SIGABRT, on_abort);
-    installed = abort_before != SIG_ERR && SetConsoleCtrlHandler(on_console, TRUE);
+    installed = abort_before != SIG_ERR && SetConsoleCtrlHandler(on_console, TRUE) && atexit(end) == 0;
     return TRUE; /* once, whatever came of it */
 }
 
-int knurl_system_on_crash(void (*function)(void)) {
+/* The library is unloaded: nothing may point into it. What was installed after ours stays. */
+__attribute__((destructor)) static void give_back(void) {
+    if (installed) {
+        const LPTOP_LEVEL_EXCEPTION_FILTER filter = SetUnhandledExceptionFilter(filter_before);
+        if (filter != on_exception) {
+            (void)SetUnhandledExceptionFilter(filter);
+        }
+        (void)SetConsoleCtrlHandler(on_console, FALSE);
+        (void)signal(SIGABRT, abort_before);
+    }
+}
+
+int knurl_system_on_exit(const knurl_exit_actions *what, int faults_recover) {
     static INIT_ONCE once = INIT_ONCE_STATIC_INIT;
-    let_go = function;
+    (void)faults_recover;
+    actions = what;
     (void)InitOnceExecuteOnce(&once, install, NULL, NULL);
     return installed;
 }

@@ -1,0 +1,115 @@
+/* When the process ends or stops: force 0, as long as the threads that write to devices still run.
+ * SPDX-License-Identifier: MIT */
+#include "base/atomic.h"
+#include "base/system.h"
+#include "device/driver.h"
+
+/* More devices than anyone has on the desk; one beyond it is not waited for, but gets no force either. */
+#define DEVICE_ROOM 16
+
+/* How long an end waits for the threads that write: an I/O thread's exchange takes 5 ms at most. */
+#define WAIT_NS 20000000
+
+/* Bits of `reasons`; the rest counts stops under way. */
+#define ENDING   1u
+#define ONE_STOP 2u
+
+static knurl_device *open_devices[DEVICE_ROOM]; /* atomics */
+static uint32_t reasons;                        /* atomic; 0: forces may go out */
+
+uint32_t knurl_device_must_be_zero(void) {
+    return __atomic_load_n(&reasons, __ATOMIC_SEQ_CST) != 0;
+}
+
+static int is_zero(const double force[3]) {
+    return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+}
+
+/* Whoever sends looks at `reasons` after having cleared `quiet`, and who ends the process looks at `quiet` after having
+ * set `reasons`: one of them sees the other. */
+void knurl_device_before_force(knurl_device *device, double force[3]) {
+    if (!is_zero(force)) {
+        __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
+        if (knurl_device_must_be_zero()) {
+            force[0] = force[1] = force[2] = 0.0;
+        }
+    }
+}
+
+void knurl_device_after_force(knurl_device *device, const double force[3]) {
+    if (is_zero(force)) {
+        knurl_store_release(&device->quiet, 1u);
+    }
+}
+
+void knurl_device_register(knurl_device *device) {
+    if (!device->link) { /* an I/O thread tells by itself */
+        knurl_store_release(&device->quiet, 1u);
+    }
+    for (int i = 0; i < DEVICE_ROOM; i++) {
+        knurl_device *none = NULL;
+        if (__atomic_compare_exchange_n(&open_devices[i], &none, device, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
+            return;
+        }
+    }
+}
+
+void knurl_device_unregister(knurl_device *device) {
+    for (int i = 0; i < DEVICE_ROOM; i++) {
+        knurl_device *mine = device;
+        (void)__atomic_compare_exchange_n(&open_devices[i], &mine, NULL, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED);
+    }
+}
+
+static int all_quiet(void) {
+    for (int i = 0; i < DEVICE_ROOM; i++) {
+        const knurl_device *device = knurl_load_acquire(&open_devices[i]);
+        if (device && !__atomic_load_n(&device->quiet, __ATOMIC_SEQ_CST) && !knurl_load_acquire(&device->lost)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void halt_all(void) {
+    for (int i = 0; i < DEVICE_ROOM; i++) {
+        knurl_device *device = knurl_load_acquire(&open_devices[i]);
+        if (device) {
+            knurl_device_halt(device);
+        }
+    }
+}
+
+/* These may run in a signal handler: nothing but atomics, the clock and naps. */
+static void zero_now(void) {
+    const int64_t until = knurl_system_now_ns() + WAIT_NS;
+    while (!all_quiet() && knurl_system_now_ns() < until) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
+    }
+}
+
+static void end(void) {
+    (void)__atomic_fetch_or(&reasons, ENDING, __ATOMIC_SEQ_CST);
+    zero_now();
+}
+
+static void stop(void) {
+    (void)__atomic_fetch_add(&reasons, ONE_STOP, __ATOMIC_SEQ_CST);
+    zero_now();
+}
+
+static void resume(void) {
+    halt_all(); /* so that forces come back by the ramp */
+    (void)__atomic_fetch_sub(&reasons, ONE_STOP, __ATOMIC_SEQ_CST);
+}
+
+knurl_result knurl_device_zero_on_exit(uint32_t faults_recover) {
+    static const knurl_exit_actions actions = {end, stop, resume};
+    if (faults_recover > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_device_zero_on_exit: expected 0 or 1, found %u",
+                          (unsigned)faults_recover);
+    }
+    return knurl_system_on_exit(&actions, (int)faults_recover)
+               ? KNURL_OK
+               : knurl_fail(KNURL_ERROR_SYSTEM, "the system refused a handler of signals or of exit()");
+}
