@@ -4,6 +4,8 @@
 #include "contact/oracle.h"
 #include "support/probe.h"
 
+#include "contact/mesh_query.h"
+
 /* Double arithmetic on coordinates of 0.1 m: some hundred roundings. */
 #define TOLERANCE 1e-14
 

@@ -6,6 +6,8 @@
 #include "support/probe.h"
 
 #include "base/vec3.h"
+#include "contact/mesh_frame.h"
+#include "contact/plane_from_mesh.h"
 
 #define PI 3.14159265358979323846
 

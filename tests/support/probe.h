@@ -5,6 +5,8 @@
 
 #include "support/geometry.h"
 
+#include "contact/mesh_build.h"
+#include "contact/mesh_contact.h"
 #include "contact/plane.h"
 
 /** Where there is no mesh, the plane is in use. */

@@ -3,6 +3,7 @@
 #include "support/probe.h"
 
 #include "contact/bvh.h"
+#include "contact/mesh_query.h"
 
 static void check_box(const knurl_bvh_node *inner, const float min[3], const float max[3]) {
     for (int axis = 0; axis < 3; axis++) {

@@ -60,10 +60,6 @@ typedef struct knurl_triangle {
 /* Errors: KNURL_ERROR_ARGUMENT (what, which, expected, found). */
 knurl_result knurl_mesh_check(const knurl_mesh_desc *desc);
 
-/* Copies, welds, and builds the hierarchy of what knurl_mesh_check() has let through.
- * Errors: KNURL_ERROR_ARGUMENT (no triangle with an area), KNURL_ERROR_MEMORY. */
-knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh);
-
 /* null is allowed */
 void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh);
 
@@ -81,26 +77,5 @@ static inline void knurl_mesh_corners(const knurl_mesh *mesh, uint32_t triangle,
 }
 
 void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out) KNURL_NONBLOCKING;
-
-/* dP/du and dP/dv of one triangle; 0 where its uvs have no area (or there are none). */
-int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) KNURL_NONBLOCKING;
-
-/* Of each vertex the first that stands exactly where it stands. welds: vertex_count entries of the caller's; where
- * `marked`, only vertices whose entry is not 0 are looked at. Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_mesh_weld(knurl_heap *heap, const knurl_mesh_desc *desc, int marked, uint32_t *welds);
-
-/* Slots of an open hash table for so many entries: a power of two, at most half full. */
-uint64_t knurl_table_slots(uint64_t entries);
-
-/* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
- * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_mesh_join(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *places, uint32_t place_count);
-
-/* min, mean, max of d(surface coordinate)/d(metre along x): uvs by their own stretch, an axis by how much of it is
- * tangent. */
-void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]);
-
-/* Part of knurl_mesh_create(): uv_scale and stretch_u. */
-void knurl_mesh_measure_uvs(knurl_mesh *mesh);
 
 #endif

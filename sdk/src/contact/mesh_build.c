@@ -1,8 +1,11 @@
 /* From a caller's arrays to a mesh that can be touched: welds them, leaves out what cannot be felt, sorts the triangles
  * by where they are, numbers vertices in the order in which those use them. SPDX-License-Identifier: MIT */
-#include "contact/mesh.h"
+#include "contact/mesh_build.h"
 
 #include "base/vec3.h"
+#include "contact/mesh_adjacency.h"
+#include "contact/mesh_frame.h"
+#include "contact/weld.h"
 
 #include <string.h>
 

@@ -3,9 +3,10 @@
  * or the far side of a body never catches it. It may then rest on a facet that is not the nearest of all: that is what
  * tells the front of a wall from its back.
  * SPDX-License-Identifier: MIT */
-#include "contact/contact.h"
+#include "contact/mesh_contact.h"
 
-#include "contact/foot.h"
+#include "contact/mesh_query.h"
+#include "contact/mesh_walk.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Surface coordinates on a mesh: by an axis, or by tangents and uvs, and how far the uvs stretch.
  * SPDX-License-Identifier: MIT */
-#include "contact/contact.h"
+#include "contact/mesh_frame.h"
 
 #include "base/vec3.h"
 
@@ -41,7 +41,8 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     return fabs(e->det) > 1e-9 * largest * largest;
 }
 
-int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
+/* dP/du and dP/dv of one triangle; 0 where its uvs have no area, or there are none. */
+static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
     uv_edges e;
     if (!find_uv_edges(mesh, triangle, &e)) {
         return 0;
@@ -64,7 +65,7 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
         double du[3];
         double dv[3];
         knurl_triangle t;
-        if (knurl_mesh_uv_frame(mesh, i, du, dv)) {
+        if (uv_frame(mesh, i, du, dv)) {
             knurl_mesh_triangle(mesh, i, &t);
             const double length = vec3_length(du);
             area += t.area2;

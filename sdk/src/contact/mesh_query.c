@@ -1,8 +1,8 @@
 /* Questions to a mesh's hierarchy: what is nearest, what is crossed. Iterative, bounded by the number of nodes.
  * SPDX-License-Identifier: MIT */
-#include "contact/contact.h"
+#include "contact/mesh_query.h"
 
-#include "contact/foot.h"
+#include "contact/closest_point.h"
 
 #include <string.h>
 

@@ -136,3 +136,15 @@ int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, co
     *steepest = most == 1.0 ? 1.0 : sqrt(most);
     return plane->has_coordinates;
 }
+
+void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane) {
+    if (plane) {
+        knurl_heap_free(heap, plane->outline);
+        knurl_heap_free(heap, plane->members);
+        knurl_heap_free(heap, plane);
+    }
+}
+
+uint64_t knurl_plane_bytes(const knurl_plane *plane) {
+    return knurl_heap_size(plane) + knurl_heap_size(plane->outline) + knurl_heap_size(plane->members);
+}

@@ -3,6 +3,7 @@
 #ifndef KNURL_SRC_PLANE_H
 #define KNURL_SRC_PLANE_H
 
+#include "base/heap.h"
 #include "contact/contact.h"
 
 /* Edges that an outline may have. A tick looks at those in its HIP's band: a few of a disc's, but all of a comb's, and
@@ -40,13 +41,6 @@ typedef struct knurl_plane {
 
 /* A rectangle, coordinates in metres from its centre. axis: unit, the grating's x; or null: the rectangle's. */
 void knurl_plane_from_rectangle(const double half_extents[2], const double axis[3], knurl_plane *plane);
-
-/* A flat mesh as a plane with its true outline. desc: checked by knurl_mesh_check(). axis: unit, the grating's x in the
- * mesh's frame, or null: tangents, else uvs. position, rotation: where the plane's frame stands in the mesh's. *why: a
- * static sentence in either case. Returns KNURL_OK with *plane null where the mesh does not come to a plane.
- * Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc, const double axis[3],
-                                   knurl_plane **plane, double position[3], double rotation[9], const char **why);
 
 /* null is allowed */
 void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane);

@@ -3,7 +3,11 @@
 
 #include "base/base.h"
 #include "base/vec3.h"
-#include "contact/plane.h"
+#include "contact/mesh_build.h"
+#include "contact/mesh_contact.h"
+#include "contact/mesh_frame.h"
+#include "contact/mesh_query.h"
+#include "contact/plane_from_mesh.h"
 
 #include <string.h>
 

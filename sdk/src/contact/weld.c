@@ -1,5 +1,5 @@
 /* Which vertices stand in one place (uv seams and hard edges double them). SPDX-License-Identifier: MIT */
-#include "contact/mesh.h"
+#include "contact/weld.h"
 
 #include <string.h>
 

@@ -1,9 +1,10 @@
 /* The walk of a foot over a mesh. From an edge it looks at the triangle beyond, from a vertex at the fan round it, and
  * goes on only where it is strictly nearer: at an edge alone it would go wrong in concave corners, and it ends.
  * SPDX-License-Identifier: MIT */
-#include "contact/foot.h"
+#include "contact/mesh_walk.h"
 
-#include "contact/contact.h"
+#include "contact/corner.h"
+#include "contact/mesh_query.h"
 
 /* Steps of one walk. A stroke of 1 m/s crosses a few triangles a tick; an uncapped teleport over a fine mesh would take
  * thousands. */
@@ -11,48 +12,6 @@
 
 /* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part. */
 #define MAX_FAN 256
-
-/* Between corners i and j of a triangle, `along` of the way. */
-static unsigned rest_between(unsigned i, unsigned j, double along, double weights[3]) {
-    weights[j] = along < 0.0 ? 0.0 : along < 1.0 ? along : 1.0;
-    weights[i] = 1.0 - weights[j];
-    return (weights[i] != 0.0 ? 1u << i : 0) | (weights[j] != 0.0 ? 1u << j : 0);
-}
-
-void knurl_foot_on_edge(const double p[3], const double inside[2], knurl_foot *foot) {
-    const double *a = foot->corners[0];
-    double ab[3], ac[3], ap[3], bc[3], bp[3];
-    vec3_sub(foot->corners[1], a, ab);
-    vec3_sub(foot->corners[2], a, ac);
-    vec3_sub(p, a, ap);
-    vec3_sub(foot->corners[2], foot->corners[1], bc);
-    vec3_sub(p, foot->corners[1], bp);
-    const double b_a = vec3_dot(ab, ap), c_a = vec3_dot(ac, ap);  /* how far p is towards b and c, from a, */
-    const double a_b = -vec3_dot(ab, bp), c_b = vec3_dot(bc, bp); /* towards a and c, from b, */
-    const double ab2 = vec3_dot(ab, ab), ac2 = vec3_dot(ac, ac), bc2 = vec3_dot(bc, bc);
-    const double a_c = ac2 - c_a, b_c = bc2 - c_b; /* and towards a and b, from c */
-    double *w = foot->weights;
-    w[0] = w[1] = w[2] = 0.0;
-    if (b_a <= 0.0 && c_a <= 0.0) {
-        foot->held = rest_between(0, 1, 0.0, w);
-    } else if (a_b <= 0.0 && c_b <= 0.0) {
-        foot->held = rest_between(1, 2, 0.0, w);
-    } else if (a_c <= 0.0 && b_c <= 0.0) {
-        foot->held = rest_between(2, 0, 0.0, w);
-    } else if (inside[1] <= 0.0 && b_a >= 0.0 && a_b >= 0.0) {
-        foot->held = rest_between(0, 1, b_a / ab2, w);
-    } else if (inside[0] <= 0.0 && c_a >= 0.0 && a_c >= 0.0) {
-        foot->held = rest_between(0, 2, c_a / ac2, w);
-    } else {
-        foot->held = rest_between(1, 2, c_b / bc2, w);
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        foot->point[axis] =
-            w[0] * foot->corners[0][axis] + w[1] * foot->corners[1][axis] + w[2] * foot->corners[2][axis];
-    }
-    vec3_sub(p, foot->point, foot->offset);
-    foot->distance2 = vec3_dot(foot->offset, foot->offset);
-}
 
 static int is_nearer(const knurl_foot *a, const knurl_foot *b) {
     return a->distance2 < b->distance2 * (1.0 - 1e-12);

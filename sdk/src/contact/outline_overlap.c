@@ -1,5 +1,5 @@
 /* Does an outline go round its sheet once? SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/outline_overlap.h"
 
 #include <math.h>
 

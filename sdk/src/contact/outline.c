@@ -1,8 +1,10 @@
 /* The outline of a flat sheet: the edges that no neighbour runs back along, straightened, so that T-junctions cancel
  * too. Edges in any order, each with the sheet on its left. SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/outline.h"
 
 #include "base/vec3.h"
+#include "contact/edge_table.h"
+#include "contact/outline_overlap.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Surface coordinates of a flat sheet, where they are the same everywhere: the grating's x, and coordinates that are
  * affine. As mesh_frame.c and scene/surface_frame.c have them. SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/sheet_coordinates.h"
 
 #include "base/vec3.h"
 

@@ -1,10 +1,10 @@
-/* Where a point's perpendicular meets a mesh: the walk over the surface to the local minimum of the distance, and which
- * side of the surface the point is on there. Everything here may run in a tick. SPDX-License-Identifier: MIT */
-#ifndef KNURL_SRC_FOOT_H
-#define KNURL_SRC_FOOT_H
+/* The point of a triangle that is closest to another. Everything here may run in a tick. SPDX-License-Identifier: MIT
+ */
+#ifndef KNURL_SRC_CLOSEST_POINT_H
+#define KNURL_SRC_CLOSEST_POINT_H
 
 #include "base/vec3.h"
-#include "contact/corner.h"
+#include "contact/mesh.h"
 
 /* The nearest point of one triangle. */
 typedef struct knurl_foot {
@@ -57,12 +57,5 @@ static inline void knurl_foot_leave(const double point[3], const double p[3], do
     vec3_sub(p, point, way);
     vec3_madd(point, 1e-6 + 1e-14 * size / (vec3_length(way) + 1e-300), way, out);
 }
-
-/* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */
-void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) KNURL_NONBLOCKING;
-
-/* Which side of the surface a point is on whose foot this is: +1 in front, -1 behind, 0 neither.
- * *rim: whether the foot is on the rim of an open mesh. */
-int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) KNURL_NONBLOCKING;
 
 #endif

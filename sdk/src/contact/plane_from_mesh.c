@@ -1,7 +1,10 @@
 /* Flat meshes as planes with their true outline. SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/plane_from_mesh.h"
 
 #include "base/vec3.h"
+#include "contact/outline.h"
+#include "contact/sheet.h"
+#include "contact/sheet_coordinates.h"
 
 /* Moves the plane's origin to the middle of its outline's bounds. */
 static void centre(knurl_plane *plane, double middle[2]) {
@@ -169,16 +172,4 @@ knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc
                        : (made->outline ? "plane: a flat mesh with its outline" : "plane: a flat mesh, a rectangle");
     }
     return result;
-}
-
-void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane) {
-    if (plane) {
-        knurl_heap_free(heap, plane->outline);
-        knurl_heap_free(heap, plane->members);
-        knurl_heap_free(heap, plane);
-    }
-}
-
-uint64_t knurl_plane_bytes(const knurl_plane *plane) {
-    return knurl_heap_size(plane) + knurl_heap_size(plane->outline) + knurl_heap_size(plane->members);
 }

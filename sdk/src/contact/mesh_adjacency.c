@@ -1,5 +1,7 @@
 /* Which triangles hang together: for each edge what lies beyond it, and the vertices that swinging from edge to edge
  * does not get round. Linear in the number of triangles, whatever the mesh. SPDX-License-Identifier: MIT */
+#include "contact/mesh_adjacency.h"
+
 #include "contact/corner.h"
 
 #include <string.h>

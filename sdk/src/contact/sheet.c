@@ -1,7 +1,8 @@
 /* Is a mesh a flat sheet that faces one way, and which of its triangles make it? SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/sheet.h"
 
 #include "base/vec3.h"
+#include "contact/weld.h"
 
 #include <string.h>
 

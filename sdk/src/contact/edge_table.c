@@ -1,5 +1,5 @@
 /* Which edges of a sheet of triangles have a neighbour. SPDX-License-Identifier: MIT */
-#include "contact/plane_mesh.h"
+#include "contact/edge_table.h"
 
 #include <string.h>
 

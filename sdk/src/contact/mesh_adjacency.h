@@ -1,0 +1,11 @@
+/* Which triangles of a mesh share edges and vertices. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_ADJACENCY_H
+#define KNURL_SRC_MESH_ADJACENCY_H
+
+#include "contact/mesh.h"
+
+/* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
+ * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_mesh_join(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *places, uint32_t place_count);
+
+#endif

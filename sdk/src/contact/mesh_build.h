@@ -1,0 +1,11 @@
+/* From a description to a mesh that can be touched. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_BUILD_H
+#define KNURL_SRC_MESH_BUILD_H
+
+#include "contact/mesh.h"
+
+/* Copies, welds, and builds the hierarchy of what knurl_mesh_check() has let through.
+ * Errors: KNURL_ERROR_ARGUMENT (no triangle with an area), KNURL_ERROR_MEMORY. */
+knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh);
+
+#endif

@@ -1,0 +1,26 @@
+/* Surface coordinates on a mesh: by an axis, or by tangents and uvs, and how far the uvs stretch.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_FRAME_H
+#define KNURL_SRC_MESH_FRAME_H
+
+#include "contact/contact.h"
+#include "contact/mesh.h"
+
+/* Part of knurl_mesh_create(): uv_scale and stretch_u. */
+void knurl_mesh_measure_uvs(knurl_mesh *mesh);
+
+/* min, mean, max of d(surface coordinate)/d(metre along x): uvs by their own stretch, an axis by how much of it is
+ * tangent. */
+void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]);
+
+/* The surface's tangent frame at a contact (unit, tangent to the contact's normal, y = n x x), by the axis, else by
+ * tangents or uvs, and where on the grating it is (m; 0 without an axis and uvs). Allowed in a tick. */
+void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
+                      double coordinates[2]) KNURL_NONBLOCKING;
+
+/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre
+ * along the surface. 0 and untouched without an axis where the uvs have no area. Allowed in a tick. */
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
+                     double *steepest) KNURL_NONBLOCKING;
+
+#endif

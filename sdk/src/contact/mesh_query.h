@@ -1,0 +1,23 @@
+/* Questions to a mesh's hierarchy: what is nearest, what is crossed. Iterative, bounded by the number of nodes.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_QUERY_H
+#define KNURL_SRC_MESH_QUERY_H
+
+#include "contact/contact.h"
+#include "contact/mesh.h"
+
+/* The nearest point of the mesh within `radius` of p; 0 where there is none. Fills in proxy, weights and triangle. */
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
+                       knurl_contact *nearest) KNURL_NONBLOCKING;
+
+/* Where the segment from a to b first goes through a triangle: from the front, or from either side. Returns the side
+ * (+1, -1) or 0 for none. */
+int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
+                     uint32_t *triangle) KNURL_NONBLOCKING;
+
+/* A place for a stroke to begin: the first front face on, then beside, then under the mesh, as the scene sees it by
+ * `rotation` (row-major, from the mesh's axes to the scene's). A zeroed contact but for proxy, normal, weights and
+ * triangle. */
+void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor);
+
+#endif

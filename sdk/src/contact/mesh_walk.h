@@ -1,0 +1,15 @@
+/* The walk over a mesh to the local minimum of the distance, and which side of the surface a point is on there.
+ * Everything here may run in a tick. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_WALK_H
+#define KNURL_SRC_MESH_WALK_H
+
+#include "contact/closest_point.h"
+
+/* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */
+void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) KNURL_NONBLOCKING;
+
+/* Which side of the surface a point is on whose foot this is: +1 in front, -1 behind, 0 neither.
+ * *rim: whether the foot is on the rim of an open mesh. */
+int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) KNURL_NONBLOCKING;
+
+#endif

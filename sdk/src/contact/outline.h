@@ -1,0 +1,13 @@
+/* The outline of a flat sheet. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_OUTLINE_H
+#define KNURL_SRC_OUTLINE_H
+
+#include "contact/plane.h"
+#include "contact/sheet.h"
+
+/* Fills in the plane's outline, in the sheet's x and y and counter-clockwise. *error: m, how far the vertices that were
+ * left out of it lie off it. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_sheet_outline(knurl_heap *heap, const knurl_sheet *sheet, knurl_plane *plane, double *error,
+                                 const char **why);
+
+#endif
