@@ -1,9 +1,9 @@
 /* The protections of a HIP in its ticks: what they keep from a hand, and what they let through to the bit.
  * SPDX-License-Identifier: MIT */
+#include "scene/scene_internal.h"
+
 #include "support/rig.h"
 #include "support/scenes.h"
-
-#include "scene/scene_internal.h"
 
 #define K     700.0
 #define TICKS 600

@@ -250,7 +250,7 @@ static void stroke_on(knurl_scene *scene, stroke *s) {
         s->z += s->vz;
         s->vx = s->x > 0.15 || s->x < -0.06 ? -s->vx : s->vx;
         s->vz = s->z > 0.006 || s->z < -0.004 ? -s->vz : s->vz;
-        knurl_tick_input input = {{s->x, 0.003 + 0.1 * s->z, s->z}, {0.0, 0.0, 0.0}, 0, 0};
+        knurl_tick_input input = {{s->x, 0.003 + 0.1 * s->z, s->z}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
         if (s->tick % 1000 == 999) {
             input.position[1] = (double)NAN;
         }

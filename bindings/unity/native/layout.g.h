@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "12253d86eac19752"
+#define KNURL_UNITY_INTERFACE "61ad5e7f1489ec12"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -212,11 +212,14 @@
     FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 304, 4) \
     FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
     FIELD(knurl_surface_info, axis, "axis", 312, 24) \
-    STRUCT(knurl_tick_input, 56) \
+    STRUCT(knurl_tick_input, 72) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
     FIELD(knurl_tick_input, has_velocity, "has_velocity", 48, 4) \
     FIELD(knurl_tick_input, absent, "absent", 52, 4) \
+    FIELD(knurl_tick_input, attenuation, "attenuation", 56, 8) \
+    FIELD(knurl_tick_input, paused, "paused", 64, 4) \
+    FIELD(knurl_tick_input, reserved, "reserved", 68, 4) \
     STRUCT(knurl_tick_output, 224) \
     FIELD(knurl_tick_output, device_force, "device_force", 0, 24) \
     FIELD(knurl_tick_output, force, "force", 24, 24) \

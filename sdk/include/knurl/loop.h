@@ -16,7 +16,8 @@ typedef struct knurl_loop knurl_loop;
 typedef void (*knurl_force_callback)(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user);
 
 /** Sees every tick of a scene before its force is written, for recording; must keep the tick's rules. `output` is as
- * sent: with the loop's ramp in its forces. [haptic thread] */
+ * sent: with the loop's ramps in its forces, and none while the device is halted. The ramp at the end is no tick; the
+ * scene tells its forces, and after it none (knurl_scene_get_tick()). [haptic thread] */
 typedef void (*knurl_tick_callback)(const knurl_tick_output *output, void *user);
 
 /** A monotonic clock to run by, for tests. [haptic thread] */

@@ -74,8 +74,8 @@ typedef struct knurl_hip_desc {
     double update_rate_hz;   /**< KNURL_UPDATE_RATE_MIN to _MAX; 0 (default): the loop's, without one 1000 */
     double resolution;       /**< the device's position quantum, m; negative (default): as the loop's device says,
                                   without one 0.055e-3 (Touch) */
-    double max_force;        /**< N; longer forces are shortened to it; 0 (default): as the loop's device says,
-                                  without one 3.3 (Touch) */
+    double max_force;        /**< N; longer forces are shortened to it, and to the loop's device's; 0 (default): as the
+                                  loop's device says, without one 3.3 (Touch) */
     const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
     double continuous_force; /**< N that the motors can hold for ever; 0 (default): as the loop's device says, without
@@ -143,6 +143,13 @@ typedef struct knurl_tick_input {
     double velocity[3];    /**< device frame, m/s; used where has_velocity is 1 */
     uint32_t has_velocity; /**< 0: the HIP's own estimator gives the velocity */
     uint32_t absent; /**< 1: there is no position: nothing is felt, contacts are let go, the next tick is a first one */
+    double attenuation; /**< how much of the force is not sent: 0 (as in a zeroed struct): none, 1: all of it; beyond
+                             that or NaN: all of it. It is taken off what the device can play, before the slew limit,
+                           and the output, the counts and the heat are of what is left. While it is 1 the felt depth is
+                           0, so that walls come back as after an entry */
+    uint32_t paused;    /**< 1: the HIP is told, but nothing is touched: contacts end, no force, the next tick is a
+                             first one */
+    uint32_t reserved;  /**< 0 */
 } knurl_tick_input;
 
 /** Bits of knurl_tick_output.flags. */

@@ -14,6 +14,9 @@ static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_d
 
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
+/* What was shortened to the greatest force already may be longer by its rounding, and is sent as it is told. */
+#define ROUNDING 1e-15
+
 /* How far a position may be off after however short a gap, s at the greatest speed: devices that bring positions at
  * 1 kHz move in steps when they are read faster. Slower ones move further. */
 #define LEAST_GAP 0.002
@@ -201,7 +204,8 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     double safe[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(force);
     if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
-        vec3_scale(length > device->max_force ? device->max_force / length : 1.0, force, safe);
+        const double most = device->max_force * (1.0 + ROUNDING);
+        vec3_scale(length > most ? device->max_force / length : 1.0, force, safe);
     }
     if (!device->link) {
         knurl_device_before_force(device, safe);

@@ -12,37 +12,6 @@ static void report(knurl_loop *loop, int32_t code, double value) {
     knurl_events_report(&loop->desc.device->events, code, value);
 }
 
-/* The force of this tick, in device axes, from the scene or from the caller. */
-static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
-    if (loop->desc.scene) {
-        knurl_tick_input input;
-        memset(&input, 0, sizeof input);
-        memcpy(input.position, sample->position, sizeof input.position);
-        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
-        memcpy(loop->force, output->device_force, sizeof loop->force);
-    } else {
-        memset(loop->force, 0, sizeof loop->force);
-        loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
-    }
-    const double length = vec3_length(loop->force); /* ramps go from and to what the motors can play */
-    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
-    if (!(length <= most)) {
-        const double share = isfinite(length) ? most / length : 0.0;
-        if (most < loop->max_force && share > 0.0) {
-            knurl_count_up(&loop->heats);
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
-            output->device_force[axis] *= share;
-            output->force[axis] *= share;
-        }
-    }
-    if (!loop->desc.scene) {
-        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
-        knurl_store_double(&loop->theta, loop->heat.theta);
-    }
-}
-
 /* 1 while the game gives signs of life, or need not. */
 static int game_lives(knurl_loop *loop) {
     if (loop->desc.heartbeat_s == 0.0) {
@@ -60,28 +29,59 @@ static int game_lives(knurl_loop *loop) {
     return lives;
 }
 
-/* After the motors were let go of, the force climbs back over the ramp; without a sign of life it goes down by it.
- * Returns 1 where they were let go of, which lasts until this force is written: what an I/O thread has until then is
- * from before. */
-static int apply_gain(knurl_loop *loop, knurl_tick_output *output) {
+/* How much of this tick's force is sent: after the motors were let go of it climbs back over the ramp; without a sign
+ * of life it goes down by it. *was_halted: 1 where they were let go of, which lasts until this force is written: what
+ * an I/O thread has until then is from before. */
+static double next_gain(knurl_loop *loop, int *was_halted) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
-    const int was_halted = knurl_device_is_halted(loop->desc.device) != 0;
-    const int was_down = was_halted || !loop->game_lives;
+    *was_halted = knurl_device_is_halted(loop->desc.device) != 0;
+    const int was_down = *was_halted || !loop->game_lives;
     const int lives = game_lives(loop);
-    loop->gain = was_halted ? 0.0 : loop->gain;
+    double gain = *was_halted ? 0.0 : loop->gain;
     if (was_down && lives && loop->ticks > 0) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
     if (!lives) {
-        loop->gain = fmax(0.0, loop->gain - step);
+        gain = fmax(0.0, gain - step);
     }
-    for (int axis = 0; axis < 3 && loop->gain < 1.0; axis++) {
-        loop->force[axis] *= loop->gain;
-        output->device_force[axis] *= loop->gain;
-        output->force[axis] *= loop->gain;
+    loop->gain = lives ? fmin(1.0, gain + step) : gain;
+    return gain;
+}
+
+/* A force of the caller's, shortened to what the motors can play: ramps go from and to that. */
+static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
+    memset(loop->force, 0, sizeof loop->force);
+    loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
+    const double length = vec3_length(loop->force);
+    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
+    if (!(length <= most)) {
+        const double share = isfinite(length) ? most / length : 0.0;
+        if (most < loop->max_force && share > 0.0) {
+            knurl_count_up(&loop->heats);
+        }
+        for (int axis = 0; axis < 3; axis++) {
+            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
+        }
     }
-    if (lives) {
-        loop->gain = fmin(1.0, loop->gain + step);
+}
+
+/* The force of this tick as it is sent, from the scene or from the caller. Returns 1 where the motors had been let go
+ * of. */
+static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
+    int was_halted;
+    if (loop->desc.scene) {
+        knurl_tick_input input;
+        memset(&input, 0, sizeof input);
+        memcpy(input.position, sample->position, sizeof input.position);
+        input.attenuation = 1.0 - next_gain(loop, &was_halted);
+        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
+        vec3_copy(output->device_force, loop->force);
+        vec3_copy(output->force, loop->scene_force);
+    } else {
+        call_back(loop, sample);
+        vec3_scale(next_gain(loop, &was_halted), loop->force, loop->force);
+        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
+        knurl_store_double(&loop->theta, loop->heat.theta);
     }
     return was_halted;
 }
@@ -93,6 +93,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->beats);
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
+    memset(loop->scene_force, 0, sizeof loop->scene_force);
     if (loop->desc.scene) {
         knurl_tick_input input;
         knurl_tick_output output;
@@ -120,9 +121,8 @@ static int run_tick(knurl_loop *loop) {
     }
     memset(&output, 0, sizeof output);
     const int64_t before = loop->clock.now_ns(loop->clock.user);
-    make_force(loop, &sample, &output);
+    const int was_halted = make_force(loop, &sample, &output);
     knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
-    const int was_halted = apply_gain(loop, &output);
     if (loop->desc.scene && loop->desc.tick_callback) {
         loop->desc.tick_callback(&output, loop->desc.user);
     }
@@ -145,16 +145,37 @@ static uint64_t ramp_steps(const knurl_loop *loop) {
     return (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
 }
 
+/* What was sent without a tick. */
+static void tell_force(knurl_loop *loop, double gain, double force[3]) {
+    double scene_force[3];
+    vec3_scale(gain, loop->force, force);
+    vec3_scale(gain, loop->scene_force, scene_force);
+    if (loop->desc.scene) {
+        knurl_scene_tell_force(loop->desc.scene, loop->desc.hip, scene_force, force);
+    } else {
+        knurl_heat_add(&loop->heat, vec3_dot(force, force));
+        knurl_store_double(&loop->theta, loop->heat.theta);
+    }
+}
+
+void knurl_loop_tell_none(knurl_loop *loop) {
+    double force[3];
+    tell_force(loop, 0.0, force);
+}
+
 /* From the latest force down to none. The device is still read: it may need that to write. Returns 0 after the last. */
 static int ramp_down(knurl_loop *loop) {
     const uint64_t steps = ramp_steps(loop);
     if (loop->ramp_step >= steps) {
         return 0;
     }
-    const double gain = 1.0 - (double)++loop->ramp_step / (double)steps;
-    const double force[3] = {gain * loop->force[0], gain * loop->force[1], gain * loop->force[2]};
+    double gain = 1.0 - (double)++loop->ramp_step / (double)steps;
+    double force[3];
     knurl_device_sample sample;
-    if (knurl_device_read(loop->desc.device, &sample) || knurl_device_write(loop->desc.device, force)) {
+    const knurl_result result = knurl_device_read(loop->desc.device, &sample);
+    gain = result || knurl_device_is_halted(loop->desc.device) ? 0.0 : gain;
+    tell_force(loop, gain, force);
+    if (result || knurl_device_write(loop->desc.device, force)) {
         loop->ramp_step = steps; /* what does not answer cannot be ramped down */
     }
     knurl_count_up(&loop->beats);
@@ -169,6 +190,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = loop->desc.device;
     knurl_device_halt(device);
+    knurl_loop_tell_none(loop);
     if (device->link || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
         (void)knurl_device_write(device, none);
     }

@@ -72,6 +72,7 @@ static void look_for_stall(knurl_loop *loop, keeper *k, double nap) {
         return; /* its last call came just now */
     }
     knurl_device_halt(device);
+    knurl_loop_tell_none(loop);
     knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
     knurl_store_release(&device->lost, 1u);
     if (!loop->desc.reconnect) {

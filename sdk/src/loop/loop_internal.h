@@ -31,11 +31,12 @@ struct knurl_loop {
     knurl_thread *thread;
     knurl_thread *keeper; /* the watchdog, and who looks for a lost device */
     knurl_pace pace;
-    double force[3];    /* the latest, device axes, N */
-    double gain;        /* 0..1 on the force: climbs back after the watchdog let go */
-    double max_force;   /* N: the device's */
-    knurl_heat heat;    /* of the motors that a callback drives; a scene's HIP keeps its own */
-    uint64_t ramp_step; /* done, of the ramp at the end */
+    double force[3];       /* the latest, as sent, device axes, N */
+    double scene_force[3]; /* the same in scene axes; 0 without a scene */
+    double gain;           /* 0..1 on the next force: climbs back after the watchdog let go */
+    double max_force;      /* N: the device's */
+    knurl_heat heat;       /* of the motors that a callback drives; a scene's HIP keeps its own */
+    uint64_t ramp_step;    /* done, of the ramp at the end */
     int was_overrun;
     int is_lost;       /* for good */
     int64_t served_at; /* ns: the latest call by a device that owns the servo thread; 0: none */
@@ -70,6 +71,9 @@ int knurl_loop_at_end(const knurl_loop *loop);
 
 /* One beat: a tick, a beat without a position, or at the end a step of the ramp. Returns 0 after the last. */
 int knurl_loop_beat(knurl_loop *loop);
+
+/* Tells the scene that no force is sent any more. Where the haptic thread is, or while it cannot run. */
+void knurl_loop_tell_none(knurl_loop *loop);
 
 /* Lets go of the motors for good. The last that is done with a loop by its haptic thread. */
 void knurl_loop_end(knurl_loop *loop, int32_t state);

@@ -231,7 +231,18 @@ static void limit_slew(const knurl_guard *guard, double force[3], uint32_t *flag
     }
 }
 
+/* Of a force that the motors could play: ramps go from and to that. */
+static void attenuate(knurl_guard *guard, double force[3]) {
+    const double length = vec3_length(force);
+    const double most = knurl_heat_limit(&guard->heat);
+    vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
+    guard->step *= guard->gain;
+}
+
 double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
+    if (guard->gain < 1.0) {
+        attenuate(guard, force);
+    }
     limit_slew(guard, force, flags);
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
@@ -246,6 +257,11 @@ double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
     }
     guard->step = 0.0;
     return length;
+}
+
+void knurl_guard_sent(knurl_guard *guard, const double force[3]) {
+    vec3_copy(force, guard->force);
+    knurl_heat_add(&guard->heat, vec3_dot(force, force));
 }
 
 void knurl_guard_let_go(knurl_guard *guard) {

@@ -110,6 +110,7 @@ typedef struct knurl_guard {
     double slew;     /* N that the force may grow or turn in a tick */
     double step;     /* N: of that tick's textures */
     double left;     /* m: depth felt where the HIP slid off a surface, for the one that it is handed to */
+    double gain;     /* on the force of this tick, 0 to 1 */
     int32_t clamp;   /* 1: within bounds */
     knurl_passivity passivity;
     knurl_heat heat;
@@ -125,8 +126,9 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_des
                             knurl_guard_wall *wall) KNURL_NONBLOCKING;
 void knurl_guard_watch(knurl_passivity *passivity, knurl_guard_wall *wall, uint32_t *flags) KNURL_NONBLOCKING;
 
-/* A tick begins. */
-static inline void knurl_guard_begin(knurl_guard *guard) {
+/* A tick begins, of whose force `attenuation` is not sent. */
+static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
+    guard->gain = attenuation >= 0.0 && attenuation <= 1.0 ? 1.0 - attenuation : 0.0;
     if (guard->passivity.busy) {
         knurl_guard_follow(&guard->passivity);
     }
@@ -154,10 +156,14 @@ static inline void knurl_guard_clamp(const knurl_guard *guard, const knurl_mater
     }
 }
 
-/* The depth that is felt grows as a ramp; outside nothing is touched. */
+/* The depth that is felt grows as a ramp; outside, and while no force is sent, nothing is felt. */
 static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
                                      uint32_t *flags) {
     const double most = contact->depth + guard->entry;
+    if (guard->gain == 0.0) {
+        contact->depth = 0.0;
+        return;
+    }
     if (-wall->felt > most) {
         *flags |= KNURL_TICK_ENTRY;
         wall->felt = -most;
@@ -184,9 +190,13 @@ static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *
     contact->height = height;
 }
 
-/* The force that is sent, in place: within slew_rate of the latest but for the textures' steps and what falls, within
- * what the motors can do now. Returns its length, N; NaN or infinite where the force was. */
+/* The force that is sent, in place: what the attenuation leaves of it, within slew_rate of the latest but for the
+ * textures' steps and what falls, within what the motors can do now. Returns its length, N; NaN or infinite where the
+ * force was. */
 double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
+
+/* A force was sent without a tick, for as long as a tick. */
+void knurl_guard_sent(knurl_guard *guard, const double force[3]) KNURL_NONBLOCKING;
 
 /* After a tick that is not to be trusted: no force was sent. The motors are as warm as they are. */
 void knurl_guard_let_go(knurl_guard *guard) KNURL_NONBLOCKING;

@@ -29,11 +29,12 @@ static double from_zero(double given, double device) {
     return given < 0.0 ? device : given; /* NaN is refused later */
 }
 
-/* What the description says counts, then what the device says. */
-static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device) {
+/* What the description says counts, then what the device says; but no force beyond `strongest` (N). */
+static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest) {
+    const double max_force = d->max_force != 0.0 ? d->max_force : device->max_force; /* NaN is refused later */
     const knurl_hip_facts made = {d->update_rate_hz != 0.0 ? d->update_rate_hz : device->rate,
                                   from_zero(d->resolution, device->resolution),
-                                  d->max_force != 0.0 ? d->max_force : device->max_force,
+                                  max_force > strongest ? strongest : max_force,
                                   above_zero(d->continuous_force, device->continuous_force),
                                   above_zero(d->heat_time, device->heat_time),
                                   from_zero(d->viscous, device->viscous),
@@ -79,10 +80,11 @@ static knurl_result check_facts(const knurl_hip_facts *facts) {
 }
 
 /* Under the lock: editing threads look at the HIPs' times. Sets a HIP up anew; `device` stands for what the description
- * leaves open. */
-static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device) {
+ * leaves open, `strongest` (N) is the force that it has. */
+static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
+                           double strongest) {
     knurl_hip made;
-    const knurl_hip_facts facts = settle(d, device);
+    const knurl_hip_facts facts = settle(d, device, strongest);
     memset(&made, 0, sizeof made);
     made.given = *d;
     made.given.workspace = NULL; /* the caller's; kept by value below */
@@ -120,7 +122,7 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
         knurl_scene_lock(scene);
-        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch);
+        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
         knurl_scene_unlock(scene);
     }
     return result;
@@ -141,7 +143,7 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
     }
     d.workspace = h->centred ? NULL : &workspace;
     knurl_scene_lock(scene);
-    result = set_up(scene, h, &d, facts);
+    result = set_up(scene, h, &d, facts, facts->max_force);
     knurl_scene_unlock(scene);
     return result;
 }

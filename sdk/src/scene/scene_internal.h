@@ -233,6 +233,11 @@ extern const knurl_hip_facts knurl_touch;
  * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
+/* The force (N) that the loop sent without a tick, at its end: the latest tick's is told to be this one. Where the
+ * HIP's haptic thread is, or after it has ended (motors.c). */
+void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force[3],
+                            const double device_force[3]) KNURL_NONBLOCKING;
+
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
 

@@ -400,16 +400,21 @@ static double limit_force(knurl_hip *hip, knurl_tick_output *out) {
     return length;
 }
 
-/* Nothing of this tick is to be trusted: no force, no contact, a first tick next. */
-static void let_go(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
-    const uint64_t tick = out->tick;
-    memset(out, 0, sizeof *out);
-    knurl_velocity_reset(&hip->velocity);
+/* No force, no contact, a first tick next. */
+static void end_contacts(knurl_hip *hip) {
     hip->near_count = 0;
     hip->has_previous = 0;
     hip->calm = hip->left_time = -1.0;
     hip->depth = 0.0;
     knurl_guard_let_go(&hip->guard);
+}
+
+/* Nothing of this tick is to be trusted. */
+static void let_go(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
+    const uint64_t tick = out->tick;
+    memset(out, 0, sizeof *out);
+    knurl_velocity_reset(&hip->velocity);
+    end_contacts(hip);
     out->tick = tick;
     out->event = KNURL_NO_EVENT;
     out->flags = why;
@@ -441,8 +446,14 @@ static void count_and_publish(knurl_hip *hip, double force, const knurl_tick_out
 }
 
 /* From a HIP that has been read to the force; returns its length, N. */
-static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, knurl_tick_output *out) {
-    knurl_guard_begin(&hip->guard);
+static double feel(const knurl_scene *scene, const knurl_world *world, knurl_hip *hip, const knurl_tick_input *input,
+                   knurl_tick_output *out) {
+    knurl_guard_begin(&hip->guard, input->attenuation);
+    if (input->paused) {
+        end_contacts(hip);
+        vec3_copy(out->force, out->device_force);
+        return 0.0;
+    }
     touch_all(scene, world, hip, out);
     const double length = limit_force(hip, out);
     if (out->flags & KNURL_TICK_NOT_FINITE) {
@@ -476,7 +487,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
     hip->previous_time = hip->time;
     knurl_store_double(&hip->time, time);
     if (read_hip(hip, input, output)) {
-        force = feel(scene, world, hip, output);
+        force = feel(scene, world, hip, input, output);
     } else {
         let_go(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
     }

@@ -317,6 +317,9 @@ namespace Knurl
         public fixed double velocity[3];
         public uint has_velocity;
         public uint absent;
+        public double attenuation;
+        public uint paused;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -545,7 +548,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "12253d86eac19752";
+        internal const string Interface = "61ad5e7f1489ec12";
 
         internal const string Version = "0.1.0";
 

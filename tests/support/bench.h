@@ -1,0 +1,136 @@
+/* A HIP held still in a wall by a device that tells nothing but where it is and writes down what it is sent: the
+ * Touch's 3.3 N, of which its motors hold 0.88 N for ever, with 60 s to warm up. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_BENCH_H
+#define KNURL_TEST_BENCH_H
+
+#include "support/scenes.h"
+
+#include "device/driver.h"
+
+#include <knurl/knurl.h>
+
+#define BENCH_ROOM 4096
+
+typedef struct bench {
+    knurl_device device; /* first: the driver's functions get it */
+    double position[3];
+    double written[BENCH_ROOM][3];
+    double told[BENCH_ROOM][3]; /* by the scene while the force of the same index was written */
+    uint64_t writes;
+    uint64_t writes_left; /* until the device is lost; UINT64_MAX: never */
+    uint32_t watches_writes;
+    knurl_tick_output seen; /* by the recorder, latest */
+    knurl_clock clock;
+    int64_t now;
+    knurl_scene *scene; /* a wall of 400 N/m across y = 0, front up */
+    knurl_loop_desc desc;
+    knurl_loop *loop;
+} bench;
+
+static inline bench *bench_of(void *device) {
+    return device;
+}
+
+static inline void bench_close_device(knurl_device *device) {
+    (void)device;
+}
+
+static inline void bench_info(const knurl_device *device, knurl_device_info *info) {
+    info->max_force = device->max_force;
+    info->continuous_force = 0.88;
+    info->heat_time = 60.0;
+    info->delay = 1.0;
+    info->max_stiffness = 1020.0;
+}
+
+static inline knurl_result bench_read(knurl_device *device, knurl_device_sample *sample) {
+    memset(sample, 0, sizeof *sample);
+    memcpy(sample->position, bench_of(device)->position, sizeof sample->position);
+    return KNURL_OK;
+}
+
+static inline knurl_result bench_write(knurl_device *device, const double force[3]) {
+    bench *b = bench_of(device);
+    if (b->writes_left == 0) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
+    b->writes_left -= b->writes_left != UINT64_MAX;
+    if (b->watches_writes) {
+        knurl_tick_output now;
+        assert_int_equal(knurl_scene_get_tick(b->scene, 0, &now, NULL), KNURL_OK);
+        memcpy(b->told[b->writes % BENCH_ROOM], now.device_force, sizeof now.device_force);
+    }
+    memcpy(b->written[b->writes++ % BENCH_ROOM], force, sizeof b->written[0]);
+    return KNURL_OK;
+}
+
+static const knurl_driver bench_driver = {
+    .uri = "bench", .close = bench_close_device, .get_info = bench_info, .read = bench_read, .write = bench_write};
+
+static inline void bench_record(const knurl_tick_output *output, void *user) {
+    bench_of(user)->seen = *output;
+}
+
+static inline int64_t bench_now(void *user) {
+    return bench_of(user)->now;
+}
+
+static inline void bench_sleep(int64_t deadline_ns, void *user) {
+    bench_of(user)->now = deadline_ns;
+}
+
+/** A wall and a HIP `depth` (m) below its surface; a loop's description to change before bench_create(). */
+static inline void bench_open(bench *b, double depth) {
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    surface_parts wall = surface_plane();
+    memset(b, 0, sizeof *b);
+    b->device.driver = &bench_driver;
+    b->device.max_force = 3.3;
+    b->writes_left = UINT64_MAX;
+    b->position[1] = -depth;
+    b->now = INT64_C(1000000000);
+    b->clock.now_ns = bench_now;
+    b->clock.sleep_until_ns = bench_sleep;
+    b->clock.user = b;
+    wall.desc.rotation[0] = -0.70710678118654752;
+    wall.desc.rotation[3] = 0.70710678118654752;
+    b->scene = empty_scene(1);
+    (void)add_surface(b->scene, &wall);
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.workspace = &workspace;
+    assert_int_equal(knurl_scene_configure_hip(b->scene, 0, &hip), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(b->scene), KNURL_OK);
+    knurl_loop_desc_init(&b->desc, sizeof b->desc);
+    b->desc.device = &b->device;
+    b->desc.scene = b->scene;
+    b->desc.tick_callback = bench_record;
+    b->desc.user = b;
+    b->desc.clock = &b->clock;
+}
+
+static inline void bench_create(bench *b) {
+    assert_int_equal(knurl_loop_create(&b->desc, &b->loop), KNURL_OK);
+}
+
+static inline void bench_close(bench *b) {
+    knurl_loop_destroy(b->loop);
+    knurl_scene_destroy(b->scene);
+    b->loop = NULL;
+    b->scene = NULL;
+}
+
+static inline knurl_tick_output bench_tick(const bench *b) {
+    knurl_tick_output now;
+    assert_int_equal(knurl_scene_get_tick(b->scene, 0, &now, NULL), KNURL_OK);
+    return now;
+}
+
+static inline knurl_hip_counts bench_counts(const bench *b) {
+    knurl_hip_counts counts;
+    assert_int_equal(knurl_scene_get_tick(b->scene, 0, NULL, &counts), KNURL_OK);
+    return counts;
+}
+
+#endif
