@@ -114,12 +114,3 @@ TEST(nothing_is_torn_however_fast_the_ticks_come) {
     __atomic_store_n(&is_over, 1, __ATOMIC_RELEASE);
     knurl_system_join_thread(writer);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_history_is_of_the_latest_ticks_oldest_first),
-        cmocka_unit_test(changes_of_what_is_touched_are_told_once_each),
-        cmocka_unit_test(nothing_is_torn_however_fast_the_ticks_come),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

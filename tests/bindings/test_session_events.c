@@ -362,27 +362,3 @@ TEST(a_frame_ends_however_many_faults_there_are) {
     assert_int_equal(knurl_session_next_event(s, &event), 1);
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_touch_is_told_when_it_begins_and_when_it_is_over),
-        cmocka_unit_test(a_touch_shorter_than_a_frame_is_told),
-        cmocka_unit_test(what_comes_back_within_a_frame_was_never_away),
-        cmocka_unit_test(several_touches_of_a_frame_are_told_in_their_order),
-        cmocka_unit_test(each_of_them_is_told_once_and_the_last_at_the_end),
-        cmocka_unit_test(a_surface_that_is_taken_out_is_let_go_of),
-        cmocka_unit_test(a_touch_of_what_is_gone_by_now_is_not_told),
-        cmocka_unit_test(each_start_has_its_end_however_long_nobody_asked),
-        cmocka_unit_test(closing_in_the_middle_of_fetching_leaves_one_end),
-        cmocka_unit_test(closing_before_anything_was_fetched_leaves_nothing),
-        cmocka_unit_test(opened_again_it_tells_the_old_end_first),
-        cmocka_unit_test(a_button_is_told_when_it_goes_down_and_when_it_comes_up),
-        cmocka_unit_test(every_button_has_its_number),
-        cmocka_unit_test(a_lost_device_is_told_and_then_the_end),
-        cmocka_unit_test(a_device_that_comes_back_is_told_and_goes_on),
-        cmocka_unit_test(a_device_without_a_position_plays_nothing),
-        cmocka_unit_test(faults_come_with_their_values_after_touches_and_buttons),
-        cmocka_unit_test(a_frame_ends_however_many_faults_there_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

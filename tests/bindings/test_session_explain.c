@@ -143,18 +143,3 @@ TEST(one_that_can_is_not) {
     assert_string_equal(warning, "");
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_can_be_felt_needs_no_words),
-        cmocka_unit_test(what_lies_out_of_reach_is_said_to),
-        cmocka_unit_test(reasons_have_a_line_each),
-        cmocka_unit_test(a_fault_is_its_sentence_with_value_and_unit),
-        cmocka_unit_test(texts_are_cut_off_at_their_size),
-        cmocka_unit_test(they_are_cut_off_between_characters),
-        cmocka_unit_test(what_is_no_text_at_all_is_cut_off_too),
-        cmocka_unit_test(a_stroke_that_cannot_be_laid_is_warned_of),
-        cmocka_unit_test(one_that_can_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -310,27 +310,11 @@ static void do_nothing(void *argument) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_new_session_is_closed_and_its_scene_is_empty),
-        cmocka_unit_test(the_defaults_are_a_fake_device_at_1_khz),
-        cmocka_unit_test(nothing_starts_that_is_closed),
-        cmocka_unit_test(nothing_is_opened_or_started_twice),
-        cmocka_unit_test(what_cannot_be_opened_is_named_and_leaves_it_closed),
-        cmocka_unit_test(strings_are_not_kept),
-        cmocka_unit_test(no_strings_are_a_fake_device_that_stands_still),
-        cmocka_unit_test(surfaces_outlive_runs),
-        cmocka_unit_test(surfaces_may_come_before_between_and_during_runs),
-        cmocka_unit_test(a_scene_that_the_caller_committed_is_fine),
-        cmocka_unit_test(destroying_what_runs_ends_its_threads),
-        cmocka_unit_test(all_are_closed_and_those_that_ran_are_counted),
-        cmocka_unit_test(those_that_were_destroyed_are_not_among_all),
-        cmocka_unit_test(sessions_are_destroyed_on_another_thread_while_all_are_closed),
-    };
     knurl_thread *first = knurl_system_start_thread(do_nothing, NULL, (size_t)64 * 1024);
     if (first) { /* the thread sanitizer brings one of its own along */
         knurl_system_join_thread(first);
     }
     knurl_system_sleep_until_ns(knurl_system_now_ns() + 20000000);
     others_than_ours = thread_count();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return suite_run("session_life");
 }

@@ -122,12 +122,3 @@ TEST(a_frame_asks_for_no_memory) {
     assert_true(told > 40);
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_that_is_refused_anywhere_in_a_life_is_an_error_and_leaks_nothing),
-        cmocka_unit_test(and_so_it_is_anywhere_in_a_play),
-        cmocka_unit_test(a_frame_asks_for_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

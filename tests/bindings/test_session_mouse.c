@@ -94,13 +94,3 @@ TEST(a_leap_becomes_a_move_that_devices_positions_are_believed_at) {
     assert_int_equal(knurl_device_next_event(r.device, &event), 0);
     knurl_device_close(r.device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mouse_that_never_moved_gives_no_position),
-        cmocka_unit_test(a_steady_motion_lags_25_ms_behind),
-        cmocka_unit_test(steps_at_60_hz_become_a_velocity_with_9_percent_of_ripple),
-        cmocka_unit_test(a_leap_becomes_a_move_that_devices_positions_are_believed_at),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -184,20 +184,3 @@ TEST(the_mouse_is_moved_in_the_scene) {
     CHECK_VECTOR(sample.position, expected[0], expected[1], expected[2], 0.0);
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_first_move_takes_a_sixtieth_of_a_second),
-        cmocka_unit_test(a_further_move_takes_the_time_since_the_last),
-        cmocka_unit_test(after_a_rest_a_move_is_a_first_one_again),
-        cmocka_unit_test(two_moves_of_a_tick_are_a_place),
-        cmocka_unit_test(what_moves_faster_than_10_m_per_s_leaps),
-        cmocka_unit_test(a_slow_frame_leaps_further),
-        cmocka_unit_test(a_way_begins_where_the_surface_was_added),
-        cmocka_unit_test(a_move_that_is_refused_leaves_the_way),
-        cmocka_unit_test(what_moves_while_nothing_runs_is_put_there),
-        cmocka_unit_test(the_game_moves_the_mouse_alone),
-        cmocka_unit_test(the_mouse_is_moved_in_the_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -175,14 +175,3 @@ TEST(what_cannot_be_played_is_refused) {
     assert_int_equal(state_of(s).running, 0);
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_path_gives_the_bits_of_a_loop_that_is_stepped),
-        cmocka_unit_test(so_it_does_turned_scaled_unclamped_and_at_another_rate),
-        cmocka_unit_test(rows_and_forces_are_the_scenes),
-        cmocka_unit_test(a_device_that_gets_lost_plays_fewer_ticks),
-        cmocka_unit_test(what_cannot_be_played_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -138,15 +138,3 @@ TEST(rests_are_the_same_to_a_floats_rounding) {
     b[4] = 1.0 + 1.1e-3;
     assert_int_equal(knurl_session_same_rest(a, b), 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_matrix_is_its_rotation_times_the_rest),
-        cmocka_unit_test(random_matrices_are_split),
-        cmocka_unit_test(scales_and_shears_are_the_rest),
-        cmocka_unit_test(a_rotation_in_floats_leaves_exactly_nothing),
-        cmocka_unit_test(what_has_no_volume_or_is_no_number_leaves_the_pose_as_it_was),
-        cmocka_unit_test(rests_are_the_same_to_a_floats_rounding),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

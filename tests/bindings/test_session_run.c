@@ -171,16 +171,3 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
     }
     knurl_session_destroy(s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stroke_over_the_first_surface_is_felt_and_told),
-        cmocka_unit_test(a_game_that_hangs_is_let_go_of_until_it_lives_again),
-        cmocka_unit_test(without_a_heartbeat_a_game_may_be_silent),
-        cmocka_unit_test(a_mouse_is_nowhere_until_it_moves_and_then_feels),
-        cmocka_unit_test(losing_the_device_ends_the_run_where_it_is_not_looked_for),
-        cmocka_unit_test(else_it_is_found_again),
-        cmocka_unit_test(a_game_does_what_it_likes_while_it_runs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

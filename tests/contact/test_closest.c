@@ -117,12 +117,4 @@ static int report(void **state) {
     return 0;
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(oracle_agrees_with_brute_force),
-        cmocka_unit_test(closest_point_is_the_oracles_on_smooth_meshes),
-        cmocka_unit_test(closest_point_is_the_oracles_on_rough_meshes),
-        cmocka_unit_test(closest_point_is_the_oracles_on_the_moon),
-    };
-    return cmocka_run_group_tests(tests, NULL, report);
-}
+SUITE_FIXTURES(NULL, report)

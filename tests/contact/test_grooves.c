@@ -142,13 +142,3 @@ TEST(valley_above_another_floor_keeps_its_hip) {
     }
     probe_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(proxy_does_not_lock_in_square_grooves),
-        cmocka_unit_test(fast_strokes_do_not_get_through_a_thin_wall),
-        cmocka_unit_test(second_wall_behind_a_first_holds_in_the_same_tick),
-        cmocka_unit_test(valley_above_another_floor_keeps_its_hip),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

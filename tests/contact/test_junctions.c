@@ -262,18 +262,3 @@ TEST(soup_of_everything_stays_finite_and_on_the_mesh) {
         probe_free(&p);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(three_sheets_on_one_edge_hold_on),
-        cmocka_unit_test(bow_ties_hold_on),
-        cmocka_unit_test(double_layers_hold_across_every_border),
-        cmocka_unit_test(triangles_turned_at_random_hang_together),
-        cmocka_unit_test(first_tick_behind_a_double_sided_sheet_is_behind),
-        cmocka_unit_test(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds),
-        cmocka_unit_test(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it),
-        cmocka_unit_test(t_junction_on_a_thin_plate_is_slid_over_however_deep),
-        cmocka_unit_test(soup_of_everything_stays_finite_and_on_the_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

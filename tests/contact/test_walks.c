@@ -260,14 +260,4 @@ static int report(void **state) {
     return 0;
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_contact_is_missed_on_closed_bodies),
-        cmocka_unit_test(strokes_on_wavy_sheets_are_held_at_their_depth),
-        cmocka_unit_test(strokes_on_a_sphere_are_held_at_their_depth),
-        cmocka_unit_test(strokes_on_random_heights_never_let_go),
-        cmocka_unit_test(strokes_on_the_moon_never_let_go),
-        cmocka_unit_test(what_is_felt_does_not_depend_on_the_tessellation),
-    };
-    return cmocka_run_group_tests(tests, NULL, report);
-}
+SUITE_FIXTURES(NULL, report)

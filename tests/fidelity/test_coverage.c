@@ -151,19 +151,3 @@ TEST(the_smallest_period_at_250_mm_s_is_0_36_mm) {
         CHECK_CLOSE(250.0 / top, 0.5 / scale, 1e-12);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(even_periods_reach_half_the_rate_over_whole_numbers),
-        cmocka_unit_test(odd_periods_fill_in_the_rate_over_every_whole_number),
-        cmocka_unit_test(the_mixed_case_adds_one_frequency_at_2_5_ticks),
-        cmocka_unit_test(even_periods_alone_leave_no_haptic_gap_up_to_230_hz),
-        cmocka_unit_test(odd_periods_too_leave_none_up_to_460_hz_and_461_with_0_383),
-        cmocka_unit_test(the_mixed_case_closes_the_last_gap_up_to_500_hz),
-        cmocka_unit_test(gaps_reach_from_f_1_plus_wf_to_the_neighbour),
-        cmocka_unit_test(whole_periods_alone_leave_one_band_unreached_below_0_225),
-        cmocka_unit_test(audible_steps_begin_around_28_8_hz_and_43_1_hz),
-        cmocka_unit_test(the_smallest_period_at_250_mm_s_is_0_36_mm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -214,15 +214,3 @@ TEST(the_simulated_answerer_is_the_formula_it_says) {
     const double p = 1.0 / (1.0 + exp(-difference / 0.1));
     CHECK_CLOSE(second, DRAWS * p, 4.0 * sqrt(DRAWS * p * (1.0 - p)));
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(eq14_and_its_tails_are_counts_of_outcomes),
-                                       cmocka_unit_test(thresholds_are_the_paper_s_and_those_of_the_tails),
-                                       cmocka_unit_test(designs_are_section_IV_s),
-                                       cmocka_unit_test(neighbours_are_the_next_in_figure_3),
-                                       cmocka_unit_test(blocks_hold_every_cell_once_in_an_order_that_chance_makes),
-                                       cmocka_unit_test(experiment_3_has_each_grating_once_and_either_side),
-                                       cmocka_unit_test(a_seed_makes_one_order_and_another_seed_another),
-                                       cmocka_unit_test(the_simulated_answerer_is_the_formula_it_says)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

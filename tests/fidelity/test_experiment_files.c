@@ -251,16 +251,4 @@ TEST(wrong_usage_is_2_and_one_line) {
     process_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(experiment_1_runs_unattended_to_its_end_and_the_same_again),
-                                       cmocka_unit_test(experiment_2_runs_unattended_to_its_end_and_the_same_again),
-                                       cmocka_unit_test(experiment_3_runs_unattended_to_its_end_and_the_same_again),
-                                       cmocka_unit_test(experiment_3_counts_what_the_device_cannot_give),
-                                       cmocka_unit_test(a_lost_device_leaves_no_file),
-                                       cmocka_unit_test(a_hand_that_cannot_hold_still_ends_the_session),
-                                       cmocka_unit_test(what_people_answered_is_never_written_over),
-                                       cmocka_unit_test(the_analysis_knows_whom_each_rule_prefers),
-                                       cmocka_unit_test(what_is_no_record_is_refused_with_its_line),
-                                       cmocka_unit_test(wrong_usage_is_2_and_one_line)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

@@ -202,12 +202,3 @@ TEST(keys_answer_and_the_input_s_end_is_an_error) {
     (void)close(kept);
     (void)close(ends[0]);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_trial_s_force_is_the_paper_s_schedule),
-                                       cmocka_unit_test(the_device_is_told_the_schedule_shortened_to_what_it_can_do),
-                                       cmocka_unit_test(leaving_the_sphere_lets_go_and_begins_the_trial_anew),
-                                       cmocka_unit_test(a_button_answers_when_it_goes_down_after_the_question),
-                                       cmocka_unit_test(keys_answer_and_the_input_s_end_is_an_error)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

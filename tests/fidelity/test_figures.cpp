@@ -8,14 +8,9 @@
 #include <fstream>
 #include <string>
 
-extern "C" {
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-// after the headers that it needs
-#include <cmocka.h>
+#include "support/suite.h"
 
+extern "C" {
 #include "study.h"
 }
 
@@ -65,26 +60,20 @@ void check(const char *name, int (*run)(const char *folder)) {
     compare(load(std::string(KNURL_TEST_GOLDEN) + "/" + name + ".json"), load(folder + "/" + name + ".json"), name);
 }
 
-void figure_2_signals(void ** /*state*/) {
+TEST(figure_2_signals) {
     check("signals", study_signals);
 }
 
-void figure_3_coverage(void ** /*state*/) {
+TEST(figure_3_coverage) {
     check("coverage", study_coverage);
 }
 
-void figure_4_temporal(void ** /*state*/) {
+TEST(figure_4_temporal) {
     check("temporal", study_temporal);
 }
 
-void figure_8_preferences(void ** /*state*/) {
+TEST(figure_8_preferences) {
     check("preferences", study_preferences);
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {cmocka_unit_test(figure_2_signals), cmocka_unit_test(figure_3_coverage),
-                                cmocka_unit_test(figure_4_temporal), cmocka_unit_test(figure_8_preferences)};
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -225,21 +225,3 @@ TEST(dropout_is_what_comes_a_half_cycle_late_or_never) {
     }
     CHECK_CLOSE(study_scan_dropout(&scan), 2.0 / 9.0, 1e-12L);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(s2_drifts_by_period_over_length),
-        cmocka_unit_test(s2_drift_at_three_and_a_half_ticks_is_the_papers),
-        cmocka_unit_test(s1_keeps_step_below_half_the_update_rate),
-        cmocka_unit_test(s1_is_silent_at_every_multiple_of_the_update_rate),
-        cmocka_unit_test(s1_above_half_the_update_rate_plays_the_alias),
-        cmocka_unit_test(cells_centres_on_a_diagonal_are_silent),
-        cmocka_unit_test(eq_11_crosses_as_eq_12_on_the_axes_and_twice_on_the_diagonal),
-        cmocka_unit_test(depth_that_one_sided_contact_needs),
-        cmocka_unit_test(s2_freezes_for_the_event_of_its_first_tick),
-        cmocka_unit_test(s2_is_balanced_where_s1_pushes),
-        cmocka_unit_test(spurious_energy_of_three_ticks_is_a_quarter),
-        cmocka_unit_test(dropout_is_what_comes_a_half_cycle_late_or_never),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

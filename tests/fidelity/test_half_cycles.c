@@ -117,15 +117,3 @@ TEST(the_distance_to_a_sheet_is_that_to_its_curve) {
     }
     study_sheet_free(&sheet);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(on_a_plane_every_half_cycle_is_the_same),
-        cmocka_unit_test(on_a_sheet_of_1k_triangles_no_half_cycle_is_lost),
-        cmocka_unit_test(on_a_sheet_of_10k_triangles_no_half_cycle_is_lost),
-        cmocka_unit_test(on_a_sheet_of_100k_triangles_no_half_cycle_is_lost),
-        cmocka_unit_test(facets_are_felt_as_deep_as_they_are_and_lose_no_half_cycle),
-        cmocka_unit_test(the_distance_to_a_sheet_is_that_to_its_curve),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -192,21 +192,3 @@ TEST(the_measure_tells_a_cycle_too_few_or_too_many) {
     CHECK_CLOSE(step.played - step.crossed, 1.0, 1e-12L);
     assert_true(step.error >= 0.75);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_constant_speed_each_cycle_crossed_is_played_and_in_step),
-        cmocka_unit_test(at_2_5_and_10_khz_as_well),
-        cmocka_unit_test(at_500_and_250_hz_as_well),
-        cmocka_unit_test(at_constant_speed_no_event_is_longer_or_shorter_than_can_be_felt),
-        cmocka_unit_test(s2_loses_step_at_constant_speed),
-        cmocka_unit_test(what_follows_the_position_is_never_out),
-        cmocka_unit_test(in_strokes_from_rest_it_is_in_step_all_the_way),
-        cmocka_unit_test(in_strokes_to_and_fro_as_well),
-        cmocka_unit_test(from_an_encoders_counts_it_is_within_half_a_cycle),
-        cmocka_unit_test(s2_is_out_by_hundreds_of_cycles_in_strokes),
-        cmocka_unit_test(the_crossover_is_where_events_begin_to_keep_up_with_a_stroke),
-        cmocka_unit_test(the_measure_tells_a_cycle_too_few_or_too_many),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -112,14 +112,3 @@ TEST(bench_passes_what_a_mass_in_a_spring_and_damper_does) {
         study_signal_free(&measured);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(published_cells_are_as_many_as_the_paper_says),
-        cmocka_unit_test(rank_correlations_with_ties),
-        cmocka_unit_test(bench_reads_what_the_appendix_says),
-        cmocka_unit_test(bench_passes_a_slow_square_less_the_dry_friction),
-        cmocka_unit_test(bench_passes_what_a_mass_in_a_spring_and_damper_does),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -200,22 +200,3 @@ TEST(a_square_wave_is_a_sinusoid_of_4_over_pi_or_of_root_2) {
         study_signal_free(&square);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(even_periods_have_the_ideal_fundamental_in_every_method),
-        cmocka_unit_test(t1_nets_a_over_n_at_odd_periods_and_a_fifth_at_2_5),
-        cmocka_unit_test(t2_and_t3_have_no_net_force),
-        cmocka_unit_test(t1_and_t3_correlate_fully_at_every_whole_period),
-        cmocka_unit_test(at_2_5_ticks_t2_and_t3_are_the_most_alike),
-        cmocka_unit_test(t2_shares_nothing_with_the_others_at_odd_periods),
-        cmocka_unit_test(t1_lies_below_the_ideal_by_a_cosine_at_odd_periods),
-        cmocka_unit_test(t3_is_t1_scaled_and_still_below_the_ideal),
-        cmocka_unit_test(t2_is_dominated_by_the_even_period_above_odd_ones),
-        cmocka_unit_test(t2_is_below_the_ideal_at_every_period_that_is_not_even),
-        cmocka_unit_test(at_2_5_ticks_t2_is_the_nearest_to_the_ideal),
-        cmocka_unit_test(dominant_components_are_the_printed_ones),
-        cmocka_unit_test(a_square_wave_is_a_sinusoid_of_4_over_pi_or_of_root_2),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

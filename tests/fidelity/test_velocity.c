@@ -118,16 +118,3 @@ TEST(ten_kilohertz_is_no_worse_than_one) {
         assert_true(published.rms > 9.0 * fast.rms); /* 15 ticks of 10 kHz are 1.5 ms */
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_difference_is_late_by_half_a_tick_and_pulses_by_a_count_a_tick),
-        cmocka_unit_test(a_low_pass_is_late_by_its_phase_at_two_strokes_a_second),
-        cmocka_unit_test(below_a_count_in_15_ms_every_foaw_pulses),
-        cmocka_unit_test(nothing_is_biased),
-        cmocka_unit_test(thirds_of_foaws_window_are_ahead_from_5_mm_s_on),
-        cmocka_unit_test(s2_plays_what_is_crossed_to_1_percent_from_5_mm_s_on),
-        cmocka_unit_test(ten_kilohertz_is_no_worse_than_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

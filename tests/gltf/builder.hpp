@@ -13,11 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <csetjmp>
-#include <cstdarg>
-extern "C" {
-#include <cmocka.h>
-}
+#include "support/suite.h"
 
 namespace builder {
 

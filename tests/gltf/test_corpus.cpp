@@ -83,7 +83,7 @@ void count(Counts &counts, const fs::path &path, knurl_result result, const Load
         std::printf("%s: %s\n", path.filename().c_str(), knurl_error_message());
 }
 
-void validator_files_load_or_fail_cleanly(void **) {
+TEST(validator_files_load_or_fail_cleanly) {
     Counts plain_counts;
     Counts tagged_counts[2];
     for (const fs::path &path : files_below(corpus() / "validator")) {
@@ -111,7 +111,7 @@ void validator_files_load_or_fail_cleanly(void **) {
     assert_true(tagged_counts[1].loaded + tagged_counts[1].failed > 50); // their positions are all 0: without area
 }
 
-void a_real_untagged_file_loads_as_nothing(void **) {
+TEST(a_real_untagged_file_loads_as_nothing) {
     Loaded loaded;
     const std::string path = (corpus() / "moon/moon_petavius_crater.gltf").string();
     assert_int_equal(knurl_gltf_load_file(loaded.scene, path.c_str(), &loaded.report), KNURL_OK);
@@ -119,7 +119,7 @@ void a_real_untagged_file_loads_as_nothing(void **) {
     assert_true(loaded.report.skipped > 0);
 }
 
-void a_real_file_with_tags_loads_with_its_geometry(void **) {
+TEST(a_real_file_with_tags_loads_with_its_geometry) {
     const fs::path path = corpus() / "moon/moon_petavius_crater.gltf";
     Loaded loaded;
     loaded.assert_loads(tagged(bytes_of(path), false), path.parent_path().string().c_str());
@@ -138,10 +138,5 @@ int main() {
         std::printf("SKIPPED: no corpus of glTF files in %s (set KNURL_CORPUS)\n", corpus().c_str());
         return 77;
     }
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(validator_files_load_or_fail_cleanly),
-        cmocka_unit_test(a_real_untagged_file_loads_as_nothing),
-        cmocka_unit_test(a_real_file_with_tags_loads_with_its_geometry),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
+    return suite_run("corpus");
 }

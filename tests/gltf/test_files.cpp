@@ -63,7 +63,7 @@ void assert_uri_fails(const Folder &folder, const std::string &uri, knurl_result
     assert_file_fails(folder.write("in/a.gltf", quad().json(uri)), code, parts);
 }
 
-void both_containers_and_both_endings(void **) {
+TEST(both_containers_and_both_endings) {
     const Folder folder;
     knurl_gltf_report report;
     knurl_gltf_report_init(&report, sizeof report);
@@ -77,7 +77,7 @@ void both_containers_and_both_endings(void **) {
     assert_int_equal(knurl_scene_surface_count(both.scene), 2);
 }
 
-void names_and_kinds_of_files(void **) {
+TEST(names_and_kinds_of_files) {
     const Folder folder;
     assert_file_fails(folder.path("none.glb"), KNURL_ERROR_IO, {"no such file"});
     assert_file_fails(folder.write("a.obj", quad().glb()), KNURL_ERROR_FORMAT,
@@ -96,7 +96,7 @@ void names_and_kinds_of_files(void **) {
     assert_file_fails(folder.path("big.glb"), KNURL_ERROR_IO, {"expected at most 1 GiB, found 1073741825 bytes"});
 }
 
-void arguments_are_checked(void **) {
+TEST(arguments_are_checked) {
     Loaded loaded;
     assert_int_equal(knurl_gltf_load_file(nullptr, "a.glb", nullptr), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_gltf_load_file(loaded.scene, nullptr, nullptr), KNURL_ERROR_ARGUMENT);
@@ -116,7 +116,7 @@ void arguments_are_checked(void **) {
     assert_int_equal(knurl_scene_surface_count(loaded.scene), 1);
 }
 
-void external_buffers(void **) {
+TEST(external_buffers) {
     const Folder folder;
     const std::string bin = quad().bin;
     fs::create_directory(folder.root / "in/sub");
@@ -136,7 +136,7 @@ void external_buffers(void **) {
     assert_int_equal(result, KNURL_OK);
 }
 
-void external_buffers_that_are_out_of_reach(void **) {
+TEST(external_buffers_that_are_out_of_reach) {
     const Folder folder;
     folder.write("secret.bin", quad().bin);
     folder.write("in/short.bin", "abc");
@@ -164,7 +164,7 @@ void external_buffers_that_are_out_of_reach(void **) {
     assert_uri_fails(folder, "short.bin", KNURL_ERROR_FORMAT, {"expected 92 bytes (byteLength), found 3"});
 }
 
-void buffers_that_nothing_tagged_needs_are_not_read(void **) {
+TEST(buffers_that_nothing_tagged_needs_are_not_read) {
     File file = quad();
     file.buffers = R"({"byteLength":)" + std::to_string(file.bin.size()) +
                    R"(},{"byteLength":9,"uri":"none.bin"},{"byteLength":-1,"uri":5},7)";
@@ -178,7 +178,7 @@ void buffers_that_nothing_tagged_needs_are_not_read(void **) {
     assert_int_equal(Loaded(file.json()).report.skipped, 1);
 }
 
-void memory_reads_from_a_folder_only_where_one_is_given(void **) {
+TEST(memory_reads_from_a_folder_only_where_one_is_given) {
     const Folder folder;
     folder.write("in/a.bin", quad().bin);
     const std::string json = quad().json("a.bin");
@@ -188,7 +188,7 @@ void memory_reads_from_a_folder_only_where_one_is_given(void **) {
     assert_fails(json, KNURL_ERROR_IO, {"no folder '"}, folder.path("nowhere").c_str());
 }
 
-void data_uris(void **) {
+TEST(data_uris) {
     const std::string text = base64(quad().bin); // 92 bytes: ends in one "="
     const auto load = [&](const std::string &uri) { return Loaded().load(quad().json(uri)); };
     assert_int_equal(load("data:application/gltf-buffer;base64," + text), KNURL_OK);
@@ -207,7 +207,7 @@ void data_uris(void **) {
     fails("data:", {"expected data:TYPE;base64,TEXT"});
 }
 
-void buffers_without_a_uri(void **) {
+TEST(buffers_without_a_uri) {
     assert_fails(quad().json(), KNURL_ERROR_FORMAT, {"buffer 0: uri: missing"});
     assert_fails(builder::glb(quad().json(), ""), KNURL_ERROR_FORMAT, {"buffer 0: uri: missing"});
     assert_fails(builder::glb(quad().json(), "1234"), KNURL_ERROR_FORMAT,
@@ -219,7 +219,7 @@ void buffers_without_a_uri(void **) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"buffer 1: uri: missing"});
 }
 
-void required_extensions(void **) {
+TEST(required_extensions) {
     const auto with = [](const std::string &names) {
         File file = quad();
         file.more = R"(,"extensionsRequired":)" + names;
@@ -239,7 +239,7 @@ void required_extensions(void **) {
     assert_fails(with("[1]").glb(), KNURL_ERROR_FORMAT, {"extensionsRequired: expected an array of strings, found 1"});
 }
 
-void versions_of_the_asset(void **) {
+TEST(versions_of_the_asset) {
     const auto with = [](const std::string &asset) {
         File file = quad();
         file.asset = R"("asset":)" + asset;
@@ -254,7 +254,7 @@ void versions_of_the_asset(void **) {
     assert_fails("{}", KNURL_ERROR_FORMAT, {"asset: missing"});
 }
 
-void json_mistakes_say_where(void **) {
+TEST(json_mistakes_say_where) {
     assert_fails("{\n  \"asset\": {,}}", KNURL_ERROR_FORMAT, {"JSON: parse error at line 2, column 13"});
     assert_fails(quad_with(R"({"knurl":{"version":1,"stiffness":NaN}})").glb(), KNURL_ERROR_FORMAT,
                  {"JSON: parse error"});
@@ -270,21 +270,3 @@ void json_mistakes_say_where(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(both_containers_and_both_endings),
-        cmocka_unit_test(names_and_kinds_of_files),
-        cmocka_unit_test(arguments_are_checked),
-        cmocka_unit_test(external_buffers),
-        cmocka_unit_test(external_buffers_that_are_out_of_reach),
-        cmocka_unit_test(buffers_that_nothing_tagged_needs_are_not_read),
-        cmocka_unit_test(memory_reads_from_a_folder_only_where_one_is_given),
-        cmocka_unit_test(data_uris),
-        cmocka_unit_test(buffers_without_a_uri),
-        cmocka_unit_test(required_extensions),
-        cmocka_unit_test(versions_of_the_asset),
-        cmocka_unit_test(json_mistakes_say_where),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

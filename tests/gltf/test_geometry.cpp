@@ -37,7 +37,7 @@ const std::vector<float> &square() {
     return corners;
 }
 
-void indices_of_each_width_and_none(void **) {
+TEST(indices_of_each_width_and_none) {
     const auto check = [](const File &file) {
         const knurl_surface_info info = Loaded(file.glb()).info();
         assert_int_equal(info.triangle_count, 2);
@@ -50,7 +50,7 @@ void indices_of_each_width_and_none(void **) {
     check(plain({0, 0, 0, 0.1F, 0, 0, 0.1F, 0.1F, 0, 0, 0, 0, 0.1F, 0.1F, 0, 0, 0.1F, 0}));
 }
 
-void strips_turn_each_second_triangle(void **) {
+TEST(strips_turn_each_second_triangle) {
     File file = plain({0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0, 0.1F, 0.1F, 0, 0, 0.2F, 0}, mode_strip);
     knurl_surface_info info = Loaded(file.glb()).info();
     assert_int_equal(info.triangle_count, 3);
@@ -68,7 +68,7 @@ void strips_turn_each_second_triangle(void **) {
     assert_int_equal(Loaded(file.glb()).info().triangle_count, 2);
 }
 
-void fans_start_at_their_first_vertex(void **) {
+TEST(fans_start_at_their_first_vertex) {
     knurl_surface_info info = Loaded(plain(square(), mode_fan).glb()).info();
     assert_int_equal(info.triangle_count, 2);
     assert_near(info.anchor_normal, {0, 0, 1});
@@ -78,13 +78,13 @@ void fans_start_at_their_first_vertex(void **) {
     assert_near(info.anchor_normal, {0, 0, 1});
 }
 
-void mirrored_strips_face_out_too(void **) {
+TEST(mirrored_strips_face_out_too) {
     File file = plain({0, 0, 0, 0, 0, 0, 0, 0.1F, 0, 0.1F, 0, 0}, mode_strip);
     file.nodes = R"({"mesh":0,"scale":[-1,1,1]})";
     assert_near(Loaded(file.glb()).info().anchor_normal, {0, 0, 1});
 }
 
-void other_modes_and_odd_counts_are_refused(void **) {
+TEST(other_modes_and_odd_counts_are_refused) {
     assert_file_fails(plain(square(), R"(,"mode":0)"), {"node 0, mesh 0, primitive 0: mode", "found POINTS"});
     assert_file_fails(plain(square(), R"(,"mode":3)"), {"mode: expected triangles", "found LINE_STRIP"});
     assert_file_fails(plain(square(), R"(,"mode":7)"),
@@ -94,12 +94,12 @@ void other_modes_and_odd_counts_are_refused(void **) {
     assert_file_fails(indexed<uint8_t>(UBYTE, square(), {0, 1, 2, 0}), {"expected a multiple of 3", "found 4"});
 }
 
-void surfaces_without_area_name_the_object(void **) {
+TEST(surfaces_without_area_name_the_object) {
     assert_file_fails(plain({0, 0, 0, 1, 0, 0, 2, 0, 0}), {"node 0, mesh 0, primitive 0: ", "area"},
                       KNURL_ERROR_ARGUMENT);
 }
 
-void integer_positions_are_quantised_ones(void **) {
+TEST(integer_positions_are_quantised_ones) {
     const auto quantised = [](auto kind, Type type, const std::vector<decltype(kind)> &values, const char *extra) {
         File file;
         file.more = R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
@@ -117,7 +117,7 @@ void integer_positions_are_quantised_ones(void **) {
     assert_bounds(quantised(uint8_t{}, UBYTE, {0, 0, 0, 255, 0, 0, 0, 51, 0}, ""), {0, 0, 0}, {255, 51, 0});
 }
 
-void normalised_uvs_give_the_direction(void **) {
+TEST(normalised_uvs_give_the_direction) {
     const auto with_uvs = [](auto kind, Type type, const std::vector<decltype(kind)> &values) {
         File file;
         file.vec3({0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0});
@@ -131,7 +131,7 @@ void normalised_uvs_give_the_direction(void **) {
     assert_near(with_uvs(int8_t{}, BYTE, {0, 0, 0, 127, -127, 0}).anchor_x, {0, -1, 0});
 }
 
-void interleaved_attributes(void **) {
+TEST(interleaved_attributes) {
     File file;
     // x, y, z, u, v a vertex: 20 bytes apart.
     const int view = file.view<float>({0, 0, 0, 0, 0, 0.1F, 0, 0, 0, 1, 0, 0.1F, 0, 1, 0}, R"(,"byteStride":20)");
@@ -143,7 +143,7 @@ void interleaved_attributes(void **) {
     assert_near(info.anchor_x, {0, 1, 0});
 }
 
-void sparse_elements_replace_dense_ones(void **) {
+TEST(sparse_elements_replace_dense_ones) {
     File file;
     const int dense = file.view<float>({0, 0, 0, 0.1F, 0, 0, 0, 9, 0});
     const int indices = file.view<uint16_t>({2});
@@ -154,7 +154,7 @@ void sparse_elements_replace_dense_ones(void **) {
     assert_bounds(plain(file, 0), {0, 0, 0}, {0.1, 0.3, 0});
 }
 
-void sparse_elements_over_zeros(void **) {
+TEST(sparse_elements_over_zeros) {
     File file;
     const int indices = file.view<uint8_t>({1, 2});
     const int values = file.view<float>({0.1F, 0, 0, 0, 0.2F, 0});
@@ -164,7 +164,7 @@ void sparse_elements_over_zeros(void **) {
     assert_bounds(plain(file, 0), {0, 0, 0}, {0.1, 0.2, 0});
 }
 
-void bad_sparse_elements_are_refused(void **) {
+TEST(bad_sparse_elements_are_refused) {
     const auto with = [](uint8_t index, const std::string &count, const char *type) {
         File file;
         file.view<uint8_t>({1, index});
@@ -189,7 +189,7 @@ void bad_sparse_elements_are_refused(void **) {
     assert_file_fails(plain(file, 0), {"accessor 0: sparse.values: missing"});
 }
 
-void positions_that_are_not_finite_name_mesh_and_attribute(void **) {
+TEST(positions_that_are_not_finite_name_mesh_and_attribute) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
     assert_file_fails(plain({0, 0, 0, 0.1F, 0, 0, 0, nan, 0}),
@@ -201,7 +201,7 @@ void positions_that_are_not_finite_name_mesh_and_attribute(void **) {
     assert_file_fails(file, {"mesh 0, primitive 0: TEXCOORD_0 (accessor 1): element 0", "found NaN"});
 }
 
-void attributes_of_wrong_shape_are_refused(void **) {
+TEST(attributes_of_wrong_shape_are_refused) {
     File file;
     file.vec3({0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0});
     file.vec2({0, 0, 1, 0});
@@ -225,7 +225,7 @@ void attributes_of_wrong_shape_are_refused(void **) {
     assert_file_fails(plain(file, 0), {"POSITION (accessor 0): componentType", "found 5125"});
 }
 
-void indices_beyond_the_vertices_are_refused(void **) {
+TEST(indices_beyond_the_vertices_are_refused) {
     assert_file_fails(indexed<uint16_t>(USHORT, square(), {0, 1, 4}),
                       {"primitive 0: indices (accessor 1): index 2: expected below 4 (the vertices), found 4"});
     assert_file_fails(indexed<uint32_t>(UINT, square(), {0, 1, 0xFFFFFFFFU}), {"index 2", "found 4294967295"});
@@ -236,7 +236,7 @@ void indices_beyond_the_vertices_are_refused(void **) {
     assert_file_fails(file, {"accessor 1: bufferView: missing: expected one for indices"});
 }
 
-void shared_vertices_cost_each_surface_its_own(void **) {
+TEST(shared_vertices_cost_each_surface_its_own) {
     File file;
     std::vector<float> many(3000, 0.5F);
     std::copy(square().begin(), square().end(), many.begin() + 1500);
@@ -249,25 +249,3 @@ void shared_vertices_cost_each_surface_its_own(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(indices_of_each_width_and_none),
-        cmocka_unit_test(strips_turn_each_second_triangle),
-        cmocka_unit_test(fans_start_at_their_first_vertex),
-        cmocka_unit_test(mirrored_strips_face_out_too),
-        cmocka_unit_test(other_modes_and_odd_counts_are_refused),
-        cmocka_unit_test(surfaces_without_area_name_the_object),
-        cmocka_unit_test(integer_positions_are_quantised_ones),
-        cmocka_unit_test(normalised_uvs_give_the_direction),
-        cmocka_unit_test(interleaved_attributes),
-        cmocka_unit_test(sparse_elements_replace_dense_ones),
-        cmocka_unit_test(sparse_elements_over_zeros),
-        cmocka_unit_test(bad_sparse_elements_are_refused),
-        cmocka_unit_test(positions_that_are_not_finite_name_mesh_and_attribute),
-        cmocka_unit_test(attributes_of_wrong_shape_are_refused),
-        cmocka_unit_test(indices_beyond_the_vertices_are_refused),
-        cmocka_unit_test(shared_vertices_cost_each_surface_its_own),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -20,7 +20,7 @@ void assert_swap_fails(const std::string &from, const std::string &to, std::init
     assert_fails(builder::glb(swapped(file.json(), from, to), file.bin), KNURL_ERROR_FORMAT, parts);
 }
 
-void accessor_numbers(void **) {
+TEST(accessor_numbers) {
     const std::string count = R"("type":"VEC3","count":4)";
     assert_swap_fails(count, R"("type":"VEC3","count":4611686018427387904)",
                       {"accessor 0: count: expected a whole number from 1 to 2147483647, found 4611686018427387904"});
@@ -48,13 +48,13 @@ void accessor_numbers(void **) {
     assert_swap_fails(R"("accessors":[)", R"("accessors":[7,)", {"accessor 0: expected an object, found 7"});
 }
 
-void zeros_cost_no_memory(void **) {
+TEST(zeros_cost_no_memory) {
     const std::string dense = R"("bufferView":0,"componentType":5126,"type":"VEC3","count":4)";
     assert_swap_fails(dense, R"("componentType":5126,"type":"VEC3","count":268435456)",
                       {"POSITION (accessor 0): count: expected 1 to 4194304 without a bufferView, found 268435456"});
 }
 
-void buffer_view_numbers(void **) {
+TEST(buffer_view_numbers) {
     const std::string view = R"("byteOffset":0,"byteLength":48)";
     assert_swap_fails(view, R"("byteOffset":0,"byteLength":93)",
                       {"bufferView 0 ends at byte 93 of a buffer of 92 bytes"});
@@ -79,7 +79,7 @@ void buffer_view_numbers(void **) {
     assert_swap_fails(R"({"byteLength":92})", "{}", {"buffer 0: byteLength: missing"});
 }
 
-void indices_into_arrays(void **) {
+TEST(indices_into_arrays) {
     assert_swap_fails(R"("POSITION":0)", R"("POSITION":-7)",
                       {"mesh 0: primitives[0].attributes.POSITION: expected an index below 3 (accessors), found -7"});
     assert_swap_fails(R"("POSITION":0)", R"("POSITION":77)", {"attributes.POSITION: ", "found 77"});
@@ -102,7 +102,7 @@ void indices_into_arrays(void **) {
                       {"mesh 0: primitives[0]: expected an object, found 5"});
 }
 
-void nodes_that_are_no_trees(void **) {
+TEST(nodes_that_are_no_trees) {
     const auto fails = [](const std::string &nodes, std::initializer_list<const char *> parts) {
         File file = quad();
         file.nodes = nodes;
@@ -118,7 +118,7 @@ void nodes_that_are_no_trees(void **) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"scene 0: nodes: node 1 is a child of node 0"});
 }
 
-void truncated_files_fail(void **) {
+TEST(truncated_files_fail) {
     const std::string glb = quad().glb();
     const std::string gltf = quad().gltf();
     for (size_t size = 0; size < glb.size(); ++size)
@@ -137,7 +137,7 @@ void assert_clean(Loaded &loaded, const std::string &bytes) {
         assert_int_equal(knurl_scene_remove_surface(loaded.scene, knurl_scene_surface_at(loaded.scene, 0)), KNURL_OK);
 }
 
-void every_change_of_a_byte_of_the_headers_is_survived(void **) {
+TEST(every_change_of_a_byte_of_the_headers_is_survived) {
     const std::string glb = quad().glb();
     const size_t json = 20;
     const size_t bin = glb.find(std::string("BIN\0", 4)) - 4;
@@ -150,7 +150,7 @@ void every_change_of_a_byte_of_the_headers_is_survived(void **) {
         }
 }
 
-void changes_of_each_byte_of_the_json_are_survived(void **) {
+TEST(changes_of_each_byte_of_the_json_are_survived) {
     const std::string glb = quad().glb();
     Loaded loaded;
     for (size_t i = 20; i < glb.find(std::string("BIN\0", 4)) - 4; ++i)
@@ -161,7 +161,7 @@ void changes_of_each_byte_of_the_json_are_survived(void **) {
         }
 }
 
-void changes_of_each_byte_of_the_geometry_are_survived(void **) {
+TEST(changes_of_each_byte_of_the_geometry_are_survived) {
     const std::string glb = quad().glb();
     Loaded loaded;
     for (size_t i = glb.find(std::string("BIN\0", 4)) + 4; i < glb.size(); ++i)
@@ -172,7 +172,7 @@ void changes_of_each_byte_of_the_geometry_are_survived(void **) {
         }
 }
 
-void containers_that_lie(void **) {
+TEST(containers_that_lie) {
     const std::string glb = quad().glb();
     const auto with_word = [&](size_t at, uint64_t value) {
         std::string word;
@@ -197,19 +197,3 @@ void containers_that_lie(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(accessor_numbers),
-        cmocka_unit_test(zeros_cost_no_memory),
-        cmocka_unit_test(buffer_view_numbers),
-        cmocka_unit_test(indices_into_arrays),
-        cmocka_unit_test(nodes_that_are_no_trees),
-        cmocka_unit_test(truncated_files_fail),
-        cmocka_unit_test(every_change_of_a_byte_of_the_headers_is_survived),
-        cmocka_unit_test(changes_of_each_byte_of_the_json_are_survived),
-        cmocka_unit_test(changes_of_each_byte_of_the_geometry_are_survived),
-        cmocka_unit_test(containers_that_lie),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

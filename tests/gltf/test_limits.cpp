@@ -51,20 +51,20 @@ std::string chain(size_t length) {
     return file.glb();
 }
 
-void nesting_is_limited(void **) {
+TEST(nesting_is_limited) {
     assert_int_equal(Loaded(nested_quad(32)).report.surfaces, 1);
     assert_fails(nested_quad(33), KNURL_ERROR_FORMAT, {"JSON: nested deeper than 32 in materials[0].extras.x.x"});
     assert_fails(nested_quad(16000), KNURL_ERROR_FORMAT, {"JSON: nested deeper than 32"});
     assert_fails("{\"a\":" + std::string(5000000, '['), KNURL_ERROR_FORMAT, {"JSON: nested deeper than 32 in a[0][0]"});
 }
 
-void node_depth_is_limited(void **) {
+TEST(node_depth_is_limited) {
     assert_int_equal(Loaded(chain(1024)).report.surfaces, 1);
     assert_fails(chain(1025), KNURL_ERROR_FORMAT, {"node 1024: lies more than 1024 nodes deep"});
     assert_fails(chain(200000), KNURL_ERROR_FORMAT, {"node 1024: lies more than 1024 nodes deep"});
 }
 
-void surfaces_are_counted_before_they_are_made(void **) {
+TEST(surfaces_are_counted_before_they_are_made) {
     File file = quad();
     std::string primitive = file.meshes.substr(std::strlen(R"({"primitives":[)"));
     primitive.resize(primitive.size() - 2);
@@ -104,7 +104,7 @@ void *load_on_small_stack(void *failures) {
     return nullptr;
 }
 
-void a_small_stack_is_enough(void **) {
+TEST(a_small_stack_is_enough) {
     int failures = 0;
     pthread_t thread;
     pthread_attr_t attributes;
@@ -141,7 +141,7 @@ std::string sheet(uint32_t n) {
     return file.glb();
 }
 
-void a_hundred_thousand_triangles_load_within_half_a_second(void **) {
+TEST(a_hundred_thousand_triangles_load_within_half_a_second) {
     const std::string bytes = sheet(224);
     double best = 1e9;
     for (int i = 0; i < 3; ++i) {
@@ -157,14 +157,3 @@ void a_hundred_thousand_triangles_load_within_half_a_second(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(nesting_is_limited),
-        cmocka_unit_test(node_depth_is_limited),
-        cmocka_unit_test(surfaces_are_counted_before_they_are_made),
-        cmocka_unit_test(a_small_stack_is_enough),
-        cmocka_unit_test(a_hundred_thousand_triangles_load_within_half_a_second),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

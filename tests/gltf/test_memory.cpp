@@ -56,7 +56,7 @@ std::string two_surfaces() {
     return file.gltf();
 }
 
-void the_loader_without_memory(void **) {
+TEST(the_loader_without_memory) {
     const std::string bytes = two_surfaces();
     Loaded loaded(quad().glb());
     knurl_result result = KNURL_ERROR_MEMORY;
@@ -101,7 +101,7 @@ std::string three_among(unsigned untagged) {
     return file.glb();
 }
 
-void a_scene_costs_what_it_tags(void **) {
+TEST(a_scene_costs_what_it_tags) {
     const Loaded alone(three_among(0));
     const Loaded among(three_among(1000));
     assert_int_equal(alone.report.surfaces, 3);
@@ -128,7 +128,7 @@ void pool_release(void *memory, size_t /*size*/, void * /*user*/) {
     std::free(memory);
 }
 
-void the_scene_without_memory(void **) {
+TEST(the_scene_without_memory) {
     Pool pool;
     const knurl_allocator allocator = {pool_allocate, pool_release, &pool};
     const std::string bytes = two_surfaces();
@@ -155,12 +155,3 @@ void the_scene_without_memory(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(the_loader_without_memory),
-        cmocka_unit_test(the_scene_without_memory),
-        cmocka_unit_test(a_scene_costs_what_it_tags),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -18,7 +18,7 @@ knurl_surface_info placed(File file, const std::string &node) {
     return Loaded(file.glb()).info();
 }
 
-void translation_rotation_scale_chain(void **) {
+TEST(translation_rotation_scale_chain) {
     File file = triangle();
     // A quarter turn about z: x' = 1 - y, y' = x; the child stands at x = 0.5.
     file.nodes = R"({"translation":[1,0,0],"rotation":[0,0,0.70710678118654752,0.70710678118654752],"children":[1]},
@@ -30,7 +30,7 @@ void translation_rotation_scale_chain(void **) {
     assert_near(info.anchor_normal, {0, 0, 1});
 }
 
-void matrix_is_column_major(void **) {
+TEST(matrix_is_column_major) {
     // x -> y, y -> z, z -> x, then (1, 2, 3).
     const knurl_surface_info info = placed(triangle(), R"("matrix":[0,1,0,0, 0,0,1,0, 1,0,0,0, 1,2,3,1])");
     assert_near(info.bounds_min, {1, 2, 3});
@@ -39,7 +39,7 @@ void matrix_is_column_major(void **) {
     assert_near(info.anchor_normal, {1, 0, 0});
 }
 
-void non_uniform_scale_moves_geometry_and_not_the_grating(void **) {
+TEST(non_uniform_scale_moves_geometry_and_not_the_grating) {
     // x + y + z = 1 becomes x/2 + y + z = 1, whose normal is (1, 2, 2)/3; (1, -1, 0) becomes (2, -1, 0).
     const knurl_surface_info info = placed(plain({1, 0, 0, 0, 1, 0, 0, 0, 1}, "", "[1,-1,0]"), R"("scale":[2,1,1])");
     assert_near(info.bounds_max, {2, 1, 1});
@@ -49,7 +49,7 @@ void non_uniform_scale_moves_geometry_and_not_the_grating(void **) {
     assert_number(info.material.amplitude, 0.0005);
 }
 
-void shear_of_turned_and_scaled_nodes(void **) {
+TEST(shear_of_turned_and_scaled_nodes) {
     File file = triangle();
     // Turned by 45 degrees, then stretched by 2 along x: (1, 0) becomes (2, 1)/sqrt(2).
     file.nodes = R"({"scale":[2,1,1],"children":[1]},
@@ -59,7 +59,7 @@ void shear_of_turned_and_scaled_nodes(void **) {
     assert_near(info.anchor_normal, {0, 0, 1});
 }
 
-void mirrored_nodes_keep_their_front(void **) {
+TEST(mirrored_nodes_keep_their_front) {
     knurl_surface_info info = placed(triangle(), R"("scale":[-1,1,1])");
     assert_near(info.anchor_normal, {0, 0, 1});
     assert_near(info.anchor_x, {-1, 0, 0});
@@ -72,7 +72,7 @@ void mirrored_nodes_keep_their_front(void **) {
     assert_near(info.anchor_x, {-1, 0, 0});
 }
 
-void tangents_turn_as_vectors(void **) {
+TEST(tangents_turn_as_vectors) {
     File file;
     const int positions = file.vec3({0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0});
     const int tangents = file.add<float>(FLOAT, "VEC4", 4, {1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1});
@@ -82,7 +82,7 @@ void tangents_turn_as_vectors(void **) {
     assert_near(placed(file, R"("scale":[3,1,1])").anchor_x, {3 / 3.1622776601683795, 1 / 3.1622776601683795, 0});
 }
 
-void bad_transforms_name_the_node(void **) {
+TEST(bad_transforms_name_the_node) {
     const auto fails = [](const std::string &node, std::initializer_list<const char *> parts) {
         File file = triangle();
         file.nodes = R"({"mesh":0,"name":"N",)" + node + "}";
@@ -99,13 +99,13 @@ void bad_transforms_name_the_node(void **) {
     fails(R"("translation":[0,"x",0])", {"node 'N' (0): translation: expected an array of 3 numbers, found 'x'"});
 }
 
-void a_bad_transform_of_an_untagged_node_is_nobodys_concern(void **) {
+TEST(a_bad_transform_of_an_untagged_node_is_nobodys_concern) {
     File file = triangle();
     file.nodes += R"(,{"scale":[0,0,0]},{"matrix":[1]})";
     assert_int_equal(Loaded(file.glb()).report.surfaces, 1);
 }
 
-void the_scene_to_load(void **) {
+TEST(the_scene_to_load) {
     File file = triangle();
     file.nodes = R"({"mesh":0,"name":"a"},{"mesh":0,"name":"b"},{"mesh":0,"name":"c"})";
     assert_int_equal(Loaded(file.glb()).report.surfaces, 3); // no scenes: all roots
@@ -122,7 +122,7 @@ void the_scene_to_load(void **) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"scene 0: nodes: node 'a' (0) stands there twice"});
 }
 
-void names_are_stable_and_each_once(void **) {
+TEST(names_are_stable_and_each_once) {
     File file = plain({0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0});
     const std::string primitive = R"({"material":M,"attributes":{"POSITION":0}})";
     const auto with_material = [&](const char *index) {
@@ -143,7 +143,7 @@ void names_are_stable_and_each_once(void **) {
         assert_string_equal(loaded.info(i).name, expected[i]);
 }
 
-void names_differ_from_those_in_the_scene(void **) {
+TEST(names_differ_from_those_in_the_scene) {
     Loaded loaded;
     File file = triangle();
     file.nodes = R"({"mesh":0,"name":"plate"})";
@@ -153,7 +153,7 @@ void names_differ_from_those_in_the_scene(void **) {
     assert_string_equal(loaded.info(1).name, "plate (2)");
 }
 
-void double_sided_materials(void **) {
+TEST(double_sided_materials) {
     File file = triangle();
     assert_int_equal(Loaded(file.glb()).info().double_sided, 0);
     file.materials.insert(1, R"("doubleSided":true,)");
@@ -162,7 +162,7 @@ void double_sided_materials(void **) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"material 0: doubleSided: expected true or false, found 1"});
 }
 
-void skins_and_morph_targets_are_refused_where_tagged(void **) {
+TEST(skins_and_morph_targets_are_refused_where_tagged) {
     File file = triangle();
     file.nodes = R"({"mesh":0,"name":"arm","skin":0})";
     assert_fails(file.glb(), KNURL_ERROR_UNSUPPORTED, {"node 'arm' (0), mesh 0, primitive 0: skin"});
@@ -174,7 +174,7 @@ void skins_and_morph_targets_are_refused_where_tagged(void **) {
     assert_int_equal(Loaded(file.glb()).report.skipped, 1);
 }
 
-void all_surfaces_or_none(void **) {
+TEST(all_surfaces_or_none) {
     Loaded loaded(triangle().glb());
     const uint64_t bytes = knurl_scene_bytes(loaded.scene);
     File file = triangle();
@@ -185,7 +185,7 @@ void all_surfaces_or_none(void **) {
     assert_int_equal(loaded.report.surfaces, 1);
 }
 
-void a_file_can_be_loaded_after_the_commit(void **) {
+TEST(a_file_can_be_loaded_after_the_commit) {
     Loaded loaded(triangle().glb());
     assert_int_equal(knurl_scene_commit(loaded.scene), KNURL_OK);
     assert_int_equal(loaded.load(triangle().glb()), KNURL_OK);
@@ -193,24 +193,3 @@ void a_file_can_be_loaded_after_the_commit(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(translation_rotation_scale_chain),
-        cmocka_unit_test(matrix_is_column_major),
-        cmocka_unit_test(non_uniform_scale_moves_geometry_and_not_the_grating),
-        cmocka_unit_test(shear_of_turned_and_scaled_nodes),
-        cmocka_unit_test(mirrored_nodes_keep_their_front),
-        cmocka_unit_test(tangents_turn_as_vectors),
-        cmocka_unit_test(bad_transforms_name_the_node),
-        cmocka_unit_test(a_bad_transform_of_an_untagged_node_is_nobodys_concern),
-        cmocka_unit_test(the_scene_to_load),
-        cmocka_unit_test(names_are_stable_and_each_once),
-        cmocka_unit_test(names_differ_from_those_in_the_scene),
-        cmocka_unit_test(double_sided_materials),
-        cmocka_unit_test(skins_and_morph_targets_are_refused_where_tagged),
-        cmocka_unit_test(all_surfaces_or_none),
-        cmocka_unit_test(a_file_can_be_loaded_after_the_commit),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -10,7 +10,7 @@ knurl_material_desc material_of(const File &file) {
     return Loaded(file.glb()).info().material;
 }
 
-void nested_form_is_read(void **) {
+TEST(nested_form_is_read) {
     const knurl_material_desc m = material_of(
         quad_with(R"({"knurl":{"version":1,"spatial_frequency":[1000,500],"amplitude":0.0005,"stiffness":400,
                                   "damping":1.5,"friction":0.3,"orientation":0.25,"method":"S1"},"other":{"x":[1,null]}})"));
@@ -23,7 +23,7 @@ void nested_form_is_read(void **) {
     assert_int_equal(m.method, KNURL_S1);
 }
 
-void flat_form_is_read(void **) {
+TEST(flat_form_is_read) {
     const knurl_material_desc m = material_of(
         quad_with(R"({"knurl_spatial_frequency":[1000,0],"knurl_amplitude":0.33985769748687744,"knurl_stiffness":400,
                       "knurl_method":"S2","knurl_damping":0,"knurl_orientation":1,"knurl_version":1,"Prop":1})"));
@@ -33,7 +33,7 @@ void flat_form_is_read(void **) {
     assert_int_equal(m.method, KNURL_S2);
 }
 
-void method_is_locked_and_the_rest_0_unless_said(void **) {
+TEST(method_is_locked_and_the_rest_0_unless_said) {
     const knurl_material_desc m = material_of(quad());
     assert_int_equal(m.method, KNURL_LOCKED);
     assert_number(m.damping, 0);
@@ -41,7 +41,7 @@ void method_is_locked_and_the_rest_0_unless_said(void **) {
     assert_number(m.orientation, 0);
 }
 
-void every_method_is_read_by_its_name(void **) {
+TEST(every_method_is_read_by_its_name) {
     for (const auto &[name, method] : {std::pair("S1", KNURL_S1), {"S2", KNURL_S2}, {"locked", KNURL_LOCKED}}) {
         File file = quad();
         file.materials = "{" + tag(R"("method":")" + std::string(name) + '"') + "}";
@@ -49,14 +49,14 @@ void every_method_is_read_by_its_name(void **) {
     }
 }
 
-void one_spatial_frequency_is_along_x(void **) {
+TEST(one_spatial_frequency_is_along_x) {
     const knurl_material_desc m =
         material_of(quad_with(R"({"knurl":{"version":1.0,"spatial_frequency":800,"amplitude":0,"stiffness":1e2}})"));
     assert_near(m.spatial_frequency, {800, 0}, 1e-12);
     assert_number(m.stiffness, 100);
 }
 
-void mesh_overrides_material_and_node_overrides_mesh(void **) {
+TEST(mesh_overrides_material_and_node_overrides_mesh) {
     File file = quad();
     file.materials = "{" + tag(R"("damping":1)") + "}";
     file.meshes.insert(1, R"("extras":{"knurl_stiffness":500,"knurl_amplitude":0.001},)");
@@ -71,7 +71,7 @@ void mesh_overrides_material_and_node_overrides_mesh(void **) {
     assert_near(loaded.info(1).material.spatial_frequency, {1000, 0}, 1e-12);
 }
 
-void a_mesh_or_node_can_carry_the_whole_tag(void **) {
+TEST(a_mesh_or_node_can_carry_the_whole_tag) {
     File file = quad("");
     file.materials.clear();
     file.meshes.insert(1, tag() + ",");
@@ -83,7 +83,7 @@ void a_mesh_or_node_can_carry_the_whole_tag(void **) {
     assert_int_equal(loaded.report.skipped, 1);
 }
 
-void untagged_files_load_as_nothing(void **) {
+TEST(untagged_files_load_as_nothing) {
     File file = quad("");
     for (const char *extras : {"{}", "[1]", "\"text\"", "null", R"({"knurling":1,"Knurl":2})"}) {
         file.materials = R"({"extras":)" + std::string(extras) + "}";
@@ -103,7 +103,7 @@ std::string with(const std::string &key_and_value) {
     return R"({"knurl":{"version":1,)" + key_and_value + "}}";
 }
 
-void wrong_values_name_key_expected_and_found(void **) {
+TEST(wrong_values_name_key_expected_and_found) {
     const char *bars = "material 'bars' (0): ";
     assert_tag_fails(with(R"("stiffness":-400)"), {bars, "knurl.stiffness: expected a number > 0 (N/m), found -400"});
     assert_tag_fails(with(R"("stiffness":0)"), {bars, "knurl.stiffness: expected a number > 0", "found 0"});
@@ -125,7 +125,7 @@ void wrong_values_name_key_expected_and_found(void **) {
     assert_tag_fails(with(R"("method":2)"), {bars, "knurl.method: expected a string", "found 2"});
 }
 
-void flat_keys_are_named_as_they_stand(void **) {
+TEST(flat_keys_are_named_as_they_stand) {
     assert_tag_fails(R"({"knurl_stiffness":-400})", {"material 'bars' (0): knurl_stiffness: expected", "found -400"});
     assert_tag_fails(R"({"knurl_stifness":400})",
                      {"material 'bars' (0): knurl_stifness: unknown key", "knurl_stiffness"});
@@ -133,7 +133,7 @@ void flat_keys_are_named_as_they_stand(void **) {
     assert_tag_fails(R"({"knurl_version":2})", {"knurl_version: expected 1", "found 2"});
 }
 
-void form_of_the_tag_is_checked(void **) {
+TEST(form_of_the_tag_is_checked) {
     assert_tag_fails(with(R"("stifness":1)"),
                      {"knurl.stifness: unknown key; known are knurl.version, knurl.spatial_freq",
                       "knurl.amplitude, knurl.stiffness", "knurl.axis, knurl.method"});
@@ -147,7 +147,7 @@ void form_of_the_tag_is_checked(void **) {
                      {"material 'bars' (0): extras: holds both", "'knurl_amplitude'"});
 }
 
-void what_is_missing_after_merging_is_named(void **) {
+TEST(what_is_missing_after_merging_is_named) {
     File file = quad_with(R"({"knurl":{"version":1,"spatial_frequency":1000,"amplitude":0.001}})");
     file.nodes = R"({"mesh":0,"name":"plate"})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT,
@@ -157,7 +157,7 @@ void what_is_missing_after_merging_is_named(void **) {
     assert_tag_fails(R"({"knurl_version":1})", {"knurl.spatial_frequency: missing"});
 }
 
-void a_tag_that_would_be_lost_is_refused(void **) {
+TEST(a_tag_that_would_be_lost_is_refused) {
     File file = quad();
     file.nodes = R"({"mesh":0},{"name":"group",)" + tag() + "}";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"node 'group' (1): extras: a knurl tag would be lost", "no mesh"});
@@ -168,20 +168,20 @@ void a_tag_that_would_be_lost_is_refused(void **) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"mesh 0: primitives[0].extras: a knurl tag would be lost"});
 }
 
-void a_mistake_in_an_unused_material_is_told_too(void **) {
+TEST(a_mistake_in_an_unused_material_is_told_too) {
     File file = quad();
     file.materials += R"(,{"name":"spare","extras":{"knurl_amplitude":-1}})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"material 'spare' (1): knurl_amplitude"});
 }
 
-void the_axis_turns_the_grating(void **) {
+TEST(the_axis_turns_the_grating) {
     File file = quad();
     file.materials = "{" + tag(R"("axis":[0,1e-200,0])") + "}";
     assert_near(Loaded(file.glb()).info().anchor_x, {0, 1, 0});
     assert_near(Loaded(quad().glb()).info().anchor_x, {1, 0, 0}); // u runs along x
 }
 
-void long_and_odd_names_keep_the_message_readable(void **) {
+TEST(long_and_odd_names_keep_the_message_readable) {
     File file = quad();
     file.materials = R"({"name":"a\nb)" + std::string(5000, 'x') + R"(","extras":{"knurl_stiffness":-1}})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT,
@@ -189,25 +189,3 @@ void long_and_odd_names_keep_the_message_readable(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(nested_form_is_read),
-        cmocka_unit_test(flat_form_is_read),
-        cmocka_unit_test(method_is_locked_and_the_rest_0_unless_said),
-        cmocka_unit_test(every_method_is_read_by_its_name),
-        cmocka_unit_test(one_spatial_frequency_is_along_x),
-        cmocka_unit_test(mesh_overrides_material_and_node_overrides_mesh),
-        cmocka_unit_test(a_mesh_or_node_can_carry_the_whole_tag),
-        cmocka_unit_test(untagged_files_load_as_nothing),
-        cmocka_unit_test(wrong_values_name_key_expected_and_found),
-        cmocka_unit_test(flat_keys_are_named_as_they_stand),
-        cmocka_unit_test(form_of_the_tag_is_checked),
-        cmocka_unit_test(what_is_missing_after_merging_is_named),
-        cmocka_unit_test(a_tag_that_would_be_lost_is_refused),
-        cmocka_unit_test(a_mistake_in_an_unused_material_is_told_too),
-        cmocka_unit_test(the_axis_turns_the_grating),
-        cmocka_unit_test(long_and_odd_names_keep_the_message_readable),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -127,11 +127,3 @@ TEST(strokes_that_turn_are_left_alone) {
 TEST(gratings_that_are_moved_under_a_stroke_are_left_alone) {
     check_strokes(1);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strokes_that_turn_are_left_alone),
-        cmocka_unit_test(gratings_that_are_moved_under_a_stroke_are_left_alone),
-    };
-    return cmocka_run_group_tests_name("calm_strokes", tests, NULL, NULL);
-}

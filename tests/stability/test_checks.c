@@ -258,24 +258,4 @@ TEST(the_largest_clean_stiffness_grows_with_the_update_rate) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_discretised_loop_has_the_poles_that_are_known),
-        cmocka_unit_test(a_held_mass_loses_its_rest_at_the_stiffness_that_delay_and_damping_allow),
-        cmocka_unit_test(a_damped_wall_loses_its_rest_within_a_tenth_of_the_bound_and_at_the_exact_pole),
-        cmocka_unit_test(the_critical_stiffness_grows_with_the_update_rate),
-        cmocka_unit_test(the_critical_stiffness_does_not_depend_on_the_mass),
-        cmocka_unit_test(a_slow_hand_gets_back_what_it_gave_where_the_damper_takes_what_the_wall_leaks),
-        cmocka_unit_test(the_observer_finds_what_a_zigzag_gets_out_of_a_sampled_wall),
-        cmocka_unit_test(a_held_force_gives_half_k_dx_squared_a_tick_more_than_the_spring_took),
-        cmocka_unit_test(energy_that_the_texture_put_in_is_authorised),
-        cmocka_unit_test(a_quantised_wall_within_both_bounds_rests),
-        cmocka_unit_test(a_quantised_wall_with_too_little_dry_friction_buzzes),
-        cmocka_unit_test(near_the_bound_a_limit_cycle_is_there_and_is_not_felt),
-        cmocka_unit_test(a_quantised_wall_with_too_little_damping_runs_away),
-        cmocka_unit_test(dry_friction_holds_a_fall_that_is_smaller_than_it_can_take),
-        cmocka_unit_test(a_device_that_slides_loses_its_rest_where_friction_over_speed_says),
-        cmocka_unit_test(the_largest_clean_stiffness_grows_with_the_update_rate),
-    };
-    return cmocka_run_group_tests(tests, NULL, drop_signals);
-}
+SUITE_FIXTURES(NULL, drop_signals)

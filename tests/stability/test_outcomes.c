@@ -218,20 +218,4 @@ TEST(what_runs_away_raw_within_the_devices_own_limits_does_so) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_wall_below_every_bound_rests_and_gives_nothing_back),
-        cmocka_unit_test(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper),
-        cmocka_unit_test(the_reference_swings_as_a_spring_that_is_never_held),
-        cmocka_unit_test(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method),
-        cmocka_unit_test(a_grating_that_is_too_shallow_to_be_felt_is_a_rest),
-        cmocka_unit_test(a_quantised_device_without_dry_friction_buzzes_below_its_runaway),
-        cmocka_unit_test(a_runaway_grows_out_of_the_motors_work),
-        cmocka_unit_test(a_tick_of_delay_decides),
-        cmocka_unit_test(the_hand_crosses_the_surface_at_the_speed_that_was_asked_for),
-        cmocka_unit_test(a_run_repeats_bit_for_bit),
-        cmocka_unit_test(a_device_or_method_that_is_none_is_refused_with_the_librarys_message),
-        cmocka_unit_test(what_runs_away_raw_within_the_devices_own_limits_does_so),
-    };
-    return cmocka_run_group_tests(tests, NULL, drop_signals);
-}
+SUITE_FIXTURES(NULL, drop_signals)

@@ -77,7 +77,7 @@ static double check_stopped(const lab_case *raw) {
 }
 
 /* Bounces of millimetres are over within a second; what takes longer to grow is smaller, and may. */
-TEST(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults) {
+TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL, drop_signals) {
     for (size_t i = 0; i < COUNT_OF(runaways); i++) {
         lab_case c = runaway_case(&runaways[i], KNURL_UNGUARDED_ALL);
         judge_late(&c);
@@ -96,7 +96,7 @@ TEST(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults) {
 
 /* The Falcon where it begins to run away, finer than the study's maps: every grip and method, up to the maker's
  * stiffness. What swings by 0.5 to 1 mm more than the reference is not called unstable yet, nor is it calm. */
-TEST(a_finer_grid_has_no_runaway_left_and_no_calm_cell_touched) {
+TEST_WITH(a_finer_grid_has_no_runaway_left_and_no_calm_cell_touched, NULL, drop_signals) {
     const char *const finer_grips[] = {"loose", "light", "medium", "firm"};
     const int fine = getenv("KNURL_LONG") != NULL;
     const int rows = fine ? 9 : 3;
@@ -160,7 +160,7 @@ static int compare(size_t device, const char *grip, int32_t method, double speed
     return 1;
 }
 
-TEST(calm_walls_and_textures_are_left_alone_to_the_bit) {
+TEST_WITH(calm_walls_and_textures_are_left_alone_to_the_bit, NULL, drop_signals) {
     int calm = 0;
     for (size_t i = 0; i < COUNT_OF(devices) * COUNT_OF(grips) * COUNT_OF(methods) * COUNT_OF(speeds); i++) {
         const size_t device = i % COUNT_OF(devices);
@@ -187,7 +187,7 @@ static void check_untouched(lab_case *c) {
     }
 }
 
-TEST(hard_taps_and_firm_presses_are_left_alone) {
+TEST_WITH(hard_taps_and_firm_presses_are_left_alone, NULL, drop_signals) {
     const struct {
         const char *device, *grip;
         double stiffness, press, approach; /* N/m, N, m/s */
@@ -207,7 +207,7 @@ TEST(hard_taps_and_firm_presses_are_left_alone) {
 }
 
 /* 0.5 mm at 10 Hz, five times a healthy hand's, on the stiffest walls. */
-TEST(a_hand_that_shakes_is_left_alone) {
+TEST_WITH(a_hand_that_shakes_is_left_alone, NULL, drop_signals) {
     const char *const shaking[] = {"preset=touch&tremor=0.0005", "preset=falcon&tremor=0.0005"};
     for (size_t i = 0; i < 2 * COUNT_OF(shaking); i++) {
         lab_case c;
@@ -301,16 +301,4 @@ TEST(a_runaway_through_the_loop_is_stopped_and_counted) {
     assert_true(passivities == 0);
     assert_true(press_through_a_loop(0, &passivities) < 0.2);
     assert_true(passivities > 1000);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, drop_signals),
-        cmocka_unit_test_teardown(calm_walls_and_textures_are_left_alone_to_the_bit, drop_signals),
-        cmocka_unit_test_teardown(a_finer_grid_has_no_runaway_left_and_no_calm_cell_touched, drop_signals),
-        cmocka_unit_test_teardown(hard_taps_and_firm_presses_are_left_alone, drop_signals),
-        cmocka_unit_test_teardown(a_hand_that_shakes_is_left_alone, drop_signals),
-        cmocka_unit_test(a_runaway_through_the_loop_is_stopped_and_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

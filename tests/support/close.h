@@ -4,19 +4,13 @@
 #define KNURL_TEST_CLOSE_H
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <knurl/base.h>
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+#include "support/suite.h"
 
-/** A test of cmocka's, for those that need no state. */
-#define TEST(name) static void name(void **state __attribute__((unused)))
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
 /** |actual - expected| <= tolerance; a NaN is never close. */
 #define CHECK_CLOSE(actual, expected, tolerance) check_close(actual, expected, tolerance, __FILE__, __LINE__)

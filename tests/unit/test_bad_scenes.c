@@ -297,16 +297,3 @@ TEST(edges_of_many_triangles_are_survived) {
     knurl_scene_destroy(scene);
     shape_free(&s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_meshes_are_refused_while_ticks_go_on),
-        cmocka_unit_test(coordinates_beyond_all_measure_give_finite_forces),
-        cmocka_unit_test(stray_vertex_far_away_leaves_the_rest_touchable),
-        cmocka_unit_test(duplicates_are_left_out_and_counted),
-        cmocka_unit_test(reversed_twins_make_one_sheet_that_is_touched_from_both_sides),
-        cmocka_unit_test(heaps_of_random_triangles_are_sorted_out_and_survived),
-        cmocka_unit_test(edges_of_many_triangles_are_survived),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

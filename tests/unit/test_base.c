@@ -359,32 +359,3 @@ TEST(a_thread_that_the_system_refuses_is_null) {
     assert_null(knurl_system_start_thread(tell_id, &theirs, 1)); /* below any system's least stack */
     assert_int_equal(theirs, 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_result_code_has_its_own_sentence),
-        cmocka_unit_test(ok_is_zero_and_every_error_is_negative),
-        cmocka_unit_test(fail_returns_its_code_and_keeps_the_sentence),
-        cmocka_unit_test(fail_makes_one_line_of_control_characters_and_leaves_utf8_alone),
-        cmocka_unit_test(fail_cuts_a_long_sentence_after_1023_bytes),
-        cmocka_unit_test(fail_may_quote_the_sentence_before),
-        cmocka_unit_test(each_thread_has_its_own_message),
-        cmocka_unit_test(version_is_that_of_the_header),
-        cmocka_unit_test(a_struct_is_written_as_long_as_the_caller_has_it),
-        cmocka_unit_test(an_older_callers_missing_fields_keep_their_defaults),
-        cmocka_unit_test(a_newer_callers_extra_fields_must_be_zero),
-        cmocka_unit_test(a_struct_whose_size_was_never_set_is_refused),
-        cmocka_unit_test(an_output_struct_is_filled_as_far_as_its_caller_knows_it),
-        cmocka_unit_test(percentiles_of_known_distributions_are_within_three_percent),
-        cmocka_unit_test(every_single_value_is_told_within_three_percent),
-        cmocka_unit_test(values_below_32_are_told_exactly),
-        cmocka_unit_test(an_empty_histogram_gives_zero_and_its_extremes_hold),
-        cmocka_unit_test(a_snapshot_is_never_torn_and_never_older_than_the_one_before),
-        cmocka_unit_test(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one),
-        cmocka_unit_test(a_null_parameter_is_named),
-        cmocka_unit_test(sleeping_ends_at_its_deadline_and_not_before),
-        cmocka_unit_test(a_thread_runs_its_entry_and_has_an_id_of_its_own),
-        cmocka_unit_test(a_thread_that_the_system_refuses_is_null),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -140,17 +140,3 @@ TEST(an_interrupt_ends_it_with_what_there_is) {
     assert_non_null(strstr(p.err, "interrupted in paced_plane"));
     process_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_case_is_told_with_all_its_fields),
-        cmocka_unit_test(each_kind_of_case_runs),
-        cmocka_unit_test(each_scene_is_touched_in_every_tick),
-        cmocka_unit_test(a_mesh_tells_its_triangles_and_bytes),
-        cmocka_unit_test(the_table_has_a_line_a_case),
-        cmocka_unit_test(an_unknown_case_is_refused_with_the_list),
-        cmocka_unit_test(wrong_ticks_are_refused),
-        cmocka_unit_test(an_interrupt_ends_it_with_what_there_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

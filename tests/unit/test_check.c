@@ -184,18 +184,3 @@ TEST(every_limit_at_once_has_its_whole_sentence) {
     assert_int_equal(lines, 5);
     assert_string_equal(check.message + strlen(check.message) - strlen(end), end);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_surface_within_its_limits_has_nothing_to_be_warned_of),
-        cmocka_unit_test(stability_is_the_bound_of_a_delayed_wall_and_says_by_how_much),
-        cmocka_unit_test(a_workspace_that_magnifies_makes_walls_stiffer),
-        cmocka_unit_test(amplitude_is_held_against_the_methods_highest_swing),
-        cmocka_unit_test(the_papers_amplitude_as_printed_is_beyond_a_touch),
-        cmocka_unit_test(ridges_finer_than_two_position_steps_are_told),
-        cmocka_unit_test(clamp_keeps_walls_and_textures_within_their_limits),
-        cmocka_unit_test(checks_of_nothing_are_refused),
-        cmocka_unit_test(every_limit_at_once_has_its_whole_sentence),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

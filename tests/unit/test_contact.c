@@ -225,26 +225,3 @@ TEST(flat_double_sided_mesh_equals_a_double_sided_plane) {
     compare_with_a_flat_mesh(0.0007, 1, 0.0005, 5);
     compare_with_a_flat_mesh(0.0007, 1, 0.005, 6);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_is_entered_from_the_front),
-        cmocka_unit_test(plane_holds_until_the_hip_is_in_front_again),
-        cmocka_unit_test(plane_is_left_over_its_outline),
-        cmocka_unit_test(plane_is_not_touched_from_behind),
-        cmocka_unit_test(double_sided_plane_is_touched_from_behind_with_its_normal_turned_round),
-        cmocka_unit_test(plane_is_not_tunnelled_in_one_tick),
-        cmocka_unit_test(plane_is_crossed_where_the_path_meets_it),
-        cmocka_unit_test(plane_slid_under_from_outside_is_never_touched),
-        cmocka_unit_test(reach_begins_contact_in_front),
-        cmocka_unit_test(reach_counts_behind_a_double_sided_plane),
-        cmocka_unit_test(first_tick_may_be_pressed_in_up_to_the_capture_depth),
-        cmocka_unit_test(first_tick_behind_a_double_sided_plane_is_behind_it),
-        cmocka_unit_test(plane_stopped_at_exactly_is_held_from_the_side_the_hip_came_from),
-        cmocka_unit_test(mesh_stopped_at_exactly_is_held_from_the_side_the_hip_came_from),
-        cmocka_unit_test(double_sided_front_stopped_at_exactly_lets_go),
-        cmocka_unit_test(flat_mesh_equals_a_plane),
-        cmocka_unit_test(flat_double_sided_mesh_equals_a_double_sided_plane),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -180,16 +180,3 @@ TEST(a_tick_that_falls_into_a_crack_between_two_surfaces_loses_neither) {
 TEST(a_hip_that_stays_between_two_surfaces_has_slid_off_both) {
     assert_int_equal(cross_crack(6), 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_floor_of_tiles_is_felt_in_every_tick_of_a_straight_drag),
-        cmocka_unit_test(a_floor_of_tiles_is_felt_in_every_tick_of_a_diagonal_drag),
-        cmocka_unit_test(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick),
-        cmocka_unit_test(a_tile_half_a_millimetre_lower_than_its_neighbour_takes_the_hip_over),
-        cmocka_unit_test(a_tick_that_falls_into_a_crack_between_two_surfaces_loses_neither),
-        cmocka_unit_test(a_hip_that_stays_between_two_surfaces_has_slid_off_both),
-        cmocka_unit_test(below_a_tile_2_mm_higher_than_its_neighbour_the_hip_passes_and_contact_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -487,27 +487,3 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
     }
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_edit_works_before_the_commit_and_after_it),
-        cmocka_unit_test(of_several_edits_the_newest_wins),
-        cmocka_unit_test(material_and_place_do_not_undo_each_other),
-        cmocka_unit_test(ids_stay_stale_for_ever),
-        cmocka_unit_test(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal),
-        cmocka_unit_test(transforms_out_of_range_are_refused_by_name_and_change_nothing),
-        cmocka_unit_test(transforms_at_the_edge_of_doubles_leave_the_force_finite),
-        cmocka_unit_test(materials_out_of_range_are_refused_after_the_commit_and_change_nothing),
-        cmocka_unit_test(surface_refused_after_the_commit_changes_nothing),
-        cmocka_unit_test(removing_what_is_touched_lets_go_at_the_next_tick),
-        cmocka_unit_test(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar),
-        cmocka_unit_test(of_two_surfaces_touched_the_other_stays),
-        cmocka_unit_test(surface_added_under_a_hip_holds_it_when_it_comes_down),
-        cmocka_unit_test(material_changes_at_the_next_tick_and_the_event_plays_on),
-        cmocka_unit_test(event_plays_to_its_end_on_a_surface_turned_smooth),
-        cmocka_unit_test(material_with_higher_crests_reaches_further_at_the_next_tick),
-        cmocka_unit_test(info_tells_what_an_edit_made_of_a_surface),
-        cmocka_unit_test(ten_thousand_adds_and_removes_agree_with_a_plain_list),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

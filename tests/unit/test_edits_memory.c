@@ -274,16 +274,3 @@ TEST(ticks_neither_ask_for_memory_nor_give_any_back) {
     }
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bytes_return_to_where_they_were),
-        cmocka_unit_test(edits_that_are_replaced_do_not_pile_up),
-        cmocka_unit_test(hip_that_does_not_tick_holds_no_memory_back),
-        cmocka_unit_test(scene_destroyed_in_the_midst_of_edits_gives_everything_back),
-        cmocka_unit_test(edits_that_get_no_memory_leave_the_scene_as_it_was),
-        cmocka_unit_test(commit_that_gets_no_memory_can_be_made_again),
-        cmocka_unit_test(ticks_neither_ask_for_memory_nor_give_any_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -322,25 +322,3 @@ TEST(positions_are_multiples_of_the_resolution) {
         knurl_device_close(device);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uris_that_name_the_fake_device_open_it),
-        cmocka_unit_test(a_bad_key_or_value_is_refused_in_a_sentence_that_names_it),
-        cmocka_unit_test(every_key_that_is_listed_is_taken_with_its_default),
-        cmocka_unit_test(what_is_no_device_is_unknown),
-        cmocka_unit_test(a_listing_names_every_kind_of_device_and_why_it_cannot_be_had),
-        cmocka_unit_test(the_fake_device_is_a_touch),
-        cmocka_unit_test(an_update_rate_that_is_none_is_refused),
-        cmocka_unit_test(a_force_shows_after_the_tick_and_its_delay),
-        cmocka_unit_test(a_force_is_shortened_to_the_limit_and_keeps_its_direction),
-        cmocka_unit_test(a_force_that_is_not_finite_is_written_as_none),
-        cmocka_unit_test(while_halted_a_force_counts_nothing_until_it_is_released),
-        cmocka_unit_test(a_halt_lets_go_of_the_motors_at_once),
-        cmocka_unit_test(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again),
-        cmocka_unit_test(a_press_of_its_button_lasts_a_tenth_of_a_second_and_is_told_by_the_status),
-        cmocka_unit_test(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness),
-        cmocka_unit_test(positions_are_multiples_of_the_resolution),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -184,21 +184,3 @@ TEST(a_light_device_in_a_stiff_hand_stays_where_it_is_held) {
     CHECK_CLOSE(truth_of(device).position[1], -0.001, 1e-6);
     knurl_device_close(device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_is_the_touch_and_says_so),
-        cmocka_unit_test(a_falcon_is_not_a_touch),
-        cmocka_unit_test(an_ideal_device_has_no_friction_quantum_delay_or_limit_worth_the_name),
-        cmocka_unit_test(keys_after_a_preset_count_and_keys_before_it_do_not),
-        cmocka_unit_test(a_preset_that_is_none_is_refused),
-        cmocka_unit_test(the_hands_mass_moves_with_the_device),
-        cmocka_unit_test(a_reading_is_the_true_position_to_the_nearest_quantum),
-        cmocka_unit_test(the_motors_force_is_the_one_that_acted_delayed_and_limited),
-        cmocka_unit_test(the_hands_force_balances_the_motors_at_rest),
-        cmocka_unit_test(the_true_state_keeps_the_books_of_energy),
-        cmocka_unit_test(a_trace_has_no_true_state),
-        cmocka_unit_test(a_light_device_in_a_stiff_hand_stays_where_it_is_held),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

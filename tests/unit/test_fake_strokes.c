@@ -374,24 +374,3 @@ TEST(the_default_hand_comes_to_rest_at_its_target_at_every_rate) {
         knurl_device_close(device);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_stroke_starts_5_mm_above_and_comes_down_on_the_spot_within_a_quarter_second),
-        cmocka_unit_test(a_line_goes_back_and_forth_at_its_speed_over_its_reach),
-        cmocka_unit_test(a_sweep_goes_from_standing_to_250_mm_a_second_and_back_within_its_period),
-        cmocka_unit_test(a_sweep_turns_within_its_reach_and_starts_anew_after_its_period),
-        cmocka_unit_test(a_circle_goes_round_at_its_speed_and_at_the_smaller_reach),
-        cmocka_unit_test(a_press_goes_from_its_depth_to_three_times_it_and_back_on_the_spot),
-        cmocka_unit_test(a_rest_stands_at_its_depth),
-        cmocka_unit_test(the_tremors_rms_is_near_its_setting_on_every_axis_at_every_rate),
-        cmocka_unit_test(strokes_have_the_names_that_the_tool_takes),
-        cmocka_unit_test(a_bad_stroke_is_refused),
-        cmocka_unit_test(a_stroke_holds_from_the_next_start),
-        cmocka_unit_test(the_device_follows_the_hand),
-        cmocka_unit_test(the_same_seed_gives_the_same_positions_and_another_one_others),
-        cmocka_unit_test(starting_again_plays_the_same_once_more),
-        cmocka_unit_test(the_default_hand_comes_to_rest_at_its_target_at_every_rate),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

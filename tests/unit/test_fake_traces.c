@@ -116,14 +116,3 @@ TEST(a_bad_trace_is_refused_in_a_sentence_that_names_its_row) {
     CHECK_REFUSED(knurl_fake_set_trace(device, NULL, 3), KNURL_ERROR_ARGUMENT, rows);
     knurl_device_close(device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_trace_is_played_exactly_interpolated_between_its_rows_and_held_at_its_ends),
-        cmocka_unit_test(a_trace_of_a_row_a_tick_is_told_to_the_last_digit),
-        cmocka_unit_test(a_trace_is_quantised_only_where_the_uri_names_a_resolution),
-        cmocka_unit_test(a_trace_is_copied_and_starts_anew_with_its_device),
-        cmocka_unit_test(a_bad_trace_is_refused_in_a_sentence_that_names_its_row),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -289,19 +289,3 @@ TEST(points_in_line_with_corners_are_counted_once) {
     pair_free(&p);
     shape_free(&s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drawn_sheet_by_its_uvs_is_felt_as_its_mesh),
-        cmocka_unit_test(star_is_felt_as_its_mesh),
-        cmocka_unit_test(disc_of_64_edges_is_felt_as_its_mesh),
-        cmocka_unit_test(sheet_by_an_axis_is_felt_as_its_mesh),
-        cmocka_unit_test(turned_sheared_and_mirrored_uvs_are_felt_as_on_the_mesh),
-        cmocka_unit_test(tangents_are_felt_as_on_the_mesh_with_uvs_and_without),
-        cmocka_unit_test(turned_sheet_far_from_the_origin_is_felt_as_its_mesh),
-        cmocka_unit_test(turned_sheet_by_its_uvs_is_felt_as_its_mesh),
-        cmocka_unit_test(sheet_with_t_junctions_is_felt_as_its_mesh),
-        cmocka_unit_test(points_in_line_with_corners_are_counted_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -401,28 +401,3 @@ TEST(jump_of_the_surface_starts_friction_anew) {
     CHECK_VECTOR(tick_at(scene, 0.0003, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pressed_straight_down_nothing_pulls_sideways),
-        cmocka_unit_test(sticks_with_the_stiffness_and_slips_at_mu_times_the_load),
-        cmocka_unit_test(friction_that_is_never_exceeded_only_sticks),
-        cmocka_unit_test(strokes_at_random_follow_the_element),
-        cmocka_unit_test(strokes_over_a_turned_mesh_follow_the_element),
-        cmocka_unit_test(friction_on_a_sphere_opposes_the_way_it_slides),
-        cmocka_unit_test(strokes_to_and_fro_lose_the_area_of_the_hysteresis_loop),
-        cmocka_unit_test(no_way_along_the_surface_yields_energy),
-        cmocka_unit_test(letting_up_lets_it_slip),
-        cmocka_unit_test(lifted_off_it_is_forgotten),
-        cmocka_unit_test(height_does_not_load_it),
-        cmocka_unit_test(damping_does_not_load_it),
-        cmocka_unit_test(friction_leaves_the_normal_force_alone),
-        cmocka_unit_test(friction_0_is_bit_for_bit_a_material_without_the_key),
-        cmocka_unit_test(friction_taken_away_in_contact_is_gone_at_the_next_tick),
-        cmocka_unit_test(surface_that_slides_drags_a_resting_hip),
-        cmocka_unit_test(surface_that_goes_with_the_hip_pulls_no_way),
-        cmocka_unit_test(surface_that_turns_takes_the_anchor_along),
-        cmocka_unit_test(jump_of_the_surface_starts_friction_anew),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -404,35 +404,3 @@ TEST(unknown_names_are_refused_with_the_known_ones) {
         assert_non_null(strstr(knurl_error_message(), "locked"));
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(s1_line_is_high_while_the_fractional_phase_is_below_half),
-        cmocka_unit_test(s1_line_alternates_at_half_a_period_a_tick),
-        cmocka_unit_test(s1_line_follows_the_sign_of_the_sine),
-        cmocka_unit_test(s1_follows_the_product_of_cosines),
-        cmocka_unit_test(s1_on_an_axis_is_the_line_a_quarter_period_on),
-        cmocka_unit_test(s1_step_looks_the_height_up_and_plays_no_event),
-        cmocka_unit_test(frequency_is_eqs_12_and_13_without_trigonometry),
-        cmocka_unit_test(frequency_along_the_ridges_is_exactly_zero),
-        cmocka_unit_test(output_reports_frequencies_in_the_direction_of_motion),
-        cmocka_unit_test(s2_at_constant_speed_is_t3_events_end_to_end),
-        cmocka_unit_test(s2_thresholds_are_decided_on_ticks_at_every_rate),
-        cmocka_unit_test(s2_at_400_hz_plays_the_six_tick_mix_to_its_end),
-        cmocka_unit_test(s2_holds_amplitude_and_period_until_the_event_ends),
-        cmocka_unit_test(s2_starts_no_event_below_one_millimetre_a_second),
-        cmocka_unit_test(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised),
-        cmocka_unit_test(s2_plays_a_started_event_to_its_end_after_the_stop),
-        cmocka_unit_test(s2_along_the_ridges_of_bars_stays_idle),
-        cmocka_unit_test(s2_drifts_by_16_7_percent_below_3_5_ticks_and_12_5_at_it),
-        cmocka_unit_test(above_half_the_update_rate_is_flagged_and_played_at_two_ticks),
-        cmocka_unit_test(every_complete_event_has_no_impulse_and_rms_of_its_amplitude),
-        cmocka_unit_test(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event),
-        cmocka_unit_test(default_method_is_resolved_to_locked),
-        cmocka_unit_test(unknown_methods_are_refused_with_a_sentence),
-        cmocka_unit_test(bad_gratings_are_refused_and_left_as_they_were),
-        cmocka_unit_test(names_of_methods_go_both_ways),
-        cmocka_unit_test(unknown_names_are_refused_with_the_known_ones),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -364,25 +364,3 @@ TEST(protections_that_are_no_numbers_are_refused) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_first_tick_pressed_in_comes_in_as_a_ramp),
-        cmocka_unit_test(friction_comes_in_with_the_depth_that_is_felt),
-        cmocka_unit_test(a_wall_that_jumps_comes_in_as_a_ramp),
-        cmocka_unit_test(a_force_grows_no_faster_than_the_slew_rate),
-        cmocka_unit_test(after_lift_off_the_force_is_zero_at_once),
-        cmocka_unit_test(square_waves_at_full_amplitude_pass_every_limit_to_the_bit),
-        cmocka_unit_test(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more),
-        cmocka_unit_test(an_endless_continuous_force_is_no_limit),
-        cmocka_unit_test(a_callback_warms_the_same_motors),
-        cmocka_unit_test(a_callback_may_leave_the_heat_to_its_device),
-        cmocka_unit_test(nothing_that_is_not_a_number_gets_past_the_protections),
-        cmocka_unit_test(configuring_a_hip_cools_it_and_begins_anew),
-        cmocka_unit_test(swings_that_go_on_are_stopped_and_nothing_else),
-        cmocka_unit_test(walls_are_hard_again_once_the_hip_has_been_off_them),
-        cmocka_unit_test(configuring_a_hip_or_giving_it_a_device_ends_an_alarm),
-        cmocka_unit_test(protections_that_are_no_numbers_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -282,23 +282,3 @@ TEST(slowly_across_edges_each_of_them_toggles_once) {
     }
     assert_int_equal(toggles, 80);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(below_the_crossover_the_height_is_that_of_the_place_forwards_and_back),
-        cmocka_unit_test(bars_across_y_are_followed_along_y),
-        cmocka_unit_test(above_the_crossover_events_begin_at_a_rising_edge),
-        cmocka_unit_test(an_event_ends_where_its_cycle_does_as_near_as_its_bounds_allow),
-        cmocka_unit_test(on_a_grid_cycles_are_those_of_the_way),
-        cmocka_unit_test(without_a_position_the_way_is_counted),
-        cmocka_unit_test(after_a_stop_in_an_event_the_height_is_that_of_the_place),
-        cmocka_unit_test(s2_has_come_down_to_the_surface_within_one_event_of_a_stop),
-        cmocka_unit_test(a_reversal_crosses_the_same_ridges_again),
-        cmocka_unit_test(amplitude_and_length_are_held_until_the_event_ends),
-        cmocka_unit_test(no_motion_makes_a_step_above_that_of_a_trough_to_a_crest),
-        cmocka_unit_test(s2_steps_up_to_2_87_amplitudes),
-        cmocka_unit_test(at_rest_on_an_edge_a_flickering_count_does_not_toggle_the_height),
-        cmocka_unit_test(slowly_across_edges_each_of_them_toggles_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -164,16 +164,3 @@ TEST(a_change_of_method_plays_the_event_to_its_end) {
     w.grating.method = KNURL_LOCKED;
     check_recovery(&w);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(velocities_that_are_no_numbers_pass),
-        cmocka_unit_test(on_a_grid_what_is_no_number_is_not_counted),
-        cmocka_unit_test(positions_that_are_no_numbers_pass),
-        cmocka_unit_test(a_seam_or_a_teleport_leaves_nothing_behind),
-        cmocka_unit_test(saturation_leaves_no_debt),
-        cmocka_unit_test(any_grating_at_any_rate_plays_finite_events),
-        cmocka_unit_test(a_change_of_method_plays_the_event_to_its_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -209,14 +209,3 @@ TEST(where_uvs_stretch_it_keeps_step_with_their_stripes) {
     check_surface(&parts, from, along_x, cycles_stepped, 0.09);
     shape_free(&s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(on_a_plane_it_keeps_step_with_x),
-        cmocka_unit_test(an_orientation_turns_the_ridges),
-        cmocka_unit_test(from_behind_as_well),
-        cmocka_unit_test(sheared_uvs_of_a_flat_sheet_are_kept_step_with_as_a_plane),
-        cmocka_unit_test(where_uvs_stretch_it_keeps_step_with_their_stripes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -340,18 +340,3 @@ TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
         knurl_scene_destroy(scene);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lift_off_in_an_event_ends_it_and_the_touch_after_begins_anew),
-        cmocka_unit_test(a_change_of_surface_in_an_event_begins_the_other_ones_anew),
-        cmocka_unit_test(a_change_of_material_waits_for_the_events_end),
-        cmocka_unit_test(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it),
-        cmocka_unit_test(at_rest_on_an_edge_of_a_turned_plane_as_well),
-        cmocka_unit_test(at_rest_on_an_edge_of_dense_uvs_as_well),
-        cmocka_unit_test(slowly_from_an_encoder_each_edge_toggles_once),
-        cmocka_unit_test(on_a_mesh_with_tangents_alone_the_way_is_counted),
-        cmocka_unit_test(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

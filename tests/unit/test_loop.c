@@ -16,7 +16,7 @@ static int end_rig(void **state) {
 
 /* --- rhythm --- */
 
-TEST(deadlines_are_absolute_and_do_not_drift) {
+TEST_WITH(deadlines_are_absolute_and_do_not_drift, NULL, end_rig) {
     static const double rates[] = {100.0, 1000.0, 3000.0, 7000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         rig_init(&r);
@@ -38,7 +38,7 @@ TEST(deadlines_are_absolute_and_do_not_drift) {
 }
 
 /* Late by so many periods: an overrun above a half; the rhythm goes on from the next whole period after that. */
-TEST(a_late_tick_is_counted_and_missed_beats_are_skipped) {
+TEST_WITH(a_late_tick_is_counted_and_missed_beats_are_skipped, NULL, end_rig) {
     static const double lateness[] = {0.0, 0.4, 0.49, 0.51, 0.9, 1.1, 1.6, 2.3, 17.5, 1000.25};
     for (size_t i = 0; i < COUNT_OF(lateness); i++) {
         int64_t late[11] = {0};
@@ -62,7 +62,7 @@ TEST(a_late_tick_is_counted_and_missed_beats_are_skipped) {
 }
 
 /* However long a force takes: never two ticks within one period of the rhythm. */
-TEST(a_force_that_takes_too_long_makes_no_burst) {
+TEST_WITH(a_force_that_takes_too_long_makes_no_burst, NULL, end_rig) {
     static const double periods[] = {0.3, 0.99, 1.2, 1.6, 2.3, 5.7, 30.1};
     for (size_t i = 0; i < COUNT_OF(periods); i++) {
         rig_init(&r);
@@ -86,7 +86,7 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-TEST(jitter_is_how_late_the_loop_wakes) {
+TEST_WITH(jitter_is_how_late_the_loop_wakes, NULL, end_rig) {
     static int64_t late[2000];
     static int64_t sorted[2000];
     uint64_t random = 11;
@@ -109,7 +109,7 @@ TEST(jitter_is_how_late_the_loop_wakes) {
     rig_destroy(&r);
 }
 
-TEST(tick_time_is_that_of_the_callback_alone) {
+TEST_WITH(tick_time_is_that_of_the_callback_alone, NULL, end_rig) {
     rig_init(&r);
     r.busy = 12345;
     r.desc.tick_limit = 500;
@@ -125,7 +125,7 @@ TEST(tick_time_is_that_of_the_callback_alone) {
 
 /* --- ticks --- */
 
-TEST(the_callback_is_called_once_a_tick_and_what_it_gives_is_written) {
+TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, NULL, end_rig) {
     rig_init(&r);
     r.desc.tick_limit = 250;
     r.desc.update_rate_hz = 2500.0;
@@ -146,7 +146,7 @@ TEST(the_callback_is_called_once_a_tick_and_what_it_gives_is_written) {
     rig_destroy(&r);
 }
 
-TEST(a_force_that_nobody_sets_is_none) {
+TEST_WITH(a_force_that_nobody_sets_is_none, NULL, end_rig) {
     rig_init(&r);
     memset(r.force, 0, sizeof r.force);
     rig_create(&r);
@@ -157,7 +157,7 @@ TEST(a_force_that_nobody_sets_is_none) {
     rig_destroy(&r);
 }
 
-TEST(stepping_runs_so_many_ticks_and_sleeps_for_none) {
+TEST_WITH(stepping_runs_so_many_ticks_and_sleeps_for_none, NULL, end_rig) {
     rig_init(&r);
     r.desc.tick_limit = 100;
     rig_create(&r);
@@ -176,7 +176,7 @@ TEST(stepping_runs_so_many_ticks_and_sleeps_for_none) {
     rig_destroy(&r);
 }
 
-TEST(without_a_limit_a_loop_goes_on) {
+TEST_WITH(without_a_limit_a_loop_goes_on, NULL, end_rig) {
     rig_init(&r);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 50000), KNURL_OK);
@@ -188,7 +188,7 @@ TEST(without_a_limit_a_loop_goes_on) {
 
 /* --- ends --- */
 
-TEST(at_the_end_the_force_goes_to_zero_by_a_straight_ramp) {
+TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
     static const struct {
         double ramp, rate;
         uint64_t steps;
@@ -218,7 +218,7 @@ TEST(at_the_end_the_force_goes_to_zero_by_a_straight_ramp) {
 }
 
 /* "s from full force to none": what the motors cannot play is no part of the way. */
-TEST(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for) {
+TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, NULL, end_rig) {
     rig_init(&r);
     r.force[1] = 40.0; /* of 2 N */
     r.desc.tick_limit = 10;
@@ -231,7 +231,7 @@ TEST(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for) {
     rig_destroy(&r);
 }
 
-TEST(without_a_ramp_the_motors_are_let_go_at_once) {
+TEST_WITH(without_a_ramp_the_motors_are_let_go_at_once, NULL, end_rig) {
     rig_init(&r);
     r.desc.ramp_s = 0.0;
     r.desc.tick_limit = 10;
@@ -246,7 +246,7 @@ static void give_nan(rig *self) {
     self->force[0] = NAN;
 }
 
-TEST(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none) {
+TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, NULL, end_rig) {
     rig_init(&r);
     r.special_call = 4;
     r.special = give_nan;
@@ -262,7 +262,7 @@ TEST(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none) {
 }
 
 /* A device that no longer answers cannot be ramped down: its motors are let go. */
-TEST(a_lost_device_ends_the_loop_with_the_motors_let_go) {
+TEST_WITH(a_lost_device_ends_the_loop_with_the_motors_let_go, NULL, end_rig) {
     for (int i = 0; i < 4; i++) {
         const int threaded = i % 2;
         rig_init(&r);
@@ -285,7 +285,7 @@ TEST(a_lost_device_ends_the_loop_with_the_motors_let_go) {
     }
 }
 
-TEST(a_device_that_is_lost_in_the_ramp_ends_it) {
+TEST_WITH(a_device_that_is_lost_in_the_ramp_ends_it, NULL, end_rig) {
     rig_init(&r);
     r.desc.tick_limit = 50;
     r.writes_left = 55;
@@ -298,7 +298,7 @@ TEST(a_device_that_is_lost_in_the_ramp_ends_it) {
 
 /* --- states --- */
 
-TEST(a_stop_before_the_start_means_that_it_ends_at_once) {
+TEST_WITH(a_stop_before_the_start_means_that_it_ends_at_once, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         rig_init(&r);
         rig_create(&r);
@@ -317,7 +317,7 @@ TEST(a_stop_before_the_start_means_that_it_ends_at_once) {
     }
 }
 
-TEST(a_loop_runs_once_and_in_one_way) {
+TEST_WITH(a_loop_runs_once_and_in_one_way, NULL, end_rig) {
     char nothing = 0;
     rig_init(&r);
     r.desc.tick_limit = 10;
@@ -339,7 +339,7 @@ static void stop_now(rig *self) {
     self->seen = 1;
 }
 
-TEST(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last) {
+TEST_WITH(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         rig_init(&r);
         r.special_call = 5;
@@ -360,7 +360,7 @@ TEST(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last) {
     }
 }
 
-TEST(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step) {
+TEST_WITH(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, NULL, end_rig) {
     rig_init(&r);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
@@ -373,7 +373,7 @@ TEST(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step) {
     rig_destroy(&r);
 }
 
-TEST(destroying_a_loop_that_is_being_stepped_takes_the_force_away) {
+TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, NULL, end_rig) {
     rig_init(&r);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
@@ -382,38 +382,11 @@ TEST(destroying_a_loop_that_is_being_stepped_takes_the_force_away) {
     rig_check_let_go(&r);
 }
 
-TEST(a_new_loop_on_a_halted_device_plays) {
+TEST_WITH(a_new_loop_on_a_halted_device_plays, NULL, end_rig) {
     rig_init(&r);
     knurl_device_halt(&r.device);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
     CHECK_SAME(r.written[99][1], 1.0L);
     rig_destroy(&r);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(deadlines_are_absolute_and_do_not_drift, end_rig),
-        cmocka_unit_test_teardown(a_late_tick_is_counted_and_missed_beats_are_skipped, end_rig),
-        cmocka_unit_test_teardown(a_force_that_takes_too_long_makes_no_burst, end_rig),
-        cmocka_unit_test_teardown(jitter_is_how_late_the_loop_wakes, end_rig),
-        cmocka_unit_test_teardown(tick_time_is_that_of_the_callback_alone, end_rig),
-        cmocka_unit_test_teardown(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, end_rig),
-        cmocka_unit_test_teardown(a_force_that_nobody_sets_is_none, end_rig),
-        cmocka_unit_test_teardown(stepping_runs_so_many_ticks_and_sleeps_for_none, end_rig),
-        cmocka_unit_test_teardown(without_a_limit_a_loop_goes_on, end_rig),
-        cmocka_unit_test_teardown(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, end_rig),
-        cmocka_unit_test_teardown(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, end_rig),
-        cmocka_unit_test_teardown(without_a_ramp_the_motors_are_let_go_at_once, end_rig),
-        cmocka_unit_test_teardown(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, end_rig),
-        cmocka_unit_test_teardown(a_lost_device_ends_the_loop_with_the_motors_let_go, end_rig),
-        cmocka_unit_test_teardown(a_device_that_is_lost_in_the_ramp_ends_it, end_rig),
-        cmocka_unit_test_teardown(a_stop_before_the_start_means_that_it_ends_at_once, end_rig),
-        cmocka_unit_test_teardown(a_loop_runs_once_and_in_one_way, end_rig),
-        cmocka_unit_test_teardown(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, end_rig),
-        cmocka_unit_test_teardown(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, end_rig),
-        cmocka_unit_test_teardown(destroying_a_loop_that_is_being_stepped_takes_the_force_away, end_rig),
-        cmocka_unit_test_teardown(a_new_loop_on_a_halted_device_plays, end_rig),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void play(record *into, uint64_t steps) {
     knurl_scene_destroy(scene);
 }
 
-TEST(stepping_and_a_thread_give_the_same_forces_tick_for_tick) {
+TEST_WITH(stepping_and_a_thread_give_the_same_forces_tick_for_tick, NULL, end_rig) {
     static record stepped;
     static record other;
     play(&stepped, TICKS);
@@ -100,7 +100,7 @@ TEST(stepping_and_a_thread_give_the_same_forces_tick_for_tick) {
     assert_memory_equal(&stepped, &other, sizeof stepped);
 }
 
-TEST(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written) {
+TEST_WITH(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, NULL, end_rig) {
     static record seen;
     memset(&seen, 0, sizeof seen);
     knurl_scene *scene = make_scene(1);
@@ -122,7 +122,7 @@ TEST(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written) {
 }
 
 /* After a halt the force climbs back over the ramp, and what is recorded climbs with it. */
-TEST(after_a_halt_the_force_climbs_back_over_the_ramp) {
+TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, NULL, end_rig) {
     rig_init(&r);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 5), KNURL_OK);
@@ -139,7 +139,7 @@ TEST(after_a_halt_the_force_climbs_back_over_the_ramp) {
     rig_destroy(&r);
 }
 
-TEST(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well) {
+TEST_WITH(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well, NULL, end_rig) {
     rig_init(&r);
     r.force[1] = 40.0; /* of 2 N */
     rig_create(&r);
@@ -153,7 +153,7 @@ TEST(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well) {
     rig_destroy(&r);
 }
 
-TEST(while_it_climbs_back_the_record_tells_what_is_written) {
+TEST_WITH(while_it_climbs_back_the_record_tells_what_is_written, NULL, end_rig) {
     static record seen;
     memset(&seen, 0, sizeof seen);
     knurl_scene *scene = make_scene(1);
@@ -183,7 +183,7 @@ TEST(while_it_climbs_back_the_record_tells_what_is_written) {
 
 /* --- descriptions --- */
 
-TEST(defaults_are_those_of_the_header) {
+TEST_WITH(defaults_are_those_of_the_header, NULL, end_rig) {
     knurl_loop_desc desc;
     memset(&desc, 0xaa, sizeof desc);
     knurl_loop_desc_init(&desc, sizeof desc);
@@ -212,7 +212,7 @@ static void refuse(knurl_result code, const char *named) {
     rig_init(&r); /* for the next one */
 }
 
-TEST(a_bad_number_is_refused_and_named) {
+TEST_WITH(a_bad_number_is_refused_and_named, NULL, end_rig) {
     static const double rates[] = {0.0, -1000.0, 99.99, 10000.1, 1e9, NAN, HUGE_VAL};
     static const double ramps[] = {-0.001, 1.001, NAN, HUGE_VAL};
     static const double watchdogs[] = {-0.001, 10.001, NAN, HUGE_VAL};
@@ -231,7 +231,7 @@ TEST(a_bad_number_is_refused_and_named) {
     }
 }
 
-TEST(a_missing_or_contradictory_part_is_refused_and_named) {
+TEST_WITH(a_missing_or_contradictory_part_is_refused_and_named, NULL, end_rig) {
     knurl_scene *scene = make_scene(1);
     rig_init(&r);
     r.desc.device = NULL;
@@ -257,7 +257,7 @@ TEST(a_missing_or_contradictory_part_is_refused_and_named) {
     knurl_scene_destroy(scene);
 }
 
-TEST(a_scene_that_is_not_committed_is_refused) {
+TEST_WITH(a_scene_that_is_not_committed_is_refused, NULL, end_rig) {
     knurl_scene *scene = make_scene(0);
     rig_init(&r);
     r.desc.scene = scene;
@@ -266,7 +266,7 @@ TEST(a_scene_that_is_not_committed_is_refused) {
     knurl_scene_destroy(scene);
 }
 
-TEST(the_hips_rate_must_be_the_loops_where_it_is_given) {
+TEST_WITH(the_hips_rate_must_be_the_loops_where_it_is_given, NULL, end_rig) {
     knurl_scene *scene = make_scene(1);
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
@@ -285,7 +285,7 @@ TEST(the_hips_rate_must_be_the_loops_where_it_is_given) {
 }
 
 /* K z = 400 N/m x 20 mm = 8 N: shortened to what the device can do, or to what the HIP was configured for. */
-TEST(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one) {
+TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, end_rig) {
     static const double limits[][2] = {{0.0, 2.0}, {0.5, 0.5}}; /* given, expected */
     for (size_t i = 0; i < COUNT_OF(limits); i++) {
         knurl_scene *scene = make_scene(1);
@@ -314,7 +314,7 @@ TEST(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one) {
     }
 }
 
-TEST(stats_of_a_struct_whose_size_was_never_set_are_refused) {
+TEST_WITH(stats_of_a_struct_whose_size_was_never_set_are_refused, NULL, end_rig) {
     knurl_loop_stats stats;
     memset(&stats, 0, sizeof stats);
     rig_init(&r);
@@ -329,7 +329,7 @@ TEST(stats_of_a_struct_whose_size_was_never_set_are_refused) {
     rig_destroy(&r);
 }
 
-TEST(a_driver_is_never_told_more_than_its_motors_can_do) {
+TEST_WITH(a_driver_is_never_told_more_than_its_motors_can_do, NULL, end_rig) {
     static const double far_too_much[3] = {-30.0, 0.0, 40.0};
     static const double nonsense[3] = {1.0, NAN, 0.0};
     rig_init(&r);
@@ -343,31 +343,11 @@ TEST(a_driver_is_never_told_more_than_its_motors_can_do) {
     }
 }
 
-TEST(only_the_fake_device_takes_strokes_and_traces) {
+TEST_WITH(only_the_fake_device_takes_strokes_and_traces, NULL, end_rig) {
     static const double row[4] = {0.0, 0.0, 0.0, 0.0};
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     rig_init(&r);
     CHECK_REFUSED(knurl_fake_set_stroke(&r.device, &stroke), KNURL_ERROR_UNSUPPORTED, stroke);
     CHECK_REFUSED(knurl_fake_set_trace(&r.device, row, 1), KNURL_ERROR_UNSUPPORTED, row);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(stepping_and_a_thread_give_the_same_forces_tick_for_tick, end_rig),
-        cmocka_unit_test_teardown(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, end_rig),
-        cmocka_unit_test_teardown(after_a_halt_the_force_climbs_back_over_the_ramp, end_rig),
-        cmocka_unit_test_teardown(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well, end_rig),
-        cmocka_unit_test_teardown(while_it_climbs_back_the_record_tells_what_is_written, end_rig),
-        cmocka_unit_test_teardown(defaults_are_those_of_the_header, end_rig),
-        cmocka_unit_test_teardown(a_bad_number_is_refused_and_named, end_rig),
-        cmocka_unit_test_teardown(a_missing_or_contradictory_part_is_refused_and_named, end_rig),
-        cmocka_unit_test_teardown(a_scene_that_is_not_committed_is_refused, end_rig),
-        cmocka_unit_test_teardown(the_hips_rate_must_be_the_loops_where_it_is_given, end_rig),
-        cmocka_unit_test_teardown(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, end_rig),
-        cmocka_unit_test_teardown(stats_of_a_struct_whose_size_was_never_set_are_refused, end_rig),
-        cmocka_unit_test_teardown(a_driver_is_never_told_more_than_its_motors_can_do, end_rig),
-        cmocka_unit_test_teardown(only_the_fake_device_takes_strokes_and_traces, end_rig),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,7 @@ static long locked_kb(void) {
 }
 
 /* First of all tests: what an earlier one left locked would hide it. */
-TEST(what_was_locked_is_unlocked_when_it_is_given_back) {
+TEST_WITH(what_was_locked_is_unlocked_when_it_is_given_back, NULL, end_rig) {
     const long before = locked_kb();
     for (int turn = 0; turn < 5; turn++) {
         init_real();
@@ -79,7 +79,7 @@ TEST(what_was_locked_is_unlocked_when_it_is_given_back) {
     }
 }
 
-TEST(only_the_loops_own_memory_and_stack_are_locked) {
+TEST_WITH(only_the_loops_own_memory_and_stack_are_locked, NULL, end_rig) {
     static unsigned char hosts[8 * 1024 * 1024];
     memset(hosts, 1, sizeof hosts);
     init_real();
@@ -98,7 +98,7 @@ TEST(only_the_loops_own_memory_and_stack_are_locked) {
 
 /* --- real time --- */
 
-TEST(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over) {
+TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over, NULL, end_rig) {
     init_real();
     r.desc.watchdog_s = 1.0;
     r.desc.tick_limit = 500;
@@ -124,7 +124,7 @@ TEST(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over) {
     rig_destroy(&r);
 }
 
-TEST(waiting_gives_up_after_its_time) {
+TEST_WITH(waiting_gives_up_after_its_time, NULL, end_rig) {
     init_real();
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
@@ -137,7 +137,7 @@ TEST(waiting_gives_up_after_its_time) {
     rig_destroy(&r);
 }
 
-TEST(statistics_and_snapshots_can_be_read_while_it_runs) {
+TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, NULL, end_rig) {
     init_real();
     r.desc.update_rate_hz = 10000.0;
     r.desc.tick_limit = 3000;
@@ -161,7 +161,7 @@ TEST(statistics_and_snapshots_can_be_read_while_it_runs) {
 
 /* --- stops --- */
 
-TEST(a_stop_from_another_thread_waits_for_the_end) {
+TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
     pthread_t thread;
     init_real();
     rig_create(&r);
@@ -180,7 +180,7 @@ TEST(a_stop_from_another_thread_waits_for_the_end) {
     rig_destroy(&r);
 }
 
-TEST(stops_from_several_threads_at_once_all_return) {
+TEST_WITH(stops_from_several_threads_at_once_all_return, NULL, end_rig) {
     for (int turn = 0; turn < 20; turn++) {
         pthread_t threads[4];
         init_real();
@@ -200,7 +200,7 @@ TEST(stops_from_several_threads_at_once_all_return) {
 }
 
 /* Whichever comes first, the loop ends. */
-TEST(a_stop_that_races_with_the_start_ends_it) {
+TEST_WITH(a_stop_that_races_with_the_start_ends_it, NULL, end_rig) {
     for (int turn = 0; turn < 50; turn++) {
         pthread_t thread;
         init_real();
@@ -220,7 +220,7 @@ static void stop_here(rig *self) {
     knurl_loop_stop(self->loop);
 }
 
-TEST(a_stop_from_the_callback_ends_a_real_run) {
+TEST_WITH(a_stop_from_the_callback_ends_a_real_run, NULL, end_rig) {
     init_real();
     r.special_call = 30;
     r.special = stop_here;
@@ -232,7 +232,7 @@ TEST(a_stop_from_the_callback_ends_a_real_run) {
     rig_destroy(&r);
 }
 
-TEST(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards) {
+TEST_WITH(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards, NULL, end_rig) {
     for (int turn = 0; turn < 10; turn++) {
         init_real();
         r.desc.watchdog_s = turn % 2 ? 0.05 : 0.0;
@@ -252,7 +252,7 @@ TEST(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards)
     }
 }
 
-TEST(a_device_that_is_lost_ends_a_real_run) {
+TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
     knurl_device *device = NULL;
     assert_int_equal(knurl_device_open("fake:?lose_at=0.1", &device), KNURL_OK);
     init_real();
@@ -274,7 +274,7 @@ static void stall(rig *self) {
     self->seen = knurl_device_is_halted(self->desc.device);
 }
 
-TEST(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp) {
+TEST_WITH(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp, NULL, end_rig) {
     init_real();
     r.desc.watchdog_s = 0.05;
     r.special_call = 100;
@@ -295,7 +295,7 @@ TEST(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_th
     rig_destroy(&r);
 }
 
-TEST(without_a_watchdog_nobody_lets_go) {
+TEST_WITH(without_a_watchdog_nobody_lets_go, NULL, end_rig) {
     init_real();
     r.special_call = 50;
     r.special = stall;
@@ -311,7 +311,7 @@ TEST(without_a_watchdog_nobody_lets_go) {
 }
 
 /* A ramp may take a second, and no tick is counted in it: the watchdog must not cut it off. */
-TEST(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end) {
+TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, NULL, end_rig) {
     init_real();
     r.desc.ramp_s = 0.8;
     r.desc.watchdog_s = 0.25;
@@ -327,7 +327,7 @@ TEST(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end) {
     rig_destroy(&r);
 }
 
-TEST(a_patient_watchdog_does_not_hold_up_the_destruction) {
+TEST_WITH(a_patient_watchdog_does_not_hold_up_the_destruction, NULL, end_rig) {
     init_real();
     r.desc.watchdog_s = 10.0;
     rig_create(&r);
@@ -337,26 +337,4 @@ TEST(a_patient_watchdog_does_not_hold_up_the_destruction) {
     const double start = seconds_now();
     rig_destroy(&r);
     assert_true(seconds_now() - start < 1.5); /* a quarter of its patience would be 2.5 s */
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(what_was_locked_is_unlocked_when_it_is_given_back, end_rig),
-        cmocka_unit_test_teardown(only_the_loops_own_memory_and_stack_are_locked, end_rig),
-        cmocka_unit_test_teardown(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over, end_rig),
-        cmocka_unit_test_teardown(waiting_gives_up_after_its_time, end_rig),
-        cmocka_unit_test_teardown(statistics_and_snapshots_can_be_read_while_it_runs, end_rig),
-        cmocka_unit_test_teardown(a_stop_from_another_thread_waits_for_the_end, end_rig),
-        cmocka_unit_test_teardown(stops_from_several_threads_at_once_all_return, end_rig),
-        cmocka_unit_test_teardown(a_stop_that_races_with_the_start_ends_it, end_rig),
-        cmocka_unit_test_teardown(a_stop_from_the_callback_ends_a_real_run, end_rig),
-        cmocka_unit_test_teardown(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards, end_rig),
-        cmocka_unit_test_teardown(a_device_that_is_lost_ends_a_real_run, end_rig),
-        cmocka_unit_test_teardown(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp,
-                                  end_rig),
-        cmocka_unit_test_teardown(without_a_watchdog_nobody_lets_go, end_rig),
-        cmocka_unit_test_teardown(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, end_rig),
-        cmocka_unit_test_teardown(a_patient_watchdog_does_not_hold_up_the_destruction, end_rig),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -207,15 +207,3 @@ TEST(wherever_memory_runs_out_a_scene_says_so_and_leaks_nothing) {
     }
     assert_true(b.calls > 3);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heap_memory_is_zeroed_aligned_and_counted),
-        cmocka_unit_test(a_locked_heap_keeps_small_blocks_for_the_next_of_their_size_and_gives_all_back_with_the_last),
-        cmocka_unit_test(freeing_nothing_is_allowed),
-        cmocka_unit_test(a_size_that_overflows_is_refused_before_the_allocator_sees_it),
-        cmocka_unit_test(a_scene_takes_all_its_memory_from_its_allocator_and_counts_it),
-        cmocka_unit_test(wherever_memory_runs_out_a_scene_says_so_and_leaks_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

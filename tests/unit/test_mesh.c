@@ -438,24 +438,3 @@ TEST(mesh_without_any_area_is_refused) {
     check_bad(&desc, "area", "18");
     shape_free(&sheet);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hierarchy_holds_every_triangle_once),
-        cmocka_unit_test(hierarchy_of_1e5_triangles_is_sound),
-        cmocka_unit_test(hierarchy_of_triangles_with_one_centre_is_sound),
-        cmocka_unit_test(hierarchy_of_ever_smaller_triangles_keeps_its_depth),
-        cmocka_unit_test(hierarchy_of_subnormal_noise_is_sound),
-        cmocka_unit_test(closest_point_matches_brute_force),
-        cmocka_unit_test(first_crossing_matches_brute_force),
-        cmocka_unit_test(no_stroke_slips_between_neighbours),
-        cmocka_unit_test(triangles_without_area_are_dropped_and_counted),
-        cmocka_unit_test(twins_are_dropped_and_reversed_ones_make_it_double_sided),
-        cmocka_unit_test(indices_may_be_left_out),
-        cmocka_unit_test(doubled_vertices_are_welded_by_place),
-        cmocka_unit_test(bad_counts_and_indices_are_named),
-        cmocka_unit_test(numbers_that_are_not_finite_are_named),
-        cmocka_unit_test(mesh_without_any_area_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

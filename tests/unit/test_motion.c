@@ -422,32 +422,3 @@ TEST(bad_estimators_are_refused_and_nothing_is_written) {
     CHECK_REFUSED(knurl_velocity_init(4, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
     CHECK_REFUSED(knurl_velocity_init(-1, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(difference_is_exact_on_lines),
-        cmocka_unit_test(difference_sees_the_last_two_positions_only),
-        cmocka_unit_test(foaw_matches_brute_force_on_random_walks),
-        cmocka_unit_test(foaw_matches_brute_force_on_sinusoids),
-        cmocka_unit_test(foaw_matches_brute_force_on_ramps_with_corners),
-        cmocka_unit_test(foaw_matches_brute_force_between_counts),
-        cmocka_unit_test(foaw_takes_a_sample_one_count_off_the_line_and_none_further),
-        cmocka_unit_test(foaw_takes_the_widest_window_though_a_narrower_one_fails),
-        cmocka_unit_test(foaw_at_constant_velocity_is_within_an_eleventh_of_a_count_and_unbiased),
-        cmocka_unit_test(foaw_lags_half_the_widest_window_that_a_gain_of_speed_allows),
-        cmocka_unit_test(foaw_takes_a_window_of_time_whatever_the_rate),
-        cmocka_unit_test(foaw_standing_still_is_exactly_zero),
-        cmocka_unit_test(foaw_of_an_encoder_that_flickers_between_two_counts_is_exactly_zero),
-        cmocka_unit_test(foaw_does_not_eat_more_than_one_count),
-        cmocka_unit_test(foaw_loses_one_count_at_a_reversal),
-        cmocka_unit_test(foaw_flickering_at_random_is_what_brute_force_says),
-        cmocka_unit_test(lowpass_answers_a_start_with_its_step_response),
-        cmocka_unit_test(lowpass_lags_a_gain_of_speed_by_its_time_constant),
-        cmocka_unit_test(axes_are_independent),
-        cmocka_unit_test(reset_makes_the_next_position_a_first_one),
-        cmocka_unit_test(auto_is_foaw_where_the_resolution_is_known),
-        cmocka_unit_test(any_finite_position_gives_a_finite_velocity),
-        cmocka_unit_test(bad_estimators_are_refused_and_nothing_is_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -120,14 +120,3 @@ TEST(all_paths_agree_where_samples_lie_one_count_off_the_line) {
 TEST(all_paths_agree_on_extreme_positions_and_stay_finite) {
     compare_paths(extreme, 4);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(init_chooses_avx_where_the_machine_has_it),
-        cmocka_unit_test(all_paths_agree_on_positions_without_order),
-        cmocka_unit_test(all_paths_agree_on_smooth_motion_between_counts),
-        cmocka_unit_test(all_paths_agree_where_samples_lie_one_count_off_the_line),
-        cmocka_unit_test(all_paths_agree_on_extreme_positions_and_stay_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -142,15 +142,3 @@ TEST(workspace_check_refuses_mirrors_shears_and_stretches) {
         assert_int_equal(knurl_workspace_check(&w), KNURL_OK);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workspace_init_changes_nothing),
-        cmocka_unit_test(workspace_turns_scales_and_shifts_as_defined),
-        cmocka_unit_test(workspace_there_and_back_is_where_it_began),
-        cmocka_unit_test(scene_power_is_scale_times_device_power),
-        cmocka_unit_test(workspace_check_refuses_what_is_not_finite_or_has_no_size),
-        cmocka_unit_test(workspace_check_refuses_mirrors_shears_and_stretches),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -475,27 +475,3 @@ TEST(way_at_4_khz_takes_its_seconds) {
     }
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(surface_rises_evenly_and_stays),
-        cmocka_unit_test(damping_takes_the_relative_velocity_along_the_normal),
-        cmocka_unit_test(sliding_under_a_resting_hip_plays_events),
-        cmocka_unit_test(surface_that_goes_with_the_hip_plays_none),
-        cmocka_unit_test(rotation_about_an_origin_elsewhere_slides_by_omega_cross_r),
-        cmocka_unit_test(rotation_goes_the_short_way),
-        cmocka_unit_test(place_and_turn_on_the_way_have_their_closed_forms),
-        cmocka_unit_test(arrival_is_exactly_at_the_target),
-        cmocka_unit_test(new_target_on_the_way_goes_on_from_where_it_is),
-        cmocka_unit_test(targets_frame_by_frame_make_no_jumps),
-        cmocka_unit_test(new_turn_on_the_way_goes_on_from_where_it_is),
-        cmocka_unit_test(before_the_commit_a_way_is_made_at_once),
-        cmocka_unit_test(jump_passes_by_what_is_on_its_way),
-        cmocka_unit_test(jump_of_what_is_touched_is_a_first_tick),
-        cmocka_unit_test(jump_ends_a_way),
-        cmocka_unit_test(while_nobody_ticks_the_way_waits),
-        cmocka_unit_test(hips_of_different_rates_see_the_same_way_in_seconds),
-        cmocka_unit_test(way_at_4_khz_takes_its_seconds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

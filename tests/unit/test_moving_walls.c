@@ -281,15 +281,3 @@ TEST(mesh_that_turns_feels_as_a_hip_that_circles_over_it) {
     compare_turning(-4.1, 0.0);
     compare_turning(2.3, 0.3);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_wall_that_comes_head_on_tunnels),
-        cmocka_unit_test(no_paddle_that_swings_round_tunnels),
-        cmocka_unit_test(single_sided_wall_that_comes_from_behind_passes),
-        cmocka_unit_test(double_sided_wall_that_comes_from_behind_pushes),
-        cmocka_unit_test(mesh_that_glides_feels_as_a_hip_that_glides_over_it),
-        cmocka_unit_test(mesh_that_turns_feels_as_a_hip_that_circles_over_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

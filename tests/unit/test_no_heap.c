@@ -420,13 +420,3 @@ TEST(ticks_make_no_system_call) {
         stroke_strictly(&scenes[i]);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_is_wrapped_is_noticed),
-        cmocka_unit_test(ticks_ask_for_no_memory_and_wait_for_nobody),
-        cmocka_unit_test(estimators_and_gratings_ask_for_nothing),
-        cmocka_unit_test(ticks_make_no_system_call),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -306,27 +306,3 @@ TEST(the_same_history_gives_the_same_positions_bit_for_bit) {
     }
     assert_memory_equal(&one, &other, sizeof one);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mass_that_nothing_touches_goes_straight_on),
-        cmocka_unit_test(a_constant_force_accelerates_a_free_mass),
-        cmocka_unit_test(viscous_friction_slows_a_free_mass_exponentially),
-        cmocka_unit_test(a_mass_let_go_on_the_hands_spring_swings_as_an_oscillator_does),
-        cmocka_unit_test(without_friction_a_swing_neither_grows_nor_dies),
-        cmocka_unit_test(a_constant_force_deflects_the_hands_spring_by_force_over_stiffness),
-        cmocka_unit_test(a_moving_hand_drags_the_mass_behind_it_by_its_friction),
-        cmocka_unit_test(dry_friction_holds_what_is_below_its_limit_and_lets_go_above),
-        cmocka_unit_test(dry_friction_holds_against_the_length_of_the_force_and_not_its_parts),
-        cmocka_unit_test(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy),
-        cmocka_unit_test(dry_friction_keeps_the_hand_off_its_target_by_no_more_than_its_limit),
-        cmocka_unit_test(a_force_beyond_what_the_motors_can_do_is_played_at_their_limit),
-        cmocka_unit_test(a_force_acts_exactly_delay_ticks_later),
-        cmocka_unit_test(a_force_that_is_written_once_arrives_after_its_delay_and_stays),
-        cmocka_unit_test(of_two_forces_written_in_one_tick_the_newer_counts),
-        cmocka_unit_test(the_workspaces_stops_hold_and_let_go),
-        cmocka_unit_test(positions_are_told_to_the_nearest_multiple_of_the_resolution),
-        cmocka_unit_test(the_same_history_gives_the_same_positions_bit_for_bit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -231,18 +231,3 @@ TEST(a_device_that_is_not_exact_takes_four_plain_steps_a_tick_bit_for_bit) {
         }
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_swing_is_that_of_the_closed_form_at_any_rate_and_damping),
-        cmocka_unit_test(a_held_force_moves_a_free_mass_by_half_a_t_squared),
-        cmocka_unit_test(a_moving_hand_drags_the_mass_behind_it_by_its_friction_alone),
-        cmocka_unit_test(dry_friction_holds_exactly_below_its_limit_and_lets_go_above),
-        cmocka_unit_test(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy),
-        cmocka_unit_test(dry_friction_takes_twice_its_deflection_a_half_swing),
-        cmocka_unit_test(dry_friction_of_a_slide_damps_what_goes_across_it),
-        cmocka_unit_test(no_device_and_hand_that_can_be_asked_for_is_unstable),
-        cmocka_unit_test(a_device_that_is_not_exact_takes_four_plain_steps_a_tick_bit_for_bit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -325,20 +325,3 @@ TEST(curved_double_sided_sheet_holds_on_both_sides) {
     }
     probe_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hip_orbiting_inside_a_sphere_is_held_at_its_depth),
-        cmocka_unit_test(hip_pressed_through_a_thin_wall_is_held_at_its_front),
-        cmocka_unit_test(box_holds_what_is_inside_and_nothing_else),
-        cmocka_unit_test(corners_of_a_room_hold),
-        cmocka_unit_test(hip_sliding_round_an_edge_is_held_all_the_way),
-        cmocka_unit_test(hip_pressed_in_over_an_edge_is_held_by_the_nearer_face),
-        cmocka_unit_test(distance_in_front_of_a_box_is_the_boxs),
-        cmocka_unit_test(ring_holds_what_is_inside_but_for_its_facets),
-        cmocka_unit_test(groove_holds_at_its_bottom),
-        cmocka_unit_test(seams_of_doubled_vertices_do_not_let_go),
-        cmocka_unit_test(curved_double_sided_sheet_holds_on_both_sides),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -130,14 +130,3 @@ TEST(hub_of_very_many_triangles_is_walked_across) {
     }
     probe_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rim_of_an_open_sheet_lets_go),
-        cmocka_unit_test(nothing_in_front_of_a_rim_is_in_reach),
-        cmocka_unit_test(border_of_t_junctions_is_slid_over),
-        cmocka_unit_test(tip_of_a_spike_is_reached_from_all_round),
-        cmocka_unit_test(hub_of_very_many_triangles_is_walked_across),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

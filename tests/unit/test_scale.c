@@ -393,19 +393,3 @@ TEST(eight_hips_feel_each_what_one_alone_feels) {
     }
     shape_free(&s);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ten_thousand_tiles_feel_as_if_all_were_looked_at),
-        cmocka_unit_test(the_same_while_tiles_move_come_and_go),
-        cmocka_unit_test(smooth_surfaces_need_no_grating_stage),
-        cmocka_unit_test(surfaces_far_off_are_never_felt),
-        cmocka_unit_test(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged),
-        cmocka_unit_test(surfaces_taken_out_are_no_longer_near),
-        cmocka_unit_test(surfaces_that_went_by_are_no_longer_near),
-        cmocka_unit_test(after_a_leap_across_everything_all_is_felt_again),
-        cmocka_unit_test(of_a_stack_the_topmost_is_met_first),
-        cmocka_unit_test(eight_hips_feel_each_what_one_alone_feels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

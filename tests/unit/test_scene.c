@@ -360,24 +360,3 @@ TEST(workspace_left_open_is_centred_on_all_bounds) {
     CHECK_SAME(workspace.scale, 1.0);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(life_goes_from_create_to_tick),
-        cmocka_unit_test(scene_descriptions_out_of_range_are_refused),
-        cmocka_unit_test(a_scene_is_committed_once),
-        cmocka_unit_test(ids_of_removed_surfaces_stay_stale),
-        cmocka_unit_test(order_of_adding_survives_removal),
-        cmocka_unit_test(full_scene_has_room_after_a_removal),
-        cmocka_unit_test(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence),
-        cmocka_unit_test(materials_out_of_range_are_refused_by_name),
-        cmocka_unit_test(places_out_of_range_are_refused_by_name),
-        cmocka_unit_test(surface_is_exactly_one_shape_with_a_material),
-        cmocka_unit_test(mesh_needs_a_direction_and_s1_coordinates),
-        cmocka_unit_test(info_tells_the_axis_that_was_given),
-        cmocka_unit_test(unknown_names_are_answered_with_the_known),
-        cmocka_unit_test(hips_are_configured_within_their_ranges),
-        cmocka_unit_test(workspace_left_open_is_centred_on_all_bounds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -226,19 +226,3 @@ TEST(info_tells_how_uvs_stretch) {
     knurl_scene_destroy(scene);
     shape_free(&sheet);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(removing_gives_the_bytes_back),
-        cmocka_unit_test(refused_surfaces_leave_no_bytes),
-        cmocka_unit_test(memory_that_runs_out_leaves_the_scene_as_it_was),
-        cmocka_unit_test(memory_that_runs_out_makes_no_scene),
-        cmocka_unit_test(older_material_keeps_the_defaults_of_what_it_lacks),
-        cmocka_unit_test(older_surface_and_scene_descriptions_work),
-        cmocka_unit_test(newer_structs_are_refused_only_where_their_news_is_used),
-        cmocka_unit_test(shorter_info_is_written_no_further_than_its_size),
-        cmocka_unit_test(info_tells_what_a_plane_came_to_be),
-        cmocka_unit_test(info_tells_how_uvs_stretch),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -341,10 +341,3 @@ TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
     assert_int_equal(books.blocks, 0);
     assert_true(books.bytes == 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edits_under_two_ticking_hips_are_seen_whole_and_in_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -113,10 +113,3 @@ TEST(two_loops_tick_while_a_thread_edits) {
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_loops_tick_while_a_thread_edits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

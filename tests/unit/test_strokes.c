@@ -194,14 +194,3 @@ TEST(sheet_behind_which_the_hip_lifts_off_does_not_hold_it) {
     CHECK_CLOSE(p.contact.z, -0.0015, 1e-8);
     probe_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groove_crossed_in_one_tick_holds_on_its_other_side),
-        cmocka_unit_test(fast_strokes_do_not_tunnel_through_a_rasp),
-        cmocka_unit_test(nothing_that_wanders_in_a_rasp_is_lost),
-        cmocka_unit_test(strokes_over_teeth_never_lose_the_tooth_they_are_in),
-        cmocka_unit_test(sheet_behind_which_the_hip_lifts_off_does_not_hold_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

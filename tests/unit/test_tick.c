@@ -359,23 +359,3 @@ TEST(tangents_go_before_uvs) {
     knurl_scene_destroy(scene);
     shape_free(&sheet);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smooth_surface_pushes_with_stiffness_times_depth),
-        cmocka_unit_test(s1_follows_equations_9_and_11_at_points),
-        cmocka_unit_test(s2_at_constant_speed_plays_t3_events),
-        cmocka_unit_test(s2_at_rest_is_the_plain_surface),
-        cmocka_unit_test(contact_begins_at_the_crest_without_a_jump),
-        cmocka_unit_test(contact_with_s2_begins_at_its_highest_crest),
-        cmocka_unit_test(damping_acts_along_the_normal_and_never_pulls),
-        cmocka_unit_test(surface_elsewhere_feels_the_same),
-        cmocka_unit_test(velocity_is_told_in_the_surface_frame),
-        cmocka_unit_test(velocity_from_behind_keeps_a_right_handed_frame),
-        cmocka_unit_test(grating_from_behind_is_that_of_the_surface_turned_over),
-        cmocka_unit_test(tangents_go_before_uvs),
-        cmocka_unit_test(s1_by_uvs_is_felt_where_it_is_painted),
-        cmocka_unit_test(s1_by_uvs_stretches_with_them),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

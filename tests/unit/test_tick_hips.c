@@ -413,26 +413,3 @@ TEST(snapshots_read_by_another_thread_are_whole) {
     assert_true(r.seen > 0);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workspace_turns_and_scales_what_a_device_feels),
-        cmocka_unit_test(workspace_scales_velocities_given_and_estimated),
-        cmocka_unit_test(lift_off_ends_force_and_event_at_once),
-        cmocka_unit_test(force_limit_shortens_and_keeps_the_direction),
-        cmocka_unit_test(numbers_that_are_not_finite_let_go_and_are_survived),
-        cmocka_unit_test(velocity_starts_anew_after_numbers_that_are_not_finite),
-        cmocka_unit_test(velocity_that_is_not_used_need_not_be_finite),
-        cmocka_unit_test(numbers_that_overflow_give_no_force),
-        cmocka_unit_test(forces_of_several_surfaces_add_and_the_deepest_is_told),
-        cmocka_unit_test(more_surfaces_than_slots_are_flagged),
-        cmocka_unit_test(surface_that_is_only_near_is_not_one_too_many),
-        cmocka_unit_test(surfaces_left_in_the_same_tick_are_all_left),
-        cmocka_unit_test(hips_are_independent),
-        cmocka_unit_test(configuring_a_hip_forgets_what_it_did),
-        cmocka_unit_test(ticks_that_cannot_be_have_a_zero_output),
-        cmocka_unit_test(snapshot_is_the_latest_tick),
-        cmocka_unit_test(snapshots_read_by_another_thread_are_whole),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

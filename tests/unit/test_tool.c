@@ -396,30 +396,4 @@ TEST(a_full_disk_does_not_look_like_success) {
     check_refused(&p, 1, "written", "many lines to a full disk");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(signal_T3_at_3_ms_is_two_small_ticks_up_and_a_large_one_down),
-        cmocka_unit_test(signal_T1_at_3_ms_samples_the_square_wave),
-        cmocka_unit_test(signal_T2_at_an_even_period_and_below_two_ticks_is_one_even_wave),
-        cmocka_unit_test(signal_T2_at_3_ms_mixes_4_and_2),
-        cmocka_unit_test(signal_works_in_ticks_at_any_rate),
-        cmocka_unit_test(scan_S2_at_400_hz_plays_the_six_tick_mix_to_its_end),
-        cmocka_unit_test(scan_S2_takes_a_new_period_only_when_an_event_has_ended),
-        cmocka_unit_test(scan_S2_idles_below_1_mm_a_second_and_along_the_ridges),
-        cmocka_unit_test(scan_S1_looks_the_height_up_at_positions),
-        cmocka_unit_test(scan_S1_integrates_velocities_from_zero),
-        cmocka_unit_test(scan_tells_the_spatial_frequency_in_the_direction_of_motion),
-        cmocka_unit_test(scan_finds_its_columns_by_name_in_any_order_among_others),
-        cmocka_unit_test(inspect_tells_each_surface_in_one_line_of_json),
-        cmocka_unit_test(inspect_tells_the_model_and_why),
-        cmocka_unit_test(inspect_tells_how_far_a_model_is_off),
-        cmocka_unit_test(inspect_counts_triangles_in_reversed_pairs_and_calls_them_double_sided),
-        cmocka_unit_test(inspect_tells_what_a_device_can_reach),
-        cmocka_unit_test(pretty_is_the_same_json_over_several_lines),
-        cmocka_unit_test(inspect_of_an_untagged_file_finds_nothing_and_hints),
-        cmocka_unit_test(devices_are_listed_for_people_and_as_json),
-        cmocka_unit_test(version_and_help_are_no_errors),
-        cmocka_unit_test(a_full_disk_does_not_look_like_success),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

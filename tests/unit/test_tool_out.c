@@ -257,21 +257,4 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
     assert_int_equal(files_that_end(".part"), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_does_not_replace_its_model_whatever_it_is_called),
-        cmocka_unit_test(a_run_does_not_replace_its_trace),
-        cmocka_unit_test(a_run_does_not_replace_the_buffer_of_its_model),
-        cmocka_unit_test(a_link_where_an_unfinished_file_was_expected_is_not_followed),
-        cmocka_unit_test(an_output_has_the_mode_that_the_umask_gives),
-        cmocka_unit_test(an_output_may_have_the_longest_name),
-        cmocka_unit_test(standard_output_takes_the_rows_and_then_the_summary),
-        cmocka_unit_test(standard_output_that_is_a_file_is_written_on_not_replaced),
-        cmocka_unit_test(a_fifo_is_written_to_and_stays_one),
-        cmocka_unit_test(an_interrupted_run_leaves_no_short_file),
-        cmocka_unit_test(a_name_that_is_taken_meanwhile_is_a_failure),
-        cmocka_unit_test(a_study_that_is_ended_leaves_nothing),
-        cmocka_unit_test(a_picture_does_not_replace_the_run_that_it_shows),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

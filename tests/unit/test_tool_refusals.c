@@ -276,22 +276,4 @@ TEST(without_a_command_the_usage_is_told) {
     process_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_usage_of_the_tool_is_told),
-        cmocka_unit_test(a_missing_value_is_told),
-        cmocka_unit_test(a_number_out_of_range_is_told),
-        cmocka_unit_test(a_number_of_ticks_that_is_no_whole_number_is_told),
-        cmocka_unit_test(unknown_names_are_told_with_those_that_are_known),
-        cmocka_unit_test(what_is_not_built_yet_fails_with_a_sentence),
-        cmocka_unit_test(a_scene_that_cannot_be_read_is_told_with_its_name),
-        cmocka_unit_test(run_on_an_untagged_scene_fails_and_hints_at_inspect),
-        cmocka_unit_test(a_bad_trace_is_told_with_its_file_line_and_column),
-        cmocka_unit_test(a_bad_motion_for_scan_is_told_with_its_file_line_and_column),
-        cmocka_unit_test(an_output_that_cannot_be_written_is_told_and_nothing_is_left),
-        cmocka_unit_test(an_existing_output_outlives_a_run_that_fails),
-        cmocka_unit_test(a_line_break_in_a_name_does_not_break_the_line),
-        cmocka_unit_test(without_a_command_the_usage_is_told),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

@@ -323,20 +323,4 @@ TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
     assert_true(forces[1] < 0.9 * forces[0]); /* the hand's spring gives way to either */
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_trace_on_a_plate_gives_the_forces_of_the_equations),
-        cmocka_unit_test(the_summary_is_one_line_of_json_with_every_key_of_the_contract),
-        cmocka_unit_test(fast_twice_gives_the_same_bytes_and_another_seed_others),
-        cmocka_unit_test(the_full_model_feels_the_same),
-        cmocka_unit_test(what_a_device_cannot_do_is_warned_of_and_clamped_on_request),
-        cmocka_unit_test(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe),
-        cmocka_unit_test(rate_seconds_surface_and_method_are_obeyed),
-        cmocka_unit_test(a_stroke_lies_1_mm_below_the_surface_along_its_x),
-        cmocka_unit_test(an_output_is_replaced_only_by_a_whole_one),
-        cmocka_unit_test(an_output_may_be_a_device),
-        cmocka_unit_test(a_lost_device_is_a_failure_whose_csv_is_whole),
-        cmocka_unit_test(a_lost_device_may_be_looked_for),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

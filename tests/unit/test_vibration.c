@@ -366,34 +366,3 @@ TEST(bad_events_are_refused_and_nothing_is_written) {
         CHECK_REFUSED(knurl_event_init(bad[i][0], bad[i][1], &event), KNURL_ERROR_ARGUMENT, event);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(even_multiples_are_one_square_wave_in_all_methods),
-        cmocka_unit_test(t1_nets_an_nth_of_its_amplitude_at_odd_multiples),
-        cmocka_unit_test(t2_and_t3_net_nothing_over_whole_actual_periods),
-        cmocka_unit_test(rms_is_the_amplitude_at_integer_periods_and_at_2_5_ticks),
-        cmocka_unit_test(t3_at_three_ticks_is_0_7071_twice_then_minus_1_4142),
-        cmocka_unit_test(t3_at_2_5_ticks_is_the_six_tick_mix_of_eq_8),
-        cmocka_unit_test(t3_mixes_from_2_25_to_2_75_ticks_inclusive),
-        cmocka_unit_test(t3_thresholds_hold_for_periods_in_seconds),
-        cmocka_unit_test(t3_rounds_half_a_tick_up),
-        cmocka_unit_test(t1_at_integer_periods_is_exact_at_any_tick_and_rate),
-        cmocka_unit_test(t1_at_rational_periods_follows_exact_arithmetic),
-        cmocka_unit_test(t1_at_whole_frequencies_is_exact_for_a_second),
-        cmocka_unit_test(t1_at_rational_periods_keeps_its_phase_at_large_ticks),
-        cmocka_unit_test(t2_at_an_even_period_or_below_two_is_one_even_component),
-        cmocka_unit_test(t2_weights_satisfy_eqs_1_and_2),
-        cmocka_unit_test(t3_odd_period_is_balanced_and_keeps_rms),
-        cmocka_unit_test(t2_and_t3_follow_algorithms_3_to_6_at_any_period),
-        cmocka_unit_test(t2_and_t3_repeat_at_any_tick),
-        cmocka_unit_test(below_two_ticks_is_played_as_two_and_marked_saturated),
-        cmocka_unit_test(peaks_are_those_the_header_promises),
-        cmocka_unit_test(the_same_number_of_ticks_is_the_same_sequence_at_every_rate),
-        cmocka_unit_test(an_event_has_no_height_outside_its_ticks),
-        cmocka_unit_test(the_ends_of_the_ranges_are_accepted),
-        cmocka_unit_test(bad_waves_are_refused_and_nothing_is_written),
-        cmocka_unit_test(bad_events_are_refused_and_nothing_is_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

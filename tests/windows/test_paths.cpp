@@ -52,7 +52,7 @@ void assert_uri_fails(const Folder &folder, const std::string &uri, knurl_result
         fail_msg("%s: expected %d and '%s', found %d: %s", uri.c_str(), code, part, result, knurl_error_message());
 }
 
-void paths_are_utf8(void **) {
+TEST(paths_are_utf8) {
     const Folder folder;
     const Loaded loaded;
     const std::string there = folder.write(std::string(odd_name) + ".glb", quad().glb());
@@ -63,7 +63,7 @@ void paths_are_utf8(void **) {
     assert_int_not_equal(knurl_gltf_load_file(loaded.scene, "bad \xC3\x28.glb", nullptr), KNURL_OK);
 }
 
-void a_buffer_of_any_name_lies_in_the_files_folder_or_below_it(void **) {
+TEST(a_buffer_of_any_name_lies_in_the_files_folder_or_below_it) {
     const Folder folder;
     folder.write(std::string("in/") + odd_name + ".bin", quad().bin);
     folder.write("in/sub/a.bin", quad().bin);
@@ -78,7 +78,7 @@ void a_buffer_of_any_name_lies_in_the_files_folder_or_below_it(void **) {
     assert_uri_fails(folder, "sub%5C..%5C..%5Csecret.bin", KNURL_ERROR_FORMAT, outside);
 }
 
-void drives_and_shares_are_no_relative_paths(void **) {
+TEST(drives_and_shares_are_no_relative_paths) {
     const Folder folder;
     folder.write("secret.bin", quad().bin);
     const char *relative = "expected a path relative to the glTF file, without a scheme";
@@ -87,7 +87,7 @@ void drives_and_shares_are_no_relative_paths(void **) {
         assert_uri_fails(folder, uri, KNURL_ERROR_FORMAT, relative);
 }
 
-void names_of_devices_are_no_files(void **) {
+TEST(names_of_devices_are_no_files) {
     const Folder folder;
     for (const char *name : {"NUL", "CON", "COM1", "sub/NUL"})
         assert_int_not_equal(load_uri(folder, name), KNURL_OK);
@@ -97,13 +97,3 @@ void names_of_devices_are_no_files(void **) {
 }
 
 } // namespace
-
-int main() {
-    const CMUnitTest tests[] = {
-        cmocka_unit_test(paths_are_utf8),
-        cmocka_unit_test(a_buffer_of_any_name_lies_in_the_files_folder_or_below_it),
-        cmocka_unit_test(drives_and_shares_are_no_relative_paths),
-        cmocka_unit_test(names_of_devices_are_no_files),
-    };
-    return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -168,11 +168,5 @@ TEST(a_process_zeroes_forces_before_it_ends_as_it_would_have) {
 }
 
 int main(int argc, char **argv) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_real_time_thread_is_time_critical_and_never_wakes_before_its_deadline),
-        cmocka_unit_test(a_library_is_loaded_by_a_path_in_utf8),
-        cmocka_unit_test(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line),
-        cmocka_unit_test(a_process_zeroes_forces_before_it_ends_as_it_would_have),
-    };
-    return argc == 3 ? die(argv[1], argv[2]) : cmocka_run_group_tests(tests, NULL, NULL);
+    return argc == 3 ? die(argv[1], argv[2]) : suite_run("system");
 }

@@ -36,12 +36,3 @@ TEST(a_library_that_lacks_a_function_lends_none) {
     assert_null(cosine);
     assert_null(other);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_first_library_that_is_there_lends_its_functions),
-        cmocka_unit_test(a_library_that_is_nowhere_is_named_with_the_systems_reason),
-        cmocka_unit_test(a_library_that_lacks_a_function_lends_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

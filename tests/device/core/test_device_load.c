@@ -174,10 +174,3 @@ TEST(a_loop_over_an_io_thread_runs_beside_a_busy_core) {
     CHECK_SAME(lean.force, 0.0L);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_loop_over_an_io_thread_runs_beside_a_busy_core),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

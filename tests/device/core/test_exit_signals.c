@@ -163,7 +163,7 @@ static void crash_with_force(int number) {
     crash_by(number);
 }
 
-TEST(whatever_signal_ends_the_process_forces_are_zeroed_before) {
+TEST_WITH(whatever_signal_ends_the_process_forces_are_zeroed_before, share, unshare) {
     for (size_t i = 0; i < COUNT_OF(ends); i++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(crash_with_force, ends[i]), ends[i]);
@@ -176,7 +176,7 @@ static void crash_without_help(int number) {
     crash_by(number);
 }
 
-TEST(without_having_asked_for_it_the_force_stays) {
+TEST_WITH(without_having_asked_for_it_the_force_stays, share, unshare) {
     check_ended_by(run(crash_without_help, SIGTERM), SIGTERM);
     CHECK_SAME(m->device.motor[1], 1.0L);
 }
@@ -191,7 +191,7 @@ static void fault_with_force(int where) {
     sleep_ns(INT64_C(10000000000));
 }
 
-TEST(a_fault_on_the_games_thread_or_in_a_tick_lets_go) {
+TEST_WITH(a_fault_on_the_games_thread_or_in_a_tick_lets_go, share, unshare) {
     for (int where = 0; where < 2; where++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(fault_with_force, where), SIGSEGV);
@@ -200,7 +200,7 @@ TEST(a_fault_on_the_games_thread_or_in_a_tick_lets_go) {
 }
 
 /* Nobody else can write then; but it ends. */
-TEST(a_fault_in_the_exchange_itself_ends_it_after_the_wait) {
+TEST_WITH(a_fault_in_the_exchange_itself_ends_it_after_the_wait, share, unshare) {
     check_ended_by(run(fault_with_force, 2), SIGSEGV);
 }
 
@@ -222,7 +222,7 @@ static void overflow_the_stack(int number) {
 }
 
 /* A handler needs a stack, too. */
-TEST(a_stack_that_overflows_lets_go) {
+TEST_WITH(a_stack_that_overflows_lets_go, share, unshare) {
     check_ended_by(run(overflow_the_stack, 0), SIGSEGV);
     check_limp();
 }
@@ -233,7 +233,7 @@ static void crash_without_blocking(int number) {
     crash_by(number);
 }
 
-TEST(a_device_without_an_io_thread_is_let_go_by_the_haptic_thread) {
+TEST_WITH(a_device_without_an_io_thread_is_let_go_by_the_haptic_thread, share, unshare) {
     check_ended_by(run(crash_without_blocking, SIGSEGV), SIGSEGV);
     check_limp();
 }
@@ -265,11 +265,11 @@ static int64_t time_to_end(void (*child)(int argument), int number) {
     return best;
 }
 
-TEST(without_a_device_nobody_waits) {
+TEST_WITH(without_a_device_nobody_waits, share, unshare) {
     assert_true(time_to_end(crash_without_device, SIGTERM) < 15000000);
 }
 
-TEST(a_device_that_hangs_is_waited_for_20_ms_and_no_longer) {
+TEST_WITH(a_device_that_hangs_is_waited_for_20_ms_and_no_longer, share, unshare) {
     const int64_t took = time_to_end(crash_while_hanging, SIGTERM);
     assert_true(took >= 20000000);
     assert_true(took < 60000000);
@@ -294,7 +294,7 @@ static void crash_in_an_exchange(int number) {
     crash_by(number);
 }
 
-TEST(an_exchange_under_way_is_waited_for) {
+TEST_WITH(an_exchange_under_way_is_waited_for, share, unshare) {
     for (int k = 0; k < 5; k++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(crash_in_an_exchange, SIGTERM), SIGTERM);
@@ -321,7 +321,7 @@ static void crash_with_nothing_to_let_go(int which) {
     crash_by(SIGTERM);
 }
 
-TEST(a_device_that_has_no_force_or_is_gone_is_not_waited_for) {
+TEST_WITH(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare) {
     for (int which = 0; which < 4; which++) {
         int64_t best = INT64_MAX;
         for (int k = 0; k < 5; k++) {
@@ -361,7 +361,7 @@ static double first_force_after(uint64_t count) {
 }
 
 /* Ctrl-Z, and fg: twice. */
-TEST(a_stop_zeroes_forces_and_they_come_back_by_the_ramp) {
+TEST_WITH(a_stop_zeroes_forces_and_they_come_back_by_the_ramp, share, unshare) {
     static const int numbers[] = {SIGTSTP, SIGTTIN, SIGTTOU};
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
         int status = 0;
@@ -409,7 +409,7 @@ static void fork_and_exit(int number) {
 }
 
 /* Its child has no thread that could write; quick_exit() is seen, too. */
-TEST(the_exit_of_a_child_that_was_forked_changes_nothing) {
+TEST_WITH(the_exit_of_a_child_that_was_forked_changes_nothing, share, unshare) {
     assert_int_equal(run(fork_and_exit, 0), 0);
     assert_int_equal(m->reached, 1);
     assert_int_equal(m->handled, 3);
@@ -452,7 +452,7 @@ static void crash_with_handler(int is_siginfo) {
     _exit(7);
 }
 
-TEST(a_handler_of_crashes_is_called_with_zero_force_and_decides) {
+TEST_WITH(a_handler_of_crashes_is_called_with_zero_force_and_decides, share, unshare) {
     for (int is_siginfo = 0; is_siginfo < 2; is_siginfo++) {
         memset(m, 0, sizeof *m);
         const int status = run(crash_with_handler, is_siginfo);
@@ -475,7 +475,7 @@ static void be_signalled(int number) {
 }
 
 /* SIGHUP that has a game read its settings anew is no end; but the exit() that follows is one. */
-TEST(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes) {
+TEST_WITH(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, unshare) {
     static const int numbers[] = {SIGTERM, SIGHUP, SIGINT, SIGUSR1, SIGALRM, SIGPROF, SIGTSTP};
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
         memset(m, 0, sizeof *m);
@@ -500,7 +500,7 @@ static void recover_from_a_fault(int flag) {
     crash_by(SIGABRT);
 }
 
-TEST(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces) {
+TEST_WITH(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces, share, unshare) {
     for (int flag = 0; flag < 2; flag++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(recover_from_a_fault, flag), SIGABRT);
@@ -527,7 +527,7 @@ static void crash_by_default(int number) {
     crash_by(number);
 }
 
-TEST(a_default_is_a_default_whatever_its_flags) {
+TEST_WITH(a_default_is_a_default_whatever_its_flags, share, unshare) {
     check_ended_by(run(crash_by_default, SIGTERM), SIGTERM);
     check_limp();
 }
@@ -551,7 +551,7 @@ static void read_through_a_signal(int flags) {
 }
 
 /* Else a game's reads and waits fail that never failed before. */
-TEST(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted) {
+TEST_WITH(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted, share, unshare) {
     for (int restarts = 0; restarts < 2; restarts++) {
         memset(m, 0, sizeof *m);
         assert_int_equal(run(read_through_a_signal, restarts ? SA_RESTART : 0), 0);
@@ -569,7 +569,7 @@ static void end_at_the_second_signal(int number) {
     crash_by(number);
 }
 
-TEST(a_handler_for_one_time_is_called_one_time) {
+TEST_WITH(a_handler_for_one_time_is_called_one_time, share, unshare) {
     check_ended_by(run(end_at_the_second_signal, SIGSEGV), SIGSEGV);
     assert_int_equal(m->handled, 1);
     assert_int_equal(m->reached, 1);
@@ -588,7 +588,7 @@ static void ignore_some(int number) {
     crash_by(number);
 }
 
-TEST(what_was_ignored_stays_ignored) {
+TEST_WITH(what_was_ignored_stays_ignored, share, unshare) {
     check_ended_by(run(ignore_some, SIGTERM), SIGTERM);
     assert_int_equal(m->reached, 1);
     check_limp();
@@ -604,38 +604,9 @@ static void install_twice(int number) {
     _exit(8);
 }
 
-TEST(installing_it_twice_is_fine) {
+TEST_WITH(installing_it_twice_is_fine, share, unshare) {
     const int status = run(install_twice, SIGSEGV);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 8);
     assert_int_equal(m->handled, 1);
     check_limp();
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(whatever_signal_ends_the_process_forces_are_zeroed_before, share, unshare),
-        cmocka_unit_test_setup_teardown(without_having_asked_for_it_the_force_stays, share, unshare),
-        cmocka_unit_test_setup_teardown(a_fault_on_the_games_thread_or_in_a_tick_lets_go, share, unshare),
-        cmocka_unit_test_setup_teardown(a_fault_in_the_exchange_itself_ends_it_after_the_wait, share, unshare),
-        cmocka_unit_test_setup_teardown(a_device_without_an_io_thread_is_let_go_by_the_haptic_thread, share, unshare),
-        cmocka_unit_test_setup_teardown(without_a_device_nobody_waits, share, unshare),
-        cmocka_unit_test_setup_teardown(a_device_that_hangs_is_waited_for_20_ms_and_no_longer, share, unshare),
-        cmocka_unit_test_setup_teardown(a_handler_of_crashes_is_called_with_zero_force_and_decides, share, unshare),
-        cmocka_unit_test_setup_teardown(what_was_ignored_stays_ignored, share, unshare),
-        cmocka_unit_test_setup_teardown(a_stop_zeroes_forces_and_they_come_back_by_the_ramp, share, unshare),
-        cmocka_unit_test_setup_teardown(the_exit_of_a_child_that_was_forked_changes_nothing, share, unshare),
-        cmocka_unit_test_setup_teardown(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, unshare),
-        cmocka_unit_test_setup_teardown(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces, share,
-                                        unshare),
-        cmocka_unit_test(a_flag_that_is_none_is_refused),
-        cmocka_unit_test_setup_teardown(installing_it_twice_is_fine, share, unshare),
-        cmocka_unit_test_setup_teardown(an_exchange_under_way_is_waited_for, share, unshare),
-        cmocka_unit_test_setup_teardown(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshare),
-        cmocka_unit_test_setup_teardown(a_stack_that_overflows_lets_go, share, unshare),
-        cmocka_unit_test_setup_teardown(a_default_is_a_default_whatever_its_flags, share, unshare),
-        cmocka_unit_test_setup_teardown(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted, share,
-                                        unshare),
-        cmocka_unit_test_setup_teardown(a_handler_for_one_time_is_called_one_time, share, unshare),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -305,23 +305,3 @@ TEST(what_blocks_cannot_be_stepped_and_what_does_not_can) {
         knurl_device_close(device);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_does_not_block_is_read_and_written_here_and_now),
-        cmocka_unit_test(forces_are_finite_and_at_most_what_it_can_play),
-        cmocka_unit_test(halted_it_gets_no_force_until_the_halt_is_released),
-        cmocka_unit_test(what_blocks_is_read_and_written_in_turn_on_one_other_thread),
-        cmocka_unit_test(statuses_count_what_an_io_thread_does_and_are_zero_without_one),
-        cmocka_unit_test(closing_lets_go_of_the_motors_and_then_closes_once),
-        cmocka_unit_test(of_a_lost_device_nothing_is_asked_but_to_close),
-        cmocka_unit_test(a_lost_device_comes_back_only_by_being_reopened),
-        cmocka_unit_test(what_cannot_be_reopened_stays_lost),
-        cmocka_unit_test(a_loop_plays_its_forces_on_it),
-        cmocka_unit_test(what_blocks_cannot_be_stepped_and_what_does_not_can),
-        cmocka_unit_test(it_is_started_before_it_is_read),
-        cmocka_unit_test(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent),
-        cmocka_unit_test(before_its_first_position_there_is_none_to_hold),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

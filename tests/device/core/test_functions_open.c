@@ -195,18 +195,3 @@ TEST(outputs_whose_size_nobody_set_are_refused_and_untouched) {
     CHECK_REFUSED(knurl_device_get_status(device, &status), KNURL_ERROR_ARGUMENT, status);
     knurl_device_close(device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_function_that_is_required_and_missing_is_named),
-        cmocka_unit_test(a_force_must_be_promised),
-        cmocka_unit_test(a_struct_that_nobody_filled_in_is_refused),
-        cmocka_unit_test(without_memory_or_threads_it_is_an_error_and_nothing_is_left_behind),
-        cmocka_unit_test(a_start_that_fails_is_passed_on),
-        cmocka_unit_test(what_its_owner_does_not_say_promises_nothing),
-        cmocka_unit_test(what_its_owner_says_is_passed_on),
-        cmocka_unit_test(outputs_whose_size_nobody_set_are_refused_and_untouched),
-        cmocka_unit_test(what_blocks_wants_200_ticks_a_second),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

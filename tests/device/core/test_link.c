@@ -424,27 +424,3 @@ TEST(after_a_reconnect_no_force_from_before_is_played) {
     }
     knurl_device_close(device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_arrive_newest_first_and_none_comes_after_a_newer_one),
-        cmocka_unit_test(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one),
-        cmocka_unit_test(a_force_that_nobody_renews_is_played_for_10_ms_and_then_let_go_of),
-        cmocka_unit_test(no_force_is_no_force_however_old_it_is),
-        cmocka_unit_test(a_halt_reaches_the_motors_with_the_next_exchange),
-        cmocka_unit_test(exchanges_are_no_more_frequent_than_the_device_brings_positions),
-        cmocka_unit_test(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst),
-        cmocka_unit_test(a_mute_device_is_silent_after_10_ms_and_its_motors_are_let_go),
-        cmocka_unit_test(a_second_of_silence_is_a_loss),
-        cmocka_unit_test(a_device_that_is_heard_again_is_read_again),
-        cmocka_unit_test(an_unplugged_device_is_lost_at_once),
-        cmocka_unit_test(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once),
-        cmocka_unit_test(the_last_exchange_carries_no_force),
-        cmocka_unit_test(after_a_reconnect_no_force_from_before_is_played),
-        cmocka_unit_test(a_hang_that_ends_without_an_answer_is_still_one_silence),
-        cmocka_unit_test(a_hang_is_seen_whatever_was_counted_before_it),
-        cmocka_unit_test(a_loop_does_not_resume_while_the_device_is_silent),
-        cmocka_unit_test(a_status_says_that_it_is_lost_though_nobody_reads_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -153,11 +153,3 @@ TEST(the_kernel_is_asked_for_nothing) {
         assert_true(ask ? WIFSIGNALED(status) : WIFEXITED(status) && WEXITSTATUS(status) == 0);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reading_and_writing_ask_for_nothing_but_the_time),
-        cmocka_unit_test(the_kernel_is_asked_for_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -96,7 +96,7 @@ static void check_ramp_up(uint64_t from) {
 
 /* --- lost and found --- */
 
-TEST(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp) {
+TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, NULL, end_rig) {
     init();
     r.desc.reconnect = 1;
     r.reads_left = 70;
@@ -119,7 +119,7 @@ TEST(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp) 
     assert_int_equal(next_event(), 0);
 }
 
-TEST(a_running_loop_looks_for_its_device_four_times_a_second) {
+TEST_WITH(a_running_loop_looks_for_its_device_four_times_a_second, NULL, end_rig) {
     init_real();
     r.reads_left = 70;
     extra.fails = 2;
@@ -141,7 +141,7 @@ TEST(a_running_loop_looks_for_its_device_four_times_a_second) {
     assert_int_equal(next_event(), 0);
 }
 
-TEST(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it) {
+TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         init_real();
         r.desc.reconnect = 0;
@@ -163,7 +163,7 @@ TEST(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it) {
     }
 }
 
-TEST(the_tick_limit_counts_ticks_and_not_beats_without_a_device) {
+TEST_WITH(the_tick_limit_counts_ticks_and_not_beats_without_a_device, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         init_real();
         r.desc.tick_limit = 100;
@@ -185,7 +185,7 @@ TEST(the_tick_limit_counts_ticks_and_not_beats_without_a_device) {
     }
 }
 
-TEST(a_stop_while_the_device_is_lost_ends_the_loop) {
+TEST_WITH(a_stop_while_the_device_is_lost_ends_the_loop, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         init_real();
         r.reads_left = 70;
@@ -209,7 +209,7 @@ TEST(a_stop_while_the_device_is_lost_ends_the_loop) {
     }
 }
 
-TEST(a_loop_can_be_destroyed_in_every_state) {
+TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
     enum { IDLE, STOPPED_BEFORE, RUNNING, LOST, STEPPED, STEPPED_LOST, DONE, STATES };
     for (int in = 0; in < STATES; in++) {
         init_real();
@@ -240,7 +240,7 @@ TEST(a_loop_can_be_destroyed_in_every_state) {
 }
 
 /* What is noticed while writing is no other loss than what is noticed while reading. */
-TEST(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes) {
+TEST_WITH(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, NULL, end_rig) {
     init();
     r.desc.reconnect = 1;
     r.writes_left = 70;
@@ -257,7 +257,7 @@ TEST(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes) 
 
 /* --- beats without a position --- */
 
-TEST(before_the_first_tick_nothing_is_resumed) {
+TEST_WITH(before_the_first_tick_nothing_is_resumed, NULL, end_rig) {
     init();
     extra.not_ready_to = 12;
     rig_create(&r);
@@ -268,7 +268,7 @@ TEST(before_the_first_tick_nothing_is_resumed) {
     check_ramp_up(12);
 }
 
-TEST(a_beat_without_a_position_writes_no_force_and_asks_for_none) {
+TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, NULL, end_rig) {
     init();
     extra.not_ready_from = 50;
     extra.not_ready_to = 60;
@@ -288,7 +288,7 @@ TEST(a_beat_without_a_position_writes_no_force_and_asks_for_none) {
 }
 
 /* A device that does not let go by itself plays its last force for ever. */
-TEST(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that) {
+TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, NULL, end_rig) {
     for (int i = 0; i < 6; i++) {
         init();
         r.desc.ramp_s = i % 2 ? 0.02 : 0.0;
@@ -318,7 +318,7 @@ static void see_halt(const knurl_tick_output *output, void *user) {
 }
 
 /* What an I/O thread still has is the force from before: it must not be played between the halt and the ramp. */
-TEST(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written) {
+TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, end_rig) {
     init();
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
@@ -336,7 +336,7 @@ TEST(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written) {
     knurl_scene_destroy(scene);
 }
 
-TEST(after_a_halt_the_force_comes_back_by_the_ramp) {
+TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, NULL, end_rig) {
     init();
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
@@ -351,7 +351,7 @@ TEST(after_a_halt_the_force_comes_back_by_the_ramp) {
 /* --- heartbeat --- */
 
 /* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
-TEST(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it) {
+TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         knurl_device_event event;
         init();
@@ -392,7 +392,7 @@ TEST(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it
     }
 }
 
-TEST(with_signs_of_life_in_time_nothing_happens) {
+TEST_WITH(with_signs_of_life_in_time_nothing_happens, NULL, end_rig) {
     init();
     r.desc.heartbeat_s = 0.02;
     rig_create(&r);
@@ -406,7 +406,7 @@ TEST(with_signs_of_life_in_time_nothing_happens) {
     assert_int_equal(next_event(), 0);
 }
 
-TEST(a_game_that_dies_and_comes_back_half_way_is_taken_from_there) {
+TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, NULL, end_rig) {
     init();
     r.desc.heartbeat_s = 0.01;
     rig_create(&r);
@@ -422,7 +422,7 @@ TEST(a_game_that_dies_and_comes_back_half_way_is_taken_from_there) {
 }
 
 /* The force comes back when the game does, and that is when it is told. */
-TEST(while_the_game_gives_no_sign_of_life_nothing_is_resumed) {
+TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, NULL, end_rig) {
     init();
     r.desc.heartbeat_s = 0.02;
     extra.not_ready_from = 100;
@@ -441,7 +441,7 @@ TEST(while_the_game_gives_no_sign_of_life_nothing_is_resumed) {
 
 /* --- lateness --- */
 
-TEST(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness) {
+TEST_WITH(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, NULL, end_rig) {
     static int64_t late[100];
     memset(late, 0, sizeof late);
     late[10] = 700000; /* of 1 ms; above a half */
@@ -468,7 +468,7 @@ TEST(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness) {
 }
 
 /* While nobody read, the hand went on. */
-TEST(after_a_late_tick_a_hand_may_have_moved_on) {
+TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     static int64_t late[100];
     memset(late, 0, sizeof late);
     late[50] = 60000000;
@@ -489,7 +489,7 @@ static void stall(rig *self) {
     self->seen = knurl_device_is_halted(self->desc.device);
 }
 
-TEST(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes) {
+TEST_WITH(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, NULL, end_rig) {
     knurl_device_event event = {0};
     init_real();
     r.desc.watchdog_s = 0.05;
@@ -503,29 +503,4 @@ TEST(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes) {
     assert_true(rig_stats(&r).watchdogs >= 1);
     knurl_loop_stop(r.loop);
     assert_int_equal(r.seen, 1);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, end_rig),
-        cmocka_unit_test_teardown(a_running_loop_looks_for_its_device_four_times_a_second, end_rig),
-        cmocka_unit_test_teardown(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it, end_rig),
-        cmocka_unit_test_teardown(the_tick_limit_counts_ticks_and_not_beats_without_a_device, end_rig),
-        cmocka_unit_test_teardown(a_stop_while_the_device_is_lost_ends_the_loop, end_rig),
-        cmocka_unit_test_teardown(a_loop_can_be_destroyed_in_every_state, end_rig),
-        cmocka_unit_test_teardown(before_the_first_tick_nothing_is_resumed, end_rig),
-        cmocka_unit_test_teardown(a_beat_without_a_position_writes_no_force_and_asks_for_none, end_rig),
-        cmocka_unit_test_teardown(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it, end_rig),
-        cmocka_unit_test_teardown(with_signs_of_life_in_time_nothing_happens, end_rig),
-        cmocka_unit_test_teardown(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, end_rig),
-        cmocka_unit_test_teardown(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, end_rig),
-        cmocka_unit_test_teardown(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, end_rig),
-        cmocka_unit_test_teardown(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, end_rig),
-        cmocka_unit_test_teardown(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, end_rig),
-        cmocka_unit_test_teardown(while_the_game_gives_no_sign_of_life_nothing_is_resumed, end_rig),
-        cmocka_unit_test_teardown(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, end_rig),
-        cmocka_unit_test_teardown(after_a_late_tick_a_hand_may_have_moved_on, end_rig),
-        cmocka_unit_test_teardown(after_a_halt_the_force_comes_back_by_the_ramp, end_rig),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

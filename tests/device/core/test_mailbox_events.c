@@ -263,18 +263,3 @@ TEST(codes_that_nobody_knows_have_texts_too) {
         assert_true(strlen(knurl_fault_string(unknown[i])) > 10);
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mailbox_gives_the_newest_once),
-        cmocka_unit_test(the_three_slots_are_never_shared),
-        cmocka_unit_test(between_threads_nothing_is_torn_and_nothing_older_comes_after_something_newer),
-        cmocka_unit_test(events_come_oldest_first_with_the_time_at_which_they_were_seen),
-        cmocka_unit_test(the_ring_keeps_the_latest_64_and_counts_all),
-        cmocka_unit_test(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order),
-        cmocka_unit_test(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none),
-        cmocka_unit_test(every_fault_has_its_number_its_name_a_sentence_and_a_unit),
-        cmocka_unit_test(codes_that_nobody_knows_have_texts_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -370,22 +370,3 @@ TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     assert_int_equal(counts.not_finite, 0);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_not_finite_is_told_once_and_the_motors_are_let_go),
-        cmocka_unit_test(a_first_position_that_is_not_finite_is_none),
-        cmocka_unit_test(the_limit_is_10_metres_a_second_and_20_mm_at_least),
-        cmocka_unit_test(where_it_then_stays_for_20_ms_is_believed),
-        cmocka_unit_test(a_position_that_jumps_to_and_fro_is_one_fault_until_it_has_settled),
-        cmocka_unit_test(a_start_forgets_where_it_was),
-        cmocka_unit_test(a_device_of_1_khz_in_a_fast_hand_is_believed_however_often_it_is_read),
-        cmocka_unit_test(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick),
-        cmocka_unit_test(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one),
-        cmocka_unit_test(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled),
-        cmocka_unit_test(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often),
-        cmocka_unit_test(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can),
-        cmocka_unit_test(exchanges_that_take_long_do_not_make_a_hand_jump),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -203,7 +203,7 @@ static void check_silence(void) {
     assert_int_equal(knurl_load_acquire(&s.ticks), ticks);
 }
 
-TEST(a_device_with_a_servo_thread_runs_the_loop_on_it) {
+TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, NULL, end) {
     begin();
     t.desc.tick_limit = 200;
     start();
@@ -216,7 +216,7 @@ TEST(a_device_with_a_servo_thread_runs_the_loop_on_it) {
     assert_in_range(s.ticks, 219, 222);
 }
 
-TEST(it_cannot_be_stepped_and_only_at_its_own_rate) {
+TEST_WITH(it_cannot_be_stepped_and_only_at_its_own_rate, NULL, end) {
     begin();
     knurl_loop *none = NULL;
     t.desc.update_rate_hz = 500.0;
@@ -228,7 +228,7 @@ TEST(it_cannot_be_stepped_and_only_at_its_own_rate) {
     assert_int_equal(s.ticks, 0);
 }
 
-TEST(calls_that_come_late_are_counted_and_told) {
+TEST_WITH(calls_that_come_late_are_counted_and_told, NULL, end) {
     knurl_device_event event = {0};
     begin();
     start();
@@ -245,7 +245,7 @@ TEST(calls_that_come_late_are_counted_and_told) {
     assert_true(stats().jitter_ns.max >= 0.97 * 28e6);
 }
 
-TEST(a_stop_from_outside_and_one_from_the_callback_both_end_it) {
+TEST_WITH(a_stop_from_outside_and_one_from_the_callback_both_end_it, NULL, end) {
     for (int i = 0; i < 2; i++) {
         begin();
         t.stop_at = i ? 30 : UINT64_MAX;
@@ -265,7 +265,7 @@ TEST(a_stop_from_outside_and_one_from_the_callback_both_end_it) {
     begin(); /* for the teardown */
 }
 
-TEST(a_loss_without_reconnect_ends_it) {
+TEST_WITH(a_loss_without_reconnect_ends_it, NULL, end) {
     begin();
     start();
     wait_for_ticks(20);
@@ -277,7 +277,7 @@ TEST(a_loss_without_reconnect_ends_it) {
     assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), 0);
 }
 
-TEST(a_loss_with_reconnect_is_waited_out) {
+TEST_WITH(a_loss_with_reconnect_is_waited_out, NULL, end) {
     begin();
     t.desc.reconnect = 1;
     s.refuse_reopens = 1;
@@ -299,7 +299,7 @@ TEST(a_loss_with_reconnect_is_waited_out) {
 
 /* The time without a device is no lateness, nor does a reopening that takes long make the haptic thread one that stands
  * still. */
-TEST(the_time_that_it_was_away_is_no_fault_of_the_loops) {
+TEST_WITH(the_time_that_it_was_away_is_no_fault_of_the_loops, NULL, end) {
     knurl_device_event event;
     begin();
     t.desc.reconnect = 1;
@@ -318,7 +318,7 @@ TEST(the_time_that_it_was_away_is_no_fault_of_the_loops) {
     assert_true(stats().jitter_ns.max < 0.25e9);
 }
 
-TEST(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then) {
+TEST_WITH(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then, NULL, end) {
     begin();
     t.desc.reconnect = 1;
     s.changes_thread = 1;
@@ -331,7 +331,7 @@ TEST(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_on
     assert_int_equal(knurl_load_acquire(&s.reopens), 1);
 }
 
-TEST(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick) {
+TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, NULL, end) {
     for (int i = 0; i < 6; i++) {
         begin();
         t.desc.reconnect = 1;
@@ -357,7 +357,7 @@ TEST(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick) {
 }
 
 /* Whoever waited for the end may give the loop back. */
-TEST(a_loop_is_not_over_while_its_device_is_still_in_a_tick) {
+TEST_WITH(a_loop_is_not_over_while_its_device_is_still_in_a_tick, NULL, end) {
     begin();
     t.desc.reconnect = 1;
     s.refuse_reopens = UINT64_MAX;
@@ -373,7 +373,7 @@ TEST(a_loop_is_not_over_while_its_device_is_still_in_a_tick) {
     check_silence();
 }
 
-TEST(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it) {
+TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, NULL, end) {
     begin();
     for (int turn = 0; turn < 10; turn++) {
         start();
@@ -383,22 +383,4 @@ TEST(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it) {
     }
     start();
     wait_for_ticks(5);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(a_device_with_a_servo_thread_runs_the_loop_on_it, end),
-        cmocka_unit_test_teardown(it_cannot_be_stepped_and_only_at_its_own_rate, end),
-        cmocka_unit_test_teardown(calls_that_come_late_are_counted_and_told, end),
-        cmocka_unit_test_teardown(a_stop_from_outside_and_one_from_the_callback_both_end_it, end),
-        cmocka_unit_test_teardown(a_loss_without_reconnect_ends_it, end),
-        cmocka_unit_test_teardown(a_loss_with_reconnect_is_waited_out, end),
-        cmocka_unit_test_teardown(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, end),
-        cmocka_unit_test_teardown(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, end),
-        cmocka_unit_test_teardown(the_time_that_it_was_away_is_no_fault_of_the_loops, end),
-        cmocka_unit_test_teardown(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then,
-                                  end),
-        cmocka_unit_test_teardown(a_loop_is_not_over_while_its_device_is_still_in_a_tick, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

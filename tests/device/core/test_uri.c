@@ -117,14 +117,3 @@ TEST(random_options_are_taken_or_refused) {
     }
     assert_in_range(taken, 1, 19999);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_uri_is_a_name_and_values),
-        cmocka_unit_test(what_is_no_key_and_value_is_refused_with_the_device_what_was_found_and_what_is_known),
-        cmocka_unit_test(names_and_values_up_to_511_bytes_are_taken_and_longer_ones_refused),
-        cmocka_unit_test(a_device_without_keys_takes_a_name_only),
-        cmocka_unit_test(random_options_are_taken_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

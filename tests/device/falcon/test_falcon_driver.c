@@ -436,30 +436,3 @@ TEST(a_device_says_what_it_is) {
     }
     close_fake(device);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positions_are_where_the_grip_is),
-        cmocka_unit_test(a_force_comes_out_at_the_grip_as_it_went_in),
-        cmocka_unit_test(motors_are_never_told_more_than_they_may),
-        cmocka_unit_test(closing_leaves_the_motors_without_force),
-        cmocka_unit_test(an_unhomed_device_is_red_and_limp_until_it_is_homed),
-        cmocka_unit_test(buttons_are_told),
-        cmocka_unit_test(answers_in_pieces_change_nothing),
-        cmocka_unit_test(a_mute_device_is_let_go_and_comes_back),
-        cmocka_unit_test(transfers_that_hang_are_silence),
-        cmocka_unit_test(answers_that_are_cut_off_are_silence),
-        cmocka_unit_test(late_answers_are_no_positions),
-        cmocka_unit_test(random_bytes_are_counted_and_make_no_position),
-        cmocka_unit_test(a_jump_is_a_fault_and_lets_go),
-        cmocka_unit_test(encoders_that_no_hand_can_have_turned_are_no_position),
-        cmocka_unit_test(a_pulled_cable_is_told_once_and_the_device_is_had_back),
-        cmocka_unit_test(a_device_that_lost_its_power_as_well_needs_its_firmware_again),
-        cmocka_unit_test(a_device_that_never_answers_again_is_lost_within_a_second),
-        cmocka_unit_test(opening_that_fails_leaves_nothing_open),
-        cmocka_unit_test(options_that_are_none_are_refused_before_anything_is_opened),
-        cmocka_unit_test(an_image_may_be_named_by_the_environment),
-        cmocka_unit_test(a_device_says_what_it_is),
-    };
-    return cmocka_run_group_tests_name("falcon_driver", tests, NULL, NULL);
-}

@@ -168,19 +168,4 @@ TEST(a_request_that_the_chip_refuses_is_named) {
     plug_out();
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_device_with_firmware_needs_no_image),
-        cmocka_unit_test(a_device_without_firmware_is_given_the_image),
-        cmocka_unit_test(an_echo_may_come_in_pieces),
-        cmocka_unit_test(without_an_image_the_sentence_says_how_to_name_one),
-        cmocka_unit_test(an_image_that_cannot_be_had_is_named),
-        cmocka_unit_test(a_byte_that_comes_back_wrong_ends_it),
-        cmocka_unit_test(an_echo_that_stays_away_ends_it),
-        cmocka_unit_test(a_boot_loader_that_does_not_answer_ends_it),
-        cmocka_unit_test(an_image_that_is_none_of_a_falcon_is_named),
-        cmocka_unit_test(a_cable_that_is_pulled_ends_it),
-        cmocka_unit_test(a_request_that_the_chip_refuses_is_named),
-    };
-    return cmocka_run_group_tests_name("falcon_firmware", tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

@@ -153,19 +153,3 @@ TEST(times_are_printed) {
                   (double)best[1] / 1000.0);
     assert_true(frames >= 50000);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_to_the_device_has_its_digits_low_first),
-        cmocka_unit_test(a_frame_from_the_device_is_read),
-        cmocka_unit_test(of_several_frames_the_newest_counts),
-        cmocka_unit_test(a_frame_may_come_in_pieces_of_any_size),
-        cmocka_unit_test(all_homed_legs_and_buttons_are_told),
-        cmocka_unit_test(a_frame_that_is_cut_off_costs_only_itself),
-        cmocka_unit_test(what_is_left_of_a_frame_at_the_beginning_is_passed_over),
-        cmocka_unit_test(a_foreign_byte_anywhere_is_seen_and_the_next_frame_is_found),
-        cmocka_unit_test(a_byte_that_is_lost_or_doubled_is_seen),
-        cmocka_unit_test(times_are_printed),
-    };
-    return cmocka_run_group_tests_name("falcon_frames", tests, NULL, NULL);
-}

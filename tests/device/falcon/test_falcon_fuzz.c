@@ -154,12 +154,3 @@ TEST(forward_kinematics_takes_anything) {
         }
     }
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mutated_frames_are_told_from_whole_ones_or_counted),
-        cmocka_unit_test(random_bytes_hardly_ever_make_a_frame),
-        cmocka_unit_test(forward_kinematics_takes_anything),
-    };
-    return cmocka_run_group_tests_name("falcon_fuzz", tests, NULL, NULL);
-}

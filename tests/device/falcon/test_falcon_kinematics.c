@@ -276,20 +276,3 @@ TEST(times_are_printed) {
     }
     assert_true(isfinite(sum));
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forward_undoes_inverse_everywhere_in_the_workspace_from_the_centre),
-        cmocka_unit_test(forward_finds_any_position_from_any_other),
-        cmocka_unit_test(the_closed_form_solves_stampers_equations),
-        cmocka_unit_test(at_the_centre_all_legs_stand_alike),
-        cmocka_unit_test(a_count_is_0_0364347_degrees_and_none_of_them_35),
-        cmocka_unit_test(the_jacobian_is_what_finite_differences_give),
-        cmocka_unit_test(motors_make_the_force_that_was_asked_for_by_virtual_work),
-        cmocka_unit_test(a_force_beyond_the_motors_keeps_its_direction),
-        cmocka_unit_test(what_is_no_number_or_out_of_reach_is_refused),
-        cmocka_unit_test(forward_gives_a_true_answer_or_none),
-        cmocka_unit_test(times_are_printed),
-    };
-    return cmocka_run_group_tests_name("falcon_kinematics", tests, NULL, NULL);
-}

@@ -73,13 +73,4 @@ TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
     process_free(&p);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_falcon_is_among_the_devices),
-        cmocka_unit_test(a_plate_is_felt_through_a_falcon),
-        cmocka_unit_test(packets_in_pieces_change_nothing),
-        cmocka_unit_test(a_falcon_without_firmware_is_given_the_image),
-        cmocka_unit_test(a_cable_that_is_pulled_ends_the_run_with_a_sentence),
-    };
-    return cmocka_run_group_tests_name("falcon_tool", tests, make_folder, remove_folder);
-}
+SUITE_FIXTURES(make_folder, remove_folder)

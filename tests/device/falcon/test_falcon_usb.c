@@ -194,16 +194,3 @@ TEST(a_device_that_may_not_be_used_names_the_rule) {
     assert_non_null(strstr(listing.reason, "sdk/udev/70-knurl.rules"));
     falcon_emulated_stop();
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_loop_over_usb_holds_the_hand_off_the_floor),
-        cmocka_unit_test(short_packets_change_nothing),
-        cmocka_unit_test(a_mute_device_is_silent_then_lost),
-        cmocka_unit_test(a_pulled_cable_is_told_at_once_and_the_device_had_back),
-        cmocka_unit_test(a_falcon_is_listed_and_one_that_is_not_there_says_so),
-        cmocka_unit_test(a_device_that_somebody_else_holds_is_refused),
-        cmocka_unit_test(a_device_that_may_not_be_used_names_the_rule),
-    };
-    return cmocka_run_group_tests_name("falcon_usb", tests, NULL, NULL);
-}

@@ -401,12 +401,7 @@ TEST(a_process_that_ends_lets_go_first) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_fault_of_every_device_lets_go_within_5_ms_of_its_event_and_is_overcome),
-        cmocka_unit_test(the_loops_own_faults_are_seen_and_overcome),
-        cmocka_unit_test(a_process_that_ends_lets_go_first),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = suite_run("faults");
     if (row_count > 0) {
         table_print(rows, row_count, KNURL_TEST_TMP "/faults.md");
     }

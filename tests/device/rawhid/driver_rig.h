@@ -182,6 +182,4 @@ static inline void check_recovers(void) {
     (void)wait_for_position();
 }
 
-#define WITH_BUS(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
-
 #endif

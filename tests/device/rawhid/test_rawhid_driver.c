@@ -4,7 +4,7 @@
 
 /* --- opening --- */
 
-TEST(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is) {
+TEST_WITH(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is, set_up, tear_down) {
     static const size_t lengths[2] = {14, 64};
     for (int i = 0; i < 2; i++) {
         fake_hid_destroy(&hid);
@@ -19,7 +19,7 @@ TEST(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is) {
     }
 }
 
-TEST(the_first_reports_carry_no_current_and_no_command) {
+TEST_WITH(the_first_reports_carry_no_current_and_no_command, set_up, tear_down) {
     uint8_t last[HID_SIM_MOST_BYTES + 1];
     open_device("");
     assert_true(reports_sent() > 0);
@@ -30,7 +30,7 @@ TEST(the_first_reports_carry_no_current_and_no_command) {
     }
 }
 
-TEST(it_is_named_by_vendor_and_product) {
+TEST_WITH(it_is_named_by_vendor_and_product, set_up, tear_down) {
     static const char *const good[] = {"16c0:0486", "16C0:486", "16c0:0486?", "?", "?home=0"};
     static const char *const bad[] = {"16c0", "16c0:", ":0486", "16c0:00486", "16c0:048g", "0x16c0:0486", "first"};
     for (size_t i = 0; i < COUNT_OF(good); i++) {
@@ -46,7 +46,7 @@ TEST(it_is_named_by_vendor_and_product) {
     check_open_refused("?geometry=/nowhere", KNURL_ERROR_IO, "/nowhere");
 }
 
-TEST(of_several_devices_the_one_that_is_named_is_opened) {
+TEST_WITH(of_several_devices_the_one_that_is_named_is_opened, set_up, tear_down) {
     knurl_rawhid_found other = hid.found[0];
     knurl_rawhid_geometry geometry;
     knurl_rawhid_wanted wanted;
@@ -69,7 +69,7 @@ TEST(of_several_devices_the_one_that_is_named_is_opened) {
     assert_int_equal(bytes, 64);
 }
 
-TEST(of_a_devices_interfaces_the_one_of_its_usage_is_opened) {
+TEST_WITH(of_a_devices_interfaces_the_one_of_its_usage_is_opened, set_up, tear_down) {
     hid.found[1] = hid.found[0];
     hid.found[0].usage_page = 0xffc9; /* a Teensy's emulated serial port */
     hid.found[0].usage = 4;
@@ -78,7 +78,7 @@ TEST(of_a_devices_interfaces_the_one_of_its_usage_is_opened) {
     (void)wait_for_position();
 }
 
-TEST(why_it_cannot_be_opened_is_said_in_a_sentence) {
+TEST_WITH(why_it_cannot_be_opened_is_said_in_a_sentence, set_up, tear_down) {
     hid.found_count = 0;
     check_open_refused("", KNURL_ERROR_DEVICE_LOST, "1234:0006 (mbed) or 16c0:0486 (Teensy) and found none");
     check_open_refused("beef:1", KNURL_ERROR_DEVICE_LOST, "beef:0001 and found none");
@@ -98,13 +98,13 @@ TEST(why_it_cannot_be_opened_is_said_in_a_sentence) {
     check_open_refused("", KNURL_ERROR_SYSTEM, "device or resource busy");
 }
 
-TEST(a_device_that_does_not_answer_is_not_opened) {
+TEST_WITH(a_device_that_does_not_answer_is_not_opened, set_up, tear_down) {
     fake_hid_inject(&hid, DOUBLE_SHORT);
     check_open_refused("", KNURL_ERROR_DEVICE_LOST, "none within 0.5 s");
     check_message("175 bytes that make none"); /* 25 times 7 */
 }
 
-TEST(what_it_is_is_told) {
+TEST_WITH(what_it_is_is_told, set_up, tear_down) {
     knurl_device_info info;
     open_device("");
     knurl_device_info_init(&info, sizeof info);
@@ -124,7 +124,7 @@ TEST(what_it_is_is_told) {
     }
 }
 
-TEST(a_geometry_file_makes_it_another_device) {
+TEST_WITH(a_geometry_file_makes_it_another_device, set_up, tear_down) {
     char path[512];
     char options[600];
     knurl_device_info info;
@@ -151,7 +151,7 @@ TEST(a_geometry_file_makes_it_another_device) {
 
 /* --- homing --- */
 
-TEST(home_1_sets_the_counters_to_the_home_pose) {
+TEST_WITH(home_1_sets_the_counters_to_the_home_pose, set_up, tear_down) {
     uint8_t said[HID_SIM_MOST_BYTES];
     hid_sim_forget(&hid.sim);
     open_device("?home=1");
@@ -165,12 +165,12 @@ TEST(home_1_sets_the_counters_to_the_home_pose) {
     }
 }
 
-TEST(a_device_that_does_not_take_its_counters_is_not_opened) {
+TEST_WITH(a_device_that_does_not_take_its_counters_is_not_opened, set_up, tear_down) {
     hid.ignores_commands = 1;
     check_open_refused("?home=1", KNURL_ERROR_DEVICE_LOST, "homing: expected its encoders at 0, 0, 6000, found 0, 13");
 }
 
-TEST(a_device_that_never_was_homed_gives_no_position_and_gets_no_force) {
+TEST_WITH(a_device_that_never_was_homed_gives_no_position_and_gets_no_force, set_up, tear_down) {
     static const double force[3] = {1.0, 1.0, 1.0};
     knurl_device_sample sample;
     hid_sim_forget(&hid.sim);
@@ -180,7 +180,7 @@ TEST(a_device_that_never_was_homed_gives_no_position_and_gets_no_force) {
     assert_true(fake_hid_limp_since(&hid) != 0);
 }
 
-TEST(its_button_homes_it_and_positions_come_again_after_a_pause) {
+TEST_WITH(its_button_homes_it_and_positions_come_again_after_a_pause, set_up, tear_down) {
     open_device("");
     (void)wait_for_position();
     assert_int_equal(events_of(KNURL_FAULT_UNCALIBRATED), 0);
@@ -208,7 +208,7 @@ static int has_followed(const double force[3]) {
            is_near(sample.position, expected, 0.3 / 2000.0 + 0.0002) && is_near(pushed, force, 0.02);
 }
 
-TEST(a_force_moves_the_hand_its_way_by_what_the_hand_gives) {
+TEST_WITH(a_force_moves_the_hand_its_way_by_what_the_hand_gives, set_up, tear_down) {
     static const double forces[6][3] = {{2.0, 0.0, 0.0},  {0.0, 2.0, 0.0},  {0.0, 0.0, 2.0},
                                         {-2.0, 0.0, 0.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, -2.0}};
     open_device("");
@@ -232,7 +232,7 @@ static int greatest_current(void) {
     return greatest;
 }
 
-TEST(no_motor_ever_gets_more_than_its_limit) {
+TEST_WITH(no_motor_ever_gets_more_than_its_limit, set_up, tear_down) {
     static const double far[3] = {0.0, 0.0, 100.0}; /* shortened to 5 N, which is 3.1 A of a motor */
     int greatest = 0;
     open_device("");
@@ -244,7 +244,7 @@ TEST(no_motor_ever_gets_more_than_its_limit) {
     assert_int_equal(greatest, 3000);
 }
 
-TEST(closing_leaves_the_motors_without_current) {
+TEST_WITH(closing_leaves_the_motors_without_current, set_up, tear_down) {
     static const double force[3] = {0.0, 1.0, 0.0};
     open_device("");
     (void)wait_for_position();
@@ -261,7 +261,7 @@ TEST(closing_leaves_the_motors_without_current) {
     }
 }
 
-TEST(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks) {
+TEST_WITH(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks, set_up, tear_down) {
     open_device("");
     (void)wait_for_position();
     const uint32_t before = reports_sent();
@@ -269,7 +269,7 @@ TEST(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks) {
     assert_true(reports_sent() > before + 10);
 }
 
-TEST(half_a_second_without_a_report_lets_the_firmware_drop_the_motors) {
+TEST_WITH(half_a_second_without_a_report_lets_the_firmware_drop_the_motors, set_up, tear_down) {
     static const uint8_t pushing[65] = {0, 0xe8, 0x03};
     const double t = 100.0;
     hid.sim.time = t;
@@ -286,7 +286,7 @@ static uint32_t list(knurl_device_listing listings[8]) {
     return found.count;
 }
 
-TEST(the_list_tells_what_is_there_and_why_it_cannot_be_used) {
+TEST_WITH(the_list_tells_what_is_there_and_why_it_cannot_be_used, set_up, tear_down) {
     knurl_device_listing listings[8];
     hid.found[1] = hid.found[0];
     hid.found[1].usage_page = 0xffc9; /* the second interface of the same device is no device */
@@ -306,29 +306,4 @@ TEST(the_list_tells_what_is_there_and_why_it_cannot_be_used) {
     assert_int_equal(list(listings), 1);
     assert_string_equal(listings[0].uri, "rawhid");
     assert_non_null(strstr(listings[0].reason, "1234:0006 (mbed) or 16c0:0486 (Teensy)"));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        WITH_BUS(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is),
-        WITH_BUS(the_first_reports_carry_no_current_and_no_command),
-        WITH_BUS(it_is_named_by_vendor_and_product),
-        WITH_BUS(of_several_devices_the_one_that_is_named_is_opened),
-        WITH_BUS(of_a_devices_interfaces_the_one_of_its_usage_is_opened),
-        WITH_BUS(why_it_cannot_be_opened_is_said_in_a_sentence),
-        WITH_BUS(a_device_that_does_not_answer_is_not_opened),
-        WITH_BUS(what_it_is_is_told),
-        WITH_BUS(a_geometry_file_makes_it_another_device),
-        WITH_BUS(home_1_sets_the_counters_to_the_home_pose),
-        WITH_BUS(a_device_that_does_not_take_its_counters_is_not_opened),
-        WITH_BUS(a_device_that_never_was_homed_gives_no_position_and_gets_no_force),
-        WITH_BUS(its_button_homes_it_and_positions_come_again_after_a_pause),
-        WITH_BUS(a_force_moves_the_hand_its_way_by_what_the_hand_gives),
-        WITH_BUS(no_motor_ever_gets_more_than_its_limit),
-        WITH_BUS(closing_leaves_the_motors_without_current),
-        WITH_BUS(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks),
-        WITH_BUS(half_a_second_without_a_report_lets_the_firmware_drop_the_motors),
-        WITH_BUS(the_list_tells_what_is_there_and_why_it_cannot_be_used),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

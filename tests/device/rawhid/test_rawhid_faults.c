@@ -4,22 +4,22 @@
 
 /* --- faults --- */
 
-TEST(a_device_that_falls_silent_is_let_go_of_and_comes_back) {
+TEST_WITH(a_device_that_falls_silent_is_let_go_of_and_comes_back, set_up, tear_down) {
     check_let_go(DOUBLE_MUTE, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
-TEST(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back) {
+TEST_WITH(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back, set_up, tear_down) {
     check_let_go(DOUBLE_HANG, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
-TEST(answers_that_come_late_are_no_positions) {
+TEST_WITH(answers_that_come_late_are_no_positions, set_up, tear_down) {
     check_let_go(DOUBLE_LATE, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
-TEST(answers_that_are_cut_off_are_counted_and_told_once) {
+TEST_WITH(answers_that_are_cut_off_are_counted_and_told_once, set_up, tear_down) {
     knurl_device_status status;
     check_let_go(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
     tick_for(0.05, none);
@@ -30,12 +30,12 @@ TEST(answers_that_are_cut_off_are_counted_and_told_once) {
     check_recovers();
 }
 
-TEST(answers_of_random_bytes_are_no_positions) {
+TEST_WITH(answers_of_random_bytes_are_no_positions, set_up, tear_down) {
     check_let_go(DOUBLE_CORRUPT, KNURL_FAULT_CORRUPT);
     check_recovers();
 }
 
-TEST(a_jump_is_told_and_where_the_device_then_stays_is_believed) {
+TEST_WITH(a_jump_is_told_and_where_the_device_then_stays_is_believed, set_up, tear_down) {
     open_device("");
     (void)wait_for_position();
     fake_hid_inject(&hid, DOUBLE_JUMP);
@@ -44,7 +44,7 @@ TEST(a_jump_is_told_and_where_the_device_then_stays_is_believed) {
     CHECK_CLOSE(sample.position[0], 0.05, 0.0003);
 }
 
-TEST(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed) {
+TEST_WITH(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed, set_up, tear_down) {
     check_let_go(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
     knurl_device_sample sample;
     assert_false(tick_until(KNURL_OK, none, 0.1, &sample));
@@ -52,7 +52,7 @@ TEST(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed) {
     (void)wait_for_position();
 }
 
-TEST(old_reports_in_the_queue_are_no_positions) {
+TEST_WITH(old_reports_in_the_queue_are_no_positions, set_up, tear_down) {
     uint8_t old[64] = {0};
     knurl_device_sample sample;
     hid_sim_say(&hid.sim, old);
@@ -73,7 +73,7 @@ TEST(old_reports_in_the_queue_are_no_positions) {
     assert_true(fabs(sample.position[0]) < 0.0003);
 }
 
-TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
+TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
     open_device("");
@@ -94,7 +94,7 @@ TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
     assert_int_equal(hid.opened, hid.closed + 1);
 }
 
-TEST(a_second_of_silence_is_a_device_that_is_lost) {
+TEST_WITH(a_second_of_silence_is_a_device_that_is_lost, set_up, tear_down) {
     knurl_device_sample sample;
     open_device("");
     (void)wait_for_position();
@@ -106,7 +106,7 @@ TEST(a_second_of_silence_is_a_device_that_is_lost) {
 }
 
 /* With home=1, and its cable in again while the hand is in mid-air: its counters are as good as before. */
-TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
+TEST_WITH(found_again_it_is_homed_only_if_it_lost_its_counters, set_up, tear_down) {
     knurl_device_sample sample;
     for (int loses = 0; loses < 2; loses++) {
         open_device("?home=1");
@@ -126,7 +126,7 @@ TEST(found_again_it_is_homed_only_if_it_lost_its_counters) {
 
 /* --- the double --- */
 
-TEST(the_double_has_every_fault_that_it_claims_and_is_well_again) {
+TEST_WITH(the_double_has_every_fault_that_it_claims_and_is_well_again, set_up, tear_down) {
     for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
         if (rawhid_double.faults >> fault & 1u) {
             knurl_device_sample sample;
@@ -146,22 +146,4 @@ TEST(the_double_has_every_fault_that_it_claims_and_is_well_again) {
             device = NULL;
         }
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        WITH_BUS(a_device_that_falls_silent_is_let_go_of_and_comes_back),
-        WITH_BUS(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back),
-        WITH_BUS(answers_that_come_late_are_no_positions),
-        WITH_BUS(answers_that_are_cut_off_are_counted_and_told_once),
-        WITH_BUS(answers_of_random_bytes_are_no_positions),
-        WITH_BUS(a_jump_is_told_and_where_the_device_then_stays_is_believed),
-        WITH_BUS(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed),
-        WITH_BUS(old_reports_in_the_queue_are_no_positions),
-        WITH_BUS(unplugged_it_is_lost_and_plugged_in_again_it_is_found),
-        WITH_BUS(a_second_of_silence_is_a_device_that_is_lost),
-        WITH_BUS(found_again_it_is_homed_only_if_it_lost_its_counters),
-        WITH_BUS(the_double_has_every_fault_that_it_claims_and_is_well_again),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

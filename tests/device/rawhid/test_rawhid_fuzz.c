@@ -167,12 +167,4 @@ TEST(random_text_is_a_sentence) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_million_random_and_mutated_reports_are_positions_or_nothing),
-        cmocka_unit_test(random_descriptors_are_sizes_or_nothing),
-        cmocka_unit_test(mutated_geometry_files_are_geometries_or_sentences),
-        cmocka_unit_test(random_text_is_a_sentence),
-    };
-    return cmocka_run_group_tests(tests, set_up, NULL);
-}
+SUITE_FIXTURES(set_up, NULL)

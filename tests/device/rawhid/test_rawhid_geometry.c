@@ -228,21 +228,3 @@ TEST(a_folder_is_no_file) {
     memset(&g, 0x55, sizeof g);
     CHECK_REFUSED(knurl_rawhid_geometry_load(KNURL_TEST_ASSETS, &g), KNURL_ERROR_IO, g);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_file_that_is_shipped_says_what_holds_without_one),
-        cmocka_unit_test(the_file_that_is_shipped_names_every_key),
-        cmocka_unit_test(the_defaults_are_woodenhaptics_v2015),
-        cmocka_unit_test(keys_are_taken_and_the_others_keep_their_defaults),
-        cmocka_unit_test(what_is_wrong_is_refused_in_words_that_name_file_line_key_expected_and_found),
-        cmocka_unit_test(a_zero_byte_ends_nothing_and_is_refused),
-        cmocka_unit_test(every_key_takes_both_ends_of_its_range_and_nothing_beyond),
-        cmocka_unit_test(numbers_are_the_c_librarys_to_the_last_bit),
-        cmocka_unit_test(what_is_no_number_is_none),
-        cmocka_unit_test(a_locale_with_decimal_commas_changes_nothing),
-        cmocka_unit_test(a_file_that_is_missing_or_too_long_is_refused_by_its_name),
-        cmocka_unit_test(a_folder_is_no_file),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -300,25 +300,4 @@ TEST(times_are_printed_where_they_are_asked_for) {
     print_message("counts to position: %.0f ns; force to currents: %.0f ns (best of 7)\n", best[0], best[1]);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_turn_of_a_motor_turns_its_body_by_the_ratio_of_the_diameters),
-        cmocka_unit_test(in_the_home_pose_the_upper_arm_is_upright_and_the_forearm_points_at_the_user),
-        cmocka_unit_test(turning_the_base_to_the_right_takes_the_grip_to_the_right),
-        cmocka_unit_test(a_sign_of_minus_1_turns_a_body_and_its_current_the_other_way),
-        cmocka_unit_test(the_position_is_the_simulations_all_over_the_workspace),
-        cmocka_unit_test(forward_of_inverse_is_the_same_place_all_over_the_workspace),
-        cmocka_unit_test(the_inverse_finds_the_angles_that_root_finding_finds),
-        cmocka_unit_test(no_angles_are_found_for_places_out_of_reach),
-        cmocka_unit_test(every_counter_in_the_workspace_has_room_in_16_bits),
-        cmocka_unit_test(counters_that_lost_their_place_are_no_pose),
-        cmocka_unit_test(the_jacobian_is_how_differences_have_it),
-        cmocka_unit_test(the_currents_push_with_the_force_that_was_asked_for),
-        cmocka_unit_test(a_newton_to_the_right_in_the_middle_takes_531_milliamperes),
-        cmocka_unit_test(no_motor_gets_more_than_its_limit_and_the_force_keeps_its_direction),
-        cmocka_unit_test(a_force_that_is_no_number_gives_no_current),
-        cmocka_unit_test(the_resolution_is_what_the_worst_axis_moves_when_all_encoders_step),
-        cmocka_unit_test(times_are_printed_where_they_are_asked_for),
-    };
-    return cmocka_run_group_tests(tests, set_up, NULL);
-}
+SUITE_FIXTURES(set_up, NULL)

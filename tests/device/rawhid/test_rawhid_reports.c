@@ -87,16 +87,3 @@ TEST(a_descriptor_that_is_cut_off_in_an_item_or_promises_too_much_is_refused) {
     assert_int_equal(knurl_rawhid_measure(teensy, 0, &sizes), 1);
     assert_int_equal(sizes.in + sizes.out, 0);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_report_is_seven_words_low_byte_first),
-        cmocka_unit_test(a_report_of_another_length_than_the_devices_is_refused),
-        cmocka_unit_test(a_report_whose_last_word_is_neither_0_nor_1_is_refused),
-        cmocka_unit_test(currents_go_behind_the_report_id_low_byte_first_and_the_rest_is_0),
-        cmocka_unit_test(counters_are_set_by_command_1_without_any_current),
-        cmocka_unit_test(a_descriptor_tells_how_long_reports_are),
-        cmocka_unit_test(a_descriptor_that_is_cut_off_in_an_item_or_promises_too_much_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

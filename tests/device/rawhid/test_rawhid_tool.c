@@ -33,12 +33,3 @@ TEST(a_run_with_a_device_that_is_not_there_fails_with_a_sentence) {
     assert_non_null(strstr(p.err, "looked for a USB HID device 1234:0006 and found none"));
     process_free(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_tool_lists_the_device),
-        cmocka_unit_test(a_plate_is_felt_with_it),
-        cmocka_unit_test(a_run_with_a_device_that_is_not_there_fails_with_a_sentence),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -106,12 +106,12 @@ static knurl_device_listing listed(void) {
     return listings[0];
 }
 
-TEST(no_device_is_a_sentence) {
+TEST_WITH(no_device_is_a_sentence, set_up, tear_down) {
     check_refused(KNURL_ERROR_DEVICE_LOST, "found none");
     assert_non_null(strstr(listed().reason, "none is connected"));
 }
 
-TEST(it_is_listed_opened_and_closed_again_and_again) {
+TEST_WITH(it_is_listed_opened_and_closed_again_and_again, set_up, tear_down) {
     plug(0xffab, 64);
     const knurl_device_listing listing = listed();
     assert_string_equal(listing.uri, "rawhid:16c0:0486");
@@ -126,7 +126,7 @@ TEST(it_is_listed_opened_and_closed_again_and_again) {
     }
 }
 
-TEST(a_force_moves_the_hand_its_way_and_closing_ends_it) {
+TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down) {
     static const double force[3] = {1.0, -2.0, 0.5};
     knurl_device_sample sample;
     knurl_device_status status;
@@ -153,7 +153,7 @@ TEST(a_force_moves_the_hand_its_way_and_closing_ends_it) {
     assert_true(limp_since() >= 0.0);
 }
 
-TEST(reports_of_14_bytes_work_as_well) {
+TEST_WITH(reports_of_14_bytes_work_as_well, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 14);
     knurl_device *device = open_device();
@@ -161,19 +161,19 @@ TEST(reports_of_14_bytes_work_as_well) {
     knurl_device_close(device);
 }
 
-TEST(an_interface_of_another_usage_is_refused_in_a_sentence) {
+TEST_WITH(an_interface_of_another_usage_is_refused_in_a_sentence, set_up, tear_down) {
     plug(0xffc9, 64);
     check_refused(KNURL_ERROR_DEVICE_LOST, "/dev/hidraw0) is there, but is of usage ffc9:0200; expected ffab:0200");
     assert_non_null(strstr(listed().reason, "another firmware"));
 }
 
-TEST(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence) {
+TEST_WITH(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence, set_up, tear_down) {
     plug(0xffab, 8);
     check_refused(KNURL_ERROR_DEVICE_LOST, "reports are of 8 bytes in and 8 out; expected 14 to 64");
 }
 
 /* In a process that is nobody's, for nothing is denied to root. */
-TEST(permission_denied_names_the_rule_that_helps) {
+TEST_WITH(permission_denied_names_the_rule_that_helps, set_up, tear_down) {
     plug(0xffab, 64);
     gchar *root = umockdev_testbed_get_root_dir(hid.testbed);
     const int is_root = geteuid() == 0;
@@ -204,7 +204,7 @@ TEST(permission_denied_names_the_rule_that_helps) {
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-TEST(muted_it_is_let_go_of_and_comes_back) {
+TEST_WITH(muted_it_is_let_go_of_and_comes_back, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
     plug(0xffab, 64);
@@ -224,7 +224,7 @@ TEST(muted_it_is_let_go_of_and_comes_back) {
     knurl_device_close(device);
 }
 
-TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
+TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 64);
     knurl_device *device = open_device();
@@ -238,21 +238,4 @@ TEST(unplugged_it_is_lost_and_plugged_in_again_it_is_found) {
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
     assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
-}
-
-#define WITH_MACHINE(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        WITH_MACHINE(no_device_is_a_sentence),
-        WITH_MACHINE(it_is_listed_opened_and_closed_again_and_again),
-        WITH_MACHINE(a_force_moves_the_hand_its_way_and_closing_ends_it),
-        WITH_MACHINE(reports_of_14_bytes_work_as_well),
-        WITH_MACHINE(an_interface_of_another_usage_is_refused_in_a_sentence),
-        WITH_MACHINE(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence),
-        WITH_MACHINE(permission_denied_names_the_rule_that_helps),
-        WITH_MACHINE(muted_it_is_let_go_of_and_comes_back),
-        WITH_MACHINE(unplugged_it_is_lost_and_plugged_in_again_it_is_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static double told(void) {
 
 /* --- what the device is --- */
 
-TEST(what_hd_tells_of_the_device_comes_in_si) {
+TEST_WITH(what_hd_tells_of_the_device_comes_in_si, stub_by_hand, stub_check) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     knurl_device *device = stub_open("touch");
@@ -48,7 +48,7 @@ TEST(what_hd_tells_of_the_device_comes_in_si) {
     knurl_device_close(device);
 }
 
-TEST(what_hd_does_not_tell_comes_from_the_data_sheet) {
+TEST_WITH(what_hd_does_not_tell_comes_from_the_data_sheet, stub_by_hand, stub_check) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     stub.set(STUB_DEFAULT, STUB_TELLS_NOTHING, 1.0);
@@ -65,7 +65,7 @@ TEST(what_hd_does_not_tell_comes_from_the_data_sheet) {
     knurl_device_close(device);
 }
 
-TEST(random_properties_are_never_believed_where_they_make_no_sense) {
+TEST_WITH(random_properties_are_never_believed_where_they_make_no_sense, stub_by_hand, stub_check) {
     for (int turn = 0; turn < 2000; turn++) {
         knurl_device_info info;
         knurl_device_info_init(&info, sizeof info);
@@ -83,7 +83,7 @@ TEST(random_properties_are_never_believed_where_they_make_no_sense) {
     }
 }
 
-TEST(a_device_that_cannot_be_opened_is_given_back_and_says_why) {
+TEST_WITH(a_device_that_cannot_be_opened_is_given_back_and_says_why, stub_by_hand, stub_check) {
     static const struct {
         double error;
         knurl_result result;
@@ -103,7 +103,7 @@ TEST(a_device_that_cannot_be_opened_is_given_back_and_says_why) {
 
 /* --- positions and forces --- */
 
-TEST(positions_come_in_metres_and_buttons_as_bits) {
+TEST_WITH(positions_come_in_metres_and_buttons_as_bits, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
     start(&b, 0.0);
@@ -115,7 +115,7 @@ TEST(positions_come_in_metres_and_buttons_as_bits) {
     end(&b);
 }
 
-TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame) {
+TEST_WITH(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame, stub_by_hand, stub_check) {
     bench b;
     start(&b, 1.25);
     stub.turn(1);
@@ -127,7 +127,7 @@ TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame) {
     end(&b);
 }
 
-TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan) {
+TEST_WITH(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan, stub_by_hand, stub_check) {
     bench b;
     start(&b, 100.0);
     stub.turn(3);
@@ -141,7 +141,7 @@ TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan) {
     end(&b);
 }
 
-TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp) {
+TEST_WITH(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp, stub_by_hand, stub_check) {
     bench b;
     start(&b, 1.0);
     stub.turn(5);
@@ -155,7 +155,7 @@ TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ra
     end(&b);
 }
 
-TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out) {
+TEST_WITH(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out, stub_by_hand, stub_check) {
     bench b;
     start(&b, 1.0);
     assert_int_equal(b.device->quiet, 1);
@@ -199,7 +199,7 @@ static ticker serve(uint64_t last, uint64_t writes) {
     return t;
 }
 
-TEST(a_tick_is_never_called_again_after_it_returned_0) {
+TEST_WITH(a_tick_is_never_called_again_after_it_returned_0, stub_by_hand, stub_check) {
     ticker t = serve(5, 5);
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
     stub.turn(50);
@@ -213,7 +213,7 @@ TEST(a_tick_is_never_called_again_after_it_returned_0) {
     knurl_device_close(t.device);
 }
 
-TEST(a_tick_that_writes_nothing_leaves_no_force) {
+TEST_WITH(a_tick_that_writes_nothing_leaves_no_force, stub_by_hand, stub_check) {
     ticker t = serve(1000, 10);
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
     stub.turn(10);
@@ -223,7 +223,7 @@ TEST(a_tick_that_writes_nothing_leaves_no_force) {
     knurl_device_close(t.device);
 }
 
-TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out) {
+TEST_WITH(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out, stub_by_hand, stub_check) {
     ticker t = serve(1000, 1000);
     t.halts = 1;
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
@@ -232,7 +232,7 @@ TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out) {
     knurl_device_close(t.device);
 }
 
-TEST(closing_lets_go_of_the_motors_and_nothing_is_called_any_more) {
+TEST_WITH(closing_lets_go_of_the_motors_and_nothing_is_called_any_more, stub_by_hand, stub_check) {
     ticker t = serve(1000, 1000);
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
     stub.turn(10);
@@ -243,7 +243,7 @@ TEST(closing_lets_go_of_the_motors_and_nothing_is_called_any_more) {
     assert_int_equal(t.calls, 10);
 }
 
-TEST(it_can_be_read_and_written_only_in_a_tick) {
+TEST_WITH(it_can_be_read_and_written_only_in_a_tick, stub_by_hand, stub_check) {
     static const double force[3] = {0.0, 1.0, 0.0};
     bench b;
     knurl_device_sample sample;
@@ -259,7 +259,7 @@ TEST(it_can_be_read_and_written_only_in_a_tick) {
     end(&b);
 }
 
-TEST(a_loop_cannot_be_stepped) {
+TEST_WITH(a_loop_cannot_be_stepped, stub_by_hand, stub_check) {
     knurl_loop *loop = NULL;
     stub_push push = {{0}, {0}, 0, 0};
     knurl_device *device = stub_open("touch");
@@ -272,14 +272,14 @@ TEST(a_loop_cannot_be_stepped) {
 
 /* --- the rate --- */
 
-TEST(the_scheduler_runs_at_the_rate_of_the_loop) {
+TEST_WITH(the_scheduler_runs_at_the_rate_of_the_loop, stub_by_hand, stub_check) {
     knurl_device *device = stub_open("touch");
     assert_int_equal(knurl_device_start(device, 500.0), KNURL_OK);
     assert_true(stub.ask(0, STUB_RATE) == 500.0);
     knurl_device_close(device);
 }
 
-TEST(rates_that_the_scheduler_cannot_keep_are_refused) {
+TEST_WITH(rates_that_the_scheduler_cannot_keep_are_refused, stub_by_hand, stub_check) {
     knurl_device *device = stub_open("touch");
     stub.set(0, STUB_REFUSED_RATE, 2000.0);
     (void)knurl_fail(KNURL_OK, "stale message");
@@ -292,26 +292,4 @@ TEST(rates_that_the_scheduler_cannot_keep_are_refused) {
     knurl_device_close(device);
 }
 
-int main(void) {
-#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
-    const struct CMUnitTest tests[] = {
-        BENCH_TEST(what_hd_tells_of_the_device_comes_in_si),
-        BENCH_TEST(what_hd_does_not_tell_comes_from_the_data_sheet),
-        BENCH_TEST(random_properties_are_never_believed_where_they_make_no_sense),
-        BENCH_TEST(a_device_that_cannot_be_opened_is_given_back_and_says_why),
-        BENCH_TEST(positions_come_in_metres_and_buttons_as_bits),
-        BENCH_TEST(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame),
-        BENCH_TEST(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan),
-        BENCH_TEST(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp),
-        BENCH_TEST(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out),
-        BENCH_TEST(a_tick_is_never_called_again_after_it_returned_0),
-        BENCH_TEST(a_tick_that_writes_nothing_leaves_no_force),
-        BENCH_TEST(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out),
-        BENCH_TEST(closing_lets_go_of_the_motors_and_nothing_is_called_any_more),
-        BENCH_TEST(it_can_be_read_and_written_only_in_a_tick),
-        BENCH_TEST(a_loop_cannot_be_stepped),
-        BENCH_TEST(the_scheduler_runs_at_the_rate_of_the_loop),
-        BENCH_TEST(rates_that_the_scheduler_cannot_keep_are_refused),
-    };
-    return cmocka_run_group_tests(tests, stub_load, stub_unload);
-}
+SUITE_FIXTURES(stub_load, stub_unload)

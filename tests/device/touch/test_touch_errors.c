@@ -84,16 +84,3 @@ TEST(types_have_the_sizes_that_the_library_has) {
     assert_int_equal(sizeof(hd_scheduler_code), sizeof(unsigned long));
     assert_int_equal(sizeof(hd_device), 4);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_error_has_a_sentence_of_its_own),
-        cmocka_unit_test(what_nobody_knows_and_what_gives_no_reason_have_sentences_too),
-        cmocka_unit_test(the_sentences_say_what_helps),
-        cmocka_unit_test(an_error_is_a_loss_or_a_refusal_or_neither),
-        cmocka_unit_test(errors_are_taken_newest_first_until_there_is_none),
-        cmocka_unit_test(errors_without_end_are_not_waited_for),
-        cmocka_unit_test(types_have_the_sizes_that_the_library_has),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -47,7 +47,7 @@ static uint32_t count_calls(void *argument) {
     return 1;
 }
 
-TEST(a_device_that_is_lost_is_told_of_once_and_not_served_any_more) {
+TEST_WITH(a_device_that_is_lost_is_told_of_once_and_not_served_any_more, stub_by_hand, stub_check) {
     knurl_device *device = stub_open("touch");
     device->max_speed = 100.0;
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
@@ -69,7 +69,7 @@ TEST(a_device_that_is_lost_is_told_of_once_and_not_served_any_more) {
     knurl_device_close(device);
 }
 
-TEST(every_error_that_is_a_loss_ends_the_loop) {
+TEST_WITH(every_error_that_is_a_loss_ends_the_loop, stub_by_hand, stub_check) {
     static const double codes[] = {0x0104, 0x0300, 0x0301, 0x0302, 0x0303, 0x0304};
     for (size_t i = 0; i < COUNT_OF(codes); i++) {
         bench b;
@@ -84,7 +84,7 @@ TEST(every_error_that_is_a_loss_ends_the_loop) {
     }
 }
 
-TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time) {
+TEST_WITH(a_loop_that_reconnects_goes_on_by_itself_in_real_time, stub_by_hand, stub_check) {
     bench b;
     stub.set(0, STUB_BY_HAND, 0.0);
     start(&b, 1);
@@ -108,7 +108,7 @@ TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time) {
     assert_true(told() == 0.0);
 }
 
-TEST(a_loop_whose_device_is_away_can_be_stopped) {
+TEST_WITH(a_loop_whose_device_is_away_can_be_stopped, stub_by_hand, stub_check) {
     bench b;
     stub.set(0, STUB_BY_HAND, 0.0);
     start(&b, 1);
@@ -119,7 +119,7 @@ TEST(a_loop_whose_device_is_away_can_be_stopped) {
     assert_true(told() == 0.0);
 }
 
-TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever) {
+TEST_WITH(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever, stub_by_hand, stub_check) {
     bench b;
     stub.set(0, STUB_BY_HAND, 0.0);
     start(&b, 0);
@@ -145,7 +145,7 @@ static void dream_once(uint64_t tick, const knurl_device_sample *sample, double 
     stub_push_force(tick, sample, force, user);
 }
 
-TEST(a_tick_that_takes_longer_than_a_second_is_no_loss) {
+TEST_WITH(a_tick_that_takes_longer_than_a_second_is_no_loss, stub_by_hand, stub_check) {
     knurl_loop *loop = NULL;
     stub_push push = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0};
     stub.set(0, STUB_BY_HAND, 0.0);
@@ -165,7 +165,7 @@ TEST(a_tick_that_takes_longer_than_a_second_is_no_loss) {
 
 /* --- refusals and other errors --- */
 
-TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go) {
+TEST_WITH(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go, stub_by_hand, stub_check) {
     static const double codes[] = {0x0200, 0x0201, 0x0202, 0x0203, 0x0204};
     for (size_t i = 0; i < COUNT_OF(codes); i++) {
         bench b;
@@ -190,7 +190,7 @@ TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go) {
     }
 }
 
-TEST(other_errors_are_counted_and_nothing_else) {
+TEST_WITH(other_errors_are_counted_and_nothing_else, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(5);
@@ -209,7 +209,7 @@ TEST(other_errors_are_counted_and_nothing_else) {
     end(&b);
 }
 
-TEST(errors_without_end_do_not_hold_up_the_servo_thread) {
+TEST_WITH(errors_without_end_do_not_hold_up_the_servo_thread, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(5);
@@ -225,7 +225,7 @@ TEST(errors_without_end_do_not_hold_up_the_servo_thread) {
 
 /* --- positions --- */
 
-TEST(positions_that_are_no_numbers_let_go_until_they_are_again) {
+TEST_WITH(positions_that_are_no_numbers_let_go_until_they_are_again, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(10);
@@ -241,7 +241,7 @@ TEST(positions_that_are_no_numbers_let_go_until_they_are_again) {
 }
 
 /* By 5 m: a hand may have moved on while this machine stood still, but not by as much in less than half a second. */
-TEST(a_position_that_jumps_lets_go_until_it_is_believed) {
+TEST_WITH(a_position_that_jumps_lets_go_until_it_is_believed, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(10);
@@ -258,7 +258,7 @@ TEST(a_position_that_jumps_lets_go_until_it_is_believed) {
 
 /* --- calibration --- */
 
-TEST(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style) {
+TEST_WITH(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_STYLE, 2.0); /* automatic */
     stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
@@ -272,7 +272,7 @@ TEST(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_st
     end(&b);
 }
 
-TEST(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell) {
+TEST_WITH(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_STYLE, 4.0); /* inkwell */
     stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5002);
@@ -290,7 +290,7 @@ TEST(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell
     end(&b);
 }
 
-TEST(the_calibration_is_looked_at_every_100_ticks) {
+TEST_WITH(the_calibration_is_looked_at_every_100_ticks, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);
     start(&b, 0);
@@ -323,7 +323,7 @@ static uint32_t play_echo(void *argument) {
     return 1;
 }
 
-TEST(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great) {
+TEST_WITH(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great, stub_by_hand, stub_check) {
     echo e = {stub_open("touch"), 0, 0};
     e.device->max_speed = 0.0; /* so that jumps do not hold the force back */
     stub.set(STUB_DEFAULT, STUB_RANDOM, 1.0);
@@ -340,7 +340,7 @@ TEST(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great) {
 
 /* --- the double that the table of faults uses --- */
 
-TEST(the_double_plays_and_each_of_its_faults_makes_it_limp) {
+TEST_WITH(the_double_plays_and_each_of_its_faults_makes_it_limp, stub_by_hand, stub_check) {
     for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
         if (!(touch_double.faults & 1u << fault)) {
             continue;
@@ -374,25 +374,4 @@ TEST(the_double_plays_and_each_of_its_faults_makes_it_limp) {
     }
 }
 
-int main(void) {
-#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
-    const struct CMUnitTest tests[] = {
-        BENCH_TEST(a_device_that_is_lost_is_told_of_once_and_not_served_any_more),
-        BENCH_TEST(every_error_that_is_a_loss_ends_the_loop),
-        BENCH_TEST(a_loop_that_reconnects_goes_on_by_itself_in_real_time),
-        BENCH_TEST(a_loop_whose_device_is_away_can_be_stopped),
-        BENCH_TEST(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever),
-        BENCH_TEST(a_tick_that_takes_longer_than_a_second_is_no_loss),
-        BENCH_TEST(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go),
-        BENCH_TEST(other_errors_are_counted_and_nothing_else),
-        BENCH_TEST(errors_without_end_do_not_hold_up_the_servo_thread),
-        BENCH_TEST(positions_that_are_no_numbers_let_go_until_they_are_again),
-        BENCH_TEST(a_position_that_jumps_lets_go_until_it_is_believed),
-        BENCH_TEST(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style),
-        BENCH_TEST(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell),
-        BENCH_TEST(the_calibration_is_looked_at_every_100_ticks),
-        BENCH_TEST(a_million_random_answers_give_no_force_that_is_not_finite_or_too_great),
-        BENCH_TEST(the_double_plays_and_each_of_its_faults_makes_it_limp),
-    };
-    return cmocka_run_group_tests(tests, stub_load, stub_unload);
-}
+SUITE_FIXTURES(stub_load, stub_unload)

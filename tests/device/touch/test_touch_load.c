@@ -174,20 +174,3 @@ TEST(a_device_that_this_program_has_open_is_listed_as_in_use) {
     assert_non_null(strstr(found.reason, "in use"));
     knurl_device_close(left);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_library_every_place_that_was_tried_is_told_and_what_helps),
-        cmocka_unit_test(a_library_that_is_named_is_the_only_one_that_is_tried),
-        cmocka_unit_test(the_library_that_a_library_needs_and_lacks_shows_through),
-        cmocka_unit_test(a_function_that_is_missing_is_named_and_nothing_stays_loaded),
-        cmocka_unit_test(a_library_for_other_machines_and_a_file_that_is_none_are_told),
-        cmocka_unit_test(two_devices_share_the_library_and_the_last_one_unloads_it),
-        cmocka_unit_test(a_device_that_cannot_be_opened_leaves_no_library_behind),
-        cmocka_unit_test(without_memory_nothing_is_opened_and_nothing_left_behind),
-        cmocka_unit_test(a_uri_with_a_key_that_is_none_is_refused),
-        cmocka_unit_test(the_listing_says_why_there_is_none_or_what_there_is),
-        cmocka_unit_test(a_device_that_this_program_has_open_is_listed_as_in_use),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

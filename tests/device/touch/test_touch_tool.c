@@ -18,7 +18,7 @@ static int use_none(void **state) {
 
 /* --- the tool --- */
 
-TEST(the_tool_feels_the_demo_plate_on_a_touch) {
+TEST_WITH(the_tool_feels_the_demo_plate_on_a_touch, use_stub, NULL) {
     process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "2", "--method", "S2");
     if (p.exit_code != 0) {
         fail_msg("exit %d, signal %d: %s", p.exit_code, p.signal, p.err);
@@ -30,7 +30,7 @@ TEST(the_tool_feels_the_demo_plate_on_a_touch) {
     process_free(&p);
 }
 
-TEST(the_tool_says_so_when_the_touch_gets_lost) {
+TEST_WITH(the_tool_says_so_when_the_touch_gets_lost, use_stub, NULL) {
     assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
     process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "5");
     assert_int_equal(p.exit_code, 1);
@@ -38,7 +38,7 @@ TEST(the_tool_says_so_when_the_touch_gets_lost) {
     process_free(&p);
 }
 
-TEST(without_a_library_the_tool_says_what_helps) {
+TEST_WITH(without_a_library_the_tool_says_what_helps, use_none, NULL) {
     process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "2");
     check_refused(&p, 1, "touch|libHD.so|OpenHaptics|KNURL_HD_LIBRARY", "run --device touch");
 }
@@ -61,14 +61,14 @@ static void check_sample(process *p) {
     process_free(p);
 }
 
-TEST(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device) {
+TEST_WITH(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device, use_stub, NULL) {
     process touch = start_sample("touch");
     process fake = start_sample("fake");
     check_sample(&touch);
     check_sample(&fake);
 }
 
-TEST(the_sample_tells_faults_as_they_come_and_waits_for_the_device) {
+TEST_WITH(the_sample_tells_faults_as_they_come_and_waits_for_the_device, use_stub, NULL) {
     assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
     process p = RUN_SAMPLE("--seconds", "1");
     assert_non_null(strstr(p.out, "lost: "));
@@ -77,7 +77,7 @@ TEST(the_sample_tells_faults_as_they_come_and_waits_for_the_device) {
     process_free(&p);
 }
 
-TEST(the_sample_stops_at_ctrl_c) {
+TEST_WITH(the_sample_stops_at_ctrl_c, use_stub, NULL) {
     process p = process_start((const char *const[]){KNURL_TEST_SAMPLE, "touch", NULL}, NULL);
     const struct timespec nap = {0, 500000000};
     (void)nanosleep(&nap, NULL);
@@ -88,7 +88,7 @@ TEST(the_sample_stops_at_ctrl_c) {
     process_free(&p);
 }
 
-TEST(the_sample_helps_and_refuses) {
+TEST_WITH(the_sample_helps_and_refuses, use_none, NULL) {
     process p = RUN_SAMPLE("--help");
     assert_int_equal(p.exit_code, 0);
     assert_non_null(strstr(p.out, "--seconds"));
@@ -100,17 +100,4 @@ TEST(the_sample_helps_and_refuses) {
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "libHD.so"));
     process_free(&p);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(the_tool_feels_the_demo_plate_on_a_touch, use_stub),
-        cmocka_unit_test_setup(the_tool_says_so_when_the_touch_gets_lost, use_stub),
-        cmocka_unit_test_setup(without_a_library_the_tool_says_what_helps, use_none),
-        cmocka_unit_test_setup(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device, use_stub),
-        cmocka_unit_test_setup(the_sample_tells_faults_as_they_come_and_waits_for_the_device, use_stub),
-        cmocka_unit_test_setup(the_sample_stops_at_ctrl_c, use_stub),
-        cmocka_unit_test_setup(the_sample_helps_and_refuses, use_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ static void end(hand *h) {
     knurl_device_close(h->device);
 }
 
-TEST(each_device_gets_its_own_force_from_one_scheduler) {
+TEST_WITH(each_device_gets_its_own_force_from_one_scheduler, stub_by_hand, stub_check) {
     hand left;
     hand right;
     start(&left, "touch:Left Device", 1.0);
@@ -41,7 +41,7 @@ TEST(each_device_gets_its_own_force_from_one_scheduler) {
     assert_true(stub.ask(0, STUB_RUNNING) == 0.0);
 }
 
-TEST(each_device_gives_its_own_position) {
+TEST_WITH(each_device_gives_its_own_position, stub_by_hand, stub_check) {
     hand left;
     hand right;
     stub.set(STUB_RIGHT, STUB_JUMP, 0.02);
@@ -53,7 +53,7 @@ TEST(each_device_gives_its_own_position) {
     end(&right);
 }
 
-TEST(one_that_is_lost_leaves_the_other_as_it_is) {
+TEST_WITH(one_that_is_lost_leaves_the_other_as_it_is, stub_by_hand, stub_check) {
     hand left;
     hand right;
     start(&left, "touch:Left Device", 1.0);
@@ -71,7 +71,7 @@ TEST(one_that_is_lost_leaves_the_other_as_it_is) {
 }
 
 /* More errors than one look takes away: the rest turns up in the other's frame. */
-TEST(an_error_is_blamed_on_the_device_that_it_is_about) {
+TEST_WITH(an_error_is_blamed_on_the_device_that_it_is_about, stub_by_hand, stub_check) {
     hand left;
     hand right;
     start(&left, "touch:Left Device", 1.0);
@@ -89,7 +89,7 @@ TEST(an_error_is_blamed_on_the_device_that_it_is_about) {
     end(&right);
 }
 
-TEST(a_device_is_opened_once) {
+TEST_WITH(a_device_is_opened_once, stub_by_hand, stub_check) {
     knurl_device *second = NULL;
     knurl_device *first = stub_open("touch");
     CHECK_REFUSED(knurl_device_open("touch", &second), KNURL_ERROR_SYSTEM, second);
@@ -99,7 +99,7 @@ TEST(a_device_is_opened_once) {
     knurl_device_close(first);
 }
 
-TEST(two_loops_run_at_one_rate) {
+TEST_WITH(two_loops_run_at_one_rate, stub_by_hand, stub_check) {
     hand left;
     start(&left, "touch:Left Device", 1.0);
     knurl_device *right = stub_open("touch:Right Device");
@@ -112,7 +112,7 @@ TEST(two_loops_run_at_one_rate) {
     knurl_device_close(right);
 }
 
-TEST(a_current_device_that_another_thread_changes_mixes_nothing_up) {
+TEST_WITH(a_current_device_that_another_thread_changes_mixes_nothing_up, stub_by_hand, stub_check) {
     hand left;
     hand right;
     stub.set(STUB_RIGHT, STUB_JUMP, 0.02);
@@ -129,7 +129,7 @@ TEST(a_current_device_that_another_thread_changes_mixes_nothing_up) {
 }
 
 /* In real time, opened and closed while the other runs: for ThreadSanitizer, too. HD has one current device. */
-TEST(one_comes_and_goes_while_the_other_runs) {
+TEST_WITH(one_comes_and_goes_while_the_other_runs, stub_by_hand, stub_check) {
     hand left;
     stub.set(0, STUB_BY_HAND, 0.0);
     stub.set(STUB_RIGHT, STUB_JUMP, 0.05); /* so that whose position it is can be told */
@@ -155,17 +155,4 @@ TEST(one_comes_and_goes_while_the_other_runs) {
     knurl_device_close(left.device);
 }
 
-int main(void) {
-#define BENCH_TEST(name) cmocka_unit_test_setup_teardown(name, stub_by_hand, stub_check)
-    const struct CMUnitTest tests[] = {
-        BENCH_TEST(each_device_gets_its_own_force_from_one_scheduler),
-        BENCH_TEST(each_device_gives_its_own_position),
-        BENCH_TEST(one_that_is_lost_leaves_the_other_as_it_is),
-        BENCH_TEST(an_error_is_blamed_on_the_device_that_it_is_about),
-        BENCH_TEST(a_device_is_opened_once),
-        BENCH_TEST(two_loops_run_at_one_rate),
-        BENCH_TEST(a_current_device_that_another_thread_changes_mixes_nothing_up),
-        BENCH_TEST(one_comes_and_goes_while_the_other_runs),
-    };
-    return cmocka_run_group_tests(tests, stub_load, stub_unload);
-}
+SUITE_FIXTURES(stub_load, stub_unload)

@@ -55,12 +55,3 @@ TEST(the_library_and_the_c_sharp_side_name_the_same_interface) {
     assert_string_equal(declared, line);
     plugin_close(&p);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_struct_and_field_lies_where_c_sharp_expects_it),
-        cmocka_unit_test(beyond_its_end_the_layout_has_nothing_to_tell),
-        cmocka_unit_test(the_library_and_the_c_sharp_side_name_the_same_interface),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

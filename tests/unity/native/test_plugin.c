@@ -45,7 +45,7 @@ static void update_once(void) {
 
 /* --- the profiler --- */
 
-TEST(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it) {
+TEST_WITH(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     assert_int_equal(engine.markers, 1);
     assert_string_equal(engine.marker.name, "Knurl.Update");
@@ -76,7 +76,7 @@ static void ask_for_events(int event) {
     known[event] += p.knurl_session_next_event(watched, &told);
 }
 
-TEST(the_sessions_update_lies_between_the_marks) {
+TEST_WITH(the_sessions_update_lies_between_the_marks, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     watched = plugin_run(&p);
     wait_for_ticks(watched, 200, 0); /* too long without a sign of life */
@@ -89,7 +89,7 @@ TEST(the_sessions_update_lies_between_the_marks) {
     p.UnityPluginUnload();
 }
 
-TEST(without_a_profiler_an_update_is_just_an_update) {
+TEST_WITH(without_a_profiler_an_update_is_just_an_update, open_plugin, close_plugin) {
     engine.without_profiler = 1;
     p.UnityPluginLoad(&engine_interfaces);
     update_once();
@@ -98,7 +98,7 @@ TEST(without_a_profiler_an_update_is_just_an_update) {
     p.UnityPluginUnload();
 }
 
-TEST(a_game_that_was_built_without_the_profiler_is_left_alone) {
+TEST_WITH(a_game_that_was_built_without_the_profiler_is_left_alone, open_plugin, close_plugin) {
     engine.unavailable = 1;
     p.UnityPluginLoad(&engine_interfaces);
     update_once();
@@ -107,7 +107,7 @@ TEST(a_game_that_was_built_without_the_profiler_is_left_alone) {
     p.UnityPluginUnload();
 }
 
-TEST(a_marker_that_could_not_be_made_is_not_used) {
+TEST_WITH(a_marker_that_could_not_be_made_is_not_used, open_plugin, close_plugin) {
     engine.refuses_markers = 1;
     p.UnityPluginLoad(&engine_interfaces);
     update_once();
@@ -118,7 +118,7 @@ TEST(a_marker_that_could_not_be_made_is_not_used) {
 
 /* --- calls out of turn --- */
 
-TEST(no_interfaces_are_as_good_as_no_engine) {
+TEST_WITH(no_interfaces_are_as_good_as_no_engine, open_plugin, close_plugin) {
     static const unity_interfaces empty = {NULL, NULL, NULL, NULL};
     p.UnityPluginLoad(NULL);
     update_once();
@@ -128,7 +128,7 @@ TEST(no_interfaces_are_as_good_as_no_engine) {
     assert_int_equal(engine.event_count, 0);
 }
 
-TEST(without_being_told_of_an_engine_everything_works) {
+TEST_WITH(without_being_told_of_an_engine_everything_works, open_plugin, close_plugin) {
     knurl_session *session = plugin_run(&p);
     wait_for_ticks(session, 5, 1);
     p.UnityPluginUnload();
@@ -137,7 +137,7 @@ TEST(without_being_told_of_an_engine_everything_works) {
     p.UnityPluginUnload();
 }
 
-TEST(loaded_twice_an_update_is_marked_once) {
+TEST_WITH(loaded_twice_an_update_is_marked_once, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     p.UnityPluginLoad(&engine_interfaces);
     update_once();
@@ -149,7 +149,7 @@ TEST(loaded_twice_an_update_is_marked_once) {
     p.UnityPluginUnload();
 }
 
-TEST(once_unloaded_the_engine_is_not_called_any_more) {
+TEST_WITH(once_unloaded_the_engine_is_not_called_any_more, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     p.UnityPluginUnload();
     update_once();
@@ -162,7 +162,7 @@ TEST(once_unloaded_the_engine_is_not_called_any_more) {
 
 /* --- what still runs --- */
 
-TEST(sessions_that_run_at_the_unloading_are_closed_and_warned_of) {
+TEST_WITH(sessions_that_run_at_the_unloading_are_closed_and_warned_of, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     knurl_session *sessions[2] = {plugin_run(&p), plugin_run(&p)};
     wait_for_ticks(sessions[1], 5, 1);
@@ -177,7 +177,7 @@ TEST(sessions_that_run_at_the_unloading_are_closed_and_warned_of) {
     p.knurl_session_destroy(sessions[1]);
 }
 
-TEST(sessions_that_ended_before_are_no_reason_to_warn) {
+TEST_WITH(sessions_that_ended_before_are_no_reason_to_warn, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
     knurl_session *session = plugin_run(&p);
     p.knurl_session_close(session);
@@ -186,7 +186,7 @@ TEST(sessions_that_ended_before_are_no_reason_to_warn) {
     p.knurl_session_destroy(session);
 }
 
-TEST(without_a_log_what_runs_is_closed_all_the_same) {
+TEST_WITH(without_a_log_what_runs_is_closed_all_the_same, open_plugin, close_plugin) {
     engine.without_log = 1;
     p.UnityPluginLoad(&engine_interfaces);
     knurl_session *session = plugin_run(&p);
@@ -239,24 +239,4 @@ TEST(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory) {
 #if !defined(__SANITIZE_ADDRESS__) /* which maps memory of its own */
     assert_true(after.maps <= before.maps + 5);
 #endif
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-#define LIVE(name) cmocka_unit_test_setup_teardown(name, open_plugin, close_plugin)
-        LIVE(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it),
-        LIVE(the_sessions_update_lies_between_the_marks),
-        LIVE(without_a_profiler_an_update_is_just_an_update),
-        LIVE(a_game_that_was_built_without_the_profiler_is_left_alone),
-        LIVE(a_marker_that_could_not_be_made_is_not_used),
-        LIVE(no_interfaces_are_as_good_as_no_engine),
-        LIVE(without_being_told_of_an_engine_everything_works),
-        LIVE(loaded_twice_an_update_is_marked_once),
-        LIVE(once_unloaded_the_engine_is_not_called_any_more),
-        LIVE(sessions_that_run_at_the_unloading_are_closed_and_warned_of),
-        LIVE(sessions_that_ended_before_are_no_reason_to_warn),
-        LIVE(without_a_log_what_runs_is_closed_all_the_same),
-        cmocka_unit_test(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

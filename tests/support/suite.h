@@ -1,0 +1,51 @@
+/* Tests that register themselves: TEST(name) { ... } is run by the program that it is linked into, in the order of its
+ * lines. main() comes from the library, where a program has none of its own. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_SUITE_H
+#define KNURL_TEST_SUITE_H
+
+#ifdef __cplusplus
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+extern "C" {
+#else
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#endif
+#include <cmocka.h>
+
+void suite_add(const struct CMUnitTest *test, const char *file, int line);
+void suite_fixtures(CMFixtureFunction setup, CMFixtureFunction teardown);
+
+/** Whether a test of that name has registered. */
+int suite_has(const char *name);
+
+/** Runs what has registered; gives cmocka's exit code. For programs with a main() of their own. */
+int suite_run(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+/** A test of cmocka's. */
+#define TEST(name) TEST_WITH(name, NULL, NULL)
+
+/** A test that `setup` comes before and `teardown` after; each may be NULL. */
+#define TEST_WITH(name, setup, teardown)                                                                               \
+    static void name(void **state);                                                                                    \
+    __attribute__((constructor)) static void name##_registers(void) {                                                  \
+        const struct CMUnitTest test = {#name, name, setup, teardown, NULL};                                           \
+        suite_add(&test, __FILE__, __LINE__);                                                                          \
+    }                                                                                                                  \
+    static void name(void **state __attribute__((unused)))
+
+/** What comes before the first and after the last test of the program; each may be NULL. Once a program. */
+#define SUITE_FIXTURES(setup, teardown)                                                                                \
+    __attribute__((constructor)) static void suite_registers(void) {                                                   \
+        suite_fixtures(setup, teardown);                                                                               \
+    }
+
+#endif
