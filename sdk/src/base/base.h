@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_BASE_H
 #define KNURL_SRC_BASE_H
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 #if defined(_MSC_VER)

@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_HISTOGRAM_H
 #define KNURL_SRC_HISTOGRAM_H
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 #define KNURL_HISTOGRAM_BUCKETS (32 * 60)

@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_SYSTEM_H
 #define KNURL_SRC_SYSTEM_H
 
+#include "base/finite.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

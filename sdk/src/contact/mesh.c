@@ -5,7 +5,7 @@
 
 static knurl_result check_floats(const float *values, uint64_t count, const char *what, uint32_t width) {
     for (uint64_t i = 0; i < count; i++) {
-        if (!isfinite(values[i])) {
+        if (!knurl_is_finite((double)values[i])) {
             return knurl_fail(KNURL_ERROR_ARGUMENT, "mesh.%s: expected finite numbers, found %g at vertex %llu", what,
                               (double)values[i], (unsigned long long)(i / width));
         }

@@ -135,7 +135,7 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
 }
 
 static knurl_result check_extent(const char *key, double value) {
-    if (!(value > 0.0 && isfinite(value))) {
+    if (!(value > 0.0 && knurl_is_finite(value))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number > 0 (m), found %g", key, value);
     }
     return KNURL_OK;

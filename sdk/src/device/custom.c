@@ -132,7 +132,7 @@ static knurl_result check(const knurl_device_functions *f, knurl_device_info *in
     }
     knurl_device_info_init(info, sizeof *info);
     ask_info(f, info);
-    if (!(info->max_force > 0.0 && isfinite(info->max_force))) {
+    if (!(info->max_force > 0.0 && knurl_is_finite(info->max_force))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "knurl_device_functions.get_info: expected max_force above 0 N, found %g N", info->max_force);
     }

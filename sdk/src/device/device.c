@@ -111,7 +111,7 @@ static void begin_check(knurl_device *device) {
 }
 
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
-    if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
+    if (!knurl_is_within(update_rate_hz, 1.0, 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
     if (device->link && update_rate_hz < 2.0 / KNURL_LINK_PATIENCE) {
@@ -203,7 +203,7 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     }
     double safe[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(force);
-    if (isfinite(length) && !knurl_load_acquire(&device->halted)) {
+    if (knurl_is_finite(length) && !knurl_load_acquire(&device->halted)) {
         const double most = device->max_force * (1.0 + ROUNDING);
         vec3_scale(length > most ? device->max_force / length : 1.0, force, safe);
     }

@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_EVENTS_H
 #define KNURL_SRC_EVENTS_H
 
+#include "base/finite.h"
+
 #include <knurl/device.h>
 
 #define KNURL_EVENT_ROOM 64

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_URI_H
 #define KNURL_SRC_URI_H
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 #define KNURL_URI_ROOM 512

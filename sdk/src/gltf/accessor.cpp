@@ -168,7 +168,7 @@ std::vector<float> read_floats(const tinygltf::Model &model, int index, size_t c
         element_to_floats(values, j, &out[i * components]);
     });
     for (size_t i = 0; i < out.size(); ++i)
-        if (!std::isfinite(out[i]))
+        if (!knurl_is_finite(out[i]))
             refuse(place, "element " + std::to_string(i / components) + ": expected finite numbers, found " +
                               (std::isnan(out[i]) ? "NaN" : "infinity"));
     return out;

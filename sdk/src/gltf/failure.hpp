@@ -3,6 +3,8 @@
 #ifndef KNURL_GLTF_FAILURE_HPP
 #define KNURL_GLTF_FAILURE_HPP
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 #include <cstddef>

@@ -15,7 +15,7 @@ std::optional<uint32_t> whole_of(const Json &value, uint32_t least, uint32_t mos
     double number = -1.0;
     if (value.is_number())
         number = value.get<double>(); // exact up to 2^53, and rounded above most
-    if (!(number >= least && number <= most) || number != std::floor(number))
+    if (!knurl_is_within(number, least, most) || number != std::floor(number))
         return std::nullopt;
     return static_cast<uint32_t>(number);
 }

@@ -3,6 +3,8 @@
 #ifndef KNURL_GLTF_NAMES_HPP
 #define KNURL_GLTF_NAMES_HPP
 
+#include "base/finite.h"
+
 #include <knurl/scene.h>
 
 #include <string>

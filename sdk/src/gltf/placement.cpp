@@ -47,7 +47,7 @@ glm::dmat4 local_matrix(const tinygltf::Model &model, uint32_t index) {
 }
 
 bool is_finite(const glm::dvec3 &v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    return knurl_is_finite(v.x) && knurl_is_finite(v.y) && knurl_is_finite(v.z);
 }
 
 glm::dvec3 at(const std::vector<float> &values, size_t i) {
@@ -85,7 +85,7 @@ Frame Placement::frame(uint32_t node) {
     const glm::dmat3 linear(matrix);
     Frame frame{glm::dvec3(matrix[3]), glm::dquat(1.0, 0.0, 0.0, 0.0), linear, glm::determinant(linear) < 0.0};
     const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    const bool finite = is_finite(frame.position) && std::isfinite(volume);
+    const bool finite = is_finite(frame.position) && knurl_is_finite(volume);
     if (!finite || !(std::fabs(glm::determinant(linear)) > flat_tolerance * volume))
         refuse(node_label(model_, node),
                finite ? "its transform flattens the mesh: expected a scale without 0" : "its transform is not finite");

@@ -25,7 +25,7 @@ struct Entry {
 };
 
 double number(const Entry &entry, const Json &value, const char *expected) {
-    if (!value.is_number() || !std::isfinite(value.get<double>()))
+    if (!value.is_number() || !knurl_is_finite(value.get<double>()))
         entry.refuse(expected);
     return value.get<double>();
 }

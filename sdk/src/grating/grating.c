@@ -36,23 +36,23 @@ knurl_result knurl_method_from_name(const char *name, int32_t *method) {
 
 knurl_result knurl_grating_check(knurl_grating *grating) {
     const double *fs = grating->spatial_frequency;
-    if (!(fs[0] >= 0.0 && isfinite(fs[0]) && fs[1] >= 0.0 && isfinite(fs[1]))) {
+    if (!(fs[0] >= 0.0 && knurl_is_finite(fs[0]) && fs[1] >= 0.0 && knurl_is_finite(fs[1]))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "spatial_frequency: expected finite numbers >= 0 (cycles/m), found [%g, %g]", fs[0], fs[1]);
     }
-    if (!(grating->amplitude >= 0.0 && isfinite(grating->amplitude))) {
+    if (!(grating->amplitude >= 0.0 && knurl_is_finite(grating->amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0 (m), found %g",
                           grating->amplitude);
     }
-    if (!(grating->update_rate_hz >= 1.0 && grating->update_rate_hz <= 100000.0)) {
+    if (!knurl_is_within(grating->update_rate_hz, 1.0, 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz",
                           grating->update_rate_hz);
     }
-    if (!(grating->resolution >= 0.0 && isfinite(grating->resolution))) {
+    if (!(grating->resolution >= 0.0 && knurl_is_finite(grating->resolution))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: expected a finite number >= 0 (m), found %g",
                           grating->resolution);
     }
-    if (!(grating->crossover_hz == 0.0 || (grating->crossover_hz >= 1.0 && isfinite(grating->crossover_hz)))) {
+    if (!(grating->crossover_hz == 0.0 || (grating->crossover_hz >= 1.0 && knurl_is_finite(grating->crossover_hz)))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected 0 or a finite number >= 1 (Hz), found %g Hz",
                           grating->crossover_hz);
     }

@@ -2,7 +2,10 @@
 #ifndef KNURL_SRC_PHASE_H
 #define KNURL_SRC_PHASE_H
 
-/* Added and taken off again it rounds to a whole number, as its unit in the last place is 1. */
+#include "base/finite.h"
+
+/* Added and taken off again it rounds to a whole number, as its unit in the last place is 1; base/finite.h sees to it
+ * that no compiler folds the two. */
 #define KNURL_WHOLE 6755399441055744.0 /* 3 * 2^51 */
 
 /* floor(), which is a call where a compiler may not take SSE4.1 for granted. Exact to 2^51; beyond, where a double has

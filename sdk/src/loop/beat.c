@@ -55,7 +55,7 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     const double length = vec3_length(loop->force);
     const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
     if (!(length <= most)) {
-        const double share = isfinite(length) ? most / length : 0.0;
+        const double share = knurl_is_finite(length) ? most / length : 0.0;
         if (most < loop->max_force && share > 0.0) {
             knurl_count_up(&loop->heats);
         }

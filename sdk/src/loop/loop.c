@@ -123,11 +123,11 @@ static knurl_result check(const knurl_loop_desc *d) {
     if (d->scene && !d->scene->committed) {
         return knurl_fail(KNURL_ERROR_STATE, "knurl_loop_desc.scene: expected a committed scene, found an open one");
     }
-    if (!(d->update_rate_hz >= KNURL_UPDATE_RATE_MIN && d->update_rate_hz <= KNURL_UPDATE_RATE_MAX)) {
+    if (!knurl_is_within(d->update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
                           KNURL_UPDATE_RATE_MAX, d->update_rate_hz);
     }
-    if (!(d->ramp_s >= 0.0 && d->ramp_s <= 1.0) || !(d->watchdog_s >= 0.0 && d->watchdog_s <= 10.0)) {
+    if (!knurl_is_within(d->ramp_s, 0.0, 1.0) || !knurl_is_within(d->watchdog_s, 0.0, 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "knurl_loop_desc: expected ramp_s 0 to 1 s and watchdog_s 0 to 10 s, found %g "
                           "and %g",
@@ -139,7 +139,7 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "found %#x",
                           (unsigned)d->unguarded);
     }
-    if (!(d->heartbeat_s >= 0.0 && d->heartbeat_s <= 3600.0) || d->reconnect > 1) {
+    if (!knurl_is_within(d->heartbeat_s, 0.0, 3600.0) || d->reconnect > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "knurl_loop_desc: expected heartbeat_s 0 to 3600 s and reconnect 0 or 1, found %g and %u",
                           d->heartbeat_s, (unsigned)d->reconnect);

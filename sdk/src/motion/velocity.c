@@ -2,6 +2,8 @@
  * Janabi-Sharifi, Hayward and Chen 2000) on integers, which doubles hold. SPDX-License-Identifier: MIT */
 #include <knurl/motion.h>
 
+#include "base/finite.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -45,10 +47,10 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
         return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE, FOAW or LOWPASS, found %d",
                           (int)method);
     }
-    if (!(resolution >= 0.0 && resolution <= 1.0)) {
+    if (!knurl_is_within(resolution, 0.0, 1.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: expected 0 to 1 m, found %g m", resolution);
     }
-    if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
+    if (!knurl_is_within(update_rate_hz, 1.0, 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
     if (method == KNURL_VELOCITY_AUTO) {

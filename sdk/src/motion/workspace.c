@@ -18,7 +18,7 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.origin: expected finite numbers (m), found [%g, %g, %g]",
                           workspace->origin[0], workspace->origin[1], workspace->origin[2]);
     }
-    if (!(workspace->scale > 0.0 && isfinite(workspace->scale))) {
+    if (!(workspace->scale > 0.0 && knurl_is_finite(workspace->scale))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.scale: expected a finite number > 0, found %g",
                           workspace->scale);
     }

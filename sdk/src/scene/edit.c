@@ -151,7 +151,7 @@ knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface
                                        const double rotation[4], double seconds) {
     knurl_pose pose;
     knurl_result result = knurl_surface_check_pose(position, rotation, &pose);
-    if (!result && !(seconds >= 0.0 && seconds <= 10.0)) {
+    if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "seconds: expected 0 to 10 s, found %g", seconds);
     }
     if (!result) {

@@ -251,7 +251,7 @@ double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
         *flags |= most < guard->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
         length = vec3_length(force);
     }
-    if (isfinite(length)) {
+    if (knurl_is_finite(length)) {
         vec3_copy(force, guard->force);
         knurl_heat_add(&guard->heat, length * length);
     }

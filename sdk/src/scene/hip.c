@@ -68,11 +68,11 @@ static knurl_result check_protections(const knurl_hip_desc *d) {
 }
 
 static knurl_result check_facts(const knurl_hip_facts *facts) {
-    if (!(facts->rate >= KNURL_UPDATE_RATE_MIN && facts->rate <= KNURL_UPDATE_RATE_MAX)) {
+    if (!knurl_is_within(facts->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
                           KNURL_UPDATE_RATE_MAX, facts->rate);
     }
-    if (!(facts->max_force > 0.0 && isfinite(facts->max_force))) {
+    if (!(facts->max_force > 0.0 && knurl_is_finite(facts->max_force))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g",
                           facts->max_force);
     }

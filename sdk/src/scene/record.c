@@ -14,7 +14,7 @@ void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
 }
 
 static knurl_result check_number(const char *key, const char *unit, double value, int zero_allowed) {
-    if (!(isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0)))) {
+    if (!(knurl_is_finite(value) && (value > 0.0 || (zero_allowed && value == 0.0)))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number %s 0 (%s), found %g", key,
                           zero_allowed ? ">=" : ">", unit, value);
     }
@@ -29,7 +29,7 @@ static knurl_result check_material(knurl_material_desc *m) {
     result = result ? result : check_number("stiffness", "N/m", m->stiffness, 0);
     result = result ? result : check_number("damping", "N s/m", m->damping, 1);
     result = result ? result : check_number("friction", "coefficient", m->friction, 1);
-    if (!result && !isfinite(m->orientation)) {
+    if (!result && !knurl_is_finite(m->orientation)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "orientation: expected a finite number (rad), found %g",
                           m->orientation);
     }

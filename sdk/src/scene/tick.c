@@ -348,11 +348,6 @@ static void touch_all(const knurl_scene *scene, const knurl_world *world, knurl_
     }
 }
 
-/* No number times 0 is anything but 0, but for infinities and NaN. */
-static int is_finite(const double a[3]) {
-    return 0.0 * a[0] + 0.0 * a[1] + 0.0 * a[2] == 0.0;
-}
-
 /* What is told while nothing is touched, beside the HIP: all the rest of an output, field by field, because clearing it
  * as a block takes twice as long (rep stos) as everything else that is done with it. */
 static void feel_nothing(knurl_tick_output *out) {
@@ -372,7 +367,7 @@ static void feel_nothing(knurl_tick_output *out) {
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     double velocity[3];
-    if (input->absent || !is_finite(input->position)) { /* never into the estimator */
+    if (input->absent || !vec3_finite(input->position)) { /* never into the estimator */
         return 0;
     }
     if (input->has_velocity) {
@@ -388,13 +383,13 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         vec3_scale(w->scale, velocity, out->hip_velocity);
     }
     feel_nothing(out);
-    return is_finite(out->hip) && is_finite(out->hip_velocity);
+    return vec3_finite(out->hip) && vec3_finite(out->hip_velocity);
 }
 
 /* Bounded and finite, whatever came before. Returns the force's length, N. */
 static double limit_force(knurl_hip *hip, knurl_tick_output *out) {
     const double length = knurl_guard_force(&hip->guard, out->force, &out->flags);
-    if (!isfinite(length)) {
+    if (!knurl_is_finite(length)) {
         out->flags |= KNURL_TICK_NOT_FINITE;
     }
     return length;

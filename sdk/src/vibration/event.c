@@ -56,11 +56,11 @@ void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *eve
 }
 
 knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event) {
-    if (!(period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
+    if (!(knurl_is_finite(period_ticks) && period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to %g ticks, found %g",
                           KNURL_MAX_PERIOD_TICKS, period_ticks);
     }
-    if (!(amplitude >= 0.0 && isfinite(amplitude))) {
+    if (!(amplitude >= 0.0 && knurl_is_finite(amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
     }
     knurl_event_prepare(period_ticks, amplitude, event);

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_TICKS_H
 #define KNURL_SRC_TICKS_H
 
+#include "base/finite.h"
+
 #include <math.h>
 
 /* The longest period that is played: 10 s at 100 kHz. */

@@ -28,13 +28,13 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
         return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d",
                           (int)method);
     }
-    if (!(period_s > 0.0 && period_s <= 10.0)) {
+    if (!(knurl_is_finite(period_s) && period_s > 0.0 && period_s <= 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to 10 s, found %g s", period_s);
     }
-    if (!(update_rate_hz >= 1.0 && update_rate_hz <= 100000.0)) {
+    if (!knurl_is_within(update_rate_hz, 1.0, 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
-    if (!(amplitude >= 0.0 && isfinite(amplitude))) {
+    if (!(amplitude >= 0.0 && knurl_is_finite(amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
     }
     const double ticks = knurl_snap_ticks(period_s * update_rate_hz);

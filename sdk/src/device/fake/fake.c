@@ -197,7 +197,7 @@ static knurl_result check_trace(const double *rows, uint64_t row_count) {
     for (uint64_t i = 0; i < row_count; i++) {
         const double *row = &rows[4 * i];
         const unsigned long long number = i + 1;
-        if (!isfinite(row[0]) || !vec3_finite(row + 1)) {
+        if (!knurl_is_finite(row[0]) || !vec3_finite(row + 1)) {
             return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: row %llu: expected finite t, x, y, z, found %g, %g, %g, %g",
                               number, row[0], row[1], row[2], row[3]);
         }

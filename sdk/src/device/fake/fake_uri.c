@@ -49,7 +49,7 @@ static knurl_result set_value(const key *k, const char *text, size_t length, knu
     const int real = k->offset != offsetof(knurl_fake_settings, delay) &&
                      k->offset != offsetof(knurl_fake_settings, seed) &&
                      k->offset != offsetof(knurl_fake_settings, exact);
-    if (end == copy || *end || !(value >= k->least && value <= k->greatest) || !(real || value == floor(value))) {
+    if (end == copy || *end || !knurl_is_within(value, k->least, k->greatest) || !(real || value == floor(value))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'",
                           k->name, real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit,
                           (int)length, text);

@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_FALCON_FRAME_H
 #define KNURL_SRC_FALCON_FRAME_H
 
+#include "base/finite.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

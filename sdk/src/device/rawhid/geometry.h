@@ -3,6 +3,8 @@
 #ifndef KNURL_SRC_RAWHID_GEOMETRY_H
 #define KNURL_SRC_RAWHID_GEOMETRY_H
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 #include <stddef.h>

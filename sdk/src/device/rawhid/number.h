@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_RAWHID_NUMBER_H
 #define KNURL_SRC_RAWHID_NUMBER_H
 
+#include "base/finite.h"
+
 #include <stddef.h>
 
 /* All of `text` as a decimal number ("-0.5", "2e-3") of up to 15 significant digits, correctly rounded, or as a

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_RAWHID_REPORT_H
 #define KNURL_SRC_RAWHID_REPORT_H
 
+#include "base/finite.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

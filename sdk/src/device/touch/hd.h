@@ -4,6 +4,8 @@
 #ifndef KNURL_SRC_HD_H
 #define KNURL_SRC_HD_H
 
+#include "base/finite.h"
+
 #include <stdint.h>
 
 /* Functions and callbacks alike; other platforms have one convention. */
