@@ -360,7 +360,7 @@ TEST(doubled_vertices_are_welded_by_place) {
     uint32_t rims = 0;
     assert_int_equal(p.mesh->vertex_count, 9); /* of 24 */
     for (size_t i = 0; i < 24; i++) {
-        rims += p.mesh->across[i] == KNURL_RIM;
+        rims += p.mesh->opposite[i] == KNURL_BOUNDARY;
     }
     assert_int_equal(rims, 8); /* the outer edges only: inside, the sheet hangs together */
     probe_free(&p);

@@ -54,8 +54,9 @@ void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triang
 
 void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh) {
     if (mesh) {
-        void *const parts[] = {mesh->positions, mesh->tangents, mesh->uvs,          mesh->triangles, mesh->attributes,
-                               mesh->across,    mesh->knots,    mesh->knot_corners, mesh->nodes};
+        void *const parts[] = {mesh->positions,  mesh->tangents, mesh->uvs,          mesh->triangles,
+                               mesh->attributes, mesh->opposite, mesh->non_manifold, mesh->non_manifold_corners,
+                               mesh->nodes};
         for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
             knurl_heap_free(heap, parts[i]);
         }
@@ -64,9 +65,10 @@ void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh) {
 }
 
 uint64_t knurl_mesh_bytes(const knurl_mesh *mesh) {
-    const void *const parts[] = {
-        mesh,         mesh->positions, mesh->tangents,     mesh->uvs,  mesh->triangles, mesh->attributes,
-        mesh->across, mesh->knots,     mesh->knot_corners, mesh->nodes};
+    const void *const parts[] = {mesh,           mesh->positions,    mesh->tangents,
+                                 mesh->uvs,      mesh->triangles,    mesh->attributes,
+                                 mesh->opposite, mesh->non_manifold, mesh->non_manifold_corners,
+                                 mesh->nodes};
     uint64_t bytes = 0;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         bytes += knurl_heap_size(parts[i]);

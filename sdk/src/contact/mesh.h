@@ -7,25 +7,25 @@
 
 #include <knurl/contact.h>
 
-/* A corner of the mesh is one number: 4 times its triangle plus 0, 1 or 2. Triangles stay below 2^26, so the high bits
- * are free, and numbers that end in 3 are no corners. */
-#define KNURL_CORNER  0x0fffffffu
-#define KNURL_RIM     3u          /* nothing beyond this edge */
-#define KNURL_SEVERAL 7u          /* more than one triangle beyond this edge */
-#define KNURL_TURNED  0x40000000u /* the triangle beyond this edge faces the other way */
-#define KNURL_KNOT    0x80000000u /* swinging does not get round this corner's vertex: see knurl_knot */
+/* A corner table (Rossignac 2001). A corner of the mesh is one number: 4 times its triangle plus 0, 1 or 2. Triangles
+ * stay below 2^26, so the high bits are free, and numbers that end in 3 are no corners. */
+#define KNURL_CORNER_MASK       0x0fffffffu
+#define KNURL_BOUNDARY          3u          /* nothing beyond this edge */
+#define KNURL_NON_MANIFOLD_EDGE 7u          /* more than one triangle beyond this edge */
+#define KNURL_FLIPPED           0x40000000u /* the triangle beyond this edge faces the other way */
+#define KNURL_NON_MANIFOLD      0x80000000u /* of the vertex: swinging does not get round it (knurl_vertex_corners) */
 
-/* A vertex whose triangles do not all hang together by edges that two of them share (bow ties, more than two sheets on
- * one edge): they are listed. */
-typedef struct knurl_knot {
+/* A non-manifold vertex: its triangles do not all hang together by edges that two of them share (bow ties, more than
+ * two sheets on one edge), so they are listed. */
+typedef struct knurl_vertex_corners {
     uint32_t vertex;
-    uint32_t first; /* in knot_corners */
+    uint32_t first; /* in non_manifold_corners */
     uint32_t count;
-} knurl_knot;
+} knurl_vertex_corners;
 
 /* Single precision for what is stored (half the bytes; 4e-9 m on a 0.1 m object), double for all that is computed.
- * Bytes a triangle of a closed mesh or a sheet: triangles 12, across 12, positions 6, nodes 12. What stands in for
- * stored fans (14 with their starts) and for welds is `across`: the fan round a vertex is swung through edge by edge,
+ * Bytes a triangle of a closed mesh or a sheet: triangles 12, opposite 12, positions 6, nodes 12. What stands in for
+ * stored fans (14 with their starts) and for welds is `opposite`: the fan round a vertex is swung through edge by edge,
  * so vertices need not be told apart from those they are welded to. */
 typedef struct knurl_mesh {
     float *positions;     /* x, y, z a vertex, in the order in which the triangles use them */
@@ -33,14 +33,14 @@ typedef struct knurl_mesh {
     float *uvs;           /* u, v an attribute, or null */
     uint32_t *triangles;  /* three vertices each, in the hierarchy's leaf order */
     uint32_t *attributes; /* three a triangle: places in uvs and tangents; null: its vertices */
-    uint32_t *across;     /* three a triangle: beyond the edge that faces a corner, the corner facing back, and flags */
-    knurl_knot *knots;    /* in order of their vertices, or null */
-    uint32_t *knot_corners; /* of the knots, one run after another, or null */
-    knurl_bvh_node *nodes;  /* the hierarchy; [0] is the root */
+    uint32_t *opposite;   /* three a triangle: of each corner, the corner opposite the same edge beyond it, and flags */
+    knurl_vertex_corners *non_manifold; /* in order of their vertices, or null */
+    uint32_t *non_manifold_corners;     /* of those, one run after another, or null */
+    knurl_bvh_node *nodes;              /* the hierarchy; [0] is the root */
     uint32_t vertex_count;
     uint32_t triangle_count;
     uint32_t node_count;
-    uint32_t knot_count;
+    uint32_t non_manifold_count;
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */

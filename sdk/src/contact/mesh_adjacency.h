@@ -4,8 +4,8 @@
 
 #include "contact/mesh.h"
 
-/* Part of knurl_mesh_create(): fills in across, knots and knot_corners. places: three a triangle, below place_count:
- * equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_mesh_join(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *places, uint32_t place_count);
+/* Part of knurl_mesh_create(): fills in opposite, non_manifold and non_manifold_corners. welded: three a triangle,
+ * below welded_count: equal where vertices stand in one place. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_mesh_link(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *welded, uint32_t welded_count);
 
 #endif

@@ -21,9 +21,9 @@ typedef struct draft {
     uint32_t *welds;    /* of each of the caller's vertices: the first that stands where it stands */
     uint32_t *corners;  /* the caller's vertices */
     uint32_t *vertices; /* the same, numbered in the order of their use */
-    uint32_t *places;   /* their welds, numbered likewise */
+    uint32_t *welded;   /* their welds, numbered likewise */
     uint32_t vertex_count;
-    uint32_t place_count;
+    uint32_t welded_count;
 } draft;
 
 static knurl_result weld(draft *d) {
@@ -51,7 +51,7 @@ static int has_area(const draft *d, const uint32_t corners[3]) {
 }
 
 /* The welded corners of a triangle, the lowest first, the others in the same turn. */
-static void turn_lowest_first(const draft *d, const uint32_t corners[3], uint32_t out[3]) {
+static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint32_t out[3]) {
     const uint32_t w[3] = {d->welds[corners[0]], d->welds[corners[1]], d->welds[corners[2]]};
     const int first = w[0] < w[1] ? (w[0] < w[2] ? 0 : 2) : (w[1] < w[2] ? 1 : 2);
     out[0] = w[first];
@@ -61,17 +61,17 @@ static void turn_lowest_first(const draft *d, const uint32_t corners[3], uint32_
 
 /* Looks for a triangle between the same corners as the one after the last, which it enters where there is none.
  * Returns 0: none; 1: one facing the same way; -1: one facing the other way. */
-static int find_twin(const draft *d, uint32_t *table, uint64_t mask) {
+static int find_duplicate(const draft *d, uint32_t *table, uint64_t mask) {
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
-    turn_lowest_first(d, &d->corners[3 * (size_t)triangle], own);
+    rotate_lowest_first(d, &d->corners[3 * (size_t)triangle], own);
     uint64_t hash = own[0] * 0x9e3779b97f4a7c15u; /* the same for both turns */
     hash = (hash ^ (hash >> 31) ^ ((uint64_t)own[1] + own[2])) * 0xbf58476d1ce4e5b9u;
     hash = (hash ^ (hash >> 29) ^ (own[1] < own[2] ? own[2] : own[1])) * 0x94d049bb133111ebu;
     uint64_t slot = (hash ^ (hash >> 32)) & mask;
     for (; table[slot] != 0; slot = (slot + 1) & mask) {
         uint32_t other[3];
-        turn_lowest_first(d, &d->corners[3 * (size_t)(table[slot] - 1)], other);
+        rotate_lowest_first(d, &d->corners[3 * (size_t)(table[slot] - 1)], other);
         if (other[0] == own[0] && other[1] == own[1] && other[2] == own[2]) {
             return 1;
         }
@@ -101,10 +101,10 @@ static knurl_result keep_triangles(draft *d) {
         for (uint32_t k = 0; k < 3; k++) {
             to[k] = desc->indices ? desc->indices[i + k] : (uint32_t)(i + k);
         }
-        const int twin = has_area(d, to) ? find_twin(d, table, slots - 1) : 1;
-        mesh->triangle_count += twin == 0;
-        mesh->dropped += twin > 0;
-        mesh->reversed_twins += twin < 0;
+        const int duplicate = has_area(d, to) ? find_duplicate(d, table, slots - 1) : 1;
+        mesh->triangle_count += duplicate == 0;
+        mesh->dropped += duplicate > 0;
+        mesh->reversed_twins += duplicate < 0;
     }
     mesh->double_sided = mesh->reversed_twins > 0;
     knurl_heap_free(d->heap, table);
@@ -153,7 +153,7 @@ static knurl_result build_hierarchy(draft *d) {
 }
 
 /* Numbers what the corners name in the order of use; names: of what, or null for themselves. Returns how many. */
-static uint32_t number(const draft *d, const uint32_t *names, uint32_t *numbers, uint32_t *out) {
+static uint32_t number_by_use(const draft *d, const uint32_t *names, uint32_t *numbers, uint32_t *out) {
     uint32_t count = 0;
     memset(numbers, 0, d->desc->vertex_count * sizeof *numbers);
     for (size_t i = 0; i < 3 * (size_t)d->mesh->triangle_count; i++) {
@@ -170,11 +170,11 @@ static knurl_result number_corners(draft *d) {
     const uint64_t corners = 3 * (uint64_t)d->mesh->triangle_count;
     uint32_t *numbers = knurl_heap_alloc(d->heap, d->desc->vertex_count, sizeof *numbers);
     d->vertices = knurl_heap_alloc(d->heap, corners, sizeof *d->vertices);
-    d->places = knurl_heap_alloc(d->heap, corners, sizeof *d->places);
-    const int failed = !numbers || !d->vertices || !d->places;
+    d->welded = knurl_heap_alloc(d->heap, corners, sizeof *d->welded);
+    const int failed = !numbers || !d->vertices || !d->welded;
     if (!failed) {
-        d->vertex_count = number(d, NULL, numbers, d->vertices);
-        d->place_count = number(d, d->welds, numbers, d->places);
+        d->vertex_count = number_by_use(d, NULL, numbers, d->vertices);
+        d->welded_count = number_by_use(d, d->welds, numbers, d->welded);
     }
     knurl_heap_free(d->heap, numbers);
     return failed ? KNURL_ERROR_MEMORY : KNURL_OK;
@@ -196,10 +196,10 @@ static knurl_result copy_vertices(draft *d) {
     const knurl_mesh_desc *desc = d->desc;
     knurl_mesh *mesh = d->mesh;
     const int has_attributes = desc->uvs || desc->tangents;
-    const int apart = has_attributes && d->vertex_count - d->place_count > mesh->triangle_count;
-    const uint32_t *vertices = has_attributes && !apart ? d->vertices : d->places;
+    const int apart = has_attributes && d->vertex_count - d->welded_count > mesh->triangle_count;
+    const uint32_t *vertices = has_attributes && !apart ? d->vertices : d->welded;
     const size_t bytes = 3 * (size_t)mesh->triangle_count * sizeof *vertices;
-    mesh->vertex_count = has_attributes && !apart ? d->vertex_count : d->place_count;
+    mesh->vertex_count = has_attributes && !apart ? d->vertex_count : d->welded_count;
     mesh->positions = gather(d, desc->positions, vertices, mesh->vertex_count, 3, 3);
     mesh->uvs = desc->uvs ? gather(d, desc->uvs, d->vertices, d->vertex_count, 2, 2) : NULL;
     mesh->tangents = desc->tangents ? gather(d, desc->tangents, d->vertices, d->vertex_count, 3, 4) : NULL;
@@ -222,14 +222,14 @@ static knurl_result build_mesh(draft *d) {
     result = result ? result : build_hierarchy(d);
     result = result ? result : number_corners(d);
     result = result ? result : copy_vertices(d);
-    result = result ? result : knurl_mesh_join(d->heap, d->mesh, d->places, d->place_count);
+    result = result ? result : knurl_mesh_link(d->heap, d->mesh, d->welded, d->welded_count);
     if (!result) {
         knurl_mesh_measure_uvs(d->mesh);
     }
     knurl_heap_free(d->heap, d->welds);
     knurl_heap_free(d->heap, d->corners);
     knurl_heap_free(d->heap, d->vertices);
-    knurl_heap_free(d->heap, d->places);
+    knurl_heap_free(d->heap, d->welded);
     return result;
 }
 

@@ -7,17 +7,17 @@
 #include <string.h>
 
 /* Keeps a triangle's nearest point if it is nearer than `best2`; returns the smaller of the two distances, squared. */
-static double nearest_of(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
-                         knurl_contact *nearest) {
-    knurl_foot foot;
-    knurl_foot_find(mesh, triangle, p, &foot);
-    if (foot.distance2 >= best2) {
+static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
+                                  knurl_contact *nearest) {
+    knurl_closest_point closest;
+    knurl_closest_on_triangle(mesh, triangle, p, &closest);
+    if (closest.distance2 >= best2) {
         return best2;
     }
-    vec3_copy(foot.point, nearest->proxy);
-    vec3_copy(foot.weights, nearest->weights);
+    vec3_copy(closest.point, nearest->proxy);
+    vec3_copy(closest.weights, nearest->weights);
     nearest->triangle = triangle;
-    return foot.distance2;
+    return closest.distance2;
 }
 
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest) {
@@ -33,7 +33,7 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
             continue;
         }
         for (uint32_t i = 0; i < node->count; i++) {
-            best2 = nearest_of(mesh, node->first + i, p, best2, nearest);
+            best2 = closest_in_triangle(mesh, node->first + i, p, best2, nearest);
         }
         if (node->count == 0) { /* the nearer child is looked at first */
             const uint32_t left = index + 1;
@@ -47,10 +47,10 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
     return best2 < limit2;
 }
 
-/* Where along a + s (b - a) a triangle is met, or a value above `best`. Edges are widened by 1e-7 of the triangle, so
- * that nothing slips between two neighbours. */
-static double meet(const double corners[3][3], const double a[3], const double direction[3], double best,
-                   int double_sided, int *side) {
+/* Where along a + s (b - a) it hits a triangle (Moeller and Trumbore 1997), or a value above `best`. Edges are widened
+ * by 1e-7 of the triangle, so that nothing slips between two neighbours. */
+static double hit_triangle(const double corners[3][3], const double a[3], const double direction[3], double best,
+                           int double_sided, int *side) {
     double edge1[3], edge2[3], p[3], q[3], from[3];
     const double slack = 1e-7;
     vec3_sub(corners[1], corners[0], edge1);
@@ -92,7 +92,7 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
         for (uint32_t i = 0; i < node->count; i++) {
             double corners[3][3];
             knurl_mesh_corners(mesh, node->first + i, corners);
-            const double s = meet((const double (*)[3])corners, a, direction, best, double_sided, &side);
+            const double s = hit_triangle((const double (*)[3])corners, a, direction, best, double_sided, &side);
             if (s < best) {
                 best = s;
                 *triangle = node->first + i;

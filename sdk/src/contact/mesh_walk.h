@@ -5,11 +5,13 @@
 
 #include "contact/closest_point.h"
 
-/* From a foot downhill to the local minimum of the distance to p; side: of the surface that p came from, +1 or -1. */
-void knurl_foot_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_foot *foot) KNURL_NONBLOCKING;
+/* From one closest point downhill to the local minimum of the distance to p; side: of the surface that p came from, +1
+ * or -1. */
+void knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side,
+                     knurl_closest_point *closest) KNURL_NONBLOCKING;
 
-/* Which side of the surface a point is on whose foot this is: +1 in front, -1 behind, 0 neither.
- * *rim: whether the foot is on the rim of an open mesh. */
-int knurl_foot_side(const knurl_mesh *mesh, const knurl_foot *foot, int *rim) KNURL_NONBLOCKING;
+/* Which side of the surface p is on, seen from its closest point: +1 in front, -1 behind, 0 neither.
+ * *boundary: whether that point is on the boundary of an open mesh. */
+int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, int *boundary) KNURL_NONBLOCKING;
 
 #endif

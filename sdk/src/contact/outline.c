@@ -12,8 +12,8 @@
 #define MAX_UNSPLIT 256
 #define MAX_SPLIT   (4 * MAX_UNSPLIT)
 
-#define NONE UINT32_MAX       /* no edge */
-#define KNOT (UINT32_MAX - 1) /* a vertex that several edges leave: nothing is straightened across it */
+#define NONE   UINT32_MAX       /* no edge */
+#define BRANCH (UINT32_MAX - 1) /* a vertex that several edges leave: nothing is straightened across it */
 
 static const char *const overlapping = "mesh: its triangles overlap";
 static const char *const too_many = "mesh: its outline has more than 64 edges";
@@ -22,7 +22,7 @@ typedef struct outline {
     uint32_t (*edges)[2];      /* by places */
     uint32_t (*straighter)[2]; /* what the next round makes of them */
     double (*places)[2];
-    uint32_t *leaving; /* of each place: its edge, NONE or KNOT */
+    uint32_t *leaving; /* of each place: its edge, NONE or BRANCH */
     uint8_t *done;     /* of each edge: straightened */
     uint32_t count;
     uint32_t made;
@@ -96,13 +96,13 @@ static double replace_run(outline *o, uint32_t first, uint32_t last) {
     return error;
 }
 
-/* From one edge on to the next knot, or once round. */
+/* From one edge on to the next branch, or once round. */
 static double straighten_chain(outline *o, uint32_t edge) {
     uint32_t first = edge;
     uint32_t last = edge;
     double error = 0.0;
     wedge w = wedge_at(o->places[o->edges[edge][0]]);
-    while (edge < KNOT && !o->done[edge]) {
+    while (edge < BRANCH && !o->done[edge]) {
         const double *to = o->places[o->edges[edge][1]];
         if (!wedge_take(&w, to, o->tolerance) && edge != first) {
             error = fmax(error, replace_run(o, first, last));
@@ -140,12 +140,12 @@ static void straighten(outline *o, double limit) {
     memset(o->leaving, 0xff, o->place_count * sizeof *o->leaving);
     for (uint32_t i = 0; i < o->count; i++) {
         uint32_t *leaving = &o->leaving[o->edges[i][0]];
-        *leaving = *leaving == NONE ? i : KNOT;
+        *leaving = *leaving == NONE ? i : BRANCH;
     }
     o->made = 0;
     o->tolerance = 0.5 * fmax(0.0, limit - o->error); /* however many rounds, together they stay below the limit */
     for (uint32_t i = 0; i < o->count; i++) {
-        if (o->leaving[o->edges[i][0]] == KNOT) {
+        if (o->leaving[o->edges[i][0]] == BRANCH) {
             error = fmax(error, straighten_chain(o, i));
         }
     }

@@ -11,7 +11,7 @@ static double left_of(const knurl_edge *edge, const double p[2]) {
 }
 
 /* 1 where the ends of one edge lie on different sides of the other, by more than they may be off. */
-static int parts(const knurl_edge *edge, const knurl_edge *other, double limit) {
+static int separates(const knurl_edge *edge, const knurl_edge *other, double limit) {
     const double from = left_of(edge, other->from);
     const double to = left_of(edge, other->to);
     return fmin(fabs(from), fabs(to)) > limit && (from > 0.0) != (to > 0.0);
@@ -48,8 +48,8 @@ int knurl_outline_is_simple(const knurl_plane *plane, double limit) {
             return 0;
         }
         for (uint32_t k = 0; k < i; k++) {
-            if (parts(&plane->outline[i], &plane->outline[k], limit) &&
-                parts(&plane->outline[k], &plane->outline[i], limit)) {
+            if (separates(&plane->outline[i], &plane->outline[k], limit) &&
+                separates(&plane->outline[k], &plane->outline[i], limit)) {
                 return 0;
             }
         }

@@ -46,10 +46,10 @@ static int within_outline(const knurl_plane *plane, const double p[2]) {
 }
 
 /* m that a rectangle reaches beyond its edges: rounding leaves no gap between planes side by side. */
-#define SEAM 1e-10
+#define EDGE_SLACK 1e-10
 
 static inline int covers(const knurl_plane *plane, const double p[2]) {
-    return fabs(p[0]) <= plane->half_extents[0] + SEAM && fabs(p[1]) <= plane->half_extents[1] + SEAM &&
+    return fabs(p[0]) <= plane->half_extents[0] + EDGE_SLACK && fabs(p[1]) <= plane->half_extents[1] + EDGE_SLACK &&
            (!plane->outline || within_outline(plane, p));
 }
 
@@ -57,8 +57,8 @@ int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
     return covers(plane, p);
 }
 
-/* The side that the HIP touches from, or 0: through the plane between two ticks, or within reach of it. */
-static int enter(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside) {
+/* The side that the HIP shares_feature from, or 0: through the plane between two ticks, or within reach of it. */
+static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
     if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
@@ -92,7 +92,7 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     const double *hip = query->hip;
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     if (!state->inside) { /* a HIP in front may go through at any tick */
-        state->side = enter(plane, query, reach, &state->inside);
+        state->side = begin_side(plane, query, reach, &state->inside);
     }
     const double z = hip[2] * state->side;
     state->inside = z <= KNURL_ON_SURFACE;

@@ -7,7 +7,7 @@
 #include "contact/sheet_coordinates.h"
 
 /* Moves the plane's origin to the middle of its outline's bounds. */
-static void centre(knurl_plane *plane, double middle[2]) {
+static void centre_on_bounds(knurl_plane *plane, double middle[2]) {
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < plane->edge_count; i++) { /* loops: every corner is some edge's beginning */
@@ -114,11 +114,11 @@ static void find_inside(const knurl_sheet *sheet, const double middle[2], knurl_
 }
 
 /* From the sheet's frame to the plane's own, and the counts. */
-static knurl_result finish(knurl_heap *heap, const knurl_sheet *sheet, double outline_error, knurl_plane *plane,
-                           double position[3], double rotation[9]) {
+static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, double outline_error,
+                                    knurl_plane *plane, double position[3], double rotation[9]) {
     double middle[2];
     double rectangle_error = 0.0;
-    centre(plane, middle);
+    centre_on_bounds(plane, middle);
     plane->flatness = fmax(sheet->flatness, outline_error);
     if (is_rectangle(plane, sheet->limit, &rectangle_error)) {
         plane->flatness = fmax(sheet->flatness, outline_error + rectangle_error);
@@ -159,7 +159,7 @@ knurl_result knurl_plane_from_mesh(knurl_heap *heap, const knurl_mesh_desc *desc
         result = knurl_sheet_outline(heap, &sheet, made, &outline_error, &refused);
     }
     if (!result && !refused) {
-        result = finish(heap, &sheet, outline_error, made, position, rotation);
+        result = set_plane_frame(heap, &sheet, outline_error, made, position, rotation);
     }
     if (result || refused) {
         knurl_plane_destroy(heap, made);

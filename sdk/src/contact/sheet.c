@@ -213,7 +213,7 @@ static void keep_triangles(knurl_sheet *sheet, uint32_t *table, uint64_t mask, u
     }
 }
 
-static knurl_result sort_out(knurl_heap *heap, knurl_sheet *sheet, const char **why) {
+static knurl_result leave_out_duplicates(knurl_heap *heap, knurl_sheet *sheet, const char **why) {
     const uint64_t slots = knurl_table_slots(sheet->count);
     uint32_t *table = knurl_heap_alloc(heap, slots, sizeof *table);
     uint8_t *seen = knurl_heap_alloc(heap, sheet->count, 1);
@@ -250,7 +250,7 @@ knurl_result knurl_sheet_make(knurl_heap *heap, const knurl_mesh_desc *desc, knu
         return KNURL_OK;
     }
     const knurl_result result = knurl_mesh_weld(heap, desc, 1, sheet->welds);
-    return result ? result : sort_out(heap, sheet, why);
+    return result ? result : leave_out_duplicates(heap, sheet, why);
 }
 
 void knurl_sheet_release(knurl_heap *heap, knurl_sheet *sheet) {

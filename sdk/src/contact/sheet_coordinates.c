@@ -8,7 +8,7 @@
 
 /* An axis or tangent nearer to the normal than this (rad) leaves a direction that turns with the last digits of the
  * positions: 1e-6 of slope over it has to stay within what a direction may be off. */
-#define POST 1e-2
+#define NEAR_NORMAL 1e-2
 
 /* rad: how far the tangents' directions may be off their mean. 1e-4 of a 1 m/s stroke is 0.1 mm/s. */
 #define SAME_DIRECTION 1e-4
@@ -16,7 +16,7 @@
 static const char *const along_normal = "mesh: its x direction stands on it like a post";
 
 /* Puts the sheet's x along a direction in its present x and y; what there is of the map turns with it. */
-static void turn(knurl_sheet *sheet, const double direction[2], knurl_plane *plane) {
+static void align_x(knurl_sheet *sheet, const double direction[2], knurl_plane *plane) {
     const double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
     const double c = direction[0] / length;
     const double s = direction[1] / length;
@@ -34,14 +34,14 @@ static void turn(knurl_sheet *sheet, const double direction[2], knurl_plane *pla
     }
 }
 
-static void by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
+static void map_by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
     const double tangent[2] = {vec3_dot(axis, sheet->axes[0]), vec3_dot(axis, sheet->axes[1])};
     const double length = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
-    if (!(length > POST)) {
+    if (!(length > NEAR_NORMAL)) {
         *why = along_normal;
         return;
     }
-    turn(sheet, tangent, plane);
+    align_x(sheet, tangent, plane);
     plane->map[0][0] = length;
     plane->map[0][2] = vec3_dot(sheet->origin, axis);
     plane->map[1][1] = 1.0;
@@ -50,7 +50,7 @@ static void by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *plane
     plane->has_coordinates = 1;
 }
 
-static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
+static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     double mean[2] = {0.0, 0.0};
     for (int pass = 0; pass < 2; pass++) { /* their mean, then how far each is off it */
         for (uint64_t i = 0; i < 3 * (uint64_t)sheet->count; i++) {
@@ -59,7 +59,7 @@ static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why
             const double tangent[3] = {(double)t[0], (double)t[1], (double)t[2]};
             double flat[2] = {vec3_dot(tangent, sheet->axes[0]), vec3_dot(tangent, sheet->axes[1])};
             const double part = sqrt(flat[0] * flat[0] + flat[1] * flat[1]);
-            if (!(part > POST * vec3_length(tangent))) {
+            if (!(part > NEAR_NORMAL * vec3_length(tangent))) {
                 *why = along_normal;
                 return;
             }
@@ -73,7 +73,7 @@ static void by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why
             mean[1] += pass == 0 ? flat[1] / part : 0.0;
         }
     }
-    turn(sheet, mean, plane);
+    align_x(sheet, mean, plane);
 }
 
 /* Sums over the area that has been looked at. */
@@ -151,7 +151,7 @@ static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane 
 
 /* What is affine to the sheet's limit over the sheet's size runs one way as well: no triangle's own dP/du is asked for,
  * which on a fine mesh is as rough as its floats. */
-static void by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
+static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     uv_sums sums = {.range = {HUGE_VAL, 0.0}};
     for (uint32_t i = 0; i < sheet->count; i++) {
         if (!add_uvs(sheet, sheet->kept[i], &sums)) {
@@ -179,7 +179,7 @@ void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_pla
     plane->x[0] = 1.0;
     plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
     if (axis) {
-        by_axis(sheet, axis, plane, why);
+        map_by_axis(sheet, axis, plane, why);
         return;
     }
     if (!d->tangents && !d->uvs) {
@@ -187,15 +187,15 @@ void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_pla
         return;
     }
     if (d->uvs) {
-        by_uvs(sheet, plane, why);
+        map_by_uvs(sheet, plane, why);
     }
     if (*why) {
         return;
     }
     if (d->tangents) {
-        by_tangents(sheet, plane, why);
+        align_by_tangents(sheet, plane, why);
     } else { /* along dP/du: coordinate 1 does not change on the way */
         const double along[2] = {plane->map[1][1], -plane->map[1][0]};
-        turn(sheet, along, plane);
+        align_x(sheet, along, plane);
     }
 }
