@@ -152,7 +152,9 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * - touch, touch:NAME: the default Touch, or the one that its set-up program gave this name. ?library=PATH: where libHD
  *   is, before the environment variable KNURL_HD_LIBRARY and the usual places.
  * - falcon: the first one. ?firmware=PATH: the image to load where the device has none, before the environment variable
- *   KNURL_FALCON_FIRMWARE.
+ *   KNURL_FALCON_FIRMWARE. ?gain=G, 0.05 to 1: what its motors are told over libnifalcon's 10000 units a N m, which
+ *   nobody has weighed; 0.35 to 0.53 in recorded packets of its maker's driver. Default 0.35: no force is stronger than
+ *   was asked for, if those packets are right. The device's name tells the gain.
  * - rawhid, rawhid:VID:PID: the first one that is known, or which one (hexadecimal). ?geometry=PATH: a file that says
  *   how it is built, see assets/devices. ?home=1: it rests in its home pose now.
  *

@@ -94,6 +94,7 @@ void falcon_sim_init(falcon_sim *sim, const knurl_stroke_desc *stroke) {
     knurl_hand_init(&sim->hand, stroke ? stroke : &line, 0.0, 1);
     knurl_hand_target(&sim->hand, 0.0, 0.001, sim->target);
     knurl_plant_init(&sim->plant, &config, sim->target);
+    sim->gain = 0.35;
     sim->is_moving = 1;
     sim->homed = 7;
     sim->latency_ms = 16;
@@ -191,6 +192,9 @@ static void move(falcon_sim *sim) {
     double before[3];
     double speed[3];
     falcon_sim_force(sim->plant.position, sim->motors, sim->force);
+    for (int axis = 0; axis < 3; axis++) {
+        sim->force[axis] /= sim->gain;
+    }
     if (!sim->is_moving) {
         return;
     }
@@ -221,6 +225,16 @@ static void answer(falcon_sim *sim) {
     say(sim, frame, 16);
 }
 
+/* Without the homing bit the legs' homing is forgotten. */
+static void follow_homing(falcon_sim *sim) {
+    sim->homing_run = sim->flags & 1u ? sim->homing_run + 1 : 0;
+    if (sim->homing_run == 0 || (sim->unhomed_for > 0 && sim->frames % (sim->unhomed_for + 100) < sim->unhomed_for)) {
+        sim->homed = 0;
+    } else if ((sim->homes_at > 0 && sim->homing_run >= sim->homes_at) || sim->unhomed_for > 0) {
+        sim->homed = 7;
+    }
+}
+
 static void hear_frame(falcon_sim *sim) {
     int over = 0;
     for (int leg = 0; leg < 3; leg++) {
@@ -233,11 +247,8 @@ static void hear_frame(falcon_sim *sim) {
     }
     sim->overdriven += (uint64_t)over;
     sim->flags = sim->heard[13] - 0x41u;
-    sim->homing_run += sim->flags & 1u;
-    if (sim->homes_at > 0 && sim->homing_run >= sim->homes_at) {
-        sim->homed = 7;
-    }
     sim->frames++;
+    follow_homing(sim);
     move(sim);
     answer(sim);
 }

@@ -18,6 +18,7 @@ typedef struct falcon_sim {
     double target[3];
     uint64_t ticks;
     double jump[3]; /* m: what the encoders tell beyond the truth */
+    double gain;    /* motor units that make a newton metre, over libnifalcon's 10000 */
     int is_moving;  /* 0: it stands where it was put, whatever the motors do */
     /* what it says and hears */
     int16_t motors[3];
@@ -25,8 +26,9 @@ typedef struct falcon_sim {
     uint32_t flags;  /* as heard: bit 0 homing, 1 green, 2 blue, 3 red */
     uint32_t buttons;
     uint32_t homed;
-    uint32_t homes_at;   /* frames with the homing bit after which the legs are homed; 0: never */
-    uint32_t homing_run; /* such frames so far */
+    uint32_t homes_at;    /* frames with the homing bit after which the legs are homed; 0: never */
+    uint32_t homing_run;  /* such frames in a row so far */
+    uint64_t unhomed_for; /* it loses its homing for so many frames, and has it again for 100; 0: it keeps it */
     uint64_t frames;
     uint64_t bad_bytes;
     uint64_t overdriven; /* frames with a motor beyond +-4096 */
@@ -69,7 +71,7 @@ int falcon_sim_angles(const double position[3], double theta[3]);
 /* The encoders' counts there. */
 void falcon_sim_counts(const double position[3], int16_t counts[3]);
 
-/* The force (N) that motors make at a position, by virtual work. */
+/* The force (N) that motors make at a position, by virtual work; with libnifalcon's gain. */
 void falcon_sim_force(const double position[3], const int16_t motors[3], double force[3]);
 
 /* Puts the grip somewhere, to stand. */

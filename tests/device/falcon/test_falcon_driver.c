@@ -5,6 +5,7 @@
 #include "device/driver.h"
 #include "falcon_fake.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 static falcon_fake fake;
@@ -19,14 +20,18 @@ static void begin(void) {
     falcon_fake_init(&fake, NULL);
 }
 
-static knurl_device *open_fake(void) {
+static knurl_device *open_with(const char *options) {
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);
-    if (knurl_falcon_open_on(&bus, "", &opened)) {
+    if (knurl_falcon_open_on(&bus, options, &opened)) {
         fail_msg("%s", knurl_error_message());
     }
     knurl_device_register(opened);
     assert_int_equal(knurl_device_start(opened, 1000.0), KNURL_OK);
     return opened;
+}
+
+static knurl_device *open_fake(void) {
+    return open_with("");
 }
 
 static void close_fake(knurl_device *device) {
@@ -74,11 +79,15 @@ static outcome run(knurl_device *device, int ms, const double force[3]) {
 }
 
 /* Opened, and its first position has come: until then it is halted, as a loop would have it. */
-static knurl_device *open_ready(void) {
-    knurl_device *device = open_fake();
+static knurl_device *open_ready_with(const char *options) {
+    knurl_device *device = open_with(options);
     for (int i = 0; i < 1000 && run(device, 1, no_force).good == 0; i++) {}
     knurl_device_release_halt(device);
     return device;
+}
+
+static knurl_device *open_ready(void) {
+    return open_ready_with("");
 }
 
 /* How often that fault was reported since the last call, and everything else. */
@@ -129,16 +138,81 @@ TEST(a_force_comes_out_at_the_grip_as_it_went_in) {
         for (int axis = 0; axis < 3; axis++) { /* half a unit a motor, half a count a leg: below 1 % */
             CHECK_CLOSE(sim.force[axis], forces[i][axis], 0.02);
         }
-        assert_int_equal(sim.flags, 4); /* blue */
+        assert_int_equal(sim.flags, 4 + 1); /* blue, homing */
         close_fake(device);
     }
+}
+
+/* Recorded packets of the maker's own driver have 0.35 to 0.53 of libnifalcon's units for a force. */
+TEST(no_force_is_stronger_than_was_asked_for_with_any_gain_that_the_device_may_have) {
+    const double force[3] = {0.0, 1.2, 1.6}; /* 2 N */
+    const double gains[] = {0.35, 0.44, 0.53};
+    for (size_t i = 0; i < COUNT_OF(gains); i++) {
+        begin();
+        falcon_sim_put(&fake.sim, 0.01, 0.0, 0.0);
+        fake.sim.gain = gains[i];
+        knurl_device *device = open_ready();
+        (void)run(device, 40, force);
+        const falcon_sim sim = falcon_fake_look(&fake);
+        const double length =
+            sqrt(sim.force[0] * sim.force[0] + sim.force[1] * sim.force[1] + sim.force[2] * sim.force[2]);
+        CHECK_CLOSE(length, 2.0 * 0.35 / gains[i], 0.03);
+        close_fake(device);
+    }
+}
+
+TEST(a_gain_that_was_weighed_can_be_set_and_is_told) {
+    const double force[3] = {0.0, 0.0, 1.5};
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    begin();
+    falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
+    fake.sim.gain = 0.5;
+    knurl_device *device = open_ready_with("?gain=0.5");
+    (void)run(device, 40, force);
+    CHECK_CLOSE(falcon_fake_look(&fake).force[2], 1.5, 0.02);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "Novint Falcon, gain 0.5");
+    close_fake(device);
+}
+
+TEST(a_gain_out_of_its_range_is_refused_before_anything_is_opened) {
+    static const char *const bad[] = {"0", "-0.5", "0.049", "1.001", "nan", "inf", "0,5", "half", "0.5x", "1e400"};
+    knurl_device *device = NULL;
+    begin();
+    const knurl_falcon_bus bus = falcon_fake_bus(&fake);
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        char options[64];
+        char found[64];
+        (void)snprintf(options, sizeof options, "?gain=%s", bad[i]);
+        (void)snprintf(found, sizeof found, "gain: expected a number from 0.05 to 1, found '%s'", bad[i]);
+        CHECK_REFUSED(knurl_falcon_open_on(&bus, options, &device), KNURL_ERROR_ARGUMENT, device);
+        check_message(found);
+    }
+    assert_int_equal(fake.opens, 0);
+    falcon_fake_free(&fake);
+}
+
+TEST(homing_lasts_through_forces_because_every_frame_asks_for_it) {
+    const double force[3] = {0.0, 0.0, 1.0};
+    int others = 0;
+    begin();
+    fake.sim.homed = 0;
+    fake.sim.homes_at = 20;
+    knurl_device *device = open_ready();
+    (void)events_of(device, KNURL_FAULT_UNCALIBRATED, &others);
+    const outcome o = run(device, 200, force);
+    assert_int_equal(o.not_ready + o.lost, 0);
+    assert_int_equal(events_of(device, KNURL_FAULT_UNCALIBRATED, &others), 0);
+    close_fake(device);
 }
 
 TEST(motors_are_never_told_more_than_they_may) {
     const double force[3] = {8.9, 0.0, 0.0};
     begin();
     falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
-    knurl_device *device = open_ready();
+    fake.sim.gain = 1.0;
+    knurl_device *device = open_ready_with("?gain=1");
     (void)run(device, 40, force);
     const falcon_sim sim = falcon_fake_look(&fake);
     assert_int_equal(sim.overdriven, 0);
@@ -176,10 +250,10 @@ TEST(an_unhomed_device_is_red_and_limp_until_it_is_homed) {
     (void)run(device, 80, no_force);
     o = run(device, 20, no_force);
     assert_int_equal(o.not_ready, 0);
-    assert_int_equal(falcon_fake_look(&fake).flags, 2); /* green */
+    assert_int_equal(falcon_fake_look(&fake).flags, 2 + 1); /* green */
     knurl_device_release_halt(device);
     (void)run(device, 20, force);
-    assert_int_equal(falcon_fake_look(&fake).flags, 4);
+    assert_int_equal(falcon_fake_look(&fake).flags, 4 + 1);
     close_fake(device);
 }
 
@@ -420,7 +494,7 @@ TEST(a_device_says_what_it_is) {
     begin();
     knurl_device *device = open_ready();
     assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
-    assert_string_equal(info.name, "Novint Falcon");
+    assert_string_equal(info.name, "Novint Falcon, gain 0.35 (not weighed)");
     CHECK_CLOSE(info.max_force, 8.9, 1e-12);
     CHECK_CLOSE(info.native_rate, 1000.0, 1e-12);
     /* a count of all legs at the centre: by the sim's own angles */

@@ -2,7 +2,7 @@
 #include "support/close.h"
 
 #include "device/rawhid/geometry.h"
-#include "device/rawhid/number.h"
+#include "device/number.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -162,7 +162,7 @@ TEST(numbers_are_the_c_librarys_to_the_last_bit) {
         double value = 0.0;
         const double wanted = random_between(&seed, -1.0, 1.0) * pow(10.0, (double)random_integer(&seed, -6, 6));
         (void)snprintf(text, sizeof text, i % 2 ? "%.15g" : "%.9f", wanted);
-        if (knurl_rawhid_number(text, strlen(text), &value)) {
+        if (knurl_number(text, strlen(text), &value)) {
             CHECK_SAME(value, strtod(text, NULL));
         } else {
             assert_true(strlen(text) > 15); /* more than 15 digits */
@@ -176,7 +176,7 @@ TEST(what_is_no_number_is_none) {
         "0xg", "1 2", "1.2.3", "+1", "--1", "1e99", "1f",  "1e-99", "-0x1", "1234567890123456"};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         double value = 7.0;
-        if (knurl_rawhid_number(bad[i], strlen(bad[i]), &value)) {
+        if (knurl_number(bad[i], strlen(bad[i]), &value)) {
             fail_msg("'%s' is %g", bad[i], value);
         }
         CHECK_SAME(value, 7.0);

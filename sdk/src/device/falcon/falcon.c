@@ -6,15 +6,23 @@
 #include "device/falcon/frame.h"
 #include "device/falcon/kinematics.h"
 #include "device/link.h"
+#include "device/number.h"
 #include "device/uri.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* N at the peak: 2 lbf in Novint's brochure, as it is quoted; CHAI3D has 8. The motors' limit comes first in some
- * directions, see kinematics.h. */
+/* N at the peak: 2 lbf in Novint's brochure, as it is quoted; CHAI3D has 8. With a gain near 1 the motors' limit comes
+ * first in some directions, see kinematics.h. */
 #define MAX_FORCE 8.9
+
+/* What the motors are told over what libnifalcon's gain (kinematics.h) would tell them. In recorded packets of the
+ * maker's own driver it is 0.35 to 0.53; nobody has weighed a force yet. With the least of that no force is stronger
+ * than was asked for, and none weaker than 0.35 / 0.53 = 0.66 of it. */
+#define GAIN       0.35
+#define GAIN_LEAST 0.05
+#define GAIN_MOST  1.0
 
 #define NATIVE_RATE 1000.0 /* Hz: frames that go out; more would queue in the device */
 #define EXCHANGE_MS 4      /* an answer takes some 0.3 ms and up to 1 ms of the USB's frame, each way */
@@ -30,6 +38,8 @@ typedef struct falcon {
     knurl_falcon_bus bus;
     knurl_falcon_transport transport;
     char firmware[KNURL_URI_ROOM]; /* "": none is known */
+    double gain;
+    uint32_t is_gain_set; /* 1: by whoever opened it */
     knurl_link link;
     /* the I/O thread's */
     knurl_falcon_decoder decoder;
@@ -52,20 +62,27 @@ static falcon *of(knurl_device *device) {
     return (falcon *)(void *)device; /* its first member */
 }
 
+static const falcon *look_at(const knurl_device *device) {
+    return (const falcon *)(const void *)device;
+}
+
 static int is_zero(const double force[3]) {
     return !(vec3_dot(force, force) > 0.0);
 }
 
-/* Red: not homed. Green: ready. Blue: pushing. */
+/* Red: not homed. Green: ready. Blue: pushing. The homing bit is in every frame, as in libnifalcon's: without it a
+ * device may forget its homing. */
 static int send(falcon *f, const double force[3]) {
     uint8_t frame[KNURL_FALCON_FRAME_BYTES];
     int16_t motors[3] = {0, 0, 0};
-    uint32_t flags = KNURL_FALCON_HOMING | KNURL_FALCON_RED;
+    uint32_t light = KNURL_FALCON_RED;
     if (f->has_position) {
-        (void)knurl_falcon_motors(f->position, f->theta, force, motors);
-        flags = is_zero(force) ? KNURL_FALCON_GREEN : KNURL_FALCON_BLUE;
+        double told[3];
+        vec3_scale(f->gain, force, told);
+        (void)knurl_falcon_motors(f->position, f->theta, told, motors);
+        light = is_zero(force) ? KNURL_FALCON_GREEN : KNURL_FALCON_BLUE;
     }
-    knurl_falcon_encode(motors, flags, frame);
+    knurl_falcon_encode(motors, KNURL_FALCON_HOMING | light, frame);
     const int outcome = f->transport.write(f->transport.self, frame, sizeof frame, WRITE_MS);
     if (outcome == KNURL_FALCON_DONE) {
         f->is_pushing = motors[0] || motors[1] || motors[2];
@@ -213,16 +230,34 @@ static void disconnect(falcon *f) {
     }
 }
 
-static knurl_result parse(const char *options, char *firmware) {
+/* "": the usual one. */
+static knurl_result set_gain(falcon *f, const char *text) {
+    f->gain = GAIN;
+    f->is_gain_set = text[0] != '\0';
+    if (f->is_gain_set &&
+        !(knurl_number(text, strlen(text), &f->gain) && knurl_is_within(f->gain, GAIN_LEAST, GAIN_MOST))) {
+        return knurl_fail(
+            KNURL_ERROR_ARGUMENT,
+            "device 'falcon': gain: expected a number from %g to %g, found '%.100s'; it is 0.35 to 0.53 by "
+            "its maker's driver, 1 by libnifalcon",
+            GAIN_LEAST, GAIN_MOST, text);
+    }
+    return KNURL_OK;
+}
+
+static knurl_result parse(const char *options, falcon *f) {
     char name[KNURL_URI_ROOM];
-    const knurl_uri_key keys[] = {{"firmware", firmware}};
-    const knurl_result result = knurl_uri_parse("falcon", options, name, keys, 1);
+    char gain[KNURL_URI_ROOM];
+    char *firmware = f->firmware;
+    const knurl_uri_key keys[] = {{"firmware", firmware}, {"gain", gain}};
+    knurl_result result = knurl_uri_parse("falcon", options, name, keys, sizeof keys / sizeof *keys);
     if (!result && name[0]) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "device 'falcon': expected 'falcon' (the first one that is found) or "
-                          "'falcon:?firmware=PATH', found 'falcon:%s'",
+                          "'falcon:?firmware=PATH&gain=G', found 'falcon:%s'",
                           options);
     }
+    result = result ? result : set_gain(f, gain);
     const char *usual = getenv("KNURL_FALCON_FIRMWARE");
     if (!result && !firmware[0] && usual) {
         if (strlen(usual) >= KNURL_URI_ROOM) {
@@ -244,7 +279,7 @@ knurl_result knurl_falcon_open_on(const knurl_falcon_bus *bus, const char *optio
     made->base.max_force = MAX_FORCE;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->bus = *bus;
-    knurl_result result = parse(options, made->firmware);
+    knurl_result result = parse(options, made);
     result = result ? result : connect(made);
     result = result ? result : knurl_device_start(&made->base, 1000.0);
     if (result) {
@@ -271,7 +306,9 @@ static void falcon_close(knurl_device *device) {
 
 /* As the fake device's preset "falcon" has it, but for the workspace; sources there. */
 static void falcon_info(const knurl_device *device, knurl_device_info *info) {
-    (void)snprintf(info->name, sizeof info->name, "Novint Falcon");
+    const falcon *f = look_at(device);
+    (void)snprintf(info->name, sizeof info->name, "Novint Falcon, gain %g%s", f->gain,
+                   f->is_gain_set ? "" : " (not weighed)");
     for (int axis = 0; axis < 3; axis++) {
         info->workspace_min[axis] = -KNURL_FALCON_WORKSPACE;
         info->workspace_max[axis] = KNURL_FALCON_WORKSPACE;
@@ -290,7 +327,7 @@ static void falcon_info(const knurl_device *device, knurl_device_info *info) {
 }
 
 static void falcon_status(const knurl_device *device, knurl_device_status *status) {
-    const falcon *f = (const falcon *)(const void *)device;
+    const falcon *f = look_at(device);
     status->bad_bytes = knurl_load_relaxed(&f->bad_bytes);
 }
 

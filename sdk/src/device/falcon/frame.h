@@ -12,7 +12,7 @@
 
 /* The flags of a frame to the device. */
 enum {
-    KNURL_FALCON_HOMING = 1, /* legs that pass their index set their encoders to it */
+    KNURL_FALCON_HOMING = 1, /* in every frame: legs that pass their index set their encoders to it, and keep that */
     KNURL_FALCON_GREEN = 2,
     KNURL_FALCON_BLUE = 4,
     KNURL_FALCON_RED = 8

@@ -31,9 +31,9 @@ int knurl_falcon_forward(const double theta[3], double position[3]);
 /* d theta / d x at a position with its angles, a row a leg. 0: a leg is stretched out, or the numbers are none. */
 int knurl_falcon_jacobian(const double position[3], const double theta[3], double jacobian[9]);
 
-/* What the motors have to be told for a force (N). They all give way where one would be told too much, so that the
- * direction is kept. The gain is libnifalcon's and was never calibrated: how many newtons a unit makes is known to
- * some ten per cent at best. At the centre its 4096 units make 7 N sideways and 16 N to and fro. 0: no such position
+/* What the motors have to be told for a force (N), by libnifalcon's gain, which was never calibrated and is likely 1.9
+ * to 2.9 times too strong (falcon.c takes less). They all give way where one would be told too much, so that the
+ * direction is kept: by that gain 4096 units make 7 N sideways and 16 N to and fro at the centre. 0: no such position
  * or force; the motors are told 0 then. */
 int knurl_falcon_motors(const double position[3], const double theta[3], const double force[3], int16_t motors[3]);
 

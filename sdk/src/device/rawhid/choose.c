@@ -1,7 +1,7 @@
 /* The choice among HID interfaces. SPDX-License-Identifier: MIT */
 #include "device/rawhid/choose.h"
 
-#include "device/rawhid/number.h"
+#include "device/number.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -90,8 +90,8 @@ knurl_result knurl_rawhid_want(const char *id, const knurl_rawhid_geometry *geom
     const char *colon = strchr(id, ':');
     double vendor = geometry->vendor;
     double product = geometry->product;
-    if (id[0] && !(colon && knurl_rawhid_hex(id, (size_t)(colon - id), &vendor) &&
-                   knurl_rawhid_hex(colon + 1, strlen(colon + 1), &product))) {
+    if (id[0] && !(colon && knurl_number_hex(id, (size_t)(colon - id), &vendor) &&
+                   knurl_number_hex(colon + 1, strlen(colon + 1), &product))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "device 'rawhid': expected rawhid:VID:PID, each one to four hexadecimal digits, such as "
                           "rawhid:16c0:0486; found 'rawhid:%.100s'",

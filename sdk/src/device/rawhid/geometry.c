@@ -1,8 +1,8 @@
 /* The geometry file. SPDX-License-Identifier: MIT */
 #include "device/rawhid/geometry.h"
 
+#include "device/number.h"
 #include "device/rawhid/kinematics.h"
-#include "device/rawhid/number.h"
 
 #include <errno.h>
 #include <math.h>
@@ -106,7 +106,7 @@ static knurl_result set_name(const spot *s, word value, knurl_rawhid_geometry *g
 static knurl_result set_number(const spot *s, const key *k, word text, knurl_rawhid_geometry *geometry) {
     static const char *const kinds[] = {"a number", "a whole number", "a number (hexadecimal as 0x16c0)", "-1 or 1:"};
     double value = 0.0;
-    const int good = knurl_rawhid_number(text.at, text.length, &value) && value >= k->least && value <= k->greatest &&
+    const int good = knurl_number(text.at, text.length, &value) && value >= k->least && value <= k->greatest &&
                      (k->kind == REAL || value == floor(value)) && (k->kind != SIGN || value != 0.0);
     if (!good) {
         return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: %s: expected %s from %g to %g%s%s, found '%.*s'", s->file,

@@ -1,5 +1,5 @@
 /* Numbers in text. SPDX-License-Identifier: MIT */
-#include "device/rawhid/number.h"
+#include "device/number.h"
 
 #include <stdint.h>
 
@@ -10,7 +10,7 @@ static int digit(char c) {
                                   : 16;
 }
 
-int knurl_rawhid_hex(const char *text, size_t length, double *value) {
+int knurl_number_hex(const char *text, size_t length, double *value) {
     int sum = 0;
     if (length < 1 || length > 4) {
         return 0;
@@ -52,12 +52,12 @@ static size_t take_exponent(const char *text, size_t at, size_t length, int *exp
     return d.digits > 0 ? at : length + 1;
 }
 
-int knurl_rawhid_number(const char *text, size_t length, double *value) {
+int knurl_number(const char *text, size_t length, double *value) {
     /* a mantissa below 2^53 and a power of ten up to 22 are both exact, so that one rounding is all there is */
     static const double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                       1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     if (length > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {
-        return knurl_rawhid_hex(text + 2, length - 2, value);
+        return knurl_number_hex(text + 2, length - 2, value);
     }
     decimal d = {0, 0, 0, 0};
     int exponent = 0;
