@@ -241,7 +241,7 @@ TEST_WITH(no_motor_ever_gets_more_than_its_limit, set_up, tear_down) {
         hold(0.002, far);
         greatest = greatest_current() > greatest ? greatest_current() : greatest;
     }
-    assert_int_equal(greatest, 3000);
+    assert_int_equal(greatest, 2000);
 }
 
 TEST_WITH(closing_leaves_the_motors_without_current, set_up, tear_down) {

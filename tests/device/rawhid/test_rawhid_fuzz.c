@@ -44,7 +44,7 @@ static uint32_t feed(const knurl_rawhid_arm *arm, const uint8_t *bytes, size_t s
     (void)knurl_rawhid_is_pose(arm, angles);
     knurl_rawhid_currents(arm, angles, force, ma);
     for (int i = 0; i < 3; i++) {
-        assert_true(ma[i] >= -3000 && ma[i] <= 3000);
+        assert_true(ma[i] >= -2000 && ma[i] <= 2000);
     }
     return 1;
 }

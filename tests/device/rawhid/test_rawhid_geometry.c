@@ -1,8 +1,8 @@
 /* Geometry files: what is in them, what is refused and in which words. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
-#include "device/rawhid/geometry.h"
 #include "device/number.h"
+#include "device/rawhid/geometry.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -60,6 +60,7 @@ TEST(the_defaults_are_woodenhaptics_v2015) {
     CHECK_SAME(g.origin[2], 0.080);
     CHECK_SAME(g.body[0], 0.160);
     CHECK_SAME(g.torque_constant[2], 0.0259);
+    CHECK_SAME(g.max_current, 2.0);
     CHECK_SAME(g.home[2], 6000.0);
     CHECK_SAME(g.max_force, 5.0);
     CHECK_SAME(g.max_stiffness, 1000.0);
@@ -106,7 +107,10 @@ TEST(what_is_wrong_is_refused_in_words_that_name_file_line_key_expected_and_foun
                {"sign_a = 0.5", {"sign_a", "-1 or 1", "'0.5'"}},
                {"home_c = 0.5", {"home_c", "whole", "'0.5'"}},
                {"home_c = 32768", {"home_c", "32767 counts", "'32768'"}},
-               {"max_current = 33", {"max_current", "32 A", "'33'"}},
+               {"max_current = 2.001", {"max_current", "from 0.001 to 2 A", "'2.001'"}},
+               {"max_current = 0", {"max_current", "from 0.001 to 2 A", "'0'"}},
+               {"torque_constant_b = 0", {"torque_constant_b", "from 0.0001 to 10 N m/A", "'0'"}},
+               {"torque_constant_b = nan", {"torque_constant_b", "expected a number", "'nan'"}},
                {"vendor = 0x12345", {"vendor", "0x16c0", "'0x12345'"}},
                {"vendor = 16c0", {"vendor", "0x16c0", "'16c0'"}},
                {"vendor = 5", {"my.geometry", "both vendor and product", "0x5"}},

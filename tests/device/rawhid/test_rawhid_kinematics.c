@@ -237,12 +237,12 @@ TEST(no_motor_gets_more_than_its_limit_and_the_force_keeps_its_direction) {
         for (int joint = 0; joint < 3; joint++) {
             greatest = abs(ma[joint]) > greatest ? abs(ma[joint]) : greatest;
         }
-        assert_true(greatest <= 3000);
+        assert_true(greatest <= 2000);
         hid_sim_push(angles, ma, pushed);
         assert_true(vec3_dot(pushed, force) > 0.0);
         vec3_cross(pushed, force, across);
         if (vec3_length(force) > 20.0) {
-            assert_int_equal(greatest, 3000);
+            assert_int_equal(greatest, 2000);
         }
         assert_true(vec3_length(across) < 0.01 * vec3_length(force));
     }

@@ -10,9 +10,10 @@
 #include <stddef.h>
 
 /* Every key but `name`: key, field, default, least, greatest, unit, kind. The defaults are WoodenHaptics v2015:
- * lengths, diameters, counts, torque constants, signs, home and workspace radius as in its makers' interface, 3 A as in
- * its firmware, 5 N, 1000 N/m and 8 N s/m as CHAI3D has them; what its motors hold for ever, how they warm up, its mass
- * and frictions are assumed. */
+ * lengths, diameters, counts, torque constants (Maxon RE 30 310007), signs, home, workspace radius and the cap of 2 A as
+ * in its makers' interface; 5 N, 1000 N/m and 8 N s/m as CHAI3D has them; what its motors hold for ever, how they warm
+ * up, its mass and frictions are assumed. No file can raise the 2 A: the makers' amplifiers (Escon 24/4) do no more for
+ * long, and their firmware stops at 3 A only. */
 #define KNURL_RAWHID_KEYS(X)                                                                                           \
     X(vendor, vendor, 0, 0, 65535, "", HEX)   /* 0: whichever is known */                                              \
     X(product, product, 0, 0, 65535, "", HEX) /* 0: whichever is known */                                              \
@@ -44,7 +45,7 @@
     X(home_b, home[1], 0, -32768, 32767, "counts", WHOLE)                                                              \
     X(home_c, home[2], 6000, -32768, 32767, "counts", WHOLE)                                                           \
     X(home_on_open, home_on_open, 0, 0, 1, "", WHOLE) /* 1: as ?home=1 */                                              \
-    X(max_current, max_current, 3.0, 0.001, 32.0, "A", REAL)                                                           \
+    X(max_current, max_current, 2.0, 0.001, 2.0, "A", REAL)                                                            \
     X(max_force, max_force, 5.0, 0.1, 100.0, "N", REAL)                                                                \
     X(continuous_force, continuous_force, 1.7, 0.01, 100.0, "N", REAL)                                                 \
     X(heat_time, heat_time, 60.0, 0.1, 10000.0, "s", REAL)                                                             \
