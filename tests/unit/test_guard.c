@@ -1,6 +1,6 @@
 /* The protections of a HIP in its ticks: what they keep from a hand, and what they let through to the bit.
  * SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
 
 #include "support/rig.h"
 #include "support/scenes.h"

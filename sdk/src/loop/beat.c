@@ -3,7 +3,7 @@
 
 #include "base/atomic.h"
 #include "base/vec3.h"
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>

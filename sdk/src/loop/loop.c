@@ -4,7 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

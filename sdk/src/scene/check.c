@@ -1,5 +1,5 @@
 /* Surfaces against what a device can do, before anybody feels them. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
 
 #include "base/base.h"
 
@@ -81,7 +81,8 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
     knurl_guard_wall wall;
     memset(check, 0, sizeof *check);
-    knurl_guard_clamp(&hip->guard, m, 0.0, &wall);
+    knurl_guard_wall_init(&wall, m, 0.0, NULL);
+    knurl_guard_clamp(&hip->guard, &wall);
     check->stiffness = m->stiffness * on.bounds->scale;
     check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);
     check->amplitude = m->amplitude;
@@ -100,7 +101,7 @@ knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, k
                           (unsigned)scene->hip_count, (unsigned)hip);
     }
     knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_scene_get(scene, surface);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
         inspect(&scene->hips[hip], data, &made);
     }

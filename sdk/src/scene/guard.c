@@ -189,7 +189,8 @@ void knurl_guard_follow(knurl_passivity *p) {
     p->depth = 0.0;
 }
 
-void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material, knurl_guard_wall *wall) {
+void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_guard_wall *wall) {
+    const knurl_material_desc *material = wall->material;
     const double most = knurl_bounds_stiffness(bounds, material->damping) / bounds->scale;
     wall->stiffness = wall->stiffness < most ? wall->stiffness : most;
     const double highest = knurl_bounds_amplitude(bounds, wall->stiffness, material->method);
@@ -212,8 +213,8 @@ void knurl_guard_watch(knurl_passivity *p, knurl_guard_wall *wall, uint32_t *fla
 }
 
 /* What falls is free: measured is from the nearest point on the way from no force to the latest one. */
-static void limit_slew(const knurl_guard *guard, double force[3], uint32_t *flags) {
-    const double most = guard->slew + guard->step;
+static void limit_slew(const knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
+    const double most = guard->slew + steps;
     double from[3];
     double change[3];
     vec3_sub(force, guard->force, change);
@@ -231,19 +232,37 @@ static void limit_slew(const knurl_guard *guard, double force[3], uint32_t *flag
     }
 }
 
+/* N: the steps of this tick's textures, which are let through. What they move of a hand is no shaking. */
+static double add_textures(knurl_guard *guard, const knurl_guard_wall *walls, uint32_t count) {
+    double steps = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const knurl_guard_wall *wall = &walls[i];
+        const double step = fabs(wall->height - wall->contact->height);
+        steps += wall->stiffness * step;
+        if (wall->watched) {
+            guard->passivity.moved += step;
+            guard->passivity.crossings += (wall->height > 0.0) != (wall->contact->height > 0.0);
+        }
+        wall->contact->height = wall->height;
+    }
+    return steps;
+}
+
 /* Of a force that the motors could play: ramps go from and to that. */
-static void attenuate(knurl_guard *guard, double force[3]) {
+static void attenuate(const knurl_guard *guard, double force[3]) {
     const double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
     vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
-    guard->step *= guard->gain;
 }
 
-double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
+double knurl_guard_after(knurl_guard *guard, const knurl_guard_wall *walls, uint32_t count, double force[3],
+                         uint32_t *flags) {
+    double steps = add_textures(guard, walls, count);
     if (guard->gain < 1.0) {
         attenuate(guard, force);
+        steps *= guard->gain;
     }
-    limit_slew(guard, force, flags);
+    limit_slew(guard, steps, force, flags);
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
     if (length > most) {
@@ -255,7 +274,6 @@ double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) {
         vec3_copy(force, guard->force);
         knurl_heat_add(&guard->heat, length * length);
     }
-    guard->step = 0.0;
     return length;
 }
 
@@ -264,8 +282,7 @@ void knurl_guard_sent(knurl_guard *guard, const double force[3]) {
     knurl_heat_add(&guard->heat, vec3_dot(force, force));
 }
 
-void knurl_guard_let_go(knurl_guard *guard) {
+void knurl_guard_reset(knurl_guard *guard) {
     guard->force[0] = guard->force[1] = guard->force[2] = 0.0;
-    guard->step = guard->left = 0.0;
     knurl_heat_add(&guard->heat, 0.0);
 }

@@ -66,10 +66,14 @@ double knurl_swing(int32_t method) KNURL_NONBLOCKING;
 
 /* A wall at one tick, from what was asked for to what is felt. Scene units. */
 typedef struct knurl_guard_wall {
-    double felt;      /* m: as it is felt */
+    const knurl_material_desc *material;
+    struct knurl_guard_contact *contact;
+    double felt;      /* m: z; then as it is felt */
     double stiffness; /* N/m, as felt */
     double amplitude; /* m, as felt */
     double damping;   /* N s/m */
+    double height;    /* m: H, by the grating: known after the forces */
+    int32_t watched;  /* 1: the passivity controller was at work before the forces */
 } knurl_guard_wall;
 
 /* Of one contact. */
@@ -108,8 +112,6 @@ typedef struct knurl_guard {
     double force[3]; /* N, scene: as sent at the latest tick */
     double entry;    /* m that the felt depth may grow in a tick */
     double slew;     /* N that the force may grow or turn in a tick */
-    double step;     /* N: of that tick's textures */
-    double left;     /* m: depth felt where the HIP slid off a surface, for the one that it is handed to */
     double gain;     /* on the force of this tick, 0 to 1 */
     int32_t clamp;   /* 1: within bounds */
     knurl_passivity passivity;
@@ -122,9 +124,37 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
 
 /* What the functions below leave to guard.c, because it is rare. */
 void knurl_guard_follow(knurl_passivity *passivity) KNURL_NONBLOCKING;
-void knurl_guard_limit_wall(const knurl_bounds *bounds, const knurl_material_desc *material,
-                            knurl_guard_wall *wall) KNURL_NONBLOCKING;
+void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_guard_wall *wall) KNURL_NONBLOCKING;
 void knurl_guard_watch(knurl_passivity *passivity, knurl_guard_wall *wall, uint32_t *flags) KNURL_NONBLOCKING;
+
+/* A contact begins. felt: m, the depth that was felt on the surface that it is handed over from; else 0. */
+static inline void knurl_guard_begin_contact(knurl_guard_contact *contact, double felt) {
+    contact->depth = contact->depth < felt ? felt : contact->depth;
+}
+
+/* There is no contact (any more). */
+static inline void knurl_guard_end_contact(knurl_guard_contact *contact) {
+    contact->depth = contact->height = 0.0;
+}
+
+/* A material's wall at z (m, scene): what the forces begin with. */
+static inline void knurl_guard_wall_init(knurl_guard_wall *wall, const knurl_material_desc *material, double z,
+                                         knurl_guard_contact *contact) {
+    wall->material = material;
+    wall->contact = contact;
+    wall->felt = z;
+    wall->stiffness = material->stiffness;
+    wall->amplitude = material->amplitude;
+    wall->damping = material->damping;
+    wall->height = 0.0;
+}
+
+/* Stiffness and amplitude within bounds, where that was asked for. */
+static inline void knurl_guard_clamp(const knurl_guard *guard, knurl_guard_wall *wall) {
+    if (guard->clamp) {
+        knurl_guard_limit_wall(&guard->bounds, wall);
+    }
+}
 
 /* A tick begins, of whose force `attenuation` is not sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
@@ -134,71 +164,44 @@ static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
     }
 }
 
-/* A contact begins: handed over from another surface, or not. */
-static inline void knurl_guard_meet(const knurl_guard *guard, knurl_guard_contact *contact, int handed_over) {
-    contact->depth = handed_over && contact->depth < guard->left ? guard->left : contact->depth;
-}
-
-/* There is no contact (any more). */
-static inline void knurl_guard_leave(knurl_guard_contact *contact) {
-    contact->depth = contact->height = 0.0;
-}
-
-/* The wall of a material; stiffness and amplitude within bounds where that was asked for. */
-static inline void knurl_guard_clamp(const knurl_guard *guard, const knurl_material_desc *material, double z,
-                                     knurl_guard_wall *wall) {
-    wall->felt = z;
-    wall->stiffness = material->stiffness;
-    wall->amplitude = material->amplitude;
-    wall->damping = material->damping;
-    if (guard->clamp) {
-        knurl_guard_limit_wall(&guard->bounds, material, wall);
-    }
-}
-
-/* The depth that is felt grows as a ramp; outside, and while no force is sent, nothing is felt. */
-static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_contact *contact, knurl_guard_wall *wall,
-                                     uint32_t *flags) {
-    const double most = contact->depth + guard->entry;
+/* The depth that is felt grows as a ramp; while no force is sent, it begins anew. */
+static inline void knurl_guard_enter(const knurl_guard *guard, knurl_guard_wall *wall, uint32_t *flags) {
+    const double most = wall->contact->depth + guard->entry;
     if (guard->gain == 0.0) {
-        contact->depth = 0.0;
+        wall->contact->depth = 0.0;
         return;
     }
     if (-wall->felt > most) {
         *flags |= KNURL_TICK_ENTRY;
         wall->felt = -most;
     }
-    contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
+    wall->contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
 }
 
-/* Watches a wall that could run away, and has it felt softer once it has. */
-static inline void knurl_guard_soften(knurl_guard *guard, knurl_guard_wall *wall, uint32_t *flags) {
-    if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
-        knurl_guard_watch(&guard->passivity, wall, flags);
+/* Before the forces: each wall as it is to be felt. Bounded where that was asked for; its depth grows as a ramp; and it
+ * is softer where it has shaken the hand by itself. */
+static inline void knurl_guard_before(knurl_guard *guard, knurl_guard_wall *walls, uint32_t count, uint32_t *flags) {
+    for (uint32_t i = 0; i < count; i++) {
+        knurl_guard_wall *wall = &walls[i];
+        knurl_guard_clamp(guard, wall);
+        knurl_guard_enter(guard, wall, flags);
+        if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
+            knurl_guard_watch(&guard->passivity, wall, flags);
+        }
+        wall->watched = guard->passivity.busy;
     }
 }
 
-/* The texture is at a height (m): its own step is let through, and what it moves of a hand is no shaking. */
-static inline void knurl_guard_texture(knurl_guard *guard, knurl_guard_contact *contact, const knurl_guard_wall *wall,
-                                       double height) {
-    const double step = fabs(height - contact->height);
-    guard->step += wall->stiffness * step;
-    if (guard->passivity.busy) {
-        guard->passivity.moved += step;
-        guard->passivity.crossings += (height > 0.0) != (contact->height > 0.0);
-    }
-    contact->height = height;
-}
-
-/* The force that is sent, in place: what the attenuation leaves of it, within slew_rate of the latest but for the
- * textures' steps and what falls, within what the motors can do now. Returns its length, N; NaN or infinite where the
- * force was. */
-double knurl_guard_force(knurl_guard *guard, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
+/* After the forces: their sum as it is sent, in place: what the attenuation leaves of it, within slew_rate of the
+ * latest but for the textures' own steps and what falls, within what the motors can do now. Returns its length, N; NaN
+ * or infinite where the force was. */
+double knurl_guard_after(knurl_guard *guard, const knurl_guard_wall *walls, uint32_t count, double force[3],
+                         uint32_t *flags) KNURL_NONBLOCKING;
 
 /* A force was sent without a tick, for as long as a tick. */
 void knurl_guard_sent(knurl_guard *guard, const double force[3]) KNURL_NONBLOCKING;
 
 /* After a tick that is not to be trusted: no force was sent. The motors are as warm as they are. */
-void knurl_guard_let_go(knurl_guard *guard) KNURL_NONBLOCKING;
+void knurl_guard_reset(knurl_guard *guard) KNURL_NONBLOCKING;
 
 #endif

@@ -1,5 +1,5 @@
-/* HIPs on the game thread: configure, adopt a device, read the latest tick. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+/* Setting a HIP up from its description and what its device says. SPDX-License-Identifier: MIT */
+#include "scene/hip.h"
 
 #include "base/base.h"
 #include "base/vec3.h"
@@ -9,14 +9,6 @@
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
     const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .delay = -1.0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
-}
-
-static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
-    if (hip >= scene->hip_count) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
-                          (unsigned)scene->hip_count, (unsigned)hip);
-    }
-    return KNURL_OK;
 }
 
 const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 1.0, 1020.0};
@@ -79,10 +71,8 @@ static knurl_result check_facts(const knurl_hip_facts *facts) {
     return KNURL_OK;
 }
 
-/* Under the lock: editing threads look at the HIPs' times. Sets a HIP up anew; `device` stands for what the description
- * leaves open, `strongest` (N) is the force that it has. */
-static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
-                           double strongest) {
+knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest,
+                              double time) {
     knurl_hip made;
     const knurl_hip_facts facts = settle(d, device, strongest);
     memset(&made, 0, sizeof made);
@@ -96,83 +86,17 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     if (result) {
         return result;
     }
-    made.period = 1.0 / made.rate;
-    made.time = knurl_scene_time(scene); /* the scene's goes on */
-    made.calm = made.left_time = -1.0;
     made.centred = d->workspace == NULL;
     knurl_workspace_init(&made.workspace);
     if (d->workspace) {
         made.workspace = *d->workspace;
-    } else if (scene->committed) {
-        knurl_scene_centre(scene, made.workspace.origin);
     }
     made.quantum = 1.7320508075688772 * facts.resolution * made.workspace.scale;
     knurl_guard_init(&made.guard, d, &facts, made.workspace.scale);
     for (int i = 0; i < 9; i++) {
         made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
+    knurl_contacts_init(&made.contacts, 1.0 / facts.rate, time);
     *hip = made;
     return KNURL_OK;
-}
-
-knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc) {
-    knurl_hip_desc d;
-    knurl_hip_desc_init(&d, sizeof d);
-    knurl_result result = check_hip(scene, hip);
-    result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
-    if (!result) {
-        knurl_scene_lock(scene);
-        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
-        knurl_scene_unlock(scene);
-    }
-    return result;
-}
-
-knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts) {
-    knurl_result result = check_hip(scene, hip);
-    if (result) {
-        return result;
-    }
-    knurl_hip *h = &scene->hips[hip];
-    knurl_hip_desc d = h->given;
-    const knurl_workspace workspace = h->workspace;
-    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
-                          (unsigned)hip, d.update_rate_hz, facts->rate);
-    }
-    d.workspace = h->centred ? NULL : &workspace;
-    knurl_scene_lock(scene);
-    result = set_up(scene, h, &d, facts, facts->max_force);
-    knurl_scene_unlock(scene);
-    return result;
-}
-
-knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {
-    const knurl_result result = check_hip(scene, hip);
-    if (result) {
-        return result;
-    }
-    if (scene->hips[hip].centred && !scene->committed) {
-        return knurl_fail(KNURL_ERROR_STATE, "workspace: it is chosen at the commit, and the scene is not committed");
-    }
-    *workspace = scene->hips[hip].workspace;
-    return KNURL_OK;
-}
-
-knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
-                                  knurl_hip_counts *counts) {
-    const knurl_result result = check_hip(scene, hip);
-    if (!result) {
-        knurl_snapshot snapshot;
-        const knurl_hip *h = &scene->hips[hip];
-        knurl_seqlock_read(&h->published.sequence, h->published.words, &snapshot, sizeof snapshot);
-        if (output) {
-            *output = snapshot.output;
-        }
-        if (counts) {
-            *counts = snapshot.counts;
-        }
-    }
-    return result;
 }

@@ -1,16 +1,13 @@
 /* What a loop tells a HIP of its motors, beside the ticks. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
-
-#include "base/vec3.h"
+#include "scene/scene.h"
 
 void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force[3], const double device_force[3]) {
     knurl_hip *h = &scene->hips[hip];
     knurl_snapshot latest;
-    knurl_seqlock_read(&h->published.sequence, h->published.words, &latest, sizeof latest); /* nobody else writes it */
+    knurl_snapshot_read(&h->published, &latest); /* nobody else writes it */
     knurl_guard_sent(&h->guard, force);
     h->counts.heat = h->guard.heat.theta;
     vec3_copy(force, latest.output.force);
     vec3_copy(device_force, latest.output.device_force);
-    latest.counts = h->counts;
-    knurl_seqlock_write(&h->published.sequence, h->published.words, &latest, sizeof latest);
+    knurl_snapshot_publish(&h->published, &latest.output, &h->counts);
 }

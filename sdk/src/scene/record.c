@@ -1,5 +1,5 @@
 /* How a surface feels: materials, checked and made ready for ticks. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/record.h"
 
 #include "base/base.h"
 
@@ -36,8 +36,8 @@ static knurl_result check_material(knurl_material_desc *m) {
     return result;
 }
 
-knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface_data *surface,
-                                       const knurl_material_desc *desc, uint32_t full_model) {
+knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates, const knurl_material_desc *desc,
+                                       uint32_t full_model) {
     knurl_material_desc m;
     knurl_material_desc_init(&m, sizeof m);
     knurl_result result = knurl_desc_read("knurl_material_desc", desc, &m, sizeof m);
@@ -46,7 +46,7 @@ knurl_result knurl_record_set_material(knurl_record *record, const knurl_surface
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (m.method == KNURL_S1 && !smooth && !surface->shape.has_coordinates) {
+    if (m.method == KNURL_S1 && !smooth && !has_coordinates) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }

@@ -1,5 +1,5 @@
 /* A scene's life on the game thread: create, surfaces, HIPs, commit. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
 
 #include "base/base.h"
 
@@ -51,9 +51,11 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     }
     made->lock = &made->mutexes[0];
     made->heap.lock = &made->mutexes[1];
-    made->epoch = made->version = 1;
     made->full_model = d.full_model;
-    made->max_surfaces = d.max_surfaces;
+    made->surfaces.heap = &made->heap;
+    made->surfaces.limit = d.max_surfaces;
+    knurl_epoch_init(&made->epoch, &made->heap);
+    knurl_broad_phase_init(&made->broad_phase, &made->epoch, &made->surfaces);
     made->hip_count = d.hip_count;
     made->hips = knurl_heap_alloc(&made->heap, d.hip_count, sizeof *made->hips);
     if (!made->hips) {
@@ -61,7 +63,11 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
         return KNURL_ERROR_MEMORY;
     }
     for (uint32_t hip = 0; hip < d.hip_count; hip++) {
-        (void)knurl_scene_configure_hip(made, hip, NULL); /* defaults are in range */
+        knurl_hip_desc defaults;
+        knurl_hip_desc_init(&defaults, sizeof defaults);
+        (void)knurl_hip_set_up(&made->hips[hip], &defaults, &knurl_touch, HUGE_VAL, 0.0); /* they are in range */
+        made->hips[hip].contacts.everything = (made->full_model & KNURL_FULL_SEARCH) != 0;
+        knurl_epoch_add_pin(&made->epoch, &made->hips[hip].pinned);
     }
     *scene = made;
     return KNURL_OK;
@@ -71,22 +77,10 @@ void knurl_scene_destroy(knurl_scene *scene) {
     if (!scene) {
         return;
     }
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        knurl_surface_data *surface = scene->surfaces[scene->order[i]];
-        surface->retired.release(&scene->heap, &surface->retired);
-    }
-    if (scene->world) {
-        scene->world->retired.release(&scene->heap, &scene->world->retired);
-    }
-    while (scene->retired) { /* no tick runs any more */
-        knurl_retired *retired = scene->retired;
-        scene->retired = retired->next;
-        retired->release(&scene->heap, retired);
-    }
-    void *const arrays[] = {scene->hips, scene->surfaces, scene->generations, scene->order, scene->vacant};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        knurl_heap_free(&scene->heap, arrays[i]);
-    }
+    knurl_surfaces_release(&scene->surfaces);
+    knurl_broad_phase_release(&scene->broad_phase);
+    knurl_epoch_release_all(&scene->epoch); /* no tick runs any more */
+    knurl_heap_free(&scene->heap, scene->hips);
     for (int i = 0; i < 2; i++) {
         knurl_system_mutex_destroy(&scene->mutexes[i]);
     }
@@ -104,22 +98,11 @@ void knurl_scene_unlock(const knurl_scene *scene) {
     knurl_system_mutex_unlock(scene->lock);
 }
 
-knurl_surface_data *knurl_scene_get(const knurl_scene *scene, knurl_surface surface) {
-    const uint32_t place = (uint32_t)(surface & UINT32_MAX) - 1; /* 0 wraps to a place that no scene has */
-    knurl_surface_data *data = place < scene->capacity ? scene->surfaces[place] : NULL;
-    if (!data || data->id != surface) {
-        knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which names none",
-                   (unsigned long long)surface);
-        return NULL;
-    }
-    return data;
-}
-
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]) {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        const knurl_surface_data *surface = scene->surfaces[scene->order[i]];
+    for (uint32_t i = 0; i < scene->surfaces.count; i++) {
+        const knurl_surface_data *surface = knurl_surfaces_at(&scene->surfaces, i);
         double least[3];
         double greatest[3];
         knurl_surface_bounds(surface, &surface->record->motion, knurl_scene_time(scene), least, greatest);
@@ -129,16 +112,14 @@ void knurl_scene_centre(const knurl_scene *scene, double centre[3]) {
         }
     }
     for (int axis = 0; axis < 3; axis++) {
-        centre[axis] = scene->surface_count > 0 ? 0.5 * (low[axis] + high[axis]) : 0.0;
+        centre[axis] = scene->surfaces.count > 0 ? 0.5 * (low[axis] + high[axis]) : 0.0;
     }
 }
 
 double knurl_scene_time(const knurl_scene *scene) {
     double latest = 0.0;
     for (uint32_t hip = 0; hip < scene->hip_count; hip++) {
-        double time;
-        __atomic_load(&scene->hips[hip].time, &time, __ATOMIC_RELAXED);
-        latest = fmax(latest, time);
+        latest = fmax(latest, knurl_load_double(&scene->hips[hip].contacts.clock.time));
     }
     return latest;
 }
@@ -148,7 +129,8 @@ static knurl_result commit(knurl_scene *scene) {
         return knurl_fail(KNURL_ERROR_STATE, "scene: expected one that is not committed yet, found a committed one");
     }
     const knurl_result result =
-        knurl_world_rebuild(scene, scene->capacity > 0 ? scene->capacity : 4); /* grows with the scene */
+        knurl_broad_phase_rebuild(&scene->broad_phase, scene->surfaces.capacity > 0 ? scene->surfaces.capacity : 4,
+                                  knurl_scene_time(scene)); /* grows with the scene */
     for (uint32_t hip = 0; !result && hip < scene->hip_count; hip++) {
         if (scene->hips[hip].centred) {
             knurl_scene_centre(scene, scene->hips[hip].workspace.origin);
@@ -167,14 +149,14 @@ knurl_result knurl_scene_commit(knurl_scene *scene) {
 
 uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
     knurl_scene_lock(scene);
-    const uint32_t count = scene->surface_count;
+    const uint32_t count = scene->surfaces.count;
     knurl_scene_unlock(scene);
     return count;
 }
 
 knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
     knurl_scene_lock(scene);
-    const knurl_surface id = index < scene->surface_count ? scene->surfaces[scene->order[index]]->id : 0;
+    const knurl_surface id = index < scene->surfaces.count ? knurl_surfaces_at(&scene->surfaces, index)->id : 0;
     knurl_scene_unlock(scene);
     return id;
 }
@@ -182,8 +164,8 @@ knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
 /* The first of that name, or null with the names there are in `known`. */
 static const knurl_surface_data *find(const knurl_scene *scene, const char *name, char *known, size_t size) {
     size_t used = 0;
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        const knurl_surface_data *candidate = scene->surfaces[scene->order[i]];
+    for (uint32_t i = 0; i < scene->surfaces.count; i++) {
+        const knurl_surface_data *candidate = knurl_surfaces_at(&scene->surfaces, i);
         if (name && strcmp(candidate->name, name) == 0) {
             return candidate;
         }
@@ -210,7 +192,7 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
 
 knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name) {
     knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_scene_get(scene, surface);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
         *name = data->name;
     }

@@ -1,9 +1,12 @@
 /* From a description to a surface that can be felt. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/surface.h"
 
 #include "base/base.h"
 
 #include <string.h>
+
+/* Farther than any scene goes; sums of such numbers are still floats. */
+#define FAR_AWAY 1e30
 
 void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size) {
     const knurl_surface_desc defaults = {.rotation = {0.0, 0.0, 0.0, 1.0}};
@@ -109,6 +112,31 @@ void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion 
     }
 }
 
+static float round_down(double value) {
+    const double near = fmin(fmax(value, -FAR_AWAY), FAR_AWAY);
+    const float f = (float)near;
+    return (double)f > near ? nextafterf(f, -HUGE_VALF) : f;
+}
+
+static float round_up(double value) {
+    return -round_down(-value);
+}
+
+void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double room,
+                       float box[6]) {
+    double low[3];
+    double high[3];
+    knurl_surface_bounds(surface, &record->motion, time, low, high);
+    for (int i = 0; i < 3; i++) {
+        box[i] = round_down(low[i] - record->reach - room);
+        box[3 + i] = round_up(high[i] + record->reach + room);
+    }
+}
+
+void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double room) {
+    knurl_surface_box(surface, record, HUGE_VAL, room, record->arrived);
+}
+
 void knurl_surface_release(knurl_heap *heap, knurl_retired *retired) {
     knurl_surface_data *surface = (knurl_surface_data *)(void *)retired; /* its first member */
     if (surface) {
@@ -128,11 +156,13 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     knurl_pose_settle(&surface->local);
     surface->record = result ? NULL : knurl_record_copy(heap, NULL);
     result = !result && !surface->record ? KNURL_ERROR_MEMORY : result;
-    result = result ? result : knurl_record_set_material(surface->record, surface, d->material, full_model);
+    result = result
+                 ? result
+                 : knurl_record_set_material(surface->record, surface->shape.has_coordinates, d->material, full_model);
     result = result ? result : set_name(heap, d->name, surface);
     if (!result) {
         knurl_motion_place(&pose, &surface->local, &surface->record->motion);
-        knurl_record_set_box(surface, surface->record, 0.0);
+        knurl_surface_set_arrival(surface, surface->record, 0.0);
     }
     return result;
 }

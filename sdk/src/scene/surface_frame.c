@@ -1,6 +1,6 @@
 /* Surface coordinates: which way x and y run at a contact, and where on the grating it is. SPDX-License-Identifier: MIT
  */
-#include "scene/scene_internal.h"
+#include "scene/surface_frame.h"
 
 void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
                          double x[3], double y[3], double coordinates[2]) {

@@ -1,5 +1,6 @@
 /* What a surface came to be, and where on it a stroke can start. SPDX-License-Identifier: MIT */
-#include "scene/scene_internal.h"
+#include "scene/scene.h"
+#include "scene/surface_frame.h"
 
 #include "base/base.h"
 #include "base/vec3.h"
@@ -74,7 +75,7 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
 knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface, knurl_surface_info *info) {
     knurl_surface_info made;
     knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_scene_get(scene, surface);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
         describe(scene, data, &made);
     }

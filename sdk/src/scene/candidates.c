@@ -1,0 +1,141 @@
+/* Which surfaces are near a HIP: looked up when the HIP has moved some millimetres or an edit says so, not in every
+ * tick. However many surfaces there are, most ticks look at the few in this list. SPDX-License-Identifier: MIT */
+#include "scene/candidates.h"
+
+#include <string.h>
+
+/* How far a HIP looks, m. margin: how far it may go before it looks again; at 250 mm/s the first serves for 40 ticks.
+ * capture: how deep it may find itself in a surface at a first tick. Where more surfaces are in there than a list
+ * holds, the next is tried, down to what the tick itself needs. */
+static const struct {
+    double margin;
+    double capture;
+} views[] = {{0.01, KNURL_CAPTURE_DEPTH},
+             {0.003, KNURL_CAPTURE_DEPTH},
+             {0.001, KNURL_CAPTURE_DEPTH},
+             {0.0, KNURL_CAPTURE_DEPTH},
+             {0.0, 0.003},
+             {0.0, 0.001}};
+#define VIEWS   (sizeof views / sizeof *views)
+#define NARROWS 3 /* the first without a margin */
+
+/* A HIP pressed deeper than at the latest look, by more than this (m), looks again: what it may slide onto is that far
+ * above it. */
+#define DEEPER 0.002
+
+/* m: taken off a clearance for the margin that knurl_candidate_is_met() is asked with, 1e-9, and for rounding. */
+#define ROUNDING 2e-9
+
+/* What remains near keeps its state; what is in contact stays whether its box is near or not. */
+static uint32_t keep(knurl_candidate *list, uint32_t count, const uint32_t *places, uint32_t found) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int stays = list[i].in_contact != 0;
+        for (uint32_t k = 0; k < found && !stays; k++) {
+            stays = places[k] == list[i].place;
+        }
+        if (stays && kept++ != i) {
+            list[kept - 1] = list[i];
+        }
+    }
+    return kept;
+}
+
+/* In the order of places, so that sums of forces do not depend on how the list came to be. */
+static void insert(knurl_candidates *c, uint32_t place) {
+    uint32_t at = 0;
+    while (at < c->count && c->list[at].place < place) {
+        at++;
+    }
+    if (at < c->count && c->list[at].place == place) {
+        return;
+    }
+    if (c->count == KNURL_MAX_CANDIDATES) {
+        c->overflow = 1;
+        return;
+    }
+    memmove(&c->list[at + 1], &c->list[at], (c->count - at) * sizeof c->list[0]);
+    memset(&c->list[at], 0, sizeof c->list[0]);
+    c->list[at].place = place;
+    c->count++;
+}
+
+static void load_box(const knurl_broad_index *index, knurl_candidate *candidate) {
+    for (int i = 0; i < 6; i++) {
+        __atomic_load(&index->boxes[candidate->place][i], &candidate->box[i], __ATOMIC_RELAXED);
+    }
+}
+
+void knurl_candidates_find(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                           const knurl_hip_path *path) {
+    const uint64_t version = knurl_load_acquire(&phase->version); /* before the boxes are read */
+    uint32_t places[KNURL_MAX_CANDIDATES];
+    uint32_t found = KNURL_MAX_CANDIDATES + 1;
+    size_t v = 0;
+    for (; v < VIEWS && found > KNURL_MAX_CANDIDATES; v++) {
+        c->depth = path->depth + (v < NARROWS ? DEEPER : 1e-4);
+        const double reach = 1e-9 + fmax(c->depth, path->is_first ? views[v].capture : 0.0);
+        double low[3];
+        double high[3];
+        for (int i = 0; i < 3; i++) {
+            c->low[i] = fmin(path->from[i], path->to[i]) - views[v].margin;
+            c->high[i] = fmax(path->from[i], path->to[i]) + views[v].margin;
+            low[i] = c->low[i] - reach;
+            high[i] = c->high[i] + reach;
+        }
+        const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
+        found = knurl_broad_phase_find(index, &view, KNURL_MAX_CANDIDATES, places);
+    }
+    c->version = v > NARROWS ? 0 : version; /* a look without margin serves for this tick */
+    c->overflow = found > KNURL_MAX_CANDIDATES;
+    found = c->overflow ? KNURL_MAX_CANDIDATES : found;
+    c->count = keep(c->list, c->count, places, found);
+    for (uint32_t i = 0; i < found; i++) {
+        insert(c, places[i]);
+    }
+    for (uint32_t i = 0; i < c->count; i++) {
+        if (c->list[i].place < index->capacity) {
+            load_box(index, &c->list[i]);
+        }
+    }
+    c->clearance.distance = -1.0;
+}
+
+void knurl_candidates_reset(knurl_candidates *c) {
+    c->count = 0;
+    c->clearance.distance = -1.0;
+}
+
+int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
+    for (int i = 0; i < 3; i++) {
+        const double low = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
+        const double high = path->from[i] < path->to[i] ? path->to[i] : path->from[i];
+        if (high < (double)candidate->box[i] - margin || low > (double)candidate->box[3 + i] + margin) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* m along the axis where it is farthest: from a point to a candidate's box; negative inside. */
+static double gap(const knurl_candidate *candidate, const double p[3]) {
+    double widest = -HUGE_VAL;
+    for (int i = 0; i < 3; i++) {
+        const double below = (double)candidate->box[i] - p[i];
+        const double above = p[i] - (double)candidate->box[3 + i];
+        widest = below > widest ? below : widest;
+        widest = above > widest ? above : widest;
+    }
+    return widest;
+}
+
+void knurl_candidates_measure(knurl_candidates *c, const double position[3], int ended) {
+    double distance = ended ? -1.0 : HUGE_VAL;
+    for (uint32_t i = 0; i < c->count; i++) {
+        if (!c->list[i].in_contact) {
+            distance = fmin(distance, gap(&c->list[i], position));
+        }
+    }
+    c->clearance.distance = distance - ROUNDING;
+    vec3_copy(position, c->clearance.at);
+}

@@ -1,0 +1,90 @@
+/* The surfaces that one HIP may come into contact with: a short list, and how far the HIP can go before it has to be
+ * looked at. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_CANDIDATES_H
+#define KNURL_SRC_CANDIDATES_H
+
+#include "base/atomic.h"
+#include "scene/broad_phase.h"
+#include "scene/guard.h"
+
+/* Surfaces near a HIP that are looked at in a tick, at most. */
+#define KNURL_MAX_CANDIDATES 32
+
+/* One surface near a HIP, and all that is kept of it from tick to tick. */
+typedef struct knurl_candidate {
+    uint32_t place;
+    uint32_t generation;
+    uint32_t in_contact;
+    uint32_t has_previous; /* 1: it was looked at in the last tick, so that `previous` and `jumps` hold */
+    uint64_t jumps;        /* the motion's, at the last tick */
+    double previous[3];    /* the HIP at the last tick, shape's frame */
+    knurl_contact_state contact;
+    knurl_grating_state grating;
+    knurl_guard_contact guard;
+    double proxy[3]; /* of the latest contact, scene axes */
+    double normal[3];
+    float box[6];     /* scene axes; outside it there is no contact */
+    double anchor[3]; /* friction: where the HIP sticks, shape's frame */
+} knurl_candidate;
+
+/* No farther than `distance` (m, each axis) from `at`, the HIP comes into no box but those of what it is in contact
+ * with. */
+typedef struct knurl_clearance {
+    double at[3];
+    double distance; /* below 0: unknown */
+} knurl_clearance;
+
+typedef struct knurl_candidates {
+    double low[3]; /* the list is complete while the HIP stays in this box, scene axes, */
+    double high[3];
+    double depth;     /* is pressed no deeper than this, m, */
+    uint64_t version; /* and the broad phase's version is this; 0: look again */
+    uint32_t count;
+    uint32_t overflow; /* 1: there were more than fit */
+    knurl_clearance clearance;
+    knurl_candidate list[KNURL_MAX_CANDIDATES];
+} knurl_candidates;
+
+/* How a HIP goes in one tick. */
+typedef struct knurl_hip_path {
+    const double *from; /* scene, m; at a first tick: `to` */
+    const double *to;
+    double depth;   /* m: of the deepest contact at the latest tick; 0 without */
+    double time;    /* s */
+    int is_first;   /* 1: a first tick */
+    int everything; /* 1: look at every surface at every tick (KNURL_FULL_SEARCH) */
+} knurl_hip_path;
+
+/* Empties the list. */
+void knurl_candidates_reset(knurl_candidates *candidates);
+
+/* 1 where the list is complete for a HIP that goes to `position`, pressed to `depth` (m), and is in no first tick. */
+static inline int knurl_candidates_are_complete(const knurl_candidates *c, const knurl_broad_phase *phase,
+                                                const double position[3], double depth) {
+    int inside = 1;
+    for (int i = 0; i < 3; i++) {
+        inside &= (position[i] >= c->low[i]) & (position[i] <= c->high[i]);
+    }
+    return inside & (depth <= c->depth) & !c->overflow & (c->version == knurl_load_acquire(&phase->version));
+}
+
+/* Makes the list complete for a path. */
+void knurl_candidates_find(knurl_candidates *candidates, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                           const knurl_hip_path *path) KNURL_NONBLOCKING;
+
+/* 1: the clearance holds: nothing but what is in contact has to be looked at. */
+static inline int knurl_candidates_are_clear(const knurl_candidates *candidates, const double p[3]) {
+    const knurl_clearance *clear = &candidates->clearance;
+    return (fabs(p[0] - clear->at[0]) < clear->distance) & (fabs(p[1] - clear->at[1]) < clear->distance) &
+           (fabs(p[2] - clear->at[2]) < clear->distance);
+}
+
+/* 1: a path comes into the candidate's box, or within `margin` (m) of it. */
+int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path,
+                           double margin) KNURL_NONBLOCKING;
+
+/* The clearance at a position, from the candidates that are not in contact. ended: 1 where a contact ended in this
+ * tick: the next one looks at everything. */
+void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], int ended) KNURL_NONBLOCKING;
+
+#endif

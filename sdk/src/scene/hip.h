@@ -1,0 +1,32 @@
+/* One haptic interaction point: how it ticks, and all that it keeps from tick to tick. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HIP_H
+#define KNURL_SRC_HIP_H
+
+#include "scene/contact_update.h"
+#include "scene/snapshot.h"
+
+/* The list of candidates, which is long, comes last: at 1 kHz a tick finds all of this in a cold cache. */
+typedef struct knurl_hip {
+    uint64_t pinned; /* atomic: the epoch in which the tick that runs began; 0: none runs */
+    double rate;
+    double quantum;    /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
+    int32_t is_turned; /* 0: the workspace's rotation is 1, and is left out */
+    int32_t centred;   /* 1: the scene chooses the workspace at its commit */
+    knurl_workspace workspace;
+    knurl_velocity velocity;
+    knurl_guard guard;
+    knurl_hip_counts counts;
+    knurl_published published;
+    knurl_hip_desc given; /* as configured; what it leaves open a loop fills in */
+    knurl_contacts contacts;
+} knurl_hip;
+
+/* The Touch at 1 kHz: what a HIP's description and its device leave open. */
+extern const knurl_hip_facts knurl_touch;
+
+/* Sets a HIP up anew; `device` stands for what the description leaves open, `strongest` (N) is the force that it has,
+ * `time` (s) is the scene's. Errors: KNURL_ERROR_ARGUMENT (which field), and the HIP is as it was. */
+knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *desc, const knurl_hip_facts *device,
+                              double strongest, double time);
+
+#endif

@@ -1,0 +1,30 @@
+/* How a surface feels and moves, from one edit to the next. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_RECORD_H
+#define KNURL_SRC_RECORD_H
+
+#include "scene/epoch.h"
+#include "scene/pose.h"
+
+#include <knurl/scene.h>
+
+/* Never changes once published: an edit publishes another one. */
+typedef struct knurl_record {
+    knurl_retired retired;
+    knurl_material_desc material; /* method resolved */
+    double turn[2];               /* cosine and sine of the orientation */
+    double reach;                 /* the highest crest: m in front of the surface where contact begins */
+    int32_t has_grating;          /* 0: nothing to play, the stage is left out */
+    int32_t is_smooth;            /* 1: neither ridges nor height */
+    knurl_motion motion;          /* of the shape's frame */
+    float arrived[6];             /* a box of where it is once the motion is over, with room; scene axes */
+} knurl_record;
+
+/* Checks a material and sets it in a record, with all that follows from it. has_coordinates: 1 where the surface has a
+ * place on the grating to go by. Errors: as knurl_scene_set_material(). */
+knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates, const knurl_material_desc *desc,
+                                       uint32_t full_model);
+
+/* A copy to edit, or an empty one of null; null with an error. */
+knurl_record *knurl_record_copy(knurl_heap *heap, const knurl_record *record);
+
+#endif

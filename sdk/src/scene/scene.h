@@ -1,0 +1,45 @@
+/* What a scene is made of. Edited under its lock, read by ticks without one: what a tick follows are atomic pointers to
+ * things that never change once they can be seen (records, shapes, the broad phase's index), and what an edit replaces
+ * is kept until no tick can see it (epoch.h). SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SCENE_H
+#define KNURL_SRC_SCENE_H
+
+#include "base/handle.h"
+#include "scene/hip.h"
+
+struct knurl_scene {
+    uint32_t handle; /* KNURL_HANDLE_SCENE */
+    /* read by ticks */
+    uint32_t hip_count;
+    knurl_hip *hips;
+    uint32_t committed;
+    uint32_t full_model;
+    knurl_broad_phase broad_phase;
+    knurl_epoch epoch;
+
+    /* for edits, under the lock */
+    knurl_mutex *lock; /* who only reads takes it too */
+    knurl_mutex mutexes[2];
+    knurl_heap heap; /* under the second */
+    knurl_surfaces surfaces;
+};
+
+void knurl_scene_lock(const knurl_scene *scene);
+void knurl_scene_unlock(const knurl_scene *scene);
+
+/* s: the time of the HIP that is ahead. */
+double knurl_scene_time(const knurl_scene *scene);
+
+/* The centre of all surfaces' bounds; 0 in an empty scene. */
+void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
+
+/* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did.
+ * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
+knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
+
+/* The force (N) that the loop sent without a tick, at its end: the latest tick's is told to be this one. Where the
+ * HIP's haptic thread is, or after it has ended (motors.c). */
+void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force[3],
+                            const double device_force[3]) KNURL_NONBLOCKING;
+
+#endif

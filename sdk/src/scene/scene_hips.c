@@ -1,0 +1,86 @@
+/* HIPs on the game thread: configure, adopt a device, read the latest tick. SPDX-License-Identifier: MIT */
+#include "scene/scene.h"
+
+#include "base/base.h"
+
+static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
+    if (hip >= scene->hip_count) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
+                          (unsigned)scene->hip_count, (unsigned)hip);
+    }
+    return KNURL_OK;
+}
+
+/* Under the lock: editing threads look at the HIPs' times. */
+static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
+                           double strongest) {
+    const knurl_result result = knurl_hip_set_up(hip, d, device, strongest, knurl_scene_time(scene));
+    if (!result) {
+        hip->contacts.everything = (scene->full_model & KNURL_FULL_SEARCH) != 0;
+        if (hip->centred && scene->committed) {
+            knurl_scene_centre(scene, hip->workspace.origin);
+        }
+    }
+    return result;
+}
+
+knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc) {
+    knurl_hip_desc d;
+    knurl_hip_desc_init(&d, sizeof d);
+    knurl_result result = check_hip(scene, hip);
+    result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
+    if (!result) {
+        knurl_scene_lock(scene);
+        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
+        knurl_scene_unlock(scene);
+    }
+    return result;
+}
+
+knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts) {
+    knurl_result result = check_hip(scene, hip);
+    if (result) {
+        return result;
+    }
+    knurl_hip *h = &scene->hips[hip];
+    knurl_hip_desc d = h->given;
+    const knurl_workspace workspace = h->workspace;
+    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
+                          (unsigned)hip, d.update_rate_hz, facts->rate);
+    }
+    d.workspace = h->centred ? NULL : &workspace;
+    knurl_scene_lock(scene);
+    result = set_up(scene, h, &d, facts, facts->max_force);
+    knurl_scene_unlock(scene);
+    return result;
+}
+
+knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {
+    const knurl_result result = check_hip(scene, hip);
+    if (result) {
+        return result;
+    }
+    if (scene->hips[hip].centred && !scene->committed) {
+        return knurl_fail(KNURL_ERROR_STATE, "workspace: it is chosen at the commit, and the scene is not committed");
+    }
+    *workspace = scene->hips[hip].workspace;
+    return KNURL_OK;
+}
+
+knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
+                                  knurl_hip_counts *counts) {
+    const knurl_result result = check_hip(scene, hip);
+    if (!result) {
+        knurl_snapshot snapshot;
+        knurl_snapshot_read(&scene->hips[hip].published, &snapshot);
+        if (output) {
+            *output = snapshot.output;
+        }
+        if (counts) {
+            *counts = snapshot.counts;
+        }
+    }
+    return result;
+}

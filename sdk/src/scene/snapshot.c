@@ -1,0 +1,16 @@
+/* Counting a tick, and publishing it. SPDX-License-Identifier: MIT */
+#include "scene/snapshot.h"
+
+void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
+    c->force_limits += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
+    c->frequency_saturations += (flags & KNURL_TICK_FREQUENCY) != 0;
+    c->not_finite += (flags & KNURL_TICK_NOT_FINITE) != 0;
+    c->entries += (flags & KNURL_TICK_ENTRY) != 0;
+    c->slews += (flags & KNURL_TICK_SLEW) != 0;
+    c->heats += (flags & KNURL_TICK_HEAT) != 0;
+    c->passivities += (flags & KNURL_TICK_PASSIVITY) != 0;
+}
+
+void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot) {
+    knurl_seqlock_read(&published->sequence, published->words, snapshot, sizeof *snapshot);
+}

@@ -1,0 +1,42 @@
+/* What any thread may read of a HIP: the latest tick and the counts, as one consistent copy. SPDX-License-Identifier:
+ * MIT */
+#ifndef KNURL_SRC_SNAPSHOT_H
+#define KNURL_SRC_SNAPSHOT_H
+
+#include "base/seqlock.h"
+
+#include <knurl/scene.h>
+
+typedef struct knurl_snapshot {
+    knurl_tick_output output;
+    knurl_hip_counts counts;
+} knurl_snapshot;
+
+typedef KNURL_SEQLOCK(knurl_snapshot) knurl_published;
+
+/* What is rare: called by knurl_counts_add(). */
+void knurl_counts_add_flags(knurl_hip_counts *counts, uint32_t flags) KNURL_NONBLOCKING;
+
+/* Counts a tick whose force had this length (N). */
+static inline void knurl_counts_add(knurl_hip_counts *counts, const knurl_tick_output *output, double force) {
+    counts->ticks++;
+    counts->contact_ticks += (output->flags & KNURL_TICK_CONTACT) != 0;
+    if (output->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+        knurl_counts_add_flags(counts, output->flags);
+    }
+    counts->force_max = force > counts->force_max ? force : counts->force_max;
+}
+
+/* Never waits. [one thread: the haptic one] */
+static inline void knurl_snapshot_publish(knurl_published *published, const knurl_tick_output *output,
+                                          const knurl_hip_counts *counts) {
+    knurl_seqlock_begin(&published->sequence);
+    knurl_seqlock_put(published->words, output, sizeof *output);
+    knurl_seqlock_put(published->words + sizeof *output / sizeof(uint64_t), counts, sizeof *counts);
+    knurl_seqlock_end(&published->sequence);
+}
+
+/* [any thread] */
+void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot);
+
+#endif

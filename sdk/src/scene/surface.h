@@ -1,0 +1,44 @@
+/* A surface: its shape, what it was given as, and the newest record of how it feels and moves.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SURFACE_H
+#define KNURL_SRC_SURFACE_H
+
+#include "contact/shape.h"
+#include "scene/record.h"
+
+/* But for `record` and what edits keep for themselves it never changes. */
+typedef struct knurl_surface_data {
+    knurl_retired retired;
+    knurl_record *record; /* atomic: the newest */
+    knurl_shape shape;
+    int32_t double_sided; /* 1: by its description or its shape */
+    uint32_t place;       /* among the scene's surfaces */
+    uint32_t generation;
+    uint32_t moved; /* edits: 1 once it was moved since the broad phase's index was built */
+    knurl_surface id;
+    knurl_pose local; /* the shape's frame in the surface's */
+    double axis[3];   /* unit, surface's frame; 0: none was given */
+    char *name;
+    const char *given; /* "plane" or "mesh" */
+} knurl_surface_data;
+
+/* Builds a surface with its record from its description. Errors: as knurl_scene_add_surface(). */
+knurl_result knurl_surface_build(knurl_heap *heap, const knurl_surface_desc *desc, uint32_t full_model,
+                                 knurl_surface_data **surface);
+void knurl_surface_release(knurl_heap *heap, knurl_retired *surface);
+
+/* Checks a pose and turns it into one of the surface's own frame. Errors: KNURL_ERROR_ARGUMENT. */
+knurl_result knurl_surface_check_pose(const double position[3], const double rotation[4], knurl_pose *pose);
+
+/* Scene bounds of all that a motion sweeps or, once it is over, of where it has arrived; without the reach. */
+void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double time, double low[3],
+                          double high[3]) KNURL_NONBLOCKING;
+
+/* The same for a record's motion, with its crests and `room` (m) round it, rounded outwards: min and max. */
+void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double room,
+                       float box[6]) KNURL_NONBLOCKING;
+
+/* Sets the box of where a record's surface arrives, with `room` (m) round it. */
+void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double room);
+
+#endif

@@ -1,0 +1,41 @@
+/* All surfaces of a scene: by place, by id, and in the order of adding. For edits, under their lock.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SURFACES_H
+#define KNURL_SRC_SURFACES_H
+
+#include "scene/surface.h"
+
+/* Zeroed but for heap and limit: empty. */
+typedef struct knurl_surfaces {
+    knurl_heap *heap;
+    knurl_surface_data **items; /* by place; null: free */
+    uint32_t *generations;      /* by place */
+    uint32_t *order;            /* places, in the order of adding */
+    uint32_t *vacant;           /* places that are free, the next one last */
+    uint32_t count;
+    uint32_t vacant_count;
+    uint32_t capacity; /* of the four arrays; grows up to `limit` */
+    uint32_t limit;
+} knurl_surfaces;
+
+/* Gives a surface its place and id. Errors: KNURL_ERROR_FULL, KNURL_ERROR_MEMORY. */
+knurl_result knurl_surfaces_add(knurl_surfaces *surfaces, knurl_surface_data *surface);
+
+/* Takes back the latest knurl_surfaces_add(): nobody has seen the id. */
+void knurl_surfaces_undo_add(knurl_surfaces *surfaces, knurl_surface_data *surface);
+
+/* From now on its id is stale; the surface itself is still the caller's to release. */
+void knurl_surfaces_remove(knurl_surfaces *surfaces, knurl_surface_data *surface);
+
+/* The surface of an id, or null with an error. */
+knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *surfaces, knurl_surface id);
+
+/* Releases the surfaces and the arrays. */
+void knurl_surfaces_release(knurl_surfaces *surfaces);
+
+/* The i-th in the order of adding. */
+static inline knurl_surface_data *knurl_surfaces_at(const knurl_surfaces *surfaces, uint32_t i) {
+    return surfaces->items[surfaces->order[i]];
+}
+
+#endif
