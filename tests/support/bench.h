@@ -22,6 +22,8 @@ typedef struct bench {
     knurl_tick_output seen; /* by the recorder, latest */
     knurl_clock clock;
     int64_t now;
+    int64_t late;       /* ns: by so much */
+    uint64_t late_for;  /* sleeps, from now on, the last of them is late */
     knurl_scene *scene; /* a wall of 400 N/m across y = 0, front up */
     knurl_loop_desc desc;
     knurl_loop *loop;
@@ -76,7 +78,9 @@ static inline int64_t bench_now(void *user) {
 }
 
 static inline void bench_sleep(int64_t deadline_ns, void *user) {
-    bench_of(user)->now = deadline_ns;
+    bench *b = bench_of(user);
+    b->now = deadline_ns + (b->late_for == 1 ? b->late : 0);
+    b->late_for -= b->late_for > 0;
 }
 
 /** A wall and a HIP `depth` (m) below its surface; a loop's description to change before bench_create(). */
@@ -85,7 +89,7 @@ static inline void bench_open(bench *b, double depth) {
     knurl_hip_desc hip;
     surface_parts wall = surface_plane();
     memset(b, 0, sizeof *b);
-    b->device.driver = &bench_driver;
+    knurl_device_init(&b->device, &bench_driver);
     b->device.max_force = 3.3;
     b->writes_left = UINT64_MAX;
     b->position[1] = -depth;

@@ -163,17 +163,3 @@ TEST(a_paused_tick_tells_where_the_hip_is_and_touches_nothing) {
     CHECK_CLOSE(tick(scene, -0.001, 0.0, 0).force[2], K * 0.001, 1e-3);
     knurl_scene_destroy(scene);
 }
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_share_that_is_asked_for_is_sent_and_told),
-        cmocka_unit_test(what_is_no_share_sends_nothing),
-        cmocka_unit_test(what_is_not_sent_warms_no_motor),
-        cmocka_unit_test(a_share_is_of_what_the_device_can_play),
-        cmocka_unit_test(the_slew_limit_is_from_what_was_sent),
-        cmocka_unit_test(a_wall_that_was_not_felt_comes_back_as_after_an_entry),
-        cmocka_unit_test(what_is_not_finite_is_found_however_little_is_sent),
-        cmocka_unit_test(a_paused_tick_tells_where_the_hip_is_and_touches_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -247,7 +247,7 @@ TEST(nothing_that_is_not_a_number_gets_past_the_protections) {
     knurl_scene_destroy(scene);
 }
 
-TEST(configuring_a_hip_cools_it_and_begins_anew) {
+TEST(configuring_a_hip_begins_anew_and_cools_no_motor) {
     surface_parts parts = wall(K);
     knurl_hip_desc hip = guarded(0);
     hip.heat_time = 0.1;
@@ -255,10 +255,18 @@ TEST(configuring_a_hip_cools_it_and_begins_anew) {
     for (int tick = 0; tick < 1000; tick++) {
         (void)tick_at(scene, 0.0, 0.0, -0.004);
     }
-    assert_true(counts_of(scene).heat > 0.9);
+    const double warm = counts_of(scene).heat;
+    assert_true(warm > 0.9);
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.004).force[2], K * 0.0005, 1e-12);
-    assert_true(counts_of(scene).heat < 0.01);
+    const double ratio2 = K * 0.0005 * K * 0.0005 / (0.88 * 0.88);
+    CHECK_CLOSE(counts_of(scene).heat, ratio2 + (warm - ratio2) * exp(-0.001 / 0.1), 1e-12);
+    hip.continuous_force = 1.76; /* of motors that hold twice as much it is a quarter */
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
+    const double before = counts_of(scene).heat;
+    (void)tick_at(scene, 0.0, 0.0, 0.01);
+    assert_true(before == 0.0); /* nothing is told before the first tick */
+    CHECK_CLOSE(counts_of(scene).heat, 0.25 * (ratio2 + (warm - ratio2) * exp(-0.01)) * exp(-0.01), 1e-12);
     knurl_scene_destroy(scene);
 }
 

@@ -37,7 +37,7 @@ static double written_now(const bench *from) {
 }
 
 /* theta' = -theta/60 s while nothing is sent. */
-TEST(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool) {
+TEST_WITH(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool, NULL, end_bench) {
     bench_open(&b, DEPTH);
     b.desc.heartbeat_s = 0.05;
     bench_create(&b);
@@ -56,7 +56,7 @@ TEST(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool) {
 }
 
 /* The wall is felt from no depth on: 0.5 mm more a tick, beside the ramp of 21 steps. */
-TEST(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole) {
+TEST_WITH(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole, NULL, end_bench) {
     bench_open(&b, DEPTH);
     b.desc.heartbeat_s = 0.05;
     bench_create(&b);
@@ -72,7 +72,7 @@ TEST(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole) {
     CHECK_CLOSE(written_now(&b), 3.3, 1e-12);
 }
 
-TEST(after_a_halt_what_is_told_climbs_with_what_is_sent) {
+TEST_WITH(after_a_halt_what_is_told_climbs_with_what_is_sent, NULL, end_bench) {
     bench_open(&b, DEPTH);
     bench_create(&b);
     step_and_check(&b, 40);
@@ -84,7 +84,7 @@ TEST(after_a_halt_what_is_told_climbs_with_what_is_sent) {
 }
 
 /* Whatever the end: after it nothing is told to be sent. */
-TEST(after_the_end_the_scene_tells_no_force) {
+TEST_WITH(after_the_end_the_scene_tells_no_force, NULL, end_bench) {
     enum { STOPPED, LIMIT, NO_RAMP, DESTROYED, LOST, LOST_IN_RAMP, ENDS };
     for (int end = 0; end < ENDS; end++) {
         bench_open(&b, DEPTH);
@@ -109,7 +109,7 @@ TEST(after_the_end_the_scene_tells_no_force) {
     }
 }
 
-TEST(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick) {
+TEST_WITH(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, NULL, end_bench) {
     bench_open(&b, DEPTH);
     b.watches_writes = 1;
     b.desc.tick_limit = 40;
@@ -125,7 +125,7 @@ TEST(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick) {
 }
 
 /* A HIP may not ask for more than its device has. */
-TEST(what_is_told_is_never_more_than_the_device_can_play) {
+TEST_WITH(what_is_told_is_never_more_than_the_device_can_play, NULL, end_bench) {
     knurl_hip_desc hip;
     knurl_workspace workspace;
     bench_open(&b, DEPTH);
@@ -143,7 +143,7 @@ TEST(what_is_told_is_never_more_than_the_device_can_play) {
 }
 
 /* To the bit, where a limited force has three components: down to 24 mm in a wall that is turned about x and z. */
-TEST(a_force_that_was_limited_is_sent_as_it_is_told) {
+TEST_WITH(a_force_that_was_limited_is_sent_as_it_is_told, NULL, end_bench) {
     static const double here[3] = {0.0, 0.0, 0.0};
     for (int i = 1; i <= 20; i++) {
         bench_open(&b, 0.004);
@@ -169,7 +169,7 @@ static void push(uint64_t tick, const knurl_device_sample *sample, double force[
     force[1] = 3.3;
 }
 
-TEST(what_a_callback_asked_for_and_did_not_get_warms_nothing) {
+TEST_WITH(what_a_callback_asked_for_and_did_not_get_warms_nothing, NULL, end_bench) {
     bench_open(&b, DEPTH);
     b.desc.scene = NULL;
     b.desc.tick_callback = NULL;
@@ -183,18 +183,4 @@ TEST(what_a_callback_asked_for_and_did_not_get_warms_nothing) {
     CHECK_SAME(written_now(&b), 0.0L);
     /* 51 ticks of 3.3 N and a ramp warm by 3.3^2/0.88^2 (51 + 7) ms/60 s at most */
     assert_true(stats.heat < 14.1 * 0.075 / 60.0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool, end_bench),
-        cmocka_unit_test_teardown(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole, end_bench),
-        cmocka_unit_test_teardown(after_a_halt_what_is_told_climbs_with_what_is_sent, end_bench),
-        cmocka_unit_test_teardown(after_the_end_the_scene_tells_no_force, end_bench),
-        cmocka_unit_test_teardown(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, end_bench),
-        cmocka_unit_test_teardown(what_is_told_is_never_more_than_the_device_can_play, end_bench),
-        cmocka_unit_test_teardown(a_force_that_was_limited_is_sent_as_it_is_told, end_bench),
-        cmocka_unit_test_teardown(what_a_callback_asked_for_and_did_not_get_warms_nothing, end_bench),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "61ad5e7f1489ec12"
+#define KNURL_UNITY_INTERFACE "e734b990765bdfdb"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -303,7 +303,7 @@
     FIELD(knurl_loop_stats, heat, "heat", 96, 8) \
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
-    FIELD(knurl_loop_stats, reserved, "reserved", 116, 4) \
+    FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
     STRUCT(knurl_session_desc, 160) \
     FIELD(knurl_session_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_session_desc, reconnect, "reconnect", 4, 4) \

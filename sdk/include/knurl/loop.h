@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/** A loop runs once, and can pause. How warm the device's motors are is the device's: its next loop begins with it,
+ * cooled by what has gone by on the loop's clock since (with another clock: not cooled). In a loop that is stepped each
+ * tick cools or warms by one period. */
 typedef struct knurl_loop knurl_loop;
 
 /** Gives a force instead of a scene: `tick` counts from 0; write N in device axes. [haptic thread] */
@@ -74,10 +77,11 @@ typedef struct knurl_loop_stats {
     knurl_percentiles jitter_ns; /**< wake-up after the deadline; within 3 % */
     uint64_t heats;              /**< force callback: ticks shortened to what warm motors can hold (a scene's HIP has
                                       counts of its own) */
-    double heat;                 /**< force callback: 0 cold to 1: as warm as continuous_force makes them for ever */
+    double heat;                 /**< the device's motors: 0 cold to 1: as warm as its continuous_force makes them for
+                                      ever; above 1 only with KNURL_UNGUARDED_HEAT */
     uint64_t absences; /**< beats without a tick, because the device was lost or gave no position to be trusted */
     uint32_t absent;   /**< 1: such was the latest beat */
-    uint32_t reserved; /**< 0 */
+    uint32_t paused;   /**< 1: knurl_loop_pause() was called, and knurl_loop_resume() was not since */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -105,6 +109,15 @@ KNURL_API void knurl_loop_request_stop(knurl_loop *loop);
 
 /** Asks for the end and waits for it; from a callback it only asks. Twice is fine. [any thread] */
 KNURL_API void knurl_loop_stop(knurl_loop *loop);
+
+/** A pause: the force goes to zero by the ramp. From then on ticks go on, but nothing is felt: the HIP's position and
+ * velocity are told, contacts end, and the motors cool. A force callback is called on, and its force is not sent. No
+ * sign of life is needed meanwhile. Before the start: it starts paused. Twice is fine. [any thread] */
+KNURL_API void knurl_loop_pause(knurl_loop *loop);
+
+/** Ends a pause: the force comes back by the ramp (KNURL_FAULT_RESUMED), and walls as at a first tick: within 10 mm of
+ * their surface, by the entry ramp. Twice is fine. [any thread] */
+KNURL_API void knurl_loop_resume(knurl_loop *loop);
 
 /** A sign of life from the game; see heartbeat_s. [any thread] */
 KNURL_API void knurl_loop_heartbeat(knurl_loop *loop);

@@ -199,7 +199,8 @@ typedef struct knurl_hip_counts {
     uint64_t heats;                 /**< ticks with KNURL_TICK_HEAT */
     uint64_t passivities;           /**< ticks with KNURL_TICK_PASSIVITY */
     double force_max;               /**< N, longest force played */
-    double heat;                    /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run */
+    double heat; /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
+                      1 only with KNURL_UNGUARDED_HEAT. A loop's HIP begins with its device's */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -271,8 +272,9 @@ KNURL_API uint64_t knurl_scene_bytes(const knurl_scene *scene);
  * [any thread but the haptic] */
 KNURL_API void knurl_scene_collect(knurl_scene *scene);
 
-/** Sets up one HIP and forgets what it did. hip: 0 to hip_count - 1. desc: null for all defaults. Until it is called a
- * HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT. [game thread, while that HIP does not tick] */
+/** Sets up one HIP and forgets what it did, but not how warm its motors are (with a loop: its device's). hip: 0 to
+ * hip_count - 1. desc: null for all defaults. Until it is called a HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT.
+ * [game thread, while that HIP does not tick] */
 KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
 
 /** The workspace that a HIP's ticks use; after the commit also where it was left to the scene.

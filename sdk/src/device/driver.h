@@ -66,6 +66,12 @@ struct knurl_device {
     struct knurl_link *link; /* the I/O thread that exchanges, see link.h; null: there is none */
     knurl_position_check check;
     knurl_events events;
+    /* What its latest loop left: how warm the motors were (N^2: as a force of this square makes them in the long run),
+     * when, and by which clock. A thread that starts a loop reads them, one that ends it writes them. */
+    double heat;
+    int64_t heat_at;
+    int64_t (*heat_now)(void *user); /* null: no loop has run */
+    void *heat_user;
     /* atomics */
     uint32_t halted;
     uint32_t lost;    /* nobody but reopen() may call the driver any more */

@@ -12,9 +12,11 @@ static void report(knurl_loop *loop, int32_t code, double value) {
     knurl_events_report(&loop->desc.device->events, code, value);
 }
 
-/* 1 while the game gives signs of life, or need not. */
-static int game_lives(knurl_loop *loop) {
-    if (loop->desc.heartbeat_s == 0.0) {
+/* 1 while the game gives signs of life, or need not; paused, it need not, and counts as alive. */
+static int game_lives(knurl_loop *loop, int paused) {
+    if (loop->desc.heartbeat_s == 0.0 || paused) {
+        loop->since_sign = 0;
+        loop->game_lives = 1;
         return 1;
     }
     const uint64_t signs = knurl_load_relaxed(&loop->signs);
@@ -29,22 +31,22 @@ static int game_lives(knurl_loop *loop) {
     return lives;
 }
 
-/* How much of this tick's force is sent: after the motors were let go of it climbs back over the ramp; without a sign
- * of life it goes down by it. *was_halted: 1 where they were let go of, which lasts until this force is written: what
- * an I/O thread has until then is from before. */
-static double next_gain(knurl_loop *loop, int *was_halted) {
+/* How much of this tick's force is sent: after the motors were let go of it climbs back over the ramp; paused, or
+ * without a sign of life, it goes down by it. *was_halted: 1 where they were let go of, which lasts until this force is
+ * written: what an I/O thread has until then is from before. */
+static double next_gain(knurl_loop *loop, int paused, int *was_halted) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
     *was_halted = knurl_device_is_halted(loop->desc.device) != 0;
-    const int was_down = *was_halted || !loop->game_lives;
-    const int lives = game_lives(loop);
-    double gain = *was_halted ? 0.0 : loop->gain;
-    if (was_down && lives && loop->ticks > 0) {
+    const int was_down = *was_halted || !loop->wanted;
+    double gain = *was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
+    loop->wanted = game_lives(loop, paused) && !paused;
+    if (was_down && loop->wanted && loop->ticks > 0) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
-    if (!lives) {
+    if (!loop->wanted) {
         gain = fmax(0.0, gain - step);
     }
-    loop->gain = lives ? fmin(1.0, gain + step) : gain;
+    loop->gain = loop->wanted ? fmin(1.0, gain + step) : gain;
     return gain;
 }
 
@@ -68,21 +70,23 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
 /* The force of this tick as it is sent, from the scene or from the caller. Returns 1 where the motors had been let go
  * of. */
 static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
+    const int paused = knurl_load_acquire(&loop->paused) != 0;
     int was_halted;
     if (loop->desc.scene) {
         knurl_tick_input input;
         memset(&input, 0, sizeof input);
         memcpy(input.position, sample->position, sizeof input.position);
-        input.attenuation = 1.0 - next_gain(loop, &was_halted);
+        const double gain = next_gain(loop, paused, &was_halted);
+        input.attenuation = 1.0 - gain;
+        input.paused = paused && gain == 0.0;
         (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
         vec3_copy(output->device_force, loop->force);
         vec3_copy(output->force, loop->scene_force);
     } else {
         call_back(loop, sample);
-        vec3_scale(next_gain(loop, &was_halted), loop->force, loop->force);
-        knurl_heat_add(&loop->heat, vec3_dot(loop->force, loop->force));
-        knurl_store_double(&loop->theta, loop->heat.theta);
+        vec3_scale(next_gain(loop, paused, &was_halted), loop->force, loop->force);
     }
+    knurl_loop_add_heat(loop, 1.0);
     return was_halted;
 }
 
@@ -94,6 +98,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
+    knurl_loop_add_heat(loop, 0.0);
     if (loop->desc.scene) {
         knurl_tick_input input;
         knurl_tick_output output;
@@ -150,11 +155,9 @@ static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     double scene_force[3];
     vec3_scale(gain, loop->force, force);
     vec3_scale(gain, loop->scene_force, scene_force);
+    knurl_loop_add_heat(loop, gain);
     if (loop->desc.scene) {
         knurl_scene_tell_force(loop->desc.scene, loop->desc.hip, scene_force, force);
-    } else {
-        knurl_heat_add(&loop->heat, vec3_dot(force, force));
-        knurl_store_double(&loop->theta, loop->heat.theta);
     }
 }
 
@@ -191,6 +194,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_device *device = loop->desc.device;
     knurl_device_halt(device);
     knurl_loop_tell_none(loop);
+    knurl_loop_end_heat(loop);
     if (device->link || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
         (void)knurl_device_write(device, none);
     }
@@ -229,6 +233,7 @@ void knurl_loop_haptic_thread(void *argument) {
     knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
     while (!knurl_loop_at_end(loop) || ramp_steps(loop) > loop->ramp_step) {
         const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
+        knurl_loop_pass_time(loop, loop->pace.woke_at);
         note_lateness(loop, late, overrun);
         if (!knurl_loop_beat(loop)) {
             break;
@@ -250,6 +255,7 @@ uint32_t knurl_loop_serve(void *argument) {
         note_lateness(loop, (int64_t)late, late > 0.5 * period);
     }
     loop->served_at = now;
+    knurl_loop_pass_time(loop, now);
     if (knurl_loop_beat(loop)) {
         knurl_store_release(&loop->is_served, 0u);
         return 1;

@@ -199,12 +199,9 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = 1.0;
-    made->game_lives = 1;
+    made->game_lives = made->wanted = 1;
     made->max_force = facts.max_force;
-    if (d.unguarded & KNURL_UNGUARDED_HEAT) {
-        facts.continuous_force = HUGE_VAL;
-    }
-    knurl_heat_init(&made->heat, &facts);
+    knurl_loop_init_heat(made, &facts);
     knurl_device_release_halt(d.device);
     *loop = made;
     return KNURL_OK;
@@ -226,6 +223,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     }
     const int scene_locked = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
     loop->scene_locked = (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked);
+    knurl_loop_begin_heat(loop);
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
     const knurl_result result = start_haptics(loop);
@@ -261,6 +259,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
                           device->driver->uri);
     }
     if (loop->state == KNURL_LOOP_IDLE) {
+        knurl_loop_begin_heat(loop);
         knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     }
@@ -280,6 +279,14 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
 
 void knurl_loop_request_stop(knurl_loop *loop) {
     knurl_store_release(&loop->stop_requested, 1u);
+}
+
+void knurl_loop_pause(knurl_loop *loop) {
+    knurl_store_release(&loop->paused, 1u);
+}
+
+void knurl_loop_resume(knurl_loop *loop) {
+    knurl_store_release(&loop->paused, 0u);
 }
 
 void knurl_loop_heartbeat(knurl_loop *loop) {
@@ -346,5 +353,6 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.heat = knurl_load_double(&loop->theta);
     made.absences = knurl_load_relaxed(&loop->absences);
     made.absent = knurl_load_relaxed(&loop->absent);
+    made.paused = knurl_load_relaxed(&loop->paused);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

@@ -15,7 +15,8 @@ typedef struct knurl_pace {
     knurl_clock clock;
     int64_t start_ns;
     double period_ns;
-    uint64_t beat; /* whole periods since the start at the latest deadline */
+    uint64_t beat;   /* whole periods since the start at the latest deadline */
+    int64_t woke_at; /* ns */
 } knurl_pace;
 
 void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
@@ -35,7 +36,9 @@ struct knurl_loop {
     double scene_force[3]; /* the same in scene axes; 0 without a scene */
     double gain;           /* 0..1 on the next force: climbs back after the watchdog let go */
     double max_force;      /* N: the device's */
-    knurl_heat heat;       /* of the motors that a callback drives; a scene's HIP keeps its own */
+    knurl_heat motors;     /* the device's, in N^2; never limited */
+    knurl_heat heat;       /* the same, of its continuous force, and what a callback's force is limited by */
+    int64_t beat_at;       /* ns: the latest beat of a thread; 0: none */
     uint64_t ramp_step;    /* done, of the ramp at the end */
     int was_overrun;
     int is_lost;       /* for good */
@@ -43,10 +46,12 @@ struct knurl_loop {
     uint64_t signs_seen;
     uint64_t since_sign; /* ticks */
     int game_lives;
+    int wanted; /* 1: neither paused nor without a sign of life */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
     uint32_t stop_requested; /* by anyone */
+    uint32_t paused;         /* by anyone: 1 */
     uint32_t threaded;       /* 1: started, not stepped */
     uint64_t ticks;
     uint64_t beats; /* ticks and steps of the ramp: what the watchdog looks at */
@@ -65,6 +70,19 @@ struct knurl_loop {
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
 };
+
+/* heat.c: what the motors warm up by. */
+
+/* The device's motors: a loop begins with how warm the latest one left them, cooled by the clock since. */
+void knurl_loop_init_heat(knurl_loop *loop, const knurl_hip_facts *facts);
+void knurl_loop_begin_heat(knurl_loop *loop);
+void knurl_loop_end_heat(knurl_loop *loop);
+
+/* loop->force was sent for a tick, or `share` (0 to 1) of it. */
+void knurl_loop_add_heat(knurl_loop *loop, double share);
+
+/* A thread's beat begins: periods that it missed went by for the motors as well. */
+void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 
 /* beat.c */
 int knurl_loop_at_end(const knurl_loop *loop);

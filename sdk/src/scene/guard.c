@@ -63,6 +63,22 @@ void knurl_heat_add(knurl_heat *heat, double force2) {
     heat->theta = heat->theta < 1.0 || heat->excess == 0.0 ? heat->theta : 1.0;
 }
 
+/* The closed form of as many knurl_heat_add(). */
+void knurl_heat_hold(knurl_heat *heat, double force2, double ticks) {
+    const double to = force2 * heat->per_force;
+    heat->theta = to + (heat->theta - to) * exp(ticks * log1p(-heat->share));
+    heat->theta = heat->theta < 1.0 || heat->excess == 0.0 ? heat->theta : 1.0;
+}
+
+double knurl_heat_get(const knurl_heat *heat) {
+    return heat->theta > 0.0 ? heat->theta * heat->continuous * heat->continuous : 0.0; /* endless: none is kept */
+}
+
+void knurl_heat_set(knurl_heat *heat, double square) {
+    const double theta = square * heat->per_force;
+    heat->theta = theta < 1.0 || heat->excess == 0.0 ? theta : 1.0;
+}
+
 double knurl_bounds_stability(const knurl_bounds *bounds, double damping) {
     return (bounds->friction + damping * bounds->scale) / bounds->lag;
 }
@@ -103,12 +119,13 @@ static void start_watch(knurl_passivity *p, const knurl_hip_desc *desc, const kn
 
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
     const double period = 1.0 / facts->rate;
-    knurl_hip_facts cool = *facts;
+    const double heat = knurl_heat_get(&guard->heat);
     memset(guard, 0, sizeof *guard);
+    knurl_heat_init(&guard->heat, facts);
     if (desc->unguarded & KNURL_UNGUARDED_HEAT) {
-        cool.continuous_force = HUGE_VAL;
+        guard->heat.excess = 0.0;
     }
-    knurl_heat_init(&guard->heat, &cool);
+    knurl_heat_set(&guard->heat, heat);
     start_watch(&guard->passivity, desc, facts, scale);
     const double slew = desc->slew_rate > 0.0 ? desc->slew_rate : facts->max_force / SLEW_TIME;
     guard->entry = desc->unguarded & KNURL_UNGUARDED_ENTRY ? HUGE_VAL : KNURL_ENTRY_SPEED * scale * period;

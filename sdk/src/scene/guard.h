@@ -40,8 +40,13 @@ void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts);
 /* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
 double knurl_heat_limit(const knurl_heat *heat) KNURL_NONBLOCKING;
 
-/* What was played for a tick, N^2. */
+/* What was played for a tick, N^2, or for so many of them, >= 0. */
 void knurl_heat_add(knurl_heat *heat, double force2) KNURL_NONBLOCKING;
+void knurl_heat_hold(knurl_heat *heat, double force2, double ticks) KNURL_NONBLOCKING;
+
+/* The same heat whatever the continuous force: N^2, of the force that makes the motors as warm in the long run. */
+double knurl_heat_get(const knurl_heat *heat) KNURL_NONBLOCKING;
+void knurl_heat_set(knurl_heat *heat, double square) KNURL_NONBLOCKING;
 
 /* What a wall and its texture may be on a device. */
 typedef struct knurl_bounds {
@@ -119,7 +124,7 @@ typedef struct knurl_guard {
     knurl_bounds bounds;
 } knurl_guard;
 
-/* Sets the protections up, cold. facts: complete. */
+/* Sets the protections up; the motors stay as warm as they were. guard: zeroed, or set up before. facts: complete. */
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
 
 /* What the functions below leave to guard.c, because it is rare. */
@@ -158,7 +163,7 @@ static inline void knurl_guard_clamp(const knurl_guard *guard, knurl_guard_wall 
 
 /* A tick begins, of whose force `attenuation` is not sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
-    guard->gain = attenuation >= 0.0 && attenuation <= 1.0 ? 1.0 - attenuation : 0.0;
+    guard->gain = knurl_is_within(attenuation, 0.0, 1.0) ? 1.0 - attenuation : 0.0;
     if (guard->passivity.busy) {
         knurl_guard_follow(&guard->passivity);
     }

@@ -92,6 +92,7 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.workspace = *d->workspace;
     }
     made.quantum = 1.7320508075688772 * facts.resolution * made.workspace.scale;
+    made.guard.heat = hip->guard.heat; /* motors do not cool because a scene is set up */
     knurl_guard_init(&made.guard, d, &facts, made.workspace.scale);
     for (int i = 0; i < 9; i++) {
         made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);

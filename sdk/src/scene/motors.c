@@ -11,3 +11,11 @@ void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force
     vec3_copy(device_force, latest.output.device_force);
     knurl_snapshot_publish(&h->published, &latest.output, &h->counts);
 }
+
+void knurl_scene_set_heat(knurl_scene *scene, uint32_t hip, double square) {
+    knurl_heat_set(&scene->hips[hip].guard.heat, square);
+}
+
+void knurl_scene_hold_force(knurl_scene *scene, uint32_t hip, double force2, double ticks) {
+    knurl_heat_hold(&scene->hips[hip].guard.heat, force2, ticks);
+}

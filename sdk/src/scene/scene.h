@@ -33,7 +33,8 @@ double knurl_scene_time(const knurl_scene *scene);
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
 
-/* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did.
+/* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did, but
+ * not how warm its motors are.
  * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
@@ -41,5 +42,10 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
  * HIP's haptic thread is, or after it has ended (motors.c). */
 void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force[3],
                             const double device_force[3]) KNURL_NONBLOCKING;
+
+/* How warm the HIP's motors are (N^2, see knurl_heat_get()), and a force (its square, N^2) that they held for so many
+ * ticks that nobody made. Where its haptic thread is, or while there is none (motors.c). */
+void knurl_scene_set_heat(knurl_scene *scene, uint32_t hip, double square);
+void knurl_scene_hold_force(knurl_scene *scene, uint32_t hip, double force2, double ticks) KNURL_NONBLOCKING;
 
 #endif

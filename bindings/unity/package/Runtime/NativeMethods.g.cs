@@ -435,7 +435,7 @@ namespace Knurl
         public double heat;
         public ulong absences;
         public uint absent;
-        public uint reserved;
+        public uint paused;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -548,7 +548,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "61ad5e7f1489ec12";
+        internal const string Interface = "e734b990765bdfdb";
 
         internal const string Version = "0.1.0";
 
@@ -924,6 +924,12 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_stop(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_pause(knurl_loop* loop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_loop_resume(knurl_loop* loop);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_heartbeat(knurl_loop* loop);

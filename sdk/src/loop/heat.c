@@ -1,0 +1,66 @@
+/* How warm the motors are: the device's, from loop to loop, by the loop's clock. SPDX-License-Identifier: MIT */
+#include "loop/loop_internal.h"
+
+#include "base/atomic.h"
+#include "base/vec3.h"
+#include "scene/scene.h"
+
+#include <math.h>
+
+void knurl_loop_init_heat(knurl_loop *loop, const knurl_hip_facts *facts) {
+    knurl_hip_facts square = *facts;
+    square.continuous_force = 1.0;
+    knurl_heat_init(&loop->motors, &square);
+    loop->motors.excess = 0.0;
+    knurl_heat_init(&loop->heat, facts);
+    if (loop->desc.unguarded & KNURL_UNGUARDED_HEAT) {
+        loop->heat.excess = 0.0;
+    }
+}
+
+static void set_heat(knurl_loop *loop) {
+    knurl_heat_set(&loop->heat, loop->motors.theta);
+    knurl_store_double(&loop->theta, loop->heat.theta);
+}
+
+void knurl_loop_begin_heat(knurl_loop *loop) {
+    const knurl_device *device = loop->desc.device;
+    loop->motors.theta = device->heat;
+    if (device->heat_now == loop->clock.now_ns && device->heat_user == loop->clock.user) { /* else nobody knows */
+        const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - device->heat_at);
+        knurl_heat_hold(&loop->motors, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
+    }
+    set_heat(loop);
+    if (loop->desc.scene) {
+        knurl_scene_set_heat(loop->desc.scene, loop->desc.hip, loop->motors.theta);
+    }
+}
+
+void knurl_loop_end_heat(knurl_loop *loop) {
+    knurl_device *device = loop->desc.device;
+    device->heat = loop->motors.theta;
+    device->heat_at = loop->clock.now_ns(loop->clock.user);
+    device->heat_now = loop->clock.now_ns;
+    device->heat_user = loop->clock.user;
+}
+
+void knurl_loop_add_heat(knurl_loop *loop, double share) {
+    knurl_heat_add(&loop->motors, share * share * vec3_dot(loop->force, loop->force));
+    set_heat(loop);
+}
+
+void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
+    const double periods = 1e-9 * (double)(now - loop->beat_at) * loop->desc.update_rate_hz;
+    const double missed = loop->beat_at ? periods - 1.0 : 0.0;
+    loop->beat_at = now;
+    if (missed < 1.0) {
+        return;
+    }
+    const int halted = knurl_device_is_halted(loop->desc.device) != 0;
+    const double force2 = halted ? 0.0 : vec3_dot(loop->force, loop->force);
+    knurl_heat_hold(&loop->motors, force2, missed);
+    set_heat(loop);
+    if (loop->desc.scene) {
+        knurl_scene_hold_force(loop->desc.scene, loop->desc.hip, force2, missed);
+    }
+}
