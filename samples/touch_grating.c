@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define PLATES     3
@@ -68,7 +69,7 @@ static knurl_result build_scene(sample *s) {
     return result ? result : knurl_scene_commit(s->scene);
 }
 
-static knurl_result start(sample *s, const char *uri, double seconds) {
+static knurl_result start(sample *s, const char *uri) {
     knurl_loop_desc desc;
     knurl_loop_desc_init(&desc, sizeof desc);
     knurl_result result = build_scene(s);
@@ -76,9 +77,13 @@ static knurl_result start(sample *s, const char *uri, double seconds) {
     desc.scene = s->scene;
     desc.device = s->device;
     desc.reconnect = 1; /* a cable that was pulled may be plugged in again */
-    desc.tick_limit = (uint64_t)(seconds * desc.update_rate_hz);
     result = result ? result : knurl_loop_create(&desc, &s->loop);
     return result ? result : knurl_loop_start(s->loop);
+}
+
+static double now_s(void) {
+    struct timespec t;
+    return clock_gettime(CLOCK_MONOTONIC, &t) ? 0.0 : (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static double length(const double v[3]) {
@@ -138,8 +143,9 @@ int main(int argc, char **argv) {
     sample s = {0};
     (void)knurl_device_zero_on_exit(0); /* before the handler of ours, with which Ctrl-C ends by the ramp */
     (void)signal(SIGINT, on_interrupt);
-    const int failed = start(&s, uri, seconds) != KNURL_OK;
-    while (!failed && !interrupted && !knurl_loop_wait(s.loop, 0.1)) {
+    const int failed = start(&s, uri) != KNURL_OK;
+    const double end = seconds > 0.0 ? now_s() + seconds : HUGE_VAL;
+    while (!failed && !interrupted && now_s() < end && !knurl_loop_wait(s.loop, fmin(0.1, end - now_s()))) {
         show(&s);
     }
     (void)(failed ? fprintf(stderr, "touch_grating: %s\n", knurl_error_message()) : printf("\n"));

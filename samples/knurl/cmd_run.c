@@ -7,6 +7,7 @@
 #include <math.h>
 #include <signal.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 typedef struct run_options {
@@ -25,6 +26,8 @@ typedef struct run {
     recorder recorder;
     faults faults;
     uint64_t ticks; /* wanted */
+    double seconds; /* wanted of the clock; 0: a simulated device's time is its ticks */
+    int gave_up;    /* waited GIVE_UP_S for a position */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by this signal */
@@ -123,10 +126,14 @@ static int load(run *r) {
     return TOOL_OK;
 }
 
+static int is_fake(const run_options *o) {
+    return !o->device || strncmp(o->device, "fake", 4) == 0;
+}
+
 /* A fake device gets its hand or its trace; at a real one, somebody sits. */
 static int lay(run *r, knurl_surface surface, double *last_t) {
     const run_options *o = &r->options;
-    if (o->device && strncmp(o->device, "fake", 4) != 0) {
+    if (!is_fake(o)) {
         const char *fakes = o->fast ? "--fast" : o->stroke ? "--stroke" : o->trace ? "--trace" : NULL;
         return fakes ? tool_error(TOOL_USAGE, "run: only the fake device takes %s, found --device %s", fakes, o->device)
                      : stroke_place(r->scene, r->device, surface);
@@ -156,6 +163,7 @@ static int open_device(run *r) {
     } else {
         r->ticks = (uint64_t)(5.0 * o->rate);
     }
+    r->seconds = is_fake(o) ? 0.0 : (double)r->ticks / o->rate;
     return code;
 }
 
@@ -212,13 +220,13 @@ static int make_loop(run *r) {
     return TOOL_OK;
 }
 
-static void show_progress(const run *r, uint64_t ticks) {
+static void show_progress(const run *r, double seconds) {
     knurl_tick_output now;
     knurl_hip_counts counts;
-    if (knurl_scene_get_tick(r->scene, 0, &now, &counts) == KNURL_OK && ticks > 0) {
-        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ",
-                (double)ticks / r->options.rate, (double)r->ticks / r->options.rate,
-                100.0 * (double)counts.contact_ticks / (double)counts.ticks, now.temporal_frequency,
+    if (knurl_scene_get_tick(r->scene, 0, &now, &counts) == KNURL_OK && counts.ticks > 0) {
+        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ", seconds,
+                (double)r->ticks / r->options.rate, 100.0 * (double)counts.contact_ticks / (double)counts.ticks,
+                now.temporal_frequency,
                 sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
     }
 }
@@ -236,16 +244,25 @@ static int waits_too_long(const knurl_loop_stats *stats, double rate) {
     return (double)(stats->absences - absences) > GIVE_UP_S * rate;
 }
 
-/* Until the loop is done: drains the recorder, shows faults and, on a terminal, progress, obeys Ctrl-C. */
+/* s on the clock that loops run by. */
+static double now(void) {
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Until the loop is done: drains the recorder, shows faults and, on a terminal, progress, obeys Ctrl-C and the clock.
+ */
 static void play(run *r) {
     const int terminal = isatty(STDERR_FILENO);
+    const double end = now() + r->seconds;
     knurl_loop_stats stats;
     knurl_loop_stats_init(&stats, sizeof stats);
     do {
         if (r->options.fast) {
             (void)knurl_loop_step(r->loop, 4096);
         } else {
-            (void)knurl_loop_wait(r->loop, 0.05);
+            (void)knurl_loop_wait(r->loop, r->seconds > 0.0 ? fmin(0.05, end - now()) : 0.05);
         }
         if (r->recorder.rows) {
             recorder_drain(&r->recorder);
@@ -253,9 +270,10 @@ static void play(run *r) {
         faults_show(&r->faults, r->device);
         (void)knurl_loop_get_stats(r->loop, &stats);
         if (terminal) {
-            show_progress(r, stats.ticks);
+            show_progress(r, r->seconds > 0.0 ? r->seconds - (end - now()) : (double)stats.ticks / r->options.rate);
         }
-        if (interrupted || waits_too_long(&stats, r->options.rate)) {
+        r->gave_up |= waits_too_long(&stats, r->options.rate);
+        if (interrupted || r->gave_up || (r->seconds > 0.0 && now() >= end)) {
             knurl_loop_request_stop(r->loop);
         }
     } while (stats.state == KNURL_LOOP_RUNNING);
@@ -330,9 +348,11 @@ static int perform(run *r) {
                           (unsigned long long)stats.ticks, (unsigned long long)r->ticks,
                           r->options.out ? "; not written: " : "", r->options.out ? r->options.out : "");
     }
-    if (stats.state != KNURL_LOOP_LOST && stats.absent && stats.ticks < r->ticks && !interrupted) {
+    if (stats.state != KNURL_LOOP_LOST && !interrupted && r->gave_up) {
         code = tool_error(TOOL_FAILURE, "run: no position for %g s, after %llu ticks", GIVE_UP_S,
                           (unsigned long long)stats.ticks);
+    } else if (stats.state != KNURL_LOOP_LOST && !interrupted && stats.ticks == 0) {
+        code = tool_error(TOOL_FAILURE, "run: the device gave no position within %g s", r->seconds);
     }
     if (stats.state == KNURL_LOOP_LOST) {
         code = tool_error(TOOL_FAILURE, "run: the device was lost after %llu ticks", (unsigned long long)stats.ticks);

@@ -17,7 +17,7 @@ static const char help[] =
     "      --stroke NAME                   of the fake device's hand, 1 mm below the surface: line (default), sweep,\n"
     "                                      circle, press or rest\n"
     "      --trace CSV                     the fake device plays HIP positions t,x,y,z (s, m) without a hand\n"
-    "      --seconds S                     default 5, or the trace's length\n"
+    "      --seconds S                     of the clock, with fake of its ticks; default 5, or the trace's length\n"
     "      --rate HZ                       update rate, 100 to 10000; default 1000\n"
     "      --method S1|S2|locked           for all surfaces, instead of their own\n"
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"

@@ -1,6 +1,6 @@
-/* umockdev-wrapper emulate_falcon [--unplug-after S] [--no-firmware] [--split] -- COMMAND...: runs a command on a
- * machine to which an emulated Falcon is connected, its hand stroking along x a millimetre below the middle of its
- * workspace; exits as the command does. SPDX-License-Identifier: MIT */
+/* umockdev-wrapper emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--unhomed FRAMES] -- COMMAND...: runs a
+ * command on a machine to which an emulated Falcon is connected, its hand stroking along x a millimetre below the
+ * middle of its workspace; exits as the command does. SPDX-License-Identifier: MIT */
 #include "falcon_emulated.h"
 
 #include <stdio.h>
@@ -39,12 +39,15 @@ int main(int argc, char **argv) {
             falcon_sim_forget_firmware(&setup.sim, IMAGE_SIZE, 0);
         } else if (strcmp(argv[at], "--split") == 0) {
             setup.is_split = 1;
+        } else if (strcmp(argv[at], "--unhomed") == 0 && at + 1 < argc) {
+            setup.sim.unhomed_for = strtoul(argv[++at], NULL, 10);
         } else {
             at = argc;
         }
     }
     if (at + 1 >= argc) {
-        (void)fputs("emulate_falcon [--unplug-after S] [--no-firmware] [--split] -- COMMAND...\n", stderr);
+        (void)fputs("emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--unhomed FRAMES] -- COMMAND...\n",
+                    stderr);
         return 2;
     }
     if (!falcon_emulated_start(&setup)) {

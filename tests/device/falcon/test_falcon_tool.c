@@ -65,6 +65,37 @@ TEST(a_falcon_without_firmware_is_given_the_image) {
     process_free(&p);
 }
 
+static double now(void) {
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A tick takes a position: with one in four exchanges, two thousand ticks would be eight seconds. */
+TEST(seconds_are_seconds_also_with_a_device_that_has_no_position_most_of_the_time) {
+    const double begin = now();
+    process p =
+        run_with_falcon(OPTIONS("--unhomed", "300"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    const double took = now() - begin;
+    if (took < 2.0 || took > 4.0) {
+        fail_msg("expected 2 s and some for the start, found %g s: %s", took, p.out);
+    }
+    if (p.exit_code != 0) {
+        fail_msg("exit %d: %s%s", p.exit_code, p.out, p.err);
+    }
+    assert_true(json_number_of(p.out, "ticks") < 1000.0);
+    assert_true(json_number_of(p.out, "absences") > 1000.0);
+    process_free(&p);
+}
+
+TEST(a_run_without_any_position_has_failed) {
+    process p = run_with_falcon(OPTIONS("--unhomed", "1000000000"),
+                                ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "0.5"));
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "the device gave no position within 0.5 s"));
+    process_free(&p);
+}
+
 TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
     process p = run_with_falcon(OPTIONS("--unplug-after", "1"),
                                 ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
