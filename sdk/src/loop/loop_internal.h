@@ -6,7 +6,7 @@
 #include "base/histogram.h"
 #include "base/system.h"
 #include "device/driver.h"
-#include "scene/guard.h"
+#include "scene/heat.h"
 
 #include <knurl/loop.h>
 

@@ -4,8 +4,9 @@
 #define KNURL_SRC_CANDIDATES_H
 
 #include "base/atomic.h"
+#include "base/vec3.h"
 #include "scene/broad_phase.h"
-#include "scene/guard.h"
+#include "scene/wall.h"
 
 /* Surfaces near a HIP that are looked at in a tick, at most. */
 #define KNURL_MAX_CANDIDATES 32
@@ -20,7 +21,7 @@ typedef struct knurl_candidate {
     double previous[3];    /* the HIP at the last tick, shape's frame */
     knurl_contact_state contact;
     knurl_grating_state grating;
-    knurl_guard_contact guard;
+    knurl_wall_state guard;
     double proxy[3]; /* of the latest contact, scene axes */
     double normal[3];
     float box[6];     /* scene axes; outside it there is no contact */

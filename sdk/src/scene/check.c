@@ -79,9 +79,9 @@ static void check_texture(const inspection *on, double stiffness) {
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
-    knurl_guard_wall wall;
+    knurl_wall wall;
     memset(check, 0, sizeof *check);
-    knurl_guard_wall_init(&wall, m, 0.0, NULL);
+    knurl_wall_init(&wall, m, 0.0, NULL);
     knurl_guard_clamp(&hip->guard, &wall);
     check->stiffness = m->stiffness * on.bounds->scale;
     check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);

@@ -100,7 +100,7 @@ static int begin_contact(update *u, knurl_candidate *candidate) {
         return 0;
     }
     memset(&candidate->grating, 0, sizeof candidate->grating);
-    knurl_guard_begin_contact(&candidate->guard, over->given ? over->felt : 0.0);
+    knurl_wall_begin(&candidate->guard, over->given ? over->felt : 0.0);
     return 1;
 }
 
@@ -112,7 +112,7 @@ static const knurl_surface_data *find_surface(const update *u, knurl_candidate *
     if (!surface || (candidate->in_contact && candidate->generation != surface->generation)) {
         end_contact(candidate);
         candidate->has_previous = 0;
-        knurl_guard_end_contact(&candidate->guard);
+        knurl_wall_end(&candidate->guard);
     }
     if (surface && candidate->generation != surface->generation) {
         candidate->generation = surface->generation;
@@ -141,7 +141,7 @@ static void update_candidate(update *u, knurl_candidate *candidate) {
         held = knurl_shape_contact(&a->surface->shape, &query, &candidate->contact, &a->contact);
     }
     if (!held) {
-        knurl_guard_end_contact(&candidate->guard);
+        knurl_wall_end(&candidate->guard);
         candidate->in_contact = 0;
         return;
     }

@@ -20,7 +20,7 @@ static void relative_velocity(const knurl_hip_motion *hip, const knurl_active_co
 
 /* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. */
 static void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
-                         const double coordinates[2], const knurl_guard_wall *wall, knurl_contact_force *out) {
+                         const double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
     knurl_grating_state *state = &c->candidate->grating;
     if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
@@ -45,7 +45,7 @@ static void play_grating(const knurl_hip_motion *hip, const knurl_active_contact
 }
 
 /* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
-static double normal_force(const knurl_guard_wall *wall, double outwards) {
+static double normal_force(const knurl_wall *wall, double outwards) {
     if (wall->felt >= wall->height) {
         return 0.0;
     }
@@ -55,7 +55,7 @@ static double normal_force(const knurl_guard_wall *wall, double outwards) {
 
 /* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
  * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
-static void friction_force(const knurl_active_contact *c, const knurl_guard_wall *wall, double tangential[3]) {
+static void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
     const double friction = c->record->material.friction;
     const double hold = wall->felt < 0.0 ? -friction * wall->felt : 0.0; /* m: the spring's length that it can hold */
     double *anchor = c->candidate->anchor;
@@ -72,7 +72,7 @@ static void friction_force(const knurl_active_contact *c, const knurl_guard_wall
     vec3_scale(wall->stiffness, stretch, tangential);
 }
 
-void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_guard_wall *wall,
+void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                      knurl_contact_force *out) {
     double over[3];
     double x[3];

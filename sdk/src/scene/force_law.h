@@ -21,7 +21,7 @@ typedef struct knurl_contact_force {
 } knurl_contact_force;
 
 /* The force of one contact. wall: as it is to be felt; gets its height. */
-void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *contact, knurl_guard_wall *wall,
+void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *contact, knurl_wall *wall,
                      knurl_contact_force *out) KNURL_NONBLOCKING;
 
 #endif

@@ -3,6 +3,7 @@
 #define KNURL_SRC_HIP_H
 
 #include "scene/contact_update.h"
+#include "scene/guard.h"
 #include "scene/snapshot.h"
 
 /* The list of candidates, which is long, comes last: at 1 kHz a tick finds all of this in a cold cache. */

@@ -72,10 +72,10 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
 /* From contacts to their force as it is sent, N, scene; returns its length. */
 static double sum_forces(knurl_hip *hip, const knurl_active_contact *contacts, uint32_t count, knurl_tick_output *out) {
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
-    knurl_guard_wall walls[KNURL_MAX_CONTACTS];
+    knurl_wall walls[KNURL_MAX_CONTACTS];
     for (uint32_t i = 0; i < count; i++) {
         const knurl_active_contact *c = &contacts[i];
-        knurl_guard_wall_init(&walls[i], &c->record->material, c->contact.z, &c->candidate->guard);
+        knurl_wall_init(&walls[i], &c->record->material, c->contact.z, &c->candidate->guard);
     }
     knurl_guard_before(&hip->guard, walls, count, &out->flags);
     for (uint32_t i = 0; i < count; i++) {

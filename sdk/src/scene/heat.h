@@ -1,0 +1,32 @@
+/* How warm a device's motors are, and what force that leaves. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HEAT_H
+#define KNURL_SRC_HEAT_H
+
+#include "scene/hip_facts.h"
+
+#include <knurl/base.h>
+
+/* How warm motors are that are driven with a force: theta' = ((F/continuous)^2 - theta)/time. */
+typedef struct knurl_heat {
+    double theta;     /* 0 cold to 1: as warm as the continuous force makes them in the long run */
+    double share;     /* of the way to where the force takes theta, a tick */
+    double per_force; /* 1/continuous^2 */
+    double continuous;
+    double excess; /* (max_force/continuous)^2 - 1; 0: there is no limit but max_force */
+    double max_force;
+} knurl_heat;
+
+void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts);
+
+/* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
+double knurl_heat_limit(const knurl_heat *heat) KNURL_NONBLOCKING;
+
+/* What was played for a tick, N^2, or for so many of them, >= 0. */
+void knurl_heat_add(knurl_heat *heat, double force2) KNURL_NONBLOCKING;
+void knurl_heat_hold(knurl_heat *heat, double force2, double ticks) KNURL_NONBLOCKING;
+
+/* The same heat whatever the continuous force: N^2, of the force that makes the motors as warm in the long run. */
+double knurl_heat_get(const knurl_heat *heat) KNURL_NONBLOCKING;
+void knurl_heat_set(knurl_heat *heat, double square) KNURL_NONBLOCKING;
+
+#endif

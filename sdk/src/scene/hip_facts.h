@@ -1,0 +1,17 @@
+/* What a device can do, as far as its HIP cares. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HIP_FACTS_H
+#define KNURL_SRC_HIP_FACTS_H
+
+/* SI, device frame. */
+typedef struct knurl_hip_facts {
+    double rate;
+    double resolution;
+    double max_force;
+    double continuous_force;
+    double heat_time;
+    double viscous;
+    double delay;
+    double max_stiffness;
+} knurl_hip_facts;
+
+#endif

@@ -1,0 +1,127 @@
+/* Swings in and out of a wall that neither a hand nor a texture makes. SPDX-License-Identifier: MIT */
+#include "scene/passivity.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The passivity controller's. What a runaway is: the HIP swings in and out of a wall, faster than hands do, time after
+ * time as far as before, and no texture moves it so. An account of the energy that a sampled wall gives cannot tell:
+ * near the limit what it gives is what friction and hand take, whose parts nobody knows. Tuned in the stability
+ * laboratory on flat walls and gratings within the limits of the presets touch and falcon (7064 cells: the study's maps
+ * and a finer grid, 127 of them runaways, of 12 to 25 Hz). On flat walls a row came to 24 mm^2 in all 37 that ran away
+ * and in none of 861 that rested; on gratings in 83 of 90, and in 32 of 6013 that were no runaways by the laboratory's
+ * millimetre, of which 30 shook by more than half of it. */
+#define TURN    0.2e-3 /* m: what the depth comes back by is a turn: four quanta */
+#define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by 0.84 mm and more, arrivals soon by less */
+#define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
+#define FORGETS 0.985  /* of the largest swing, a swing: what was large on arrival and keeps dying has no row */
+#define AGAIN   0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
+#define ROW     4      /* swings: as many may be the arrival of a hand */
+#define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
+
+/* A texture has not made a swing of which it moves no more than this share; nor one in which it crosses 0 more often
+ * than it would if the HIP bounced off every other ridge: twice, or four times in and out again. */
+#define TEXTURE_SHARE 0.25
+#define TEXTURE_SLOW  2
+
+/* What an alarm does: how much of the passive stiffness it leaves, how fast (s; a millisecond would be felt as a blow),
+ * and how long a HIP must be off all walls for them to be hard again (s): a hand that bounces is not off. */
+#define SOFT_SHARE     0.8
+#define SOFTENING_TIME 0.02
+#define OFF_TIME       0.5
+
+/* N s/m: the hand that the controller counts on: it hardly holds. Less than KNURL_LIGHTEST_HAND: a check at load must
+ * not cry wolf, and a controller must not overlook one. */
+#define LOOSE_HAND 0.5
+
+/* Below `safe` nothing runs away: b and the hand take what a spring gives that lags behind (Colgate and Schenkel
+ * 1997). Dry friction helps a hand that is still, and hardly one that slides: it is not counted on. */
+void knurl_passivity_init(knurl_passivity *p, int watches, const knurl_hip_facts *facts, double scale) {
+    memset(p, 0, sizeof *p);
+    p->safe = watches ? (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale) : HUGE_VAL;
+    p->unit = scale;
+    p->longest = PERIOD * facts->rate;
+    p->softening = 1.0 / (1.0 + SOFTENING_TIME * facts->rate);
+    p->off_most = OFF_TIME * facts->rate;
+}
+
+static void end_row(knurl_passivity *p) {
+    p->largest = p->squares = 0.0;
+    p->row = 0;
+}
+
+/* The depth has turned: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
+ * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
+static void turn(knurl_passivity *p) {
+    const double swing = fabs(p->farthest - p->extreme);
+    const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
+    const int asked = slow && p->moved > TEXTURE_SHARE * swing;
+    if (asked || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
+        end_row(p);
+    } else {
+        const double largest = FORGETS * p->largest;
+        p->largest = swing > largest ? swing : largest;
+        if (swing < AGAIN * p->largest) { /* begins anew, but for what may have been chance */
+            p->squares *= 0.5;
+            p->row = 0;
+        }
+        p->squares += swing * swing;
+        p->alarmed = ++p->row >= ROW && p->squares > ENOUGH * p->unit * p->unit;
+        p->off = 0.0;
+    }
+    p->extreme = p->farthest;
+    p->farthest = p->depth;
+    p->outwards = !p->outwards;
+    p->before = p->ticks;
+    p->crossed = p->crossings;
+    p->ticks = p->crossings = 0;
+    p->moved = 0.0;
+}
+
+/* From a tick to the next one without an alarm. */
+static void follow_depth(knurl_passivity *p) {
+    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    p->ticks++;
+    if (beyond > 0.0) {
+        p->farthest = p->depth;
+    } else if (-beyond > TURN * p->unit) {
+        turn(p);
+    } else if (p->ticks > p->longest) { /* rests, or is off */
+        end_row(p);
+        p->ticks = (int32_t)p->longest;
+        p->crossings = 0;
+        p->moved = 0.0;
+        p->busy = p->depth > 0.0;
+    }
+}
+
+void knurl_passivity_follow(knurl_passivity *p) {
+    if (p->alarmed) {
+        p->crossings = 0;
+        p->soft += p->softening * (1.0 - p->soft);
+        p->off += 1.0;
+        if (p->off > p->off_most) {
+            end_row(p);
+            p->soft = 0.0;
+            p->alarmed = 0;
+        }
+    } else {
+        follow_depth(p);
+    }
+    p->depth = 0.0;
+}
+
+void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags) {
+    const double depth = -wall->felt;
+    p->depth = depth > p->depth ? depth : p->depth;
+    p->busy = 1;
+    if (p->alarmed && depth > 0.0) {
+        const double most = SOFT_SHARE * p->safe;
+        p->off = 0.0;
+        wall->damping *= 1.0 - p->soft;
+        if (wall->stiffness > most) { /* and its texture weaker: its full steps would throw a hand off a soft wall */
+            wall->stiffness += p->soft * (most - wall->stiffness);
+        }
+        *flags |= KNURL_TICK_PASSIVITY;
+    }
+}
