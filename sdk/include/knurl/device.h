@@ -60,6 +60,7 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
     X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \
     X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing", "")       \
+    X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: nobody zeroes the force if this one is", "") \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
@@ -158,10 +159,15 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * - rawhid, rawhid:VID:PID: the first one that is known, or which one (hexadecimal). ?geometry=PATH: a file that says
  *   how it is built, see assets/devices. ?home=1: it rests in its home pose now.
  *
+ * falcon and rawhid, on Linux: ?guard=1 starts a small process of its own session that holds the device's handle too,
+ * and sends zero force when this process is gone (SIGKILL, _exit()) or has given no sign of life for 50 ms (SIGSTOP, a
+ * machine that stands still). It ends with this process, or when the device is closed. Should it be gone itself, that
+ * is an event (unguarded).
+ *
  * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no
- * such driver, or a library that it needs cannot be loaded), KNURL_ERROR_DEVICE_LOST (none is connected, or it does not
- * answer), KNURL_ERROR_SYSTEM (it is there but may not be used: permissions), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a
- * firmware or geometry file), KNURL_ERROR_MEMORY. [game thread] */
+ * such driver, a library that it needs cannot be loaded, or the device cannot be guarded), KNURL_ERROR_DEVICE_LOST
+ * (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it is there but may not be used: permissions),
+ * KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
 
 /** Makes a device of a caller's functions. Its positions are checked as any device's: what is not finite, or moves

@@ -61,6 +61,17 @@ static void judge(knurl_link *link, int outcome, int64_t now) {
     }
 }
 
+/* A guard takes silence for an end. */
+static void tell_guard(knurl_link *link, int64_t now) {
+    if (link->guard && !link->is_unguarded && now - link->told_guard_at >= KNURL_GUARD_SIGN_MS * (int64_t)1000000) {
+        link->told_guard_at = now;
+        if (!knurl_guard_process_tell(link->guard)) {
+            link->is_unguarded = 1;
+            knurl_events_report(&link->device->events, KNURL_FAULT_UNGUARDED, 0.0);
+        }
+    }
+}
+
 /* One exchange. Returns 0 when there will be no further one. */
 static int turn(knurl_link *link) {
     double force[3];
@@ -76,6 +87,7 @@ static int turn(knurl_link *link) {
     }
     knurl_device_after_force(link->device, force);
     knurl_count_up(&link->turns);
+    tell_guard(link, now);
     judge(link, outcome, now);
     return !knurl_load_relaxed(&link->lost);
 }
@@ -110,7 +122,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     knurl_mailbox_init(&link->positions);
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);
-    link->has_sample = link->is_silent = link->is_late = 0;
+    link->has_sample = link->is_silent = link->is_late = link->is_unguarded = 0;
     link->stale = link->watched = link->stuck = 0;
     link->turns = 0;
     knurl_store_release(&link->stop, 0u);

@@ -3,6 +3,7 @@
 #ifndef KNURL_SRC_LINK_H
 #define KNURL_SRC_LINK_H
 
+#include "base/guard_process.h"
 #include "base/histogram.h"
 #include "base/mailbox.h"
 #include "base/system.h"
@@ -30,7 +31,8 @@ typedef struct knurl_link {
     knurl_link_exchange exchange;
     double native_rate; /* Hz: exchanges are no more frequent than that */
     knurl_thread *thread;
-    uint64_t patience; /* reads without a new position after which there is none */
+    knurl_guard_process *guard; /* null: none; the driver's, which starts it before and stops it after the thread */
+    uint64_t patience;          /* reads without a new position after which there is none */
     /* to the haptic thread */
     knurl_mailbox positions;
     knurl_device_sample samples[3];
@@ -46,7 +48,9 @@ typedef struct knurl_link {
     } forces[3];
     /* the I/O thread's */
     int64_t heard_at;
-    uint32_t is_late; /* reported */
+    int64_t told_guard_at;
+    uint32_t is_late;      /* reported */
+    uint32_t is_unguarded; /* reported */
     /* atomics */
     uint32_t is_silent; /* reported, by either thread */
     uint32_t stop;

@@ -48,3 +48,11 @@ knurl_result knurl_uri_parse(const char *driver, const char *options, char *name
     }
     return result;
 }
+
+knurl_result knurl_uri_flag(const char *driver, const char *key, const char *value, uint32_t *flag) {
+    if (value[0] && strcmp(value, "0") != 0 && strcmp(value, "1") != 0) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device '%s': %s: expected 0 or 1, found '%.100s'", driver, key, value);
+    }
+    *flag = value[0] == '1';
+    return KNURL_OK;
+}

@@ -19,4 +19,7 @@ typedef struct knurl_uri_key {
 knurl_result knurl_uri_parse(const char *driver, const char *options, char *name, const knurl_uri_key *keys,
                              size_t key_count);
 
+/* A key's value that is "0", "1" or "" (0). Errors: KNURL_ERROR_ARGUMENT. */
+knurl_result knurl_uri_flag(const char *driver, const char *key, const char *value, uint32_t *flag);
+
 #endif

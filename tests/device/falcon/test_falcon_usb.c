@@ -3,7 +3,7 @@
 #include "support/process.h"
 
 #include "base/system.h"
-#include "device/driver.h"
+#include "device/falcon/transport.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -192,5 +192,43 @@ TEST(a_device_that_may_not_be_used_names_the_rule) {
     check_message("sdk/udev/70-knurl.rules");
     check_message("udevadm trigger");
     assert_non_null(strstr(listing.reason, "sdk/udev/70-knurl.rules"));
+    falcon_emulated_stop();
+}
+
+/* libusb tells no descriptors of devices: that the one found is the device's. */
+TEST(what_a_guard_gets_is_the_devices_own_descriptor) {
+    falcon_emulation setup = {0};
+    knurl_falcon_transport transport;
+    struct stat node;
+    struct stat shared;
+    int32_t endpoint = 0;
+    plug_in(&setup);
+    assert_int_equal(knurl_falcon_usb.open(NULL, &transport), KNURL_OK);
+    const int fd = transport.share(transport.self, &endpoint);
+    assert_true(fd > 2);
+    assert_int_equal(fstat(fd, &shared), 0);
+    assert_int_equal(stat(falcon_emulated_node(), &node), 0);
+    assert_true(shared.st_ino == node.st_ino && shared.st_dev == node.st_dev);
+    assert_int_equal(endpoint, 2);
+    (void)close(fd);
+    transport.close(transport.self);
+    falcon_emulated_stop();
+}
+
+/* Its transfers are for the kernel, which is not here; see test_guard_process.c. */
+TEST(with_a_guard_it_works_and_is_free_again_when_it_is_closed) {
+    falcon_emulation setup = {0};
+    plug_in(&setup);
+    for (int i = 0; i < 3; i++) {
+        knurl_device *device = NULL;
+        int lost = 0;
+        if (knurl_device_open("falcon:?guard=1", &device)) {
+            fail_msg("%s", knurl_error_message());
+        }
+        assert_true(run(device, 300, 400.0, &lost) > 50);
+        assert_int_equal(lost, 0);
+        assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 0);
+        knurl_device_close(device);
+    }
     falcon_emulated_stop();
 }

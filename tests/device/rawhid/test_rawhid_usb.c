@@ -6,6 +6,7 @@
 #include "device/driver.h"
 #include "device/rawhid/emulated_hid.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -238,4 +239,45 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
     assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
+}
+
+/* In a child, until it is killed. */
+static void push_for_ever(void) {
+    static const double force[3] = {0.0, 0.5, 0.0};
+    knurl_device *device = NULL;
+    if (knurl_device_open("rawhid:?guard=1", &device)) {
+        print_error("%s\n", knurl_error_message());
+        _exit(2);
+    }
+    hold(device, force, 20.0);
+    _exit(3);
+}
+
+/* The guard writes to the node itself: through a second descriptor of it, for hidapi keeps its own to itself. */
+TEST_WITH(a_guard_zeroes_the_currents_of_a_host_that_is_killed_or_stands_still, set_up, tear_down) {
+    for (int number = SIGKILL, k = 0; k < 2; number = SIGSTOP, k++) {
+        int status = 0;
+        if (k == 0) {
+            plug(0xffab, 64);
+        }
+        const pid_t child = fork();
+        if (child == 0) {
+            push_for_ever();
+        }
+        for (int i = 0; i < 5000 && limp_since() >= 0.0; i++) {
+            sleep_s(0.001);
+        }
+        assert_true(limp_since() < 0.0);
+        sleep_s(0.05);
+        const double killed = 1e-9 * (double)knurl_system_now_ns();
+        assert_int_equal(kill(child, number), 0);
+        for (int i = 0; i < 400 && limp_since() < killed; i++) {
+            sleep_s(0.001);
+        }
+        print_message("signal %d: zero after %.1f ms\n", number, 1e3 * (limp_since() - killed));
+        assert_true(limp_since() >= killed && limp_since() - killed < 0.1); /* its firmware alone: 0.5 s */
+        assert_int_equal(kill(child, SIGKILL), 0);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+    }
 }

@@ -75,6 +75,14 @@ static void put_in_hand(simulated *d) {
     d->limp_since = now_ns();
 }
 
+static stub_told *mirror;
+
+void stub_mirror(stub_told *to) {
+    lock();
+    mirror = to;
+    unlock();
+}
+
 static void tell_motors(simulated *d, const double force[3]) {
     const double length = sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
     if (!isfinite(length)) {
@@ -84,6 +92,10 @@ static void tell_motors(simulated *d, const double force[3]) {
     d->answers[STUB_TOLD] = length;
     d->answers[STUB_TOLD_MOST] = fmax(length, d->answers[STUB_TOLD_MOST]);
     d->limp_since = length > 0.0 ? 0 : d->limp_since ? d->limp_since : now_ns();
+    if (mirror && d == &hd.devices[STUB_DEFAULT]) {
+        mirror->newton = length;
+        __atomic_store_n(&mirror->limp_since, d->limp_since, __ATOMIC_RELEASE);
+    }
     knurl_plant_write(&d->plant, force);
 }
 

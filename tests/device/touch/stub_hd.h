@@ -51,10 +51,17 @@ enum {
     STUB_QUESTIONS
 };
 
+/** What the default device's motors are told, for whoever outlives the process. */
+typedef struct stub_told {
+    double newton;
+    int64_t limp_since; /* as stub_limp_function */
+} stub_told;
+
 /** The library's functions for tests; STUB_FUNCTIONS(X): type, name. */
 typedef void (*stub_set_function)(int device, int setting, double value);
 typedef double (*stub_ask_function)(int device, int question);
 typedef int64_t (*stub_limp_function)(int device); /* ns on the monotonic clock since when no force; 0: there is one */
+typedef void (*stub_mirror_function)(stub_told *to); /* kept: what is told is written there as well */
 typedef void (*stub_turn_function)(uint64_t turns);
 typedef void (*stub_reset_function)(void); /* as new; nothing may be in use */
 

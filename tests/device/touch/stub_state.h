@@ -69,6 +69,7 @@ HD_FUNCTIONS(PROTOTYPE)
 EXPORT void stub_set(int device, int setting, double value);
 EXPORT double stub_ask(int device, int question);
 EXPORT int64_t stub_limp_since(int device);
+EXPORT void stub_mirror(stub_told *to);
 EXPORT void stub_turn(uint64_t turns);
 EXPORT void stub_reset(void);
 

@@ -40,6 +40,7 @@ typedef struct falcon {
     char firmware[KNURL_URI_ROOM]; /* "": none is known */
     double gain;
     uint32_t is_gain_set; /* 1: by whoever opened it */
+    uint32_t wants_guard;
     knurl_link link;
     /* the I/O thread's */
     knurl_falcon_decoder decoder;
@@ -55,6 +56,7 @@ typedef struct falcon {
     uint32_t is_unhomed;
     uint32_t is_nowhere;
     int64_t heard_at;
+    int64_t exchanged_at;
     uint64_t bad_bytes; /* atomic */
 } falcon;
 
@@ -169,11 +171,23 @@ static int locate(falcon *f, knurl_device_sample *sample) {
     return KNURL_LINK_POSITION;
 }
 
+/* Whoever has been silent for so long may find the answers to a guard's frames among those to its own. */
+static void mind_the_guard(falcon *f, int64_t now) {
+    const int64_t silence = KNURL_GUARD_SILENCE_MS * (int64_t)1000000;
+    if (f->link.guard && f->exchanged_at > 0 && now - f->exchanged_at >= silence) {
+        f->is_behind = 1;
+        f->owed = MOST_OWED;
+        f->heard_at = now;
+    }
+    f->exchanged_at = now;
+}
+
 /* A force out, a position in, or what there is of them. */
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     falcon *f = of(device);
     uint32_t frames = 0;
     const int64_t begin = knurl_system_now_ns();
+    mind_the_guard(f, begin);
     if (f->is_behind && begin - f->heard_at > QUIET_NS) { /* what has not come by now will not */
         f->is_behind = 0;
         f->owed = 0;
@@ -197,6 +211,27 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     return locate(f, sample);
 }
 
+/* Where it is wanted. */
+static knurl_result start_guard(falcon *f) {
+    static const int16_t none[3] = {0, 0, 0};
+    knurl_guard_order order = {0, KNURL_FALCON_FRAME_BYTES, {0}};
+    char why[256] = "its handle cannot be had";
+    if (!f->wants_guard) {
+        return KNURL_OK;
+    }
+    knurl_falcon_encode(none, KNURL_FALCON_HOMING | KNURL_FALCON_GREEN, order.bytes);
+    const int shared = f->transport.share ? f->transport.share(f->transport.self, &order.endpoint) : -1;
+    if (shared >= 0) {
+        f->link.guard = knurl_guard_process_start(shared, &order, why, sizeof why);
+    }
+    return f->link.guard ? KNURL_OK : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'falcon': guard: %s", why);
+}
+
+static void stop_guard(falcon *f) {
+    knurl_guard_process_stop(f->link.guard);
+    f->link.guard = NULL;
+}
+
 /* Opens the device, has it answer, and starts the thread; closes again what it has opened where that fails. */
 static knurl_result connect(falcon *f) {
     knurl_falcon_transport transport = {0};
@@ -213,9 +248,12 @@ static knurl_result connect(falcon *f) {
         f->told_bad = f->unanswering = 0;
         f->is_corrupt = f->is_unhomed = f->is_nowhere = 0;
         f->heard_at = knurl_system_now_ns();
-        result = knurl_link_open(&f->link, &f->base, exchange, NATIVE_RATE);
+        f->exchanged_at = 0;
+        result = start_guard(f);
+        result = result ? result : knurl_link_open(&f->link, &f->base, exchange, NATIVE_RATE);
     }
     if (result) {
+        stop_guard(f);
         transport.close(transport.self);
         memset(&f->transport, 0, sizeof f->transport);
     }
@@ -224,6 +262,7 @@ static knurl_result connect(falcon *f) {
 
 static void disconnect(falcon *f) {
     knurl_link_close(&f->link); /* its last frames carry no force */
+    stop_guard(f);
     if (f->transport.self) {
         f->transport.close(f->transport.self);
         memset(&f->transport, 0, sizeof f->transport);
@@ -248,9 +287,11 @@ static knurl_result set_gain(falcon *f, const char *text) {
 static knurl_result parse(const char *options, falcon *f) {
     char name[KNURL_URI_ROOM];
     char gain[KNURL_URI_ROOM];
+    char guard[KNURL_URI_ROOM];
     char *firmware = f->firmware;
-    const knurl_uri_key keys[] = {{"firmware", firmware}, {"gain", gain}};
+    const knurl_uri_key keys[] = {{"firmware", firmware}, {"gain", gain}, {"guard", guard}};
     knurl_result result = knurl_uri_parse("falcon", options, name, keys, sizeof keys / sizeof *keys);
+    result = result ? result : knurl_uri_flag("falcon", "guard", guard, &f->wants_guard);
     if (!result && name[0]) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "device 'falcon': expected 'falcon' (the first one that is found) or "

@@ -26,6 +26,9 @@ typedef struct knurl_falcon_transport {
     /* The oldest packet that has not been read yet. */
     int (*read)(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms);
     void (*close)(void *self);
+    /* For the guard process: a descriptor to be closed by the caller, -1 where there is none, and the USB endpoint that
+     * frames go to (0: by write()). Null: cannot be guarded. */
+    int (*share)(void *self, int32_t *endpoint);
 } knurl_falcon_transport;
 
 /* Where Falcons are found. */

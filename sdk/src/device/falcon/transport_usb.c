@@ -27,6 +27,10 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #include <libusb.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <fcntl.h>
+#include <poll.h>
+#endif
 
 #define VENDOR       0x0403
 #define PRODUCT      0xcb48
@@ -46,9 +50,11 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     X(control_transfer)                                                                                                \
     X(exit)                                                                                                            \
     X(free_device_list)                                                                                                \
+    X(free_pollfds)                                                                                                    \
     X(free_transfer)                                                                                                   \
     X(get_device_descriptor)                                                                                           \
     X(get_device_list)                                                                                                 \
+    X(get_pollfds)                                                                                                     \
     X(handle_events_timeout_completed)                                                                                 \
     X(init)                                                                                                            \
     X(open)                                                                                                            \
@@ -346,6 +352,30 @@ static knurl_result claim(usb *u) {
     return u->in && u->out ? KNURL_OK : refused("transfer", LIBUSB_ERROR_NO_MEM);
 }
 
+#ifdef __linux__
+/* libusb tells no descriptor of a device, but those that it polls: of them a device's alone is polled for writing, and
+ * this context has one device. */
+static int usb_share(void *self, int32_t *endpoint) {
+    const usb *u = self;
+    const struct libusb_pollfd **polled = lib.get_pollfds(u->context);
+    int shared = -1;
+    for (size_t i = 0; polled && polled[i]; i++) {
+        if (polled[i]->events & POLLOUT) {
+            shared = fcntl(polled[i]->fd, F_DUPFD_CLOEXEC, 3);
+        }
+    }
+    lib.free_pollfds(polled);
+    *endpoint = END_OUT;
+    return shared;
+}
+#else
+static int usb_share(void *self, int32_t *endpoint) {
+    (void)self;
+    (void)endpoint;
+    return -1;
+}
+#endif
+
 static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     (void)user;
     char why[512];
@@ -365,7 +395,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
         }
         return result;
     }
-    const knurl_falcon_transport made = {u, usb_control, usb_write, usb_read, usb_close};
+    const knurl_falcon_transport made = {u, usb_control, usb_write, usb_read, usb_close, usb_share};
     *transport = made;
     return KNURL_OK;
 }

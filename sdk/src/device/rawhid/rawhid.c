@@ -31,6 +31,7 @@ typedef struct rawhid {
     size_t report_bytes;
     int16_t home[3];
     uint32_t home_on_open;
+    uint32_t wants_guard;
     /* the I/O thread's */
     double angles[3];
     uint32_t knows_angles;
@@ -201,14 +202,34 @@ static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
                       in->counts[1], in->counts[2]);
 }
 
+/* Where it is wanted. */
+static knurl_result start_guard(rawhid *r, const knurl_rawhid_found *found) {
+    static const int16_t none[3];
+    knurl_guard_order order = {0, 0, {0}};
+    char why[256] = "its handle cannot be had";
+    if (!r->wants_guard) {
+        return KNURL_OK;
+    }
+    order.size = (uint32_t)knurl_rawhid_put_currents(order.bytes, r->report_bytes, none);
+    const int shared = r->bus->share ? r->bus->share(r->bus->user, found) : -1;
+    if (shared >= 0) {
+        r->link.guard = knurl_guard_process_start(shared, &order, why, sizeof why);
+    }
+    return r->link.guard ? KNURL_OK
+                         : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid' (%04x:%04x): guard: %s", found->vendor,
+                                      found->product, why);
+}
+
 static void close_port(rawhid *r) {
+    knurl_guard_process_stop(r->link.guard);
+    r->link.guard = NULL;
     if (r->port.self) {
         r->port.close(r->port.self);
         r->port.self = NULL;
     }
 }
 
-static knurl_result open_port(rawhid *r) {
+static knurl_result open_port(rawhid *r, knurl_rawhid_found *chosen) {
     knurl_rawhid_found found;
     char why[256] = "";
     const knurl_result result = knurl_rawhid_choose(r->bus, &r->wanted, &found, &r->report_bytes);
@@ -222,6 +243,7 @@ static knurl_result open_port(rawhid *r) {
     }
     r->wanted.vendor = found.vendor; /* from now on it is this one that is meant */
     r->wanted.product = found.product;
+    *chosen = found;
     return KNURL_OK;
 }
 
@@ -229,8 +251,9 @@ static knurl_result open_port(rawhid *r) {
 static knurl_result connect(rawhid *r, int is_again) {
     knurl_rawhid_in in = {{0, 0, 0, 0, 0, 0}, 0};
     double angles[3];
+    knurl_rawhid_found found;
     r->knows_angles = r->is_corrupt = r->is_lost = r->strange = r->hold = 0;
-    knurl_result result = open_port(r);
+    knurl_result result = open_port(r, &found);
     if (result) {
         return result;
     }
@@ -240,6 +263,7 @@ static knurl_result connect(rawhid *r, int is_again) {
     if (!result && r->home_on_open && !(is_again && knurl_rawhid_is_pose(&r->arm, angles))) {
         result = home(r, &in);
     }
+    result = result ? result : start_guard(r, &found);
     result = result ? result : knurl_link_open(&r->link, &r->base, exchange, 1000.0);
     if (result) {
         close_port(r);
@@ -251,11 +275,12 @@ static knurl_result read_options(const char *options, rawhid *r) {
     char id[KNURL_URI_ROOM];
     char geometry[KNURL_URI_ROOM];
     char homing[KNURL_URI_ROOM];
-    const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}};
+    char guard[KNURL_URI_ROOM];
+    uint32_t homes = 0;
+    const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}, {"guard", guard}};
     knurl_result result = knurl_uri_parse("rawhid", options, id, keys, sizeof keys / sizeof *keys);
-    if (!result && homing[0] && strcmp(homing, "0") != 0 && strcmp(homing, "1") != 0) {
-        result = knurl_fail(KNURL_ERROR_ARGUMENT, "device 'rawhid': home: expected 0 or 1, found '%.100s'", homing);
-    }
+    result = result ? result : knurl_uri_flag("rawhid", "home", homing, &homes);
+    result = result ? result : knurl_uri_flag("rawhid", "guard", guard, &r->wants_guard);
     knurl_rawhid_geometry_init(&r->geometry);
     if (!result && geometry[0]) {
         result = knurl_rawhid_geometry_load(geometry, &r->geometry);
@@ -265,7 +290,7 @@ static knurl_result read_options(const char *options, rawhid *r) {
     for (int i = 0; i < 3; i++) {
         r->home[i] = (int16_t)r->geometry.home[i];
     }
-    r->home_on_open = homing[0] ? homing[0] == '1' : r->geometry.home_on_open > 0.0;
+    r->home_on_open = homing[0] ? homes : r->geometry.home_on_open > 0.0;
     return result;
 }
 

@@ -31,6 +31,9 @@ typedef struct knurl_rawhid_bus {
     size_t (*look)(void *user, uint16_t vendor, uint16_t product, knurl_rawhid_found *found, size_t capacity);
     /* Opens one of them: 1, or 0 and why. [not the haptic thread] */
     int (*open)(void *user, const knurl_rawhid_found *found, knurl_rawhid_port *port, char *why, size_t why_size);
+    /* For the guard process: a descriptor that takes reports by write(), to be closed by the caller, or -1. Null:
+     * cannot be guarded. [not the haptic thread] */
+    int (*share)(void *user, const knurl_rawhid_found *found);
 } knurl_rawhid_bus;
 
 /* The machine's own, by hidapi; null where that is missing: `why` says what helps. */

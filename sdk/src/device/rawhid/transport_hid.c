@@ -21,6 +21,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
 #include <string.h>
 #ifdef __linux__
 #include <errno.h>
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -193,13 +194,24 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     return device != NULL;
 }
 
+/* hidapi keeps its own descriptor to itself; a node may be opened more than once. */
+static int hid_share(void *user, const knurl_rawhid_found *found) {
+    (void)user;
+#ifdef __linux__
+    return open(found->path, O_WRONLY | O_CLOEXEC);
+#else
+    (void)found;
+    return -1;
+#endif
+}
+
 const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
     char reason[384];
     if (!borrow(reason, sizeof reason)) {
         (void)snprintf(why, why_size, "hidapi cannot be loaded: %s; install it (Debian: libhidapi-hidraw0)", reason);
         return NULL;
     }
-    static const knurl_rawhid_bus bus = {NULL, hid_look, hid_bus_open};
+    static const knurl_rawhid_bus bus = {NULL, hid_look, hid_bus_open, hid_share};
     return &bus;
 }
 

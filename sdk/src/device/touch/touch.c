@@ -74,8 +74,16 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
 static knurl_result touch_open(const char *options, knurl_device **device) {
     char name[KNURL_URI_ROOM];
     char library[KNURL_URI_ROOM];
-    const knurl_uri_key keys[] = {{"library", library}};
-    knurl_result result = knurl_uri_parse("touch", options, name, keys, 1);
+    char guard[KNURL_URI_ROOM];
+    uint32_t wants_guard = 0;
+    const knurl_uri_key keys[] = {{"library", library}, {"guard", guard}};
+    knurl_result result = knurl_uri_parse("touch", options, name, keys, 2);
+    result = result ? result : knurl_uri_flag("touch", "guard", guard, &wants_guard);
+    if (wants_guard) {
+        result = knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                            "device 'touch': guard: cannot: 3D Systems' library drives it from inside of this process, "
+                            "by a protocol that is not published");
+    }
     if (!result) {
         lock();
         result = open_locked(name, library, device);

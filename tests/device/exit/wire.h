@@ -1,0 +1,47 @@
+/* Devices at the end of a socket: the driver runs in a child that will be ended, the simulated device in the test,
+ * which lives on and sees what the device was told last. A socket stands for usbfs and hidraw because a guard inherits
+ * it as it would those, which no emulation in a process does. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_WIRE_H
+#define KNURL_TEST_WIRE_H
+
+#include "device/touch/stub_hd.h"
+
+#include <knurl/device.h>
+#include <pthread.h>
+
+/** What child and test share. */
+typedef struct wire_shared {
+    stub_told told;   /**< to the motors; written by the test, and for the Touch by the stub in the child */
+    int64_t ended_at; /**< ns: just before the child's end */
+} wire_shared;
+
+typedef struct wire_device wire_device;
+
+/** A kind of device. */
+typedef struct wire_kind {
+    const char *name;
+    /** The child's side: opens a device over `wire`. Null: knurl_error_message() says why. */
+    knurl_device *(*open)(int wire, wire_shared *shared, uint32_t guarded);
+    /** The test's side: a fresh simulated device; one message in, whether motors get a force, one message out (0:
+     * none). Null: it is in the child. */
+    void (*reset)(void);
+    size_t (*hear)(const uint8_t *bytes, size_t size, uint8_t *answer, int *has_force);
+    const char *cannot; /**< why it cannot be guarded; null: it can */
+} wire_kind;
+
+extern const wire_kind wire_kinds[];
+extern const size_t wire_kind_count;
+
+/** A simulated device on a thread of its own. */
+struct wire_device {
+    const wire_kind *kind;
+    wire_shared *shared;
+    int wire;
+    int is_closed; /**< atomic; 1: nobody holds the other end any more */
+    pthread_t thread;
+};
+
+void wire_start(wire_device *device, const wire_kind *kind, int wire, wire_shared *shared);
+void wire_join(wire_device *device);
+
+#endif
