@@ -60,7 +60,8 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
     X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \
     X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing", "")       \
-    X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: nobody zeroes the force if this one is", "") \
+    X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: when this one is killed, the force stays",   \
+      "")                                                                                                              \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 

@@ -110,7 +110,7 @@ knurl_guard_process *knurl_guard_process_start(int device, const knurl_guard_ord
         code = errno;
     }
     ends[1] = lift(ends[1]);
-    code = code ? code : start(ends, high, order);
+    code = code ? code : ends[0] >= 0 && ends[1] >= 0 ? start(ends, high, order) : EMFILE;
     close_one(ends[1]);
     close_one(high);
     if (!code && !is_there(ends[0])) {

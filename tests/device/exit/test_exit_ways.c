@@ -83,10 +83,14 @@ static int end_by(int how) {
     }
 }
 
+static int number_of(const char *argument) {
+    return (int)strtol(argument, NULL, 10);
+}
+
 static int be_a_child(char **arguments) {
-    const wire_kind *kind = &wire_kinds[atoi(arguments[0])];
-    const uint32_t guarded = (uint32_t)atoi(arguments[2]);
-    wire_shared *shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, atoi(arguments[4]), 0);
+    const wire_kind *kind = &wire_kinds[number_of(arguments[0])];
+    const uint32_t guarded = (uint32_t)number_of(arguments[2]);
+    wire_shared *shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, number_of(arguments[4]), 0);
     const struct rlimit none = {0, 0};
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;
@@ -98,7 +102,7 @@ static int be_a_child(char **arguments) {
         }
     }
     knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = kind->open(atoi(arguments[3]), shared, guarded);
+    desc.device = kind->open(number_of(arguments[3]), shared, guarded);
     desc.force_callback = push;
     if (!desc.device || knurl_device_zero_on_exit(0) || knurl_loop_create(&desc, &loop) || knurl_loop_start(loop)) {
         (void)fprintf(stderr, "child: %s\n", knurl_error_message());
@@ -109,7 +113,7 @@ static int be_a_child(char **arguments) {
         nap();
     }
     knurl_store_release(&shared->ended_at, knurl_system_now_ns());
-    return end_by(atoi(arguments[1]));
+    return end_by(number_of(arguments[1]));
 }
 
 /* --- the test --- */
@@ -172,16 +176,19 @@ static int is_pushing_again(pid_t child, const wire_shared *shared) {
 
 static outcome try_way(size_t kind, const struct way *way, int guarded) {
     outcome o;
-    int ends[2];
+    int ends[2] = {-1, -1};
     int status = 0;
     wire_device device;
     const int memory = memfd_create("exit_ways", 0);
     assert_true(memory >= 0 && ftruncate(memory, sizeof(wire_shared)) == 0);
     wire_shared *shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
-    assert_true(shared != MAP_FAILED && socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) == 0);
+    memset(&o, 0, sizeof o);
+    if (shared == MAP_FAILED || socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0) {
+        fail_msg("no memory or socket to be shared");
+        return o;
+    }
     (void)fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     shared->told.limp_since = 1;
-    memset(&o, 0, sizeof o);
     const pid_t child = start_child(kind, way->how, guarded, ends[1], memory);
     (void)close(ends[1]);
     (void)close(memory);

@@ -124,7 +124,7 @@ static void fake_close(void *self) {
 
 static knurl_result fake_open(void *user, knurl_falcon_transport *transport) {
     falcon_fake *fake = user;
-    const knurl_falcon_transport made = {fake, fake_control, fake_write, fake_read, fake_close};
+    const knurl_falcon_transport made = {fake, fake_control, fake_write, fake_read, fake_close, NULL};
     knurl_system_mutex_lock(&fake->lock);
     const int is_there = fake->fault != DOUBLE_UNPLUG;
     if (is_there && !fake->denied) {

@@ -1,10 +1,12 @@
 /* The Falcon's driver over the real libusb, on emulated USB. SPDX-License-Identifier: MIT */
 #include "falcon_emulated.h"
+#include "support/guard.h"
 #include "support/process.h"
 
 #include "base/system.h"
 #include "device/falcon/transport.h"
 
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -216,9 +218,11 @@ TEST(what_a_guard_gets_is_the_devices_own_descriptor) {
 }
 
 /* Its transfers are for the kernel, which is not here; see test_guard_process.c. */
-TEST(with_a_guard_it_works_and_is_free_again_when_it_is_closed) {
+TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_told) {
     falcon_emulation setup = {0};
+    struct stat node;
     plug_in(&setup);
+    assert_int_equal(stat(falcon_emulated_node(), &node), 0);
     for (int i = 0; i < 3; i++) {
         knurl_device *device = NULL;
         int lost = 0;
@@ -228,6 +232,11 @@ TEST(with_a_guard_it_works_and_is_free_again_when_it_is_closed) {
         assert_true(run(device, 300, 400.0, &lost) > 50);
         assert_int_equal(lost, 0);
         assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 0);
+        if (i == 2) {
+            assert_int_equal(kill(find_guard(node.st_ino), SIGKILL), 0);
+            assert_true(run(device, 200, 400.0, &lost) > 0);
+            assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 1);
+        }
         knurl_device_close(device);
     }
     falcon_emulated_stop();

@@ -126,7 +126,7 @@ static int bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhid_po
 }
 
 void fake_hid_init(fake_hid *hid, size_t report_bytes, const knurl_stroke_desc *stroke) {
-    const knurl_rawhid_bus bus = {hid, bus_look, bus_open};
+    const knurl_rawhid_bus bus = {hid, bus_look, bus_open, NULL};
     memset(hid, 0, sizeof *hid);
     knurl_system_mutex_init(&hid->mutex);
     hid_sim_init(&hid->sim, report_bytes, stroke);

@@ -548,7 +548,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "e734b990765bdfdb";
+        internal const string Interface = "4209b11ec10e9a27";
 
         internal const string Version = "0.1.0";
 
@@ -590,6 +590,7 @@ namespace Knurl
         internal const int KNURL_FAULT_HEARTBEAT = 9;
         internal const int KNURL_FAULT_REFUSED = 10;
         internal const int KNURL_FAULT_UNCALIBRATED = 11;
+        internal const int KNURL_FAULT_UNGUARDED = 12;
         internal const int KNURL_FAULT_RESUMED = 32;
         internal const int KNURL_FAULT_RECONNECTED = 33;
         internal const int KNURL_STROKE_LINE = 1;
