@@ -115,9 +115,9 @@ static void show(const sample *s) {
     for (int i = 0; i < PLATES; i++) {
         name = now.surface == s->plates[i] ? names[i] : name;
     }
-    printf("%sgrating %-6s  %4.0f mm/s  %4.0f Hz  force %4.2f N  events %llu  late ticks %llu%s", terminal ? "\r" : "",
+    printf("%sgrating %-6s  %4.0f mm/s  %4.0f Hz  force %4.2f N  half cycles %llu  late ticks %llu%s", terminal ? "\r" : "",
            name, 1e3 * length(now.hip_velocity), now.temporal_frequency, length(now.force),
-           (unsigned long long)counts.events, (unsigned long long)stats.overruns, terminal ? "  " : "\n");
+           (unsigned long long)counts.half_cycles_played, (unsigned long long)stats.overruns, terminal ? "  " : "\n");
     (void)fflush(stdout);
 }
 

@@ -38,6 +38,14 @@ static int in_reach(const knurl_scene *scene, const knurl_device_info *device, c
     return 1;
 }
 
+static void print_stretch(tool_json *json, const char *key, const double stretch[3]) {
+    json_open(json, key, '{');
+    json_number(json, "min", stretch[0]);
+    json_number(json, "mean", stretch[1]);
+    json_number(json, "max", stretch[2]);
+    json_close(json, '}');
+}
+
 static void print_surface(tool_json *json, const knurl_surface_info *info, int reachable) {
     json_open(json, NULL, '{');
     json_string(json, "name", info->name);
@@ -52,11 +60,8 @@ static void print_surface(tool_json *json, const knurl_surface_info *info, int r
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
     print_material(json, &info->material);
-    json_open(json, "stretch", '{');
-    json_number(json, "min", info->stretch[0]);
-    json_number(json, "mean", info->stretch[1]);
-    json_number(json, "max", info->stretch[2]);
-    json_close(json, '}');
+    print_stretch(json, "stretch", info->stretch);
+    print_stretch(json, "stretch_y", info->stretch_y);
     json_close(json, '}');
 }
 
@@ -117,6 +122,7 @@ int cmd_inspect(int argc, char **argv) {
     }
     tool_json json = {pretty, 0, 1};
     print_scene(&json, scene, &device, report.skipped);
+    tool_warn(scene);
     if (knurl_scene_surface_count(scene) == 0) {
         fprintf(stderr, "knurl: hint: %s: %s\n", path, hint);
     }

@@ -178,22 +178,6 @@ static knurl_result clamp(knurl_scene *scene) {
     return result ? result : knurl_scene_configure_hip(scene, 0, &desc);
 }
 
-/* A line for each limit of the device that a surface exceeds; after the loop has told the scene what its device is. */
-static void warn(const run *r) {
-    for (uint32_t i = 0; i < knurl_scene_surface_count(r->scene); i++) {
-        knurl_surface_check check;
-        knurl_surface_check_init(&check, sizeof check);
-        if (knurl_scene_check_surface(r->scene, 0, knurl_scene_surface_at(r->scene, i), &check)) {
-            continue;
-        }
-        for (char *line = check.message, *end; *line; line = end) {
-            end = line + strcspn(line, "\n");
-            fprintf(stderr, "knurl: warning: %.*s\n", (int)(end - line), line);
-            end += *end == '\n';
-        }
-    }
-}
-
 static int make_loop(run *r) {
     knurl_loop_desc desc;
     if (r->options.clamp && clamp(r->scene)) {
@@ -216,7 +200,7 @@ static int make_loop(run *r) {
     if (knurl_loop_create(&desc, &r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    warn(r);
+    tool_warn(r->scene); /* after the loop has told the scene what its device is */
     return TOOL_OK;
 }
 
@@ -304,6 +288,8 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "ticks", (double)stats->ticks);
     json_number(&json, "contact_s", (double)counts.contact_ticks / r->options.rate);
     json_number(&json, "events", (double)counts.events);
+    json_number(&json, "half_cycles_crossed", floor(counts.half_cycles_crossed));
+    json_number(&json, "half_cycles_played", (double)counts.half_cycles_played);
     json_number(&json, "overruns", (double)stats->overruns);
     json_number(&json, "watchdogs", (double)stats->watchdogs);
     json_number(&json, "absences", (double)stats->absences);

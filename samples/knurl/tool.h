@@ -4,7 +4,7 @@
 
 #include "out.h"
 
-#include <knurl/vibration.h>
+#include <knurl/scene.h>
 
 #include <stddef.h>
 #include <stdint.h>
@@ -64,6 +64,9 @@ void json_number(tool_json *json, const char *key, double value);
 void json_flag(tool_json *json, const char *key, int value);
 void json_string(tool_json *json, const char *key, const char *value);
 void json_end(tool_json *json); /* the last newline */
+
+/* A line on stderr for each limit of HIP 0's device that a surface exceeds. */
+void tool_warn(const knurl_scene *scene);
 
 /* --- CSV input (csv_in.c) --- */
 

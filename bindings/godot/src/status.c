@@ -52,6 +52,8 @@ static void tell_hip(const knurl_scene *scene, void *to) {
     (void)knurl_scene_get_tick(scene, 0, NULL, &counts);
     whole(to, "contact_ticks", counts.contact_ticks);
     whole(to, "events", counts.events);
+    number(to, "half_cycles_crossed", counts.half_cycles_crossed);
+    whole(to, "half_cycles_played", counts.half_cycles_played);
     whole(to, "force_limits", counts.force_limits);
     whole(to, "frequency_saturations", counts.frequency_saturations);
     whole(to, "not_finite", counts.not_finite);

@@ -52,6 +52,8 @@ typedef struct knurl_grating_state {
     double held;         /**< LOCKED: the position behind its hysteresis, m */
     int32_t direction;   /**< LOCKED: +1 or -1; 0 before the first tick */
     int32_t moving;      /**< S2: an event was played, so the deadband is halved; LOCKED: events follow one another */
+    int32_t sign;        /**< of the latest height that was not 0: +1 or -1; 0: there was none */
+    uint32_t reserved;   /**< 0 */
 } knurl_grating_state;
 
 /** What a grating does in one tick. */
@@ -61,7 +63,8 @@ typedef struct knurl_grating_output {
     double temporal_frequency; /**< f_t = max(fsx |vx|, fsy |vy|): Hz, as the motion asks for it, unclamped */
     int64_t event;             /**< 0, 1, ...: which event plays since the state was zeroed, or KNURL_NO_EVENT */
     uint32_t saturated;        /**< 1: f_t is above f_h/2, which no method can render */
-    uint32_t reserved;         /**< 0 */
+    uint32_t turned;           /**< 1: the height changed its sign with this tick (a height of 0 in between, where S2
+                                    is idle, does not count): the next half cycle of the square wave begins */
 } knurl_grating_output;
 
 /** Checks a grating once, so that its steps need not. method KNURL_METHOD_DEFAULT is resolved to KNURL_LOCKED in place.

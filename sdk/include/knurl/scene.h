@@ -127,14 +127,19 @@ typedef struct knurl_surface_info {
     double anchor[3];             /**< a point on the surface near the middle of its bounds, scene, m */
     double anchor_x[3];           /**< unit, scene: the grating's x at the anchor */
     double anchor_normal[3];      /**< unit, scene: the outward normal at the anchor */
-    double anchor_reach[4];       /**< m from the anchor to the bounds' edge along +x, -x, +y, -y */
-    double stretch[3];            /**< min, mean, max of d(surface coordinate)/d(metres travelled) along x; 1: true */
+    double anchor_reach[4];       /**< m from the anchor straight on along +x, -x, +y, -y to the edge of the bounds: how
+                                       far a flat surface goes at most. Of a curved one it says nothing: the straight
+                                       line leaves it, and the bounds may end where it begins. See
+                                       knurl_fake_lay_stroke() */
+    double stretch[3];            /**< min, mean, max of d(surface coordinate)/d(metres travelled) along x, before
+                                       `orientation` turns it; 1: true. S1 and LOCKED feel fs times it */
     knurl_material_desc material; /**< as felt: method resolved */
     const char *why;              /**< why this model, in a sentence; static */
     double model_error;           /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;      /**< triangles left out because another has the same corners, facing the other way */
     uint32_t reserved;            /**< 0 */
     double axis[3];               /**< unit, the surface's frame: the axis that was given; 0 without one */
+    double stretch_y[3];          /**< as stretch, along y */
 } knurl_surface_info;
 
 /** What a device says at one tick. */
@@ -201,6 +206,11 @@ typedef struct knurl_hip_counts {
     double force_max;               /**< N, longest force played */
     double heat; /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
                       1 only with KNURL_UNGUARDED_HEAT. A loop's HIP begins with its device's */
+    double half_cycles_crossed;     /**< ridges and grooves that the HIP passed, with every method and not rounded: the
+                                         sum of 2 f_t / f_h over all touched surfaces' ticks (Eq. 12: a stroke of L
+                                         metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
+                                         of S1 and S2 in metres; without a grating none */
+    uint64_t half_cycles_played;    /**< half cycles that began after others: sign changes of the rendered heights */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -287,8 +297,13 @@ enum {
     KNURL_LIMIT_STIFFNESS = 2, /**< K s above the device's max_stiffness */
     KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
     KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
-    KNURL_LIMIT_PERIOD = 16    /**< ridges finer than two of the device's position quanta */
+    KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
+    KNURL_LIMIT_STRETCH = 32   /**< somewhere S1 or LOCKED feel more than KNURL_STRETCH_MAX times the ridges a metre that
+                                    the material says, or fewer than one in so many: uneven uvs */
 };
+
+/** A factor that hands can tell, and unwrapped uvs can keep: an octave. */
+#define KNURL_STRETCH_MAX 2.0
 
 /** What a device makes of a surface. An output: set struct_size with knurl_surface_check_init() first. */
 typedef struct knurl_surface_check {

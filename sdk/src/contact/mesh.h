@@ -47,7 +47,7 @@ typedef struct knurl_mesh {
     int32_t has_axis;        /* 1: x runs along this axis, not by tangents or uvs */
     double axis[3];          /* unit */
     double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
-    double stretch_u[3];     /* min, mean, max over area of su / |dP/du|; 1 without uvs */
+    double stretch[2][3];    /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; 1 without uvs */
 } knurl_mesh;
 
 /* What triangle-relative geometry a contact needs. */

@@ -54,35 +54,44 @@ static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], dou
     return vec3_length(du) > 0.0 && vec3_length(dv) > 0.0;
 }
 
+/* Lengths of dP/du or of dP/dv over the area that has been looked at. */
+typedef struct length_sums {
+    double sum;
+    double inverse;
+    double shortest, longest;
+} length_sums;
+
+static void add_length(length_sums *sums, double area, double length) {
+    sums->sum += area * length;
+    sums->inverse += area / length;
+    sums->shortest = fmin(sums->shortest, length);
+    sums->longest = fmax(sums->longest, length);
+}
+
 /* Area-weighted means of |dP/du|, |dP/dv|, and how far the uvs stretch from them. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     double area = 0.0;
-    double sums[2] = {0.0, 0.0};
-    double inverse_sum = 0.0;
-    double shortest = HUGE_VAL;
-    double longest = 0.0;
+    length_sums sums[2] = {{0.0, 0.0, HUGE_VAL, 0.0}, {0.0, 0.0, HUGE_VAL, 0.0}};
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         double du[3];
         double dv[3];
         knurl_triangle t;
         if (uv_frame(mesh, i, du, dv)) {
             knurl_mesh_triangle(mesh, i, &t);
-            const double length = vec3_length(du);
             area += t.area2;
-            sums[0] += t.area2 * length;
-            sums[1] += t.area2 * vec3_length(dv);
-            inverse_sum += t.area2 / length;
-            shortest = length < shortest ? length : shortest;
-            longest = length > longest ? length : longest;
+            add_length(&sums[0], t.area2, vec3_length(du));
+            add_length(&sums[1], t.area2, vec3_length(dv));
         }
     }
-    mesh->stretch_u[0] = mesh->stretch_u[1] = mesh->stretch_u[2] = 1.0;
-    if (area > 0.0) {
-        mesh->uv_scale[0] = sums[0] / area;
-        mesh->uv_scale[1] = sums[1] / area;
-        mesh->stretch_u[0] = mesh->uv_scale[0] / longest;
-        mesh->stretch_u[1] = mesh->uv_scale[0] * inverse_sum / area;
-        mesh->stretch_u[2] = mesh->uv_scale[0] / shortest;
+    for (int i = 0; i < 2; i++) {
+        double *stretch = mesh->stretch[i];
+        stretch[0] = stretch[1] = stretch[2] = 1.0;
+        if (area > 0.0) {
+            mesh->uv_scale[i] = sums[i].sum / area;
+            stretch[0] = mesh->uv_scale[i] / sums[i].longest;
+            stretch[1] = mesh->uv_scale[i] * sums[i].inverse / area;
+            stretch[2] = mesh->uv_scale[i] / sums[i].shortest;
+        }
     }
 }
 
@@ -94,15 +103,17 @@ static double steepness2(double c1, double c2, const uv_edges *e) {
     return vec3_dot(along, along);
 }
 
-void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]) {
+void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[2][3]) {
+    memcpy(stretch, mesh->stretch, sizeof mesh->stretch);
     if (!mesh->has_axis) {
-        memcpy(stretch, mesh->stretch_u, 3 * sizeof *stretch);
         return;
     }
     double area = 0.0;
     double sum = 0.0;
-    stretch[0] = 1.0;
-    stretch[2] = 0.0;
+    double *along = stretch[0];
+    along[0] = 1.0;
+    along[2] = 0.0;
+    stretch[1][0] = stretch[1][1] = stretch[1][2] = 1.0; /* metres, whichever way the surface faces */
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         knurl_triangle t;
         double tangent[3];
@@ -110,12 +121,12 @@ void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[3]) {
         vec3_copy(mesh->axis, tangent);
         vec3_make_tangent(t.normal, tangent);
         const double length = vec3_length(tangent);
-        stretch[0] = fmin(stretch[0], length);
-        stretch[2] = fmax(stretch[2], length);
+        along[0] = fmin(along[0], length);
+        along[2] = fmax(along[2], length);
         area += t.area2;
         sum += t.area2 * length;
     }
-    stretch[1] = sum / area;
+    along[1] = sum / area;
 }
 
 /* The velocity in the triangle's plane, in its edges: v = a edge1 + b edge2. */

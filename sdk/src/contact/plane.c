@@ -5,6 +5,13 @@
 
 #include <string.h>
 
+void knurl_plane_set_stretch(knurl_plane *plane, double along) {
+    for (int i = 0; i < 3; i++) {
+        plane->stretch[0][i] = along;
+        plane->stretch[1][i] = 1.0;
+    }
+}
+
 /* Where it stands across the plane like a post, any direction is as good. */
 static void set_axis(const double axis[3], knurl_plane *plane) {
     const double along = hypot(axis[0], axis[1]);
@@ -15,7 +22,7 @@ static void set_axis(const double axis[3], knurl_plane *plane) {
         }
         plane->map[1][0] = -plane->x[1];
         plane->map[1][1] = plane->x[0];
-        plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = along;
+        knurl_plane_set_stretch(plane, along);
     }
 }
 
@@ -25,7 +32,7 @@ void knurl_plane_from_rectangle(const double half_extents[2], const double axis[
     plane->half_extents[1] = half_extents[1];
     plane->x[0] = 1.0;
     plane->map[0][0] = plane->map[1][1] = 1.0;
-    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
+    knurl_plane_set_stretch(plane, 1.0);
     plane->has_coordinates = 1;
     if (axis) {
         set_axis(axis, plane);

@@ -24,7 +24,7 @@ typedef struct knurl_plane {
     double half_extents[2]; /* of the bounding rectangle, which is centred on the origin; m */
     double x[2];            /* the grating's x direction, unit, in the plane's axes, seen from the front */
     double map[2][3];       /* surface coordinates from the front: c_i = map[i][0] px + map[i][1] py + map[i][2], m */
-    double stretch[3];      /* min, mean, max of d(surface coordinate)/d(metre along x) */
+    double stretch[2][3];   /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
     double flatness;        /* m: how far the vertices lie off the plane or, those left out of it, off the outline */
     double inside[2]; /* a point of the plane: its origin; where a hole or an edge is there, the middle of a triangle */
     knurl_edge *outline; /* closed loops, in any order; null: the bounding rectangle is the outline */
@@ -38,6 +38,9 @@ typedef struct knurl_plane {
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */
 } knurl_plane;
+
+/* Its coordinates run `along` times as fast as the way along x, and as fast as it along y. */
+void knurl_plane_set_stretch(knurl_plane *plane, double along);
 
 /* A rectangle, coordinates in metres from its centre. axis: unit, the grating's x; or null: the rectangle's. */
 void knurl_plane_from_rectangle(const double half_extents[2], const double axis[3], knurl_plane *plane);

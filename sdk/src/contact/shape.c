@@ -54,9 +54,9 @@ static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
                                     .triangle_count = plane->triangle_count,
                                     .dropped = plane->dropped,
                                     .reversed_twins = plane->reversed_twins,
-                                    .error = plane->flatness,
-                                    .stretch = {plane->stretch[0], plane->stretch[1], plane->stretch[2]}};
+                                    .error = plane->flatness};
     *facts = made;
+    memcpy(facts->stretch, plane->stretch, sizeof facts->stretch);
 }
 
 static void plane_destroy(knurl_heap *heap, void *plane) {

@@ -17,7 +17,7 @@ typedef struct knurl_shape_facts {
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     double error;            /* m: how far the model is off what was given */
-    double stretch[3];       /* min, mean, max of d(surface coordinate)/d(metre along x) */
+    double stretch[2][3];    /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
 } knurl_shape_facts;
 
 /* What every kind of shape can do. geometry: a shape's. Shared descriptions stand at knurl_shape_contact() and below.

@@ -46,7 +46,7 @@ static void map_by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *p
     plane->map[0][2] = vec3_dot(sheet->origin, axis);
     plane->map[1][1] = 1.0;
     plane->map[1][2] = vec3_dot(sheet->origin, sheet->axes[1]);
-    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = length;
+    knurl_plane_set_stretch(plane, length);
     plane->has_coordinates = 1;
 }
 
@@ -80,8 +80,9 @@ static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char
 typedef struct uv_sums {
     double area;
     double lengths[2];   /* of |dP/du|, |dP/dv| */
-    double inverse;      /* of 1 / |dP/du| */
-    double range[2];     /* the shortest and the longest |dP/du| */
+    double inverse[2];   /* of 1 / |dP/du|, 1 / |dP/dv| */
+    double shortest[2];  /* |dP/du|, |dP/dv| */
+    double longest[2];
     double slopes[2][2]; /* of the gradients of u and v in the sheet's x and y */
     int mirrored;        /* 1: v runs against n x x; the same for all triangles */
 } uv_sums;
@@ -113,14 +114,16 @@ static int add_uvs(const knurl_sheet *sheet, uint32_t triangle, uv_sums *sums) {
     }
     const double along = sqrt((v2 * x1 - v1 * x2) * (v2 * x1 - v1 * x2) + (v2 * y1 - v1 * y2) * (v2 * y1 - v1 * y2));
     const double across = sqrt((u1 * x2 - u2 * x1) * (u1 * x2 - u2 * x1) + (u1 * y2 - u2 * y1) * (u1 * y2 - u2 * y1));
-    const double length = along / fabs(det);
+    const double lengths[2] = {along / fabs(det), across / fabs(det)};
     sums->mirrored = mirrored;
     sums->area += area;
-    sums->lengths[0] += area * length;
-    sums->lengths[1] += area * across / fabs(det);
-    sums->inverse += area / length;
-    sums->range[0] = fmin(sums->range[0], length);
-    sums->range[1] = fmax(sums->range[1], length);
+    sums->lengths[0] += area * lengths[0];
+    sums->lengths[1] += area * across / fabs(det); /* in this order: traces are compared bit by bit */
+    for (int i = 0; i < 2; i++) {
+        sums->inverse[i] += area / lengths[i];
+        sums->shortest[i] = fmin(sums->shortest[i], lengths[i]);
+        sums->longest[i] = fmax(sums->longest[i], lengths[i]);
+    }
     sums->slopes[0][0] += u1 * y2 - u2 * y1;
     sums->slopes[0][1] += u2 * x1 - u1 * x2;
     sums->slopes[1][0] += v1 * y2 - v2 * y1;
@@ -152,7 +155,7 @@ static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane 
 /* What is affine to the sheet's limit over the sheet's size runs one way as well: no triangle's own dP/du is asked for,
  * which on a fine mesh is as rough as its floats. */
 static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
-    uv_sums sums = {.range = {HUGE_VAL, 0.0}};
+    uv_sums sums = {.shortest = {HUGE_VAL, HUGE_VAL}};
     for (uint32_t i = 0; i < sheet->count; i++) {
         if (!add_uvs(sheet, sheet->kept[i], &sums)) {
             *why = "mesh: some of its uvs have no area, or run the other way round";
@@ -168,16 +171,18 @@ static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why)
         *why = "mesh: its uvs are not affine";
         return;
     }
-    plane->stretch[0] = scale[0] / sums.range[1];
-    plane->stretch[1] = scale[0] * sums.inverse / sums.area;
-    plane->stretch[2] = scale[0] / sums.range[0];
+    for (int i = 0; i < 2; i++) {
+        plane->stretch[i][0] = fabs(scale[i]) / sums.longest[i];
+        plane->stretch[i][1] = fabs(scale[i]) * sums.inverse[i] / sums.area;
+        plane->stretch[i][2] = fabs(scale[i]) / sums.shortest[i];
+    }
     plane->has_coordinates = 1;
 }
 
 void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
     const knurl_mesh_desc *d = sheet->desc;
     plane->x[0] = 1.0;
-    plane->stretch[0] = plane->stretch[1] = plane->stretch[2] = 1.0;
+    knurl_plane_set_stretch(plane, 1.0);
     if (axis) {
         map_by_axis(sheet, axis, plane, why);
         return;

@@ -102,6 +102,13 @@ static int begin_s2(const knurl_grating *grating, knurl_grating_state *state, do
     return 1;
 }
 
+/* Whether a half cycle begins. */
+static void tell_turn(knurl_grating_state *state, knurl_grating_output *output) {
+    const int32_t sign = (output->height > 0.0) - (output->height < 0.0);
+    output->turned = sign * state->sign < 0;
+    state->sign = sign ? sign : state->sign;
+}
+
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
     const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
@@ -111,7 +118,6 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
-    output->reserved = 0;
     if (grating->method == KNURL_LOCKED) {
         output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
     } else if (state->playing || (grating->method == KNURL_S2 && begin_s2(grating, state, speed2, frequency))) {
@@ -122,4 +128,5 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     } else if (grating->method == KNURL_S1) {
         output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
     }
+    tell_turn(state, output);
 }

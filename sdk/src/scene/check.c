@@ -26,7 +26,7 @@ static void say(const inspection *on, uint32_t limit, const char *sentence, cons
     const size_t length = strlen(on->check->message);
     (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%.40s': %s; %s",
                    length > 0 ? "\n" : "", on->name, sentence,
-                   on->clamped && limit != KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
+                   on->clamped && limit < KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
     on->check->exceeded |= limit;
 }
 
@@ -76,6 +76,29 @@ static void check_texture(const inspection *on, double stiffness) {
     }
 }
 
+/* Ridges a metre as they are felt along x or y, against what the material says. An axis is no matter of uvs: there
+ * ridges stand where a plane would cut them. */
+static void check_stretch(const inspection *on, const knurl_surface_data *surface) {
+    const knurl_material_desc *m = on->material;
+    const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
+    knurl_shape_facts facts;
+    if (m->method == KNURL_S2 || has_axis) { /* S2 counts metres */
+        return;
+    }
+    knurl_shape_get_facts(&surface->shape, &facts);
+    for (int i = 0; i < 2; i++) {
+        const double *tagged = m->spatial_frequency;
+        const double fs = m->orientation == 0.0 ? tagged[i] : fmax(tagged[0], tagged[1]); /* turned, both may be met */
+        const double *stretch = facts.stretch[i];
+        char sentence[256];
+        if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
+            (void)snprintf(sentence, sizeof sentence,
+                           "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m", fs, "uv"[i], stretch[0] * fs, stretch[2] * fs);
+            say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis, or use S2");
+        }
+    }
+}
+
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
@@ -90,6 +113,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     check_wall(&on);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
+        check_stretch(&on, surface);
     }
 }
 

@@ -55,7 +55,8 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes =
         knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) + facts.bytes;
-    memcpy(info->stretch, facts.stretch, sizeof facts.stretch);
+    memcpy(info->stretch, facts.stretch[0], sizeof facts.stretch[0]);
+    memcpy(info->stretch_y, facts.stretch[1], sizeof facts.stretch[1]);
 }
 
 /* Where it stands now. Of what moves the bounds hold the whole way. */

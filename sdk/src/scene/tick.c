@@ -69,6 +69,16 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
     out->surface = contact->surface->id;
 }
 
+/* What a contact's grating began and passed. No hand is so fast that it passes 1e9 half cycles in a tick; what overflows
+ * must not stay in a sum. */
+static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, const knurl_contact_force *share,
+                          int64_t events_before) {
+    const double halves = 2.0 * share->grating.temporal_frequency * hip->contacts.clock.period;
+    hip->counts.events += (uint64_t)(contact->candidate->grating.event_count - events_before);
+    hip->counts.half_cycles_crossed += halves < 1e9 && !contact->record->is_smooth ? halves : 0.0;
+    hip->counts.half_cycles_played += share->grating.turned;
+}
+
 /* From contacts to their force as it is sent, N, scene; returns its length. */
 static double sum_forces(knurl_hip *hip, const knurl_active_contact *contacts, uint32_t count, knurl_tick_output *out) {
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
@@ -82,7 +92,7 @@ static double sum_forces(knurl_hip *hip, const knurl_active_contact *contacts, u
         knurl_contact_force share;
         const int64_t events = contacts[i].candidate->grating.event_count;
         knurl_force_law(&motion, &contacts[i], &walls[i], &share);
-        hip->counts.events += (uint64_t)(contacts[i].candidate->grating.event_count - events);
+        count_grating(hip, &contacts[i], &share, events);
         add_contact(&contacts[i], &share, out);
     }
     return knurl_guard_after(&hip->guard, walls, count, out->force, &out->flags);

@@ -62,8 +62,14 @@ namespace Knurl
         /// <summary>Ticks in contact.</summary>
         public long ContactTicks;
 
-        /// <summary>Vibration events started (methods S2 and Locked).</summary>
+        /// <summary>Vibration events started (methods S2 and Locked; Locked starts none at low speed).</summary>
         public long Events;
+
+        /// <summary>Ridges and grooves that the HIP passed, with every method, not rounded.</summary>
+        public double HalfCyclesCrossed;
+
+        /// <summary>Half cycles of the gratings' square waves that were played.</summary>
+        public long HalfCyclesPlayed;
 
         /// <summary>Ticks whose force was shortened to <see cref="MaxForce"/>.</summary>
         public long ForceLimits;
@@ -148,6 +154,8 @@ namespace Knurl
             NativeMethods.knurl_scene_get_tick(scene, 0, null, &counts);
             ContactTicks = (long)counts.contact_ticks;
             Events = (long)counts.events;
+            HalfCyclesCrossed = counts.half_cycles_crossed;
+            HalfCyclesPlayed = (long)counts.half_cycles_played;
             ForceLimits = (long)counts.force_limits;
             FrequencySaturations = (long)counts.frequency_saturations;
             NotFinite = (long)counts.not_finite;
