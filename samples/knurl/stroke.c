@@ -38,56 +38,31 @@ static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, kn
     return TOOL_OK;
 }
 
-/* A surface as the device sees it, its workspace moved there where it has to be; centre, x and normal of a stroke. */
-static int place(knurl_scene *scene, knurl_device *device, knurl_surface surface, knurl_surface_info *info,
-                 knurl_device_info *limits, knurl_stroke_desc *desc) {
+int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface) {
     knurl_workspace workspace;
-    knurl_surface_info_init(info, sizeof *info);
-    knurl_device_info_init(limits, sizeof *limits);
-    knurl_stroke_desc_init(desc, sizeof *desc);
-    if (knurl_scene_surface_info(scene, surface, info) || knurl_device_get_info(device, limits) ||
+    knurl_surface_info info;
+    knurl_device_info limits;
+    double centre[3];
+    double normal[3];
+    knurl_surface_info_init(&info, sizeof info);
+    knurl_device_info_init(&limits, sizeof limits);
+    if (knurl_scene_surface_info(scene, surface, &info) || knurl_device_get_info(device, &limits) ||
         knurl_scene_get_workspace(scene, 0, &workspace)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    knurl_workspace_to_device(&workspace, info->anchor, desc->centre);
-    knurl_workspace_vector_to_device(&workspace, info->anchor_x, desc->x);
-    knurl_workspace_vector_to_device(&workspace, info->anchor_normal, desc->normal);
-    if (room(limits, desc->centre, desc->normal) < 0.01) { /* a stroke starts 5 mm above the surface */
-        const int code = move_workspace(scene, info, &workspace);
-        if (code != TOOL_OK) {
-            return code;
-        }
-        knurl_workspace_to_device(&workspace, info->anchor, desc->centre);
-    }
-    return TOOL_OK;
-}
-
-int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface) {
-    knurl_surface_info info;
-    knurl_device_info limits;
-    knurl_stroke_desc desc;
-    return place(scene, device, surface, &info, &limits, &desc);
+    knurl_workspace_to_device(&workspace, info.anchor, centre);
+    knurl_workspace_vector_to_device(&workspace, info.anchor_normal, normal);
+    /* a stroke starts 5 mm above the surface */
+    return room(&limits, centre, normal) < 0.01 ? move_workspace(scene, &info, &workspace) : TOOL_OK;
 }
 
 int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke) {
-    knurl_surface_info info;
-    knurl_device_info limits;
-    knurl_stroke_desc desc;
-    double y[3];
-    const int code = place(scene, device, surface, &info, &limits, &desc);
+    const int code = stroke_place(scene, device, surface);
     if (code != TOOL_OK) {
         return code;
     }
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        y[i] = desc.normal[j] * desc.x[k] - desc.normal[k] * desc.x[j];
-    }
-    const double *edge = info.anchor_reach;
-    desc.stroke = stroke;
-    desc.reach[0] = fmax(1e-4, 0.9 * fmin(fmin(edge[0], edge[1]), room(&limits, desc.centre, desc.x)));
-    desc.reach[1] = fmax(1e-4, 0.9 * fmin(fmin(edge[2], edge[3]), room(&limits, desc.centre, y)));
-    return knurl_fake_set_stroke(device, &desc) ? tool_library_error(TOOL_FAILURE, "run") : TOOL_OK;
+    return knurl_fake_lay_stroke(device, scene, 0, surface, stroke, NULL) ? tool_library_error(TOOL_FAILURE, "run")
+                                                                          : TOOL_OK;
 }
 
 int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t) {

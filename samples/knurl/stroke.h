@@ -8,8 +8,7 @@
  */
 int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface);
 
-/* The same, and the fake device's hand strokes along the surface's x, over nine tenths of it or of the workspace, 1 mm
- * below it. TOOL_ codes. */
+/* The same, and the fake device's hand strokes the surface, 1 mm below it (knurl_fake_lay_stroke()). TOOL_ codes. */
 int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke);
 
 /* Plays a CSV of t,x,y,z in scene metres; *last_t: the time of its last row, s. TOOL_ codes. */

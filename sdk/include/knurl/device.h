@@ -140,7 +140,16 @@ typedef struct knurl_stroke_desc {
     double depth;         /**< m below the surface; default 0.001 */
     double speed;         /**< m/s, > 0; default 0 means: 0.25 for SWEEP, else 0.1 */
     double period;        /**< s, of SWEEP and PRESS, > 0; default 5 */
+    const double *path;   /**< a way over what is curved: rows of x, y, z on the surface (m) and of its outward normal
+                               (unit); copied. LINE and SWEEP go back and forth between its ends from its middle,
+                               CIRCLE from its first row to its last and round again from row path_loop, the others
+                               stay at its middle. centre, x, normal and reach are not used then. Default null */
+    uint32_t path_rows;   /**< 2 to KNURL_PATH_ROWS_MAX; 0 without a path */
+    uint32_t path_loop;   /**< CIRCLE: below path_rows - 1; its row and the last one are the same place */
 } knurl_stroke_desc;
+
+/** Rows of a stroke's path at most. */
+#define KNURL_PATH_ROWS_MAX 65536
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_device_info_init(knurl_device_info *info, uint32_t size);

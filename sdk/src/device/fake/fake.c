@@ -13,6 +13,8 @@ typedef struct fake {
     knurl_device base;
     knurl_fake_settings settings;
     knurl_stroke_desc stroke;
+    knurl_hand_path path; /* of the stroke */
+    knurl_hand_path used; /* since the start: the same, or that of a stroke before */
     double *trace; /* rows of t, x, y, z; null: a hand */
     uint64_t trace_rows;
     uint64_t trace_at; /* the row whose interval the time is in */
@@ -48,7 +50,16 @@ static knurl_result fake_open(const char *options, knurl_device **device) {
     return knurl_device_start(*device, 1000.0);
 }
 
+/* The latest stroke's path goes, unless the hand follows it. */
+static void drop_path(fake *f) {
+    if (f->path.rows != f->used.rows) {
+        knurl_hand_path_destroy(&f->path);
+    }
+}
+
 static void fake_close(knurl_device *device) {
+    drop_path(of(device));
+    knurl_hand_path_destroy(&of(device)->used);
     free(of(device)->trace);
     knurl_device_free(device);
 }
@@ -88,6 +99,11 @@ static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     f->found = 0;
     f->trace_at = 0;
     knurl_hand_init(&f->hand, &f->stroke, s->tremor, (uint64_t)s->seed);
+    if (f->used.rows != f->path.rows) {
+        knurl_hand_path_destroy(&f->used);
+        f->used = f->path;
+    }
+    f->hand.way = f->used;
     knurl_hand_target(&f->hand, 0.0, f->dt, f->target);
     vec3_copy(still, f->target_velocity);
     knurl_plant_init(&f->plant, &config, f->target);
@@ -177,14 +193,20 @@ static knurl_result check_fake(const knurl_device *device, const char *what) {
 
 knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {
     knurl_stroke_desc stroke;
+    knurl_hand_path path;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     knurl_result result = check_fake(device, "stroke");
     result = result ? result : knurl_desc_read("knurl_stroke_desc", desc, &stroke, sizeof stroke);
     result = result ? result : knurl_stroke_check(&stroke);
+    result = result ? result : knurl_hand_path_create(&stroke, &path);
     if (!result) {
-        free(of(device)->trace);
-        of(device)->trace = NULL;
-        of(device)->stroke = stroke;
+        fake *f = of(device);
+        free(f->trace);
+        f->trace = NULL;
+        drop_path(f);
+        f->path = path;
+        f->stroke = stroke;
+        f->stroke.path = NULL; /* the caller's, and copied */
     }
     return result;
 }

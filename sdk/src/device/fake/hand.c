@@ -45,6 +45,15 @@ knurl_result knurl_stroke_check(knurl_stroke_desc *s) {
     if (s->stroke < KNURL_STROKE_LINE || s->stroke > KNURL_STROKE_REST) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke: expected one of KNURL_STROKE_, found %d", (int)s->stroke);
     }
+    if (s->path ? s->path_rows < 2 || s->path_rows > KNURL_PATH_ROWS_MAX ||
+                      (s->stroke == KNURL_STROKE_CIRCLE && s->path_loop >= s->path_rows - 1)
+                : s->path_rows != 0) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "stroke.path: expected 2 to %d rows and path_loop below the last, or no path and none, found "
+                          "%s of %u rows, path_loop %u",
+                          KNURL_PATH_ROWS_MAX, s->path ? "a path" : "no path", (unsigned)s->path_rows,
+                          (unsigned)s->path_loop);
+    }
     if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) ||
         !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) || !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -117,30 +126,59 @@ static double path_speed(const knurl_stroke_desc *s, double t) {
     return s->speed;
 }
 
-void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]) {
+static int goes_back_and_forth(const knurl_stroke_desc *s) {
+    return s->stroke == KNURL_STROKE_LINE || s->stroke == KNURL_STROKE_SWEEP;
+}
+
+/* The place over a flat surface, `height` above it. */
+static void straight_target(const knurl_hand *hand, double height, double target[3]) {
     const knurl_stroke_desc *s = &hand->stroke;
-    const double down = fmin(1.0, t / APPROACH);
-    double height = HOVER - (HOVER + s->depth) * down * down * (3.0 - 2.0 * down); /* a smooth step: no jerk at touch */
     double x = 0.0;
     double y = 0.0;
-    const double moving = t - APPROACH;
-    if (moving > 0.0) {
-        hand->path += dt * path_speed(s, moving - 0.5 * dt);
-        if (s->stroke == KNURL_STROKE_LINE || s->stroke == KNURL_STROKE_SWEEP) {
-            x = back_and_forth(hand->path, s->reach[0]);
-        } else if (s->stroke == KNURL_STROKE_CIRCLE) { /* out to the circle from the middle within the first turn */
-            const double radius = fmin(s->reach[0], s->reach[1]);
-            const double angle = hand->path / radius;
-            const double grown = radius * fmin(1.0, angle / TWO_PI);
-            x = grown * sin(angle);
-            y = -grown * cos(angle);
-        } else if (s->stroke == KNURL_STROKE_PRESS) {
-            height -= s->depth * (1.0 - cos(TWO_PI * moving / s->period));
-        }
+    if (hand->path != 0.0 && goes_back_and_forth(s)) {
+        x = back_and_forth(hand->path, s->reach[0]);
+    } else if (hand->path != 0.0 && s->stroke == KNURL_STROKE_CIRCLE) { /* out to it from the middle within a turn */
+        const double radius = fmin(s->reach[0], s->reach[1]);
+        const double angle = hand->path / radius;
+        const double grown = radius * fmin(1.0, angle / TWO_PI);
+        x = grown * sin(angle);
+        y = -grown * cos(angle);
     }
     vec3_madd(s->centre, x, s->x, target);
     vec3_madd(target, y, hand->y, target);
     vec3_madd(target, height, s->normal, target);
+}
+
+/* The place over a curved one. */
+static void target_on_path(const knurl_hand *hand, double height, double target[3]) {
+    const double length = knurl_hand_path_length(&hand->way);
+    double distance = 0.5 * length;
+    double normal[3];
+    if (goes_back_and_forth(&hand->stroke)) {
+        distance += back_and_forth(hand->path, 0.5 * length);
+    } else if (hand->stroke.stroke == KNURL_STROKE_CIRCLE) {
+        distance = hand->path <= length ? hand->path : fmod(hand->path - length, length - hand->way.loop) + hand->way.loop;
+    }
+    knurl_hand_path_at(&hand->way, distance, target, normal);
+    vec3_madd(target, height, normal, target);
+}
+
+void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]) {
+    const knurl_stroke_desc *s = &hand->stroke;
+    const double down = fmin(1.0, t / APPROACH);
+    double height = HOVER - (HOVER + s->depth) * down * down * (3.0 - 2.0 * down); /* a smooth step: no jerk at touch */
+    const double moving = t - APPROACH;
+    if (moving > 0.0) {
+        hand->path += dt * path_speed(s, moving - 0.5 * dt);
+        if (s->stroke == KNURL_STROKE_PRESS) {
+            height -= s->depth * (1.0 - cos(TWO_PI * moving / s->period));
+        }
+    }
+    if (hand->way.rows) {
+        target_on_path(hand, height, target);
+    } else {
+        straight_target(hand, height, target);
+    }
     if (hand->tremor > 0.0) {
         shake(hand, dt, target);
     }
