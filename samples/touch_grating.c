@@ -115,8 +115,8 @@ static void show(const sample *s) {
     for (int i = 0; i < PLATES; i++) {
         name = now.surface == s->plates[i] ? names[i] : name;
     }
-    printf("%sgrating %-6s  %4.0f mm/s  %4.0f Hz  force %4.2f N  half cycles %llu  late ticks %llu%s", terminal ? "\r" : "",
-           name, 1e3 * length(now.hip_velocity), now.temporal_frequency, length(now.force),
+    printf("%sgrating %-6s  %4.0f mm/s  %4.0f Hz  force %4.2f N  half cycles %llu  late ticks %llu%s",
+           terminal ? "\r" : "", name, 1e3 * length(now.hip_velocity), now.temporal_frequency, length(now.force),
            (unsigned long long)counts.half_cycles_played, (unsigned long long)stats.overruns, terminal ? "  " : "\n");
     (void)fflush(stdout);
 }

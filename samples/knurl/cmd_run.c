@@ -1,5 +1,6 @@
 /* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
 #include "faults.h"
+#include "felt.h"
 #include "recorder.h"
 #include "stroke.h"
 #include "tool.h"
@@ -23,7 +24,9 @@ typedef struct run {
     knurl_scene *scene;
     knurl_device *device;
     knurl_loop *loop;
+    knurl_surface surface; /* that is stroked */
     recorder recorder;
+    felt felt;
     faults faults;
     uint64_t ticks; /* wanted */
     double seconds; /* wanted of the clock; 0: a simulated device's time is its ticks */
@@ -138,8 +141,11 @@ static int lay(run *r, knurl_surface surface, double *last_t) {
         return fakes ? tool_error(TOOL_USAGE, "run: only the fake device takes %s, found --device %s", fakes, o->device)
                      : stroke_place(r->scene, r->device, surface);
     }
-    return o->trace ? stroke_play(r->scene, r->device, o->trace, last_t)
-                    : stroke_lay(r->scene, r->device, surface, o->stroke_id);
+    if (o->trace) {
+        return stroke_play(r->scene, r->device, o->trace, last_t);
+    }
+    r->felt.stroke = o->stroke_id;
+    return stroke_lay(r->scene, r->device, surface, o->stroke_id, &r->felt.stroke_length);
 }
 
 static int open_device(run *r) {
@@ -155,6 +161,7 @@ static int open_device(run *r) {
         return tool_library_error(TOOL_FAILURE, o->path);
     }
     double last_t = 0.0;
+    r->surface = surface;
     const int code = lay(r, surface, &last_t);
     if (!isnan(o->seconds)) {
         r->ticks = (uint64_t)fmax(1.0, floor(o->seconds * o->rate + 0.5));
@@ -178,6 +185,14 @@ static knurl_result clamp(knurl_scene *scene) {
     return result ? result : knurl_scene_configure_hip(scene, 0, &desc);
 }
 
+static void take_tick(const knurl_tick_output *output, void *user) {
+    run *r = user;
+    felt_take(&r->felt, output);
+    if (r->recorder.rows) {
+        recorder_take(output, &r->recorder);
+    }
+}
+
 static int make_loop(run *r) {
     knurl_loop_desc desc;
     if (r->options.clamp && clamp(r->scene)) {
@@ -194,9 +209,10 @@ static int make_loop(run *r) {
         if (code != TOOL_OK) {
             return code;
         }
-        desc.tick_callback = recorder_take;
-        desc.user = &r->recorder;
     }
+    desc.tick_callback = take_tick;
+    desc.user = r;
+    r->felt.period = 1.0 / r->options.rate;
     if (knurl_loop_create(&desc, &r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
@@ -288,6 +304,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "ticks", (double)stats->ticks);
     json_number(&json, "contact_s", (double)counts.contact_ticks / r->options.rate);
     json_number(&json, "events", (double)counts.events);
+    json_number(&json, "metres", r->felt.metres);
     json_number(&json, "half_cycles_crossed", floor(counts.half_cycles_crossed));
     json_number(&json, "half_cycles_played", (double)counts.half_cycles_played);
     json_number(&json, "overruns", (double)stats->overruns);
@@ -344,7 +361,10 @@ static int perform(run *r) {
         code = tool_error(TOOL_FAILURE, "run: the device was lost after %llu ticks", (unsigned long long)stats.ticks);
     }
     print_summary(r, &stats);
-    return code;
+    const int is_fake = !r->options.device || strncmp(r->options.device, "fake", 4) == 0;
+    return code == TOOL_OK && is_fake
+               ? felt_judge(&r->felt, r->scene, r->surface, (double)stats.ticks / r->options.rate)
+               : code;
 }
 
 int cmd_run(int argc, char **argv) {

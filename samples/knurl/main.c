@@ -38,7 +38,8 @@ static const char help[] =
     "  knurl devices [--json]              what is connected, what is not and why, and the fake device's settings\n"
     "  knurl --version\n"
     "\n"
-    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 128 + N ended early by signal N\n"
+    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 4 a simulated run that\n"
+    "touched nothing or hardly moved (its output is written all the same), 128 + N ended early by signal N\n"
     "(nothing is written then).\n";
 
 static const struct {

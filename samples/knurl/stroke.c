@@ -56,13 +56,18 @@ int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface
     return room(&limits, centre, normal) < 0.01 ? move_workspace(scene, &info, &workspace) : TOOL_OK;
 }
 
-int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke) {
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke, double *length) {
+    knurl_stroke_report report;
+    knurl_stroke_report_init(&report, sizeof report);
     const int code = stroke_place(scene, device, surface);
     if (code != TOOL_OK) {
         return code;
     }
-    return knurl_fake_lay_stroke(device, scene, 0, surface, stroke, NULL) ? tool_library_error(TOOL_FAILURE, "run")
-                                                                          : TOOL_OK;
+    if (knurl_fake_lay_stroke(device, scene, 0, surface, stroke, &report)) {
+        return tool_library_error(TOOL_FAILURE, "run");
+    }
+    *length = report.length;
+    return TOOL_OK;
 }
 
 int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t) {

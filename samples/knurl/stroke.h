@@ -8,8 +8,9 @@
  */
 int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface);
 
-/* The same, and the fake device's hand strokes the surface, 1 mm below it (knurl_fake_lay_stroke()). TOOL_ codes. */
-int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke);
+/* The same, and the fake device's hand strokes the surface, 1 mm below it (knurl_fake_lay_stroke()).
+ * *length: m from one end to the other, or once round; 0 where it stays. TOOL_ codes. */
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke, double *length);
 
 /* Plays a CSV of t,x,y,z in scene metres; *last_t: the time of its last row, s. TOOL_ codes. */
 int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t);

@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 /* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
-enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_INTERRUPTED = 128 };
+enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NOTHING_FELT = 4, TOOL_INTERRUPTED = 128 };
 
 /* Prints "knurl: ..." as one line on stderr; returns `code`. */
 int tool_error(int code, const char *format, ...);

@@ -374,3 +374,67 @@ TEST(the_default_hand_comes_to_rest_at_its_target_at_every_rate) {
         knurl_device_close(device);
     }
 }
+
+/* --- paths --- */
+
+/* A quarter of a ring of 0.1 m round z, its normals outward. */
+static void write_arc(double rows[][6], uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        const double a = 0.5 * 3.141592653589793 * i / (count - 1);
+        const double row[6] = {0.1 * cos(a), 0.1 * sin(a), 0.0, cos(a), sin(a), 0.0};
+        memcpy(rows[i], row, sizeof row);
+    }
+}
+
+TEST(a_stroke_along_a_path_keeps_its_depth_and_stays_on_it) {
+    static double rows[91][6];
+    knurl_stroke_desc stroke;
+    double least = 10.0;
+    double most = -10.0;
+    knurl_device *device =
+        open_device("fake:?preset=ideal&hand_stiffness=10000&hand_damping=50"); /* goes where its hand goes */
+    write_arc(rows, COUNT_OF(rows));
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    stroke.path = rows[0];
+    stroke.path_rows = COUNT_OF(rows);
+    assert_int_equal(knurl_fake_set_stroke(device, &stroke), KNURL_OK);
+    memset(rows, 0xff, sizeof rows); /* it was copied */
+    assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
+    for (int k = 0; k < 5000; k++) {
+        const knurl_device_sample s = read_one(device);
+        const double angle = atan2(s.position[1], s.position[0]);
+        if (k == 0) { /* 5 mm above its middle */
+            CHECK_CLOSE(hypot(s.position[0], s.position[1]), 0.105, 1e-6);
+            CHECK_CLOSE(angle, 0.25 * 3.141592653589793, 1e-6);
+        } else if (k > 300) {
+            CHECK_CLOSE(hypot(s.position[0], s.position[1]), 0.099, 2e-4);
+        }
+        least = fmin(least, angle);
+        most = fmax(most, angle);
+    }
+    CHECK_CLOSE(least, 0.0, 0.02);
+    CHECK_CLOSE(most, 0.5 * 3.141592653589793, 0.02);
+    knurl_device_close(device);
+}
+
+TEST(wrong_paths_are_refused) {
+    static double rows[3][6];
+    static double still[3][6];
+    knurl_stroke_desc stroke;
+    knurl_device *device = open_device("fake");
+    write_arc(rows, 3);
+    for (uint32_t i = 0; i < 3; i++) {
+        memcpy(still[i], rows[0], sizeof rows[0]);
+    }
+    for (int wrong = 0; wrong < 6; wrong++) {
+        knurl_stroke_desc_init(&stroke, sizeof stroke);
+        stroke.path = wrong == 0 ? NULL : wrong == 1 ? still[0] : rows[0];
+        stroke.path_rows = wrong == 2 ? 1 : wrong == 3 ? KNURL_PATH_ROWS_MAX + 1 : 3;
+        stroke.stroke = wrong == 4 ? KNURL_STROKE_CIRCLE : KNURL_STROKE_LINE;
+        stroke.path_loop = 2;
+        rows[1][4] = wrong == 5 ? NAN : rows[1][4];
+        assert_int_equal(knurl_fake_set_stroke(device, &stroke), KNURL_ERROR_ARGUMENT);
+        check_message("stroke.path");
+    }
+    knurl_device_close(device);
+}

@@ -95,8 +95,8 @@ TEST(an_idle_height_of_0_is_no_half_cycle) {
 
 /* --- stretch --- */
 
-/* A sheet of 4 x 1 cm in two halves, whose v runs `ratio` times as fast in the left half as in the right one. It is bent
- * a little in the middle, so that it stays a mesh. */
+/* A sheet of 4 x 1 cm in two halves, whose v runs `ratio` times as fast in the left half as in the right one. It is
+ * bent a little in the middle, so that it stays a mesh. */
 static shape uneven_sheet(double ratio) {
     shape s = shape_new(6, 12, 1);
     for (uint32_t i = 0; i < 6; i++) {
@@ -150,16 +150,4 @@ TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
         }
         shape_free(&s);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stroke_crosses_two_fs_times_its_metres_and_plays_them),
-        cmocka_unit_test(a_grid_counts_the_way_by_its_faster_axis),
-        cmocka_unit_test(nothing_is_counted_across_the_ridges_nor_at_rest_nor_without_them),
-        cmocka_unit_test(in_the_air_nothing_is_crossed),
-        cmocka_unit_test(an_idle_height_of_0_is_no_half_cycle),
-        cmocka_unit_test(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "4209b11ec10e9a27"
+#define KNURL_UNITY_INTERFACE "9f17f46da8fee167"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -74,7 +74,7 @@
     FIELD(knurl_device_functions, write, "write", 40, 8) \
     FIELD(knurl_device_functions, reopen, "reopen", 48, 8) \
     FIELD(knurl_device_functions, close, "close", 56, 8) \
-    STRUCT(knurl_stroke_desc, 120) \
+    STRUCT(knurl_stroke_desc, 136) \
     FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \
     FIELD(knurl_stroke_desc, centre, "centre", 8, 24) \
@@ -84,6 +84,9 @@
     FIELD(knurl_stroke_desc, depth, "depth", 96, 8) \
     FIELD(knurl_stroke_desc, speed, "speed", 104, 8) \
     FIELD(knurl_stroke_desc, period, "period", 112, 8) \
+    FIELD(knurl_stroke_desc, path, "path", 120, 8) \
+    FIELD(knurl_stroke_desc, path_rows, "path_rows", 128, 4) \
+    FIELD(knurl_stroke_desc, path_loop, "path_loop", 132, 4) \
     STRUCT(knurl_fake_truth, 96) \
     FIELD(knurl_fake_truth, position, "position", 0, 24) \
     FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
@@ -113,7 +116,7 @@
     FIELD(knurl_grating, reserved, "reserved", 36, 4) \
     FIELD(knurl_grating, resolution, "resolution", 40, 8) \
     FIELD(knurl_grating, crossover_hz, "crossover_hz", 48, 8) \
-    STRUCT(knurl_grating_state, 80) \
+    STRUCT(knurl_grating_state, 88) \
     FIELD(knurl_grating_state, event, "event", 0, 32) \
     FIELD(knurl_grating_state, event_count, "event_count", 32, 8) \
     FIELD(knurl_grating_state, next_tick, "next_tick", 40, 4) \
@@ -123,13 +126,15 @@
     FIELD(knurl_grating_state, held, "held", 64, 8) \
     FIELD(knurl_grating_state, direction, "direction", 72, 4) \
     FIELD(knurl_grating_state, moving, "moving", 76, 4) \
+    FIELD(knurl_grating_state, sign, "sign", 80, 4) \
+    FIELD(knurl_grating_state, reserved, "reserved", 84, 4) \
     STRUCT(knurl_grating_output, 40) \
     FIELD(knurl_grating_output, height, "height", 0, 8) \
     FIELD(knurl_grating_output, spatial_frequency, "spatial_frequency", 8, 8) \
     FIELD(knurl_grating_output, temporal_frequency, "temporal_frequency", 16, 8) \
     FIELD(knurl_grating_output, event, "event", 24, 8) \
     FIELD(knurl_grating_output, saturated, "saturated", 32, 4) \
-    FIELD(knurl_grating_output, reserved, "reserved", 36, 4) \
+    FIELD(knurl_grating_output, turned, "turned", 36, 4) \
     STRUCT(knurl_velocity, 10376) \
     FIELD(knurl_velocity, history, "history", 0, 10240) \
     FIELD(knurl_velocity, held, "held", 10240, 32) \
@@ -190,7 +195,7 @@
     FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
     FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
     FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
-    STRUCT(knurl_surface_info, 336) \
+    STRUCT(knurl_surface_info, 360) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -212,6 +217,7 @@
     FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 304, 4) \
     FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
     FIELD(knurl_surface_info, axis, "axis", 312, 24) \
+    FIELD(knurl_surface_info, stretch_y, "stretch_y", 336, 24) \
     STRUCT(knurl_tick_input, 72) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
@@ -237,7 +243,7 @@
     FIELD(knurl_tick_output, tick, "tick", 208, 8) \
     FIELD(knurl_tick_output, flags, "flags", 216, 4) \
     FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
-    STRUCT(knurl_hip_counts, 96) \
+    STRUCT(knurl_hip_counts, 112) \
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
@@ -250,6 +256,8 @@
     FIELD(knurl_hip_counts, passivities, "passivities", 72, 8) \
     FIELD(knurl_hip_counts, force_max, "force_max", 80, 8) \
     FIELD(knurl_hip_counts, heat, "heat", 88, 8) \
+    FIELD(knurl_hip_counts, half_cycles_crossed, "half_cycles_crossed", 96, 8) \
+    FIELD(knurl_hip_counts, half_cycles_played, "half_cycles_played", 104, 8) \
     STRUCT(knurl_surface_check, 1064) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
@@ -304,6 +312,12 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
+    STRUCT(knurl_stroke_report, 24) \
+    FIELD(knurl_stroke_report, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_stroke_report, is_outside, "is_outside", 4, 4) \
+    FIELD(knurl_stroke_report, follows, "follows", 8, 4) \
+    FIELD(knurl_stroke_report, reserved, "reserved", 12, 4) \
+    FIELD(knurl_stroke_report, length, "length", 16, 8) \
     STRUCT(knurl_session_desc, 160) \
     FIELD(knurl_session_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_session_desc, reconnect, "reconnect", 4, 4) \

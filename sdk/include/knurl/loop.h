@@ -128,7 +128,8 @@ KNURL_API uint32_t knurl_loop_wait(knurl_loop *loop, double seconds);
 /** What the loop has done so far. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stats);
 
-/** What a stroke that was laid over a surface came to. An output: set struct_size with knurl_stroke_report_init() first.
+/** What a stroke that was laid over a surface came to. An output: set struct_size with knurl_stroke_report_init()
+ * first.
  */
 typedef struct knurl_stroke_report {
     uint32_t struct_size;
@@ -136,18 +137,18 @@ typedef struct knurl_stroke_report {
                               hand to come down on it: the stroke is cut short */
     uint32_t follows;    /**< 1: along a path over a curved surface; 0: straight */
     uint32_t reserved;   /**< 0 */
-    double length;       /**< m of the device: of LINE and SWEEP from one end to the other, of CIRCLE once round; else 0 */
+    double length; /**< m of the device: of LINE and SWEEP from one end to the other, of CIRCLE once round; else 0 */
 } knurl_stroke_report;
 
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_stroke_report_init(knurl_stroke_report *report, uint32_t size);
 
 /** Lays a stroke of the fake device's hand over a surface, 1 mm below it, within the workspace of a HIP; from the next
- * knurl_device_start(). LINE and SWEEP run along the surface's x: from the anchor (knurl_surface_info) straight on where
- * the surface is flat, else over it as it bends, until it ends, has an edge of more than 60 degrees within a step of at
- * most 0.5 mm, or comes back to where it began, and over nine tenths of that; where x goes round in small rings, as near
- * a pole, it begins further away. CIRCLE goes round the anchor. A surface that moves is taken where it stands now.
- * stroke: KNURL_STROKE_. report: may be null. Takes some milliseconds. Errors: KNURL_ERROR_STALE_ID,
+ * knurl_device_start(). LINE and SWEEP run along the surface's x: from the anchor (knurl_surface_info) straight on
+ * where the surface is flat, else over it as it bends, until it ends, has an edge of more than 60 degrees within a step
+ * of at most 0.5 mm, or comes back to where it began, and over nine tenths of that; where x goes round in small rings,
+ * as near a pole, it begins further away. CIRCLE goes round the anchor. A surface that moves is taken where it stands
+ * now. stroke: KNURL_STROKE_. report: may be null. Takes some milliseconds. Errors: KNURL_ERROR_STALE_ID,
  * KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_ARGUMENT (hip, stroke), KNURL_ERROR_STATE (the workspace is
  * chosen at the commit, and the scene is not committed), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip,

@@ -298,8 +298,8 @@ enum {
     KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
     KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
     KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
-    KNURL_LIMIT_STRETCH = 32   /**< somewhere S1 or LOCKED feel more than KNURL_STRETCH_MAX times the ridges a metre that
-                                    the material says, or fewer than one in so many: uneven uvs */
+    KNURL_LIMIT_STRETCH = 32 /**< somewhere S1 or LOCKED feel more than KNURL_STRETCH_MAX times the ridges a metre that
+                                  the material says, or fewer than one in so many: uneven uvs */
 };
 
 /** A factor that hands can tell, and unwrapped uvs can keep: an octave. */

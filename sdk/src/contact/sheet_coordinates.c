@@ -79,9 +79,9 @@ static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char
 /* Sums over the area that has been looked at. */
 typedef struct uv_sums {
     double area;
-    double lengths[2];   /* of |dP/du|, |dP/dv| */
-    double inverse[2];   /* of 1 / |dP/du|, 1 / |dP/dv| */
-    double shortest[2];  /* |dP/du|, |dP/dv| */
+    double lengths[2];  /* of |dP/du|, |dP/dv| */
+    double inverse[2];  /* of 1 / |dP/du|, 1 / |dP/dv| */
+    double shortest[2]; /* |dP/du|, |dP/dv| */
     double longest[2];
     double slopes[2][2]; /* of the gradients of u and v in the sheet's x and y */
     int mirrored;        /* 1: v runs against n x x; the same for all triangles */

@@ -1,5 +1,5 @@
-/* Lays the simulated hand's strokes over a scene's surfaces: straight where a surface is flat, else along a path that is
- * walked over it. Game thread. SPDX-License-Identifier: MIT */
+/* Lays the simulated hand's strokes over a scene's surfaces: straight where a surface is flat, else along a path that
+ * is walked over it. Game thread. SPDX-License-Identifier: MIT */
 #include "scene/walk.h"
 
 #include "base/base.h"
@@ -132,8 +132,8 @@ static int turn_straight(const knurl_walker *walker, double direction[3]) {
     return length > 0.5;
 }
 
-/* Walks on as far as it goes, at most `most` steps; writes a row for each. Returns how many; *is_closed: 1 where it came
- * back to where it began. */
+/* Walks on as far as it goes, at most `most` steps; writes a row for each. Returns how many; *is_closed: 1 where it
+ * came back to where it began. */
 static uint32_t walk(const layer *l, knurl_walker walker, const double towards[3],
                      int (*turn)(const knurl_walker *walker, double direction[3]), uint32_t most, double (*rows)[6],
                      path *sum, int *is_closed) {
@@ -287,11 +287,31 @@ static int lay_circle(layer *l, knurl_stroke_desc *desc) {
         }
     }
     p->count = 2 * TURN_ROWS + 1;
-    p->length = length_of((const double (*)[6])&p->rows[TURN_ROWS], TURN_ROWS + 1);
+    p->length = length_of((const double (*)[6]) & p->rows[TURN_ROWS], TURN_ROWS + 1);
     desc->path = p->rows[0];
     desc->path_rows = p->count;
     desc->path_loop = TURN_ROWS;
     return 1;
+}
+
+/* On a tip, where many faces meet, a finger that is pressed in against one of them comes out through another: it is set
+ * down beside it. */
+static int begin_beside(layer *l, double step, const double place[3], const double normal[3]) {
+    double x[3];
+    double y[3];
+    vec3_any_tangent(normal, x);
+    vec3_cross(normal, x, y);
+    for (int i = 0; i < 32; i++) { /* round it in eight directions, 2, 4, 8 and 16 steps away */
+        const double away = step * (2 << i / 8);
+        const double angle = 0.7853981633974483 * (i % 8);
+        double beside[3];
+        vec3_madd(place, away * cos(angle), x, beside);
+        vec3_madd(beside, away * sin(angle), y, beside);
+        if (knurl_walker_begin(&l->start, l->surface, step, beside, normal)) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* Sets the walker down on the anchor; its steps are short against the device and against the surface. */
@@ -303,7 +323,8 @@ static int begin(layer *l) {
     const double step = fmin(STEP * l->workspace.scale, 0.005 * vec3_length(size));
     knurl_pose_to_own(&l->pose, l->info.anchor, place);
     knurl_pose_turn_to_own(&l->pose, l->info.anchor_normal, normal);
-    return step > 0.0 && knurl_walker_begin(&l->start, l->surface, step, place, normal);
+    return step > 0.0 &&
+           (knurl_walker_begin(&l->start, l->surface, step, place, normal) || begin_beside(l, step, place, normal));
 }
 
 /* 1: along a path. */

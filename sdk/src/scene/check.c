@@ -92,8 +92,8 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
         const double *stretch = facts.stretch[i];
         char sentence[256];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
-            (void)snprintf(sentence, sizeof sentence,
-                           "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m", fs, "uv"[i], stretch[0] * fs, stretch[2] * fs);
+            (void)snprintf(sentence, sizeof sentence, "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m",
+                           fs, "uv"[i], stretch[0] * fs, stretch[2] * fs);
             say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis, or use S2");
         }
     }

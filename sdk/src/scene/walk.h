@@ -12,10 +12,10 @@ typedef struct knurl_walker {
     double step; /* m */
     knurl_contact_state state;
     double hip[3];
-    double place[3];      /* on the surface */
-    double normal[3];     /* outward, unit */
-    double x[3];          /* the grating's, unit, tangent */
-    double y[3];          /* normal x x */
+    double place[3];  /* on the surface */
+    double normal[3]; /* outward, unit */
+    double x[3];      /* the grating's, unit, tangent */
+    double y[3];      /* normal x x */
     knurl_contact contact;
 } knurl_walker;
 

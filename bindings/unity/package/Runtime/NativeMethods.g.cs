@@ -128,6 +128,9 @@ namespace Knurl
         public double depth;
         public double speed;
         public double period;
+        public double* path;
+        public uint path_rows;
+        public uint path_loop;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -187,6 +190,8 @@ namespace Knurl
         public double held;
         public int direction;
         public int moving;
+        public int sign;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -197,7 +202,7 @@ namespace Knurl
         public double temporal_frequency;
         public long @event;
         public uint saturated;
-        public uint reserved;
+        public uint turned;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -308,6 +313,7 @@ namespace Knurl
         public uint reversed_twins;
         public uint reserved;
         public fixed double axis[3];
+        public fixed double stretch_y[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -358,6 +364,8 @@ namespace Knurl
         public ulong passivities;
         public double force_max;
         public double heat;
+        public double half_cycles_crossed;
+        public ulong half_cycles_played;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -436,6 +444,16 @@ namespace Knurl
         public ulong absences;
         public uint absent;
         public uint paused;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_stroke_report
+    {
+        public uint struct_size;
+        public uint is_outside;
+        public uint follows;
+        public uint reserved;
+        public double length;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -548,13 +566,14 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "4209b11ec10e9a27";
+        internal const string Interface = "9f17f46da8fee167";
 
         internal const string Version = "0.1.0";
 
         internal const int KNURL_VERSION_MAJOR = 0;
         internal const int KNURL_VERSION_MINOR = 1;
         internal const int KNURL_VERSION_PATCH = 0;
+        internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const double KNURL_LOCKED_CROSSOVER_HZ = 120.0;
@@ -565,6 +584,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const double KNURL_ENTRY_SPEED = 0.5;
+        internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_SESSION_HISTORY = 8192;
         internal const int KNURL_OK = 0;
         internal const int KNURL_ERROR_ARGUMENT = -1;
@@ -636,6 +656,7 @@ namespace Knurl
         internal const int KNURL_LIMIT_AMPLITUDE = 4;
         internal const int KNURL_LIMIT_HEAT = 8;
         internal const int KNURL_LIMIT_PERIOD = 16;
+        internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_LOOP_IDLE = 0;
         internal const int KNURL_LOOP_RUNNING = 1;
         internal const int KNURL_LOOP_DONE = 2;
@@ -940,6 +961,13 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_loop_get_stats(knurl_loop* loop, knurl_loop_stats* stats);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_stroke_report_init(knurl_stroke_report* report, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_lay_stroke(knurl_device* device, knurl_scene* scene, uint hip,
+            ulong surface, int stroke, knurl_stroke_report* report);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_session_desc_init(knurl_session_desc* desc, uint size);

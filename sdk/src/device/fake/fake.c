@@ -15,7 +15,7 @@ typedef struct fake {
     knurl_stroke_desc stroke;
     knurl_hand_path path; /* of the stroke */
     knurl_hand_path used; /* since the start: the same, or that of a stroke before */
-    double *trace; /* rows of t, x, y, z; null: a hand */
+    double *trace;        /* rows of t, x, y, z; null: a hand */
     uint64_t trace_rows;
     uint64_t trace_at; /* the row whose interval the time is in */
     double dt;

@@ -157,7 +157,8 @@ static void target_on_path(const knurl_hand *hand, double height, double target[
     if (goes_back_and_forth(&hand->stroke)) {
         distance += back_and_forth(hand->path, 0.5 * length);
     } else if (hand->stroke.stroke == KNURL_STROKE_CIRCLE) {
-        distance = hand->path <= length ? hand->path : fmod(hand->path - length, length - hand->way.loop) + hand->way.loop;
+        distance =
+            hand->path <= length ? hand->path : fmod(hand->path - length, length - hand->way.loop) + hand->way.loop;
     }
     knurl_hand_path_at(&hand->way, distance, target, normal);
     vec3_madd(target, height, normal, target);

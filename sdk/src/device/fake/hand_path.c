@@ -19,8 +19,8 @@ static knurl_result measure(const knurl_stroke_desc *stroke, double *length) {
     for (uint32_t i = 0; i < stroke->path_rows; i++) {
         const double *row = &stroke->path[6 * (size_t)i];
         if (!vec3_finite(row) || !(fabs(vec3_length(row + 3) - 1.0) < 1e-3)) {
-            return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke.path: row %u: expected a finite place (m) and a unit normal",
-                              (unsigned)i);
+            return knurl_fail(KNURL_ERROR_ARGUMENT,
+                              "stroke.path: row %u: expected a finite place (m) and a unit normal", (unsigned)i);
         }
         *length += i > 0 ? distance(row - 6, row) : 0.0;
     }
