@@ -1,5 +1,6 @@
 /* Lays the simulated hand's strokes over a scene's surfaces: straight where a surface is flat, else along a path that
  * is walked over it. Game thread. SPDX-License-Identifier: MIT */
+#include "scene/scene.h"
 #include "scene/walk.h"
 
 #include "base/base.h"
@@ -346,7 +347,7 @@ static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface id, in
     desc.stroke = stroke;
     lay_straight(l, &desc);
     knurl_scene_lock(scene);
-    l->surface = knurl_scene_get(scene, id);
+    l->surface = knurl_surfaces_get(&scene->surfaces, id);
     if (!l->surface) {
         knurl_scene_unlock(scene);
         return KNURL_ERROR_STALE_ID;

@@ -3,7 +3,7 @@
 #ifndef KNURL_SRC_WALK_H
 #define KNURL_SRC_WALK_H
 
-#include "scene/scene_internal.h"
+#include "scene/surface_frame.h"
 
 /* A finger that is led over a surface step by step, pressed in as deep as a step is long: its contact is found as a
  * tick finds it. In the shape's frame. Copy it to come back to where it was. */
