@@ -69,8 +69,8 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
     out->surface = contact->surface->id;
 }
 
-/* What a contact's grating began and passed. No hand is so fast that it passes 1e9 half cycles in a tick; what overflows
- * must not stay in a sum. */
+/* What a contact's grating began and passed. No hand is so fast that it passes 1e9 half cycles in a tick; what
+ * overflows must not stay in a sum. */
 static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, const knurl_contact_force *share,
                           int64_t events_before) {
     const double halves = 2.0 * share->grating.temporal_frequency * hip->contacts.clock.period;
