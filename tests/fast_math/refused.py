@@ -3,7 +3,8 @@
 
 usage: refused.py SOURCE C_COMPILER CXX_COMPILER
 
-Preprocesses only: sources for another system, or whose libraries are not there, count too. SPDX-License-Identifier: MIT
+Nor does one use isfinite(), which -ffinite-math-only takes away. Preprocesses only: sources for another system, or whose
+libraries are not there, count too. SPDX-License-Identifier: MIT
 """
 import glob
 import os
@@ -34,6 +35,9 @@ def main():
     for path in paths:
         if SENTENCE not in messages(c if path.endswith(".c") else cxx, source, path, "-ffast-math"):
             failures.append(f"{path}: expected a refusal of -ffast-math, found none (include base/finite.h)")
+        with open(path, encoding="utf-8") as file:
+            if "isfinite(" in file.read():
+                failures.append(f"{path}: expected knurl_is_finite(), found isfinite()")
     tick = f"{source}/sdk/src/scene/tick.c"
     macros = subprocess.run([c, "-ffast-math", "-dM", "-E", "-x", "c", os.devnull], capture_output=True, text=True).stdout
     for flags in REFUSED + (PARTS if "__ASSOCIATIVE_MATH__" in macros else []):

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_ATOMIC_H
 #define KNURL_SRC_ATOMIC_H
 
+#include "base/finite.h"
+
 #define knurl_load_relaxed(p)     __atomic_load_n((p), __ATOMIC_RELAXED)
 #define knurl_load_acquire(p)     __atomic_load_n((p), __ATOMIC_ACQUIRE)
 #define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)

@@ -5,6 +5,8 @@
 #ifndef KNURL_SRC_GUARD_PROCESS_H
 #define KNURL_SRC_GUARD_PROCESS_H
 
+#include "base/finite.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

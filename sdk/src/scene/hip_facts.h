@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_HIP_FACTS_H
 #define KNURL_SRC_HIP_FACTS_H
 
+#include "base/finite.h"
+
 /* SI, device frame. */
 typedef struct knurl_hip_facts {
     double rate;
