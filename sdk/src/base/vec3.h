@@ -62,8 +62,9 @@ static inline void vec3_make_tangent(const double n[3], double a[3]) {
     vec3_madd(a, -vec3_dot(a, n), n, a);
 }
 
+/* 1 where all three are finite, and not so large that their sum is not. */
 static inline int vec3_finite(const double a[3]) {
-    return knurl_is_finite(a[0]) & knurl_is_finite(a[1]) & knurl_is_finite(a[2]); /* no branches: a tick asks */
+    return knurl_is_finite(fabs(a[0]) + fabs(a[1]) + fabs(a[2]));
 }
 
 /* Any unit vector at right angles to the unit vector n. */

@@ -66,8 +66,9 @@ static void load_box(const knurl_broad_index *index, knurl_candidate *candidate)
     }
 }
 
-void knurl_candidates_find(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                           const knurl_hip_path *path) {
+/* Asks the broad phase. */
+static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                 const knurl_hip_path *path) {
     const uint64_t version = knurl_load_acquire(&phase->version); /* before the boxes are read */
     uint32_t places[KNURL_MAX_CANDIDATES];
     uint32_t found = KNURL_MAX_CANDIDATES + 1;
@@ -98,12 +99,23 @@ void knurl_candidates_find(knurl_candidates *c, const knurl_broad_phase *phase, 
             load_box(index, &c->list[i]);
         }
     }
-    c->clearance.distance = -1.0;
 }
 
 void knurl_candidates_reset(knurl_candidates *c) {
     c->count = 0;
     c->clearance.distance = -1.0;
+}
+
+void knurl_candidates_update(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                             const knurl_hip_path *path) {
+    int inside = 1;
+    for (int i = 0; i < 3; i++) {
+        inside &= path->to[i] >= c->low[i] && path->to[i] <= c->high[i];
+    }
+    if (c->version != knurl_load_acquire(&phase->version) || path->is_first || !inside || path->depth > c->depth ||
+        c->overflow || path->everything) {
+        look(c, phase, index, path);
+    }
 }
 
 int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
@@ -129,8 +141,11 @@ static double gap(const knurl_candidate *candidate, const double p[3]) {
     return widest;
 }
 
-void knurl_candidates_measure(knurl_candidates *c, const double position[3], int ended) {
-    double distance = ended ? -1.0 : HUGE_VAL;
+void knurl_candidates_measure(knurl_candidates *c, const double position[3], int again) {
+    double distance = again || c->overflow ? -1.0 : HUGE_VAL;
+    for (int i = 0; i < 3; i++) {
+        distance = fmin(distance, fmin(position[i] - c->low[i], c->high[i] - position[i]));
+    }
     for (uint32_t i = 0; i < c->count; i++) {
         if (!c->list[i].in_contact) {
             distance = fmin(distance, gap(&c->list[i], position));

@@ -28,8 +28,8 @@ typedef struct knurl_candidate {
     double anchor[3]; /* friction: where the HIP sticks, shape's frame */
 } knurl_candidate;
 
-/* No farther than `distance` (m, each axis) from `at`, the HIP comes into no box but those of what it is in contact
- * with. */
+/* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of
+ * what it is in contact with. */
 typedef struct knurl_clearance {
     double at[3];
     double distance; /* below 0: unknown */
@@ -59,33 +59,26 @@ typedef struct knurl_hip_path {
 /* Empties the list. */
 void knurl_candidates_reset(knurl_candidates *candidates);
 
-/* 1 where the list is complete for a HIP that goes to `position`, pressed to `depth` (m), and is in no first tick. */
-static inline int knurl_candidates_are_complete(const knurl_candidates *c, const knurl_broad_phase *phase,
-                                                const double position[3], double depth) {
-    int inside = 1;
-    for (int i = 0; i < 3; i++) {
-        inside &= (position[i] >= c->low[i]) & (position[i] <= c->high[i]);
-    }
-    return inside & (depth <= c->depth) & !c->overflow & (c->version == knurl_load_acquire(&phase->version));
-}
+/* Makes the list complete for a path, where it is not yet. */
+void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_phase *phase,
+                             const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
 
-/* Makes the list complete for a path. */
-void knurl_candidates_find(knurl_candidates *candidates, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                           const knurl_hip_path *path) KNURL_NONBLOCKING;
-
-/* 1: the clearance holds: nothing but what is in contact has to be looked at. */
-static inline int knurl_candidates_are_clear(const knurl_candidates *candidates, const double p[3]) {
-    const knurl_clearance *clear = &candidates->clearance;
+/* 1: the list is complete and nothing but what is in contact has to be looked at: so it is in most ticks. depth: m, of
+ * the deepest contact. */
+static inline int knurl_candidates_are_clear(const knurl_candidates *c, const knurl_broad_phase *phase,
+                                             const double p[3], double depth) {
+    const knurl_clearance *clear = &c->clearance;
     return (fabs(p[0] - clear->at[0]) < clear->distance) & (fabs(p[1] - clear->at[1]) < clear->distance) &
-           (fabs(p[2] - clear->at[2]) < clear->distance);
+           (fabs(p[2] - clear->at[2]) < clear->distance) & (depth <= c->depth) &
+           (c->version == knurl_load_acquire(&phase->version));
 }
 
 /* 1: a path comes into the candidate's box, or within `margin` (m) of it. */
 int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path,
                            double margin) KNURL_NONBLOCKING;
 
-/* The clearance at a position, from the candidates that are not in contact. ended: 1 where a contact ended in this
- * tick: the next one looks at everything. */
-void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], int ended) KNURL_NONBLOCKING;
+/* The clearance at a position, from the candidates that are not in contact. again: 1 where the next tick has to look at
+ * all of them in any case. */
+void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], int again) KNURL_NONBLOCKING;
 
 #endif

@@ -22,8 +22,6 @@ typedef struct update {
     knurl_contacts *contacts;
     const knurl_broad_index *index;
     const double *position;
-    knurl_active_contact *active;
-    uint32_t count;
     uint32_t *flags;
 } update;
 
@@ -94,7 +92,7 @@ static void slide_off(knurl_contacts *c, const knurl_candidate *candidate, const
 /* Returns 0 where there is no room for one more: it is looked at again in the next tick. */
 static int begin_contact(update *u, knurl_candidate *candidate) {
     const knurl_hand_over *over = &u->contacts->hand_over;
-    if (u->count == KNURL_MAX_CONTACTS) {
+    if (u->contacts->active_count == KNURL_MAX_CONTACTS) {
         *u->flags |= KNURL_TICK_CONTACTS_FULL;
         memset(&candidate->contact, 0, sizeof candidate->contact);
         return 0;
@@ -123,9 +121,10 @@ static const knurl_surface_data *find_surface(const update *u, knurl_candidate *
 
 /* One candidate: is the HIP in contact with it? */
 static void update_candidate(update *u, knurl_candidate *candidate) {
-    knurl_hand_over *over = &u->contacts->hand_over;
-    knurl_active_contact spare; /* u->active may be full */
-    knurl_active_contact *a = u->count < KNURL_MAX_CONTACTS ? &u->active[u->count] : &spare;
+    knurl_active_contact spare; /* there may be no room */
+    knurl_contacts *c = u->contacts;
+    knurl_active_contact *a = c->active_count < KNURL_MAX_CONTACTS ? &c->active[c->active_count] : &spare;
+    const knurl_hand_over *over = &c->hand_over;
     knurl_contact_query query;
     a->surface = find_surface(u, candidate);
     if (!a->surface) {
@@ -135,7 +134,7 @@ static void update_candidate(update *u, knurl_candidate *candidate) {
     place_hip(u, candidate, a, &query);
     int held = knurl_shape_contact(&a->surface->shape, &query, &candidate->contact, &a->contact);
     if (!held && candidate->in_contact) {
-        slide_off(u->contacts, candidate, u->position);
+        slide_off(c, candidate, u->position);
     } else if (!held && over->given && query.has_previous) {
         knurl_pose_to_own(a->pose, over->from, query.previous);
         held = knurl_shape_contact(&a->surface->shape, &query, &candidate->contact, &a->contact);
@@ -153,7 +152,7 @@ static void update_candidate(update *u, knurl_candidate *candidate) {
     knurl_pose_turn_to_parent(a->pose, a->contact.normal, candidate->normal);
     candidate->in_contact = 1;
     a->candidate = candidate;
-    u->count++;
+    c->active_count++;
 }
 
 /* How the HIP goes in this tick. */
@@ -169,35 +168,34 @@ static knurl_hip_path path_of(const update *u) {
 }
 
 /* Candidates that are not in contact (held: those that were, as bits) may come into it. */
-static void begin_others(update *u, uint64_t held) {
-    const knurl_hip_path path = path_of(u);
-    const double margin = path.is_first ? KNURL_CAPTURE_DEPTH : 1e-9;
+static void begin_others(update *u, const knurl_hip_path *path, uint64_t held) {
+    const double margin = path->is_first ? KNURL_CAPTURE_DEPTH : 1e-9;
     knurl_candidates *list = &u->contacts->candidates;
     int ended = 0;
     for (uint32_t i = 0; i < list->count; i++) {
         knurl_candidate *candidate = &list->list[i];
         if (held >> i & 1) {
             ended |= !candidate->in_contact;
-        } else if (knurl_candidate_is_met(candidate, &path, margin + u->contacts->hand_over.depth)) {
+        } else if (knurl_candidate_is_met(candidate, path, margin + u->contacts->hand_over.depth)) {
             update_candidate(u, candidate);
         } else {
             candidate->has_previous = 0;
         }
     }
-    knurl_candidates_measure(list, u->position, ended);
+    knurl_candidates_measure(list, u->position, ended || path->everything);
 }
 
 /* What the next tick goes by. */
 static void finish(update *u) {
     knurl_contacts *c = u->contacts;
-    if (u->count > 0) {
+    if (c->active_count > 0) {
         c->depth = 0.0;
         c->hand_over.time = -1.0;
     } else {
         c->depth = c->hand_over.given ? c->hand_over.depth : 0.0;
     }
-    for (uint32_t i = 0; i < u->count; i++) {
-        const double depth = -u->active[i].contact.z;
+    for (uint32_t i = 0; i < c->active_count; i++) {
+        const double depth = -c->active[i].contact.z;
         c->depth = depth > c->depth ? depth : c->depth;
     }
     if (c->candidates.overflow) {
@@ -220,16 +218,18 @@ void knurl_contacts_reset(knurl_contacts *c) {
     c->hand_over.felt = 0.0;
 }
 
-uint32_t knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                               const double position[3], knurl_active_contact *active, uint32_t *flags) {
-    update u = {c, index, position, active, 0, flags};
+void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                           const double position[3], uint32_t *flags) {
+    update u = {c, index, position, flags};
+    knurl_hip_path path;
     uint64_t held = 0;
+    const int clear = c->has_previous && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
     int ended = 0;
-    if (!c->has_previous || c->everything ||
-        !knurl_candidates_are_complete(&c->candidates, phase, position, c->depth)) {
-        const knurl_hip_path path = path_of(&u);
-        knurl_candidates_find(&c->candidates, phase, index, &path);
+    if (!clear) {
+        path = path_of(&u);
+        knurl_candidates_update(&c->candidates, phase, index, &path);
     }
+    c->active_count = 0;
     c->hand_over.given = 0;
     c->hand_over.depth = 0.0;
     if (c->clock.time - c->hand_over.time < HANDOVER_SECONDS && c->has_previous) {
@@ -243,9 +243,9 @@ uint32_t knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase
             ended |= !candidate->in_contact;
         }
     }
-    if (ended || c->hand_over.given || !knurl_candidates_are_clear(&c->candidates, position)) {
-        begin_others(&u, held); /* then whatever else is near may begin */
+    if (!clear || ended || c->hand_over.given) { /* then whatever else is near may begin */
+        path = path_of(&u);
+        begin_others(&u, &path, held);
     }
     finish(&u);
-    return u.count;
 }

@@ -31,17 +31,6 @@ static inline void knurl_hip_clock_advance(knurl_hip_clock *clock) {
     knurl_store_double(&clock->time, time);
 }
 
-/* Of one HIP, from tick to tick. */
-typedef struct knurl_contacts {
-    knurl_hip_clock clock;
-    double previous[3]; /* HIP position at the last tick, scene */
-    double depth;       /* of the deepest contact at the latest tick, m; 0 without */
-    int32_t has_previous;
-    int32_t everything; /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */
-    knurl_hand_over hand_over;
-    knurl_candidates candidates;
-} knurl_contacts;
-
 /* One surface that the HIP is in contact with in this tick. */
 typedef struct knurl_active_contact {
     const knurl_surface_data *surface;
@@ -53,17 +42,29 @@ typedef struct knurl_active_contact {
     int32_t begins;             /* 1: it was not in contact at the last tick */
 } knurl_active_contact;
 
+/* Of one HIP, from tick to tick. */
+typedef struct knurl_contacts {
+    knurl_hip_clock clock;
+    double previous[3]; /* HIP position at the last tick, scene */
+    double depth;       /* of the deepest contact at the latest tick, m; 0 without */
+    int32_t has_previous;
+    int32_t everything; /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */
+    knurl_hand_over hand_over;
+    knurl_active_contact active[KNURL_MAX_CONTACTS]; /* in this tick; what they point to is gone after it */
+    uint32_t active_count;
+    knurl_candidates candidates;
+} knurl_contacts;
+
 /* Before the first tick. period, time: s. */
 void knurl_contacts_init(knurl_contacts *contacts, double period, double time);
 
 /* No contact; the next tick is a first one. */
 void knurl_contacts_reset(knurl_contacts *contacts);
 
-/* From the HIP's position (scene, m) to what it is in contact with: fills in `active`, at most KNURL_MAX_CONTACTS, and
- * returns how many. Adds to *flags: KNURL_TICK_CONTACTS_FULL. */
-uint32_t knurl_contacts_update(knurl_contacts *contacts, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                               const double position[3], knurl_active_contact *active,
-                               uint32_t *flags) KNURL_NONBLOCKING;
+/* From the HIP's position (scene, m) to the surfaces that it is in contact with: contacts->active. Adds to *flags:
+ * KNURL_TICK_CONTACTS_FULL. */
+void knurl_contacts_update(knurl_contacts *contacts, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                           const double position[3], uint32_t *flags) KNURL_NONBLOCKING;
 
 /* The tick is over, and was one to go on from. */
 static inline void knurl_contacts_keep(knurl_contacts *contacts, const double position[3]) {

@@ -3,10 +3,6 @@
 
 #include <math.h>
 
-/* theta from which on the force limit comes down. Any value keeps theta below 1; this one leaves the full force for 90
- * % of the way and takes it back over the last tenth, in which a hand can let go of what it presses. */
-#define WARM 0.9
-
 void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts) {
     const double ratio = facts->max_force / facts->continuous_force; /* 0 where there is no limit */
     heat->theta = 0.0;
@@ -17,17 +13,9 @@ void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts) {
     heat->max_force = facts->max_force;
 }
 
-double knurl_heat_limit(const knurl_heat *heat) {
-    if (heat->theta <= WARM || heat->excess == 0.0) {
-        return heat->max_force;
-    }
-    const double left = (1.0 - heat->theta) / (1.0 - WARM);
+double knurl_heat_limit_warm(const knurl_heat *heat) {
+    const double left = (1.0 - heat->theta) / (1.0 - KNURL_HEAT_WARM);
     return heat->continuous * sqrt(1.0 + heat->excess * left);
-}
-
-void knurl_heat_add(knurl_heat *heat, double force2) {
-    heat->theta += heat->share * (force2 * heat->per_force - heat->theta);
-    heat->theta = heat->theta < 1.0 || heat->excess == 0.0 ? heat->theta : 1.0;
 }
 
 /* The closed form of as many knurl_heat_add(). */

@@ -6,6 +6,10 @@
 
 #include <knurl/base.h>
 
+/* theta from which on the force limit comes down. Any value keeps theta below 1; this one leaves the full force for 90
+ * % of the way and takes it back over the last tenth, in which a hand can let go of what it presses. */
+#define KNURL_HEAT_WARM 0.9
+
 /* How warm motors are that are driven with a force: theta' = ((F/continuous)^2 - theta)/time. */
 typedef struct knurl_heat {
     double theta;     /* 0 cold to 1: as warm as the continuous force makes them in the long run */
@@ -18,11 +22,21 @@ typedef struct knurl_heat {
 
 void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts);
 
-/* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
-double knurl_heat_limit(const knurl_heat *heat) KNURL_NONBLOCKING;
+/* What is rare: called by knurl_heat_limit(). */
+double knurl_heat_limit_warm(const knurl_heat *heat) KNURL_NONBLOCKING;
 
-/* What was played for a tick, N^2, or for so many of them, >= 0. */
-void knurl_heat_add(knurl_heat *heat, double force2) KNURL_NONBLOCKING;
+/* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
+static inline double knurl_heat_limit(const knurl_heat *heat) {
+    return heat->theta <= KNURL_HEAT_WARM || heat->excess == 0.0 ? heat->max_force : knurl_heat_limit_warm(heat);
+}
+
+/* What was played for a tick, N^2. */
+static inline void knurl_heat_add(knurl_heat *heat, double force2) {
+    heat->theta += heat->share * (force2 * heat->per_force - heat->theta);
+    heat->theta = heat->theta < 1.0 || heat->excess == 0.0 ? heat->theta : 1.0;
+}
+
+/* For as many ticks, >= 0: the closed form. */
 void knurl_heat_hold(knurl_heat *heat, double force2, double ticks) KNURL_NONBLOCKING;
 
 /* The same heat whatever the continuous force: N^2, of the force that makes the motors as warm in the long run. */

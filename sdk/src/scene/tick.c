@@ -80,20 +80,22 @@ static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, c
 }
 
 /* From contacts to their force as it is sent, N, scene; returns its length. */
-static double sum_forces(knurl_hip *hip, const knurl_active_contact *contacts, uint32_t count, knurl_tick_output *out) {
+static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
+    const uint32_t count = hip->contacts.active_count;
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
     knurl_wall walls[KNURL_MAX_CONTACTS];
     for (uint32_t i = 0; i < count; i++) {
-        const knurl_active_contact *c = &contacts[i];
+        const knurl_active_contact *c = &hip->contacts.active[i];
         knurl_wall_init(&walls[i], &c->record->material, c->contact.z, &c->candidate->guard);
     }
     knurl_guard_before(&hip->guard, walls, count, &out->flags);
     for (uint32_t i = 0; i < count; i++) {
+        const knurl_active_contact *c = &hip->contacts.active[i];
+        const int64_t events = c->candidate->grating.event_count;
         knurl_contact_force share;
-        const int64_t events = contacts[i].candidate->grating.event_count;
-        knurl_force_law(&motion, &contacts[i], &walls[i], &share);
-        count_grating(hip, &contacts[i], &share, events);
-        add_contact(&contacts[i], &share, out);
+        knurl_force_law(&motion, c, &walls[i], &share);
+        count_grating(hip, c, &share, events);
+        add_contact(c, &share, out);
     }
     return knurl_guard_after(&hip->guard, walls, count, out->force, &out->flags);
 }
@@ -118,21 +120,19 @@ static void reset(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
 /* From a HIP that has been read to the device's force; returns its length, N. */
 static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_broad_index *index = __atomic_load_n(&scene->broad_phase.index, __ATOMIC_SEQ_CST);
-    knurl_active_contact contacts[KNURL_MAX_CONTACTS];
     knurl_guard_begin(&hip->guard, input->attenuation);
     if (input->paused) {
         end_contacts(hip);
         vec3_copy(out->force, out->device_force);
         return 0.0;
     }
-    const uint32_t count =
-        knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, contacts, &out->flags);
-    const double length = sum_forces(hip, contacts, count, out);
+    knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
+    const double length = sum_forces(hip, out);
     if (!knurl_is_finite(length)) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;
     }
-    out->flags |= count > 0 ? KNURL_TICK_CONTACT : 0;
+    out->flags |= out->contacts > 0 ? KNURL_TICK_CONTACT : 0;
     if (hip->is_turned) {
         knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
     } else {
