@@ -27,8 +27,8 @@ typedef struct knurl_box {
 knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
                              uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count);
 
-/* Squared distance from a point to a node's box; 0 inside. */
-static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const double p[3]) {
+/* Squared distance from a point to a node's box; 0 inside. Allowed in a tick. */
+static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const double p[3]) KNURL_NONBLOCKING {
     double sum = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         const double below = (double)node->min[axis] - p[axis];
@@ -39,8 +39,9 @@ static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const doubl
     return sum;
 }
 
-/* Whether the box of a segment, widened by `margin`, meets a node's box. */
-static inline int knurl_bvh_overlaps(const knurl_bvh_node *node, const double a[3], const double b[3], double margin) {
+/* Whether the box of a segment, widened by `margin`, overlaps a node's box. Allowed in a tick. */
+static inline int knurl_bvh_overlaps(const knurl_bvh_node *node, const double a[3], const double b[3],
+                                     double margin) KNURL_NONBLOCKING {
     for (int axis = 0; axis < 3; axis++) {
         const double low = a[axis] < b[axis] ? a[axis] : b[axis];
         const double high = a[axis] < b[axis] ? b[axis] : a[axis];

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Holds the sources to the architecture: which room may use which, no circles of files, short headers, and a picture that
+agrees with the code. SPDX-License-Identifier: MIT
+
+    check.py --build DIR [--nm NM] --objects FILE... [--objects FILE...]     what the test `architecture` runs
+    check.py --draw ...                                                      draws the picture anew (target `picture`)"""
+import argparse
+import os
+import sys
+
+import picture
+from units import LIBRARY, PUBLIC, Code, unit_of
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+
+# Room: the rooms that it may use. What is not here, bindings and samples, uses public headers only.
+ROOMS = {
+    "base": set(),
+    "vibration": {"base"},
+    "grating": {"base", "vibration"},
+    "motion": {"base"},
+    "contact": {"base"},
+    "device": {"base"},
+    "scene": {"base", "grating", "motion", "contact"},
+    "loop": {"base", "scene", "device", "motion"},  # a HIP's workspace is motion's
+    "gltf": {"scene", "grating", "contact"},
+}
+# Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.
+HEADER_ONLY = {"base/finite", "base/handle"}
+
+SHORT_HEADERS = ("scene", "contact")
+HEADER_LINES = 120
+
+# What fails today, to be removed. An entry that no longer fails is an error too.
+KNOWN_CIRCLES = [
+    ["device/custom", "device/device", "device/exit", "device/fake/fake", "device/fake/fake_uri", "device/falcon/falcon",
+     "device/falcon/transport_usb", "device/link", "device/rawhid/choose", "device/rawhid/rawhid", "device/touch/touch",
+     "device/touch/touch_connect", "device/touch/touch_info", "device/touch/touch_servo"],
+    ["device/rawhid/geometry", "device/rawhid/kinematics"],
+    ["device/fake/hand", "device/fake/hand_path"],
+    ["gltf/hierarchy", "gltf/outline"],
+    ["bindings/godot/src/classes", "bindings/godot/src/serve"],
+]
+KNOWN_LONG_HEADERS = []
+
+
+def check_rooms(code):
+    wrong = []
+    for unit, others in code.uses.items():
+        room = code.room(unit)
+        for other in sorted(others):
+            to = code.room(other)
+            if room in ROOMS and to != room and to not in ROOMS[room] and not (room == "gltf" and other in HEADER_ONLY):
+                wrong.append(f"{room} may use {', '.join(sorted(ROOMS[room])) or 'no other room'}: {unit} uses {other}")
+    for path, rooms in code.public.items():
+        room = os.path.basename(path)[:-2] if path.startswith(PUBLIC) else code.room(unit_of(path))
+        for to in sorted(rooms):
+            if room in ROOMS and to not in ROOMS[room] | {room, "base"}:
+                wrong.append(f"{path}: {room} may not use <knurl/{to}.h>")
+    wrong += [f'{path}: only public headers, <knurl/...>, are for bindings and samples, found "{name}"'
+              for path, name in code.stray if name[:-2] not in HEADER_ONLY]
+    return wrong
+
+
+def check_circles(code, known):
+    found = code.circles()
+    wrong = [f"a circle: {', '.join(circle)} all depend on one another" for circle in found
+             if not any(set(circle) <= set(other) for other in known)]
+    return wrong + [f"no circle any more: take {', '.join(other)} out of KNOWN_CIRCLES" for other in known
+                    if not any(set(circle) <= set(other) for circle in found)]
+
+
+def check_headers(code, known):
+    long = {path: lines for path, lines in code.lines.items() if path.endswith(".h") and lines > HEADER_LINES
+            and path.startswith(tuple(f"{LIBRARY}/{room}/" for room in SHORT_HEADERS))}
+    wrong = [f"{path}: {lines} lines, at most {HEADER_LINES}" for path, lines in long.items() if path not in known]
+    return wrong + [f"{path} is short: take it out of KNOWN_LONG_HEADERS" for path in known if path not in long]
+
+
+def same(path, text):
+    with open(path, encoding="utf-8") as file:
+        return file.read() == text
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--build", required=True)
+    parser.add_argument("--nm", default="nm")
+    parser.add_argument("--objects", nargs="+", action="append", default=[], help="of one library or program")
+    parser.add_argument("--draw", action="store_true")
+    given = parser.parse_args(arguments)
+    code = Code(ROOT)
+    for objects in given.objects:
+        code.add_objects(objects, given.build, given.nm)
+    wrong = check_rooms(code) + check_circles(code, KNOWN_CIRCLES) + check_headers(code, KNOWN_LONG_HEADERS)
+    drawn, missing = picture.draw(code)
+    path = os.path.join(ROOT, picture.PATH)
+    if given.draw and drawn:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(drawn)
+    elif drawn and not (os.path.exists(path) and same(path, drawn)):
+        missing.append(f"{picture.PATH} is not what the code says: cmake --build build/release --target picture")
+    for line in wrong + missing:
+        print("architecture:", line, file=sys.stderr)
+    return 1 if wrong or missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
