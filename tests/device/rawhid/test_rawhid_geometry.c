@@ -62,7 +62,7 @@ TEST(the_defaults_are_woodenhaptics_v2015) {
     CHECK_SAME(g.torque_constant[2], 0.0259);
     CHECK_SAME(g.max_current, 2.0);
     CHECK_SAME(g.home[2], 6000.0);
-    CHECK_SAME(g.max_force, 5.0);
+    CHECK_SAME(g.max_force, 3.0);
     CHECK_SAME(g.max_stiffness, 1000.0);
     CHECK_SAME(g.max_damping, 8.0);
     CHECK_SAME(g.home_on_open, 0.0);
@@ -115,7 +115,7 @@ TEST(what_is_wrong_is_refused_in_words_that_name_file_line_key_expected_and_foun
                {"vendor = 16c0", {"vendor", "0x16c0", "'16c0'"}},
                {"vendor = 5", {"my.geometry", "both vendor and product", "0x5"}},
                {"report_bytes = 13", {"report_bytes", "14 to 64", "13"}},
-               {"continuous_force = 6", {"continuous_force", "up to max_force (5 N)", "6 N"}},
+               {"continuous_force = 6", {"continuous_force", "up to max_force (3 N)", "6 N"}},
                {"origin_x = 0.9", {"my.geometry", "that the arm reaches", "0.9"}},
                {"origin_x = 0\norigin_z = 0.1", {"my.geometry", "that the arm reaches", "0.1"}}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {

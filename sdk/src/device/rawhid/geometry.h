@@ -46,7 +46,7 @@
     X(home_c, home[2], 6000, -32768, 32767, "counts", WHOLE)                                                           \
     X(home_on_open, home_on_open, 0, 0, 1, "", WHOLE) /* 1: as ?home=1 */                                              \
     X(max_current, max_current, 2.0, 0.001, 2.0, "A", REAL)                                                            \
-    X(max_force, max_force, 5.0, 0.1, 100.0, "N", REAL)                                                                \
+    X(max_force, max_force, 3.0, 0.1, 100.0, "N", REAL)                                                                \
     X(continuous_force, continuous_force, 1.7, 0.01, 100.0, "N", REAL)                                                 \
     X(heat_time, heat_time, 60.0, 0.1, 10000.0, "s", REAL)                                                             \
     X(max_stiffness, max_stiffness, 1000.0, 1.0, 1000000.0, "N/m", REAL)                                               \
