@@ -170,6 +170,7 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
         return;
     }
     state->running = 1;
+    state->paused = session->paused;
     state->surface = session->touched;
     state->buttons = session->buttons;
     state->overruns = session->overruns;

@@ -20,6 +20,7 @@ struct knurl_session {
     knurl_session_desc desc;
     int32_t stroke; /* KNURL_STROKE_, or 0: none */
     uint32_t is_fake, is_mouse;
+    uint32_t paused;
     uint32_t runs; /* 1: the haptic thread was started, and was not seen to have ended */
     /* what the latest update found, for knurl_session_next_event() */
     knurl_surface touches[KNURL_SESSION_TOUCHES]; /* a ring: what was touched after one another, with 0 for nothing */

@@ -108,13 +108,25 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
     knurl_result result = prepare(session);
     result = result || !session->is_fake ? result : knurl_session_lay_stroke(session, &outside);
     result = result ? result : make_loop(session, session->desc.heartbeat_s);
-    result = result ? result : knurl_loop_start(session->loop);
+    if (!result) {
+        knurl_session_set_paused(session, session->paused);
+        result = knurl_loop_start(session->loop);
+    }
     if (!result) {
         session->runs = 1;
         knurl_session_hush(warning, size);
         warn(session, outside, warning, size);
     }
     return result;
+}
+
+void knurl_session_set_paused(knurl_session *session, uint32_t paused) {
+    session->paused = paused != 0;
+    if (session->loop && session->paused) {
+        knurl_loop_pause(session->loop);
+    } else if (session->loop) {
+        knurl_loop_resume(session->loop);
+    }
 }
 
 /* The rows in device coordinates. */

@@ -47,7 +47,7 @@ typedef struct knurl_session_state {
     uint32_t buttons;          /**< bit 0: first button; as of the latest update */
     uint32_t running;          /**< 1: the haptic thread runs */
     uint32_t in_contact;       /**< 1: something is touched, told or not */
-    uint32_t reserved;         /**< 0 */
+    uint32_t paused;           /**< 1: as knurl_session_set_paused() had it */
 } knurl_session_state;
 
 /** What happened. */
@@ -129,6 +129,11 @@ KNURL_API void knurl_session_close(knurl_session *session);
 /** A sign of life, once a frame, and collects what happened since the last. Nothing is asked of the heap; what nobody
  * fetches is kept up to a bound, the latest of it. [game thread] */
 KNURL_API void knurl_session_update(knurl_session *session);
+
+/** 1: a pause: the force goes to zero by a ramp, what is touched is told as ended, and the HIP is told on; 0: the end
+ * of one, see knurl_loop_pause(). No update is needed meanwhile. It counts for this run and for later ones, until it is
+ * set anew; knurl_session_play() knows no pause. [game thread] */
+KNURL_API void knurl_session_set_paused(knurl_session *session, uint32_t paused);
 
 /** The next event, oldest first: 1, or 0 where there is none. A touch shorter than a frame is told as well; what comes
  * back within a frame was never away; each start has its end. Of faults no more than 64 are told an update, so that a

@@ -55,6 +55,55 @@ TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
     knurl_session_destroy(s);
 }
 
+/* No update is needed in a pause: a heartbeat that is not asked for is no fault. */
+TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
+    knurl_session_desc desc = describe("fake", "rest");
+    desc.heartbeat_s = 0.1;
+    knurl_session *s = make_session();
+    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.005);
+    run(s, &desc);
+    assert_int_equal(state_of(s).paused, 0);
+    CHECK_UNTIL(s, feels(s));
+    CHECK_UNTIL(s, is_told(s, KNURL_SESSION_CONTACT_STARTED, 0));
+    knurl_session_set_paused(s, 1);
+    assert_int_equal(state_of(s).paused, 1);
+    const int64_t begin = knurl_system_now_ns();
+    while (!(feels_nothing(s) && state_of(s).in_contact == 0) && knurl_system_now_ns() - begin < PATIENCE_NS) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    const uint64_t ticks = state_of(s).ticks;
+    while (state_of(s).ticks < ticks + 300 && knurl_system_now_ns() - begin < PATIENCE_NS) {
+        assert_true(feels_nothing(s));
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    knurl_session_event event;
+    knurl_session_update(s);
+    assert_int_equal(knurl_session_next_event(s, &event), 1);
+    assert_int_equal(event.kind, KNURL_SESSION_CONTACT_ENDED);
+    assert_true(event.surface == plate);
+    while (knurl_session_next_event(s, &event)) {
+        assert_true(event.kind != KNURL_SESSION_FAULT || event.code != KNURL_FAULT_HEARTBEAT);
+    }
+    knurl_session_set_paused(s, 0);
+    CHECK_UNTIL(s, feels(s));
+    knurl_session_destroy(s);
+}
+
+TEST(a_session_can_start_paused) {
+    const knurl_session_desc desc = describe("fake", "rest");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.005);
+    knurl_session_set_paused(s, 1);
+    run(s, &desc);
+    CHECK_UNTIL(s, state_of(s).ticks > 300);
+    assert_true(feels_nothing(s) && state_of(s).paused == 1);
+    knurl_session_close(s);
+    knurl_session_set_paused(s, 0);
+    run(s, &desc);
+    CHECK_UNTIL(s, feels(s));
+    knurl_session_destroy(s);
+}
+
 TEST(a_game_that_hangs_is_let_go_of_until_it_lives_again) {
     knurl_session_desc desc = describe("fake", "rest");
     knurl_session *s = make_session();

@@ -140,6 +140,12 @@ func lets_go() -> void:
 	check("and holds on to the device", d.running)
 	paused = false
 	check("and comes back", await until(func() -> bool: return d.force.length() > 0.05))
+	d.paused = true
+	check("it can pause by itself", await until(func() -> bool: return d.force == Vector3.ZERO and not d.in_contact), d.force)
+	var ticks: int = d.ticks
+	check("its ticks go on", await until(func() -> bool: return d.ticks > ticks + 400) and d.paused and d.force == Vector3.ZERO)
+	d.paused = false
+	check("and it comes back", await until(func() -> bool: return d.force.length() > 0.05))
 	OS.delay_msec(400)
 	check("a game that hangs lets go", d.force == Vector3.ZERO, d.force)
 	check("and comes back as well", await until(func() -> bool: return d.force.length() > 0.05))

@@ -69,7 +69,15 @@ struct gd_class {
 
 enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_RESOURCE_TYPE = 17 };
 
-enum { GD_PREDELETE = 1, GD_ENTER_TREE = 10, GD_EXIT_TREE = 11, GD_INTERNAL_PROCESS = 25, GD_TRANSFORM_CHANGED = 2000 };
+enum {
+    GD_PREDELETE = 1,
+    GD_ENTER_TREE = 10,
+    GD_EXIT_TREE = 11,
+    GD_PAUSED = 14,
+    GD_UNPAUSED = 15,
+    GD_INTERNAL_PROCESS = 25,
+    GD_TRANSFORM_CHANGED = 2000
+};
 
 void gd_register(const gd_class *class);
 void gd_unregister(const gd_class *class);

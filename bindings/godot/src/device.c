@@ -128,6 +128,9 @@ int64_t device_start(device *d) {
     }
     char warning[512];
     knurl_result result = device_prepare(d);
+    if (!result) {
+        knurl_session_set_paused(d->session, d->paused || d->tree_paused);
+    }
     result = result ? result : knurl_session_start(d->session, warning, sizeof warning);
     if (result) {
         const int64_t error = device_fail("KnurlDevice.start", result);

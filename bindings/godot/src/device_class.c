@@ -37,6 +37,13 @@ static void set_processing(device *d, uint8_t on) {
     gd_call(gd_method.Node_set_process_internal, d->base.object, &on, NULL);
 }
 
+static void pause(void *self) {
+    const device *d = self;
+    if (d->session) {
+        knurl_session_set_paused(d->session, d->paused || d->tree_paused);
+    }
+}
+
 static void notify(void *self, int32_t what) {
     device *d = self;
     switch (what) {
@@ -48,6 +55,11 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_EXIT_TREE:
         device_stop(d);
+        break;
+    case GD_PAUSED:
+    case GD_UNPAUSED:
+        d->tree_paused = what == GD_PAUSED;
+        pause(d);
         break;
     case GD_INTERNAL_PROCESS:
         device_process(d);
@@ -213,6 +225,7 @@ static const gd_property properties[] = {
      .offset = offsetof(device, stroke),
      .hint = GD_HINT_ENUM,
      .hints = ",line,sweep,circle,press,rest"},
+    {.name = "paused", .type = BOOL, .offset = offsetof(device, paused), .changed = pause},
     {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},
     {.name = "proxy_position", .type = VECTOR3, .get = get_proxy_position},
     {.name = "force", .type = VECTOR3, .get = get_force},

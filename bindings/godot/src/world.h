@@ -32,8 +32,9 @@ typedef struct device {
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */
     uint8_t runs;
-    int slot;               /* -1: does not run */
-    knurl_session *session; /* or null: never started yet, and no file loaded */
+    uint8_t paused, tree_paused; /* by the game; by the tree, as the engine tells */
+    int slot;                    /* -1: does not run */
+    knurl_session *session;      /* or null: never started yet, and no file loaded */
     knurl_workspace workspace;
     knurl_surface touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */

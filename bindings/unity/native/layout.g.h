@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "9f17f46da8fee167"
+#define KNURL_UNITY_INTERFACE "88d94d694c1e02f6"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -340,7 +340,7 @@
     FIELD(knurl_session_state, buttons, "buttons", 112, 4) \
     FIELD(knurl_session_state, running, "running", 116, 4) \
     FIELD(knurl_session_state, in_contact, "in_contact", 120, 4) \
-    FIELD(knurl_session_state, reserved, "reserved", 124, 4) \
+    FIELD(knurl_session_state, paused, "paused", 124, 4) \
     STRUCT(knurl_session_event, 24) \
     FIELD(knurl_session_event, kind, "kind", 0, 4) \
     FIELD(knurl_session_event, code, "code", 4, 4) \

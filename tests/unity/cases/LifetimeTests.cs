@@ -246,6 +246,23 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void ADeviceThatIsPausedTellsWhereItIsAndFeelsNothing()
+        {
+            int ended = 0;
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            d.contactEnded.AddListener(s => ended++);
+            Until(() => d.Force.magnitude > 0.05f && d.InContact, "pressed");
+            d.Paused = true;
+            Until(() => d.Force == Vector3.zero && !d.InContact, "let go");
+            long then = d.Ticks;
+            Until(() => d.Ticks > then + 400, "ticks go on");
+            Assert.That(d.Running && d.Paused && d.Force == Vector3.zero && ended == 1, "and nothing is felt");
+            d.Paused = false;
+            Until(() => d.Force.magnitude > 0.05f && d.InContact, "and comes back");
+        }
+
+        [Test]
         public void AGameThatHangsLetsGo()
         {
             MakeSurface(Plate());

@@ -26,6 +26,8 @@ namespace Knurl.Editing
             "looked for again; otherwise losing it stops this component");
         static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
             "device can do are felt at what it can");
+        static readonly GUIContent Paused = new GUIContent("Paused", "Nothing is felt, and where it is goes on being " +
+            "told. Counts at once");
 
         bool showEvents;
 
@@ -51,6 +53,7 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("autostart"), Autostart);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("paused"), Paused);
             showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
             for (int i = 0; showEvents && i < Events.Length; i++)
             {

@@ -11,7 +11,7 @@ namespace Knurl
         [NonSerialized] Following following;   // as long as the session is open
         [NonSerialized] bool isRunning;
         [NonSerialized] bool hasFiles;
-        [NonSerialized] bool isPaused;
+        [NonSerialized] bool isPaused; // by the application
         [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
@@ -126,6 +126,7 @@ namespace Knurl
             const int size = 1024;
             knurl_device_info info;
             byte* warning = stackalloc byte[size];
+            Pause();
             KnurlException.Check(NativeMethods.knurl_session_start(session, warning, size));
             isRunning = true;
             runs++;
@@ -179,11 +180,22 @@ namespace Knurl
             isNew = false;
         }
 
-        /// <summary>A game that stands still gives no sign of life, and the hand is let go of.</summary>
+        /// <summary>A game that stands still is a pause, however that was asked for.</summary>
+        void Pause()
+        {
+            if (session != null)
+            {
+                bool all = paused || isPaused || Time.timeScale == 0f;
+                NativeMethods.knurl_session_set_paused(session, all ? 1u : 0u);
+            }
+        }
+
+        /// <summary>A game that gives no frame gives no sign of life, and the hand is let go of.</summary>
         void LateUpdate()
         {
-            if (isRunning && !isPaused && Time.timeScale != 0f)
+            if (isRunning)
             {
+                Pause();
                 NativeMethods.knurl_unity_update(session);
                 following.Follow();
                 TellEvents();
@@ -193,6 +205,7 @@ namespace Knurl
         void OnApplicationPause(bool pause)
         {
             isPaused = pause;
+            Pause();
         }
 
         void OnDisable()

@@ -40,6 +40,10 @@ namespace Knurl
         [SerializeField, Tooltip("Whether walls and textures beyond what the device can do are felt at what it can.")]
         bool clamp = true;
 
+        [SerializeField, Tooltip("A pause of this device: nothing is felt, and where it is goes on being told. Counts at "
+            + "once.")]
+        bool paused;
+
         /// <summary>A surface is touched; of several, the one pressed deepest. Null for a surface of <see
         /// cref="LoadGltf"/>. Told in LateUpdate; a touch shorter than a frame is told as well.</summary>
         public KnurlContactEvent contactStarted = new KnurlContactEvent();
@@ -108,6 +112,19 @@ namespace Knurl
         {
             get { return clamp; }
             set { clamp = value; }
+        }
+
+        /// <summary>A pause of this device: the force goes to zero by a ramp, what is touched ends, and <see
+        /// cref="HipPosition"/> goes on being told, for a menu; the motors cool. A time scale of 0 and an application in
+        /// the background do the same. Default false. Counts at once.</summary>
+        public bool Paused
+        {
+            get { return paused; }
+            set
+            {
+                paused = value;
+                Pause();
+            }
         }
 
         void Complain(string what, string sentence)

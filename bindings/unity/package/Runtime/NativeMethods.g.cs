@@ -484,7 +484,7 @@ namespace Knurl
         public uint buttons;
         public uint running;
         public uint in_contact;
-        public uint reserved;
+        public uint paused;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -566,7 +566,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "9f17f46da8fee167";
+        internal const string Interface = "88d94d694c1e02f6";
 
         internal const string Version = "0.1.0";
 
@@ -1005,6 +1005,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_session_update(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_session_set_paused(SessionHandle session, uint paused);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint knurl_session_next_event(SessionHandle session, knurl_session_event* @event);
