@@ -391,5 +391,43 @@ namespace Knurl.Tests
                 NativeMethods.knurl_device_close(device);
             }
         }
+
+        static int LengthOf(string text)
+        {
+            return text.Length;
+        }
+
+        /// <summary>A null reference is a signal that the runtime handles: it stays an exception, and no end.</summary>
+        [Test]
+        public void NullReferencesDoNotZeroForces()
+        {
+            knurl_device* device = null;
+            Assert.AreEqual(0, NativeMethods.knurl_device_zero_on_exit(1));
+            fixed (byte* uri = Utf8.Bytes("fake", "uri"))
+            {
+                Assert.AreEqual(0, NativeMethods.knurl_device_open(uri, &device));
+            }
+            try
+            {
+                double* force = stackalloc double[3];
+                knurl_device_sample sample;
+                knurl_fake_truth truth;
+                force[1] = 1.0;
+                Assert.AreEqual(0, NativeMethods.knurl_device_start(device, 1000.0));
+                for (int i = 0; i < 3; i++)
+                {
+                    Assert.Throws<NullReferenceException>(() => LengthOf(null));
+                    Assert.AreEqual(0, NativeMethods.knurl_device_read(device, &sample));
+                    Assert.AreEqual(0, NativeMethods.knurl_device_write(device, force));
+                }
+                Assert.AreEqual(0, NativeMethods.knurl_device_read(device, &sample));
+                Assert.AreEqual(0, NativeMethods.knurl_fake_get_truth(device, &truth));
+                Assert.AreEqual(1.0, truth.motor[1], 1e-12);
+            }
+            finally
+            {
+                NativeMethods.knurl_device_close(device);
+            }
+        }
     }
 }
