@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 /* What becomes of a signal that has a handler already. */
@@ -95,16 +96,34 @@ static void on_signal(int number, siginfo_t *info, void *context) {
     }
 }
 
-/* A stack that overflowed is no place for a handler. For the calling thread, unless it has such a stack. */
+#define STACK_BYTES ((size_t)64 * 1024) /* the handlers from before run there too */
+
+static void *stack;
+
+/* A stack that overflowed is no place for a handler. For the calling thread, unless it has such a stack. It is no part
+ * of the library, which may be unloaded while that thread lives on. */
 static void give_a_stack(void) {
-    static char room[64 * 1024]; /* the handlers from before run there too */
     stack_t found;
     stack_t mine;
     memset(&mine, 0, sizeof mine);
-    mine.ss_sp = room;
-    mine.ss_size = sizeof room;
-    if (sigaltstack(NULL, &found) == 0 && found.ss_flags & SS_DISABLE) {
-        (void)sigaltstack(&mine, NULL);
+    if (sigaltstack(NULL, &found) != 0 || !(found.ss_flags & SS_DISABLE)) {
+        return;
+    }
+    mine.ss_sp = mmap(NULL, STACK_BYTES, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    mine.ss_size = STACK_BYTES;
+    if (mine.ss_sp != MAP_FAILED && sigaltstack(&mine, NULL) == 0) {
+        stack = mine.ss_sp;
+    }
+}
+
+/* Where that thread is the calling one. */
+static void take_the_stack_back(void) {
+    stack_t found;
+    if (stack && sigaltstack(NULL, &found) == 0 && found.ss_sp == stack && !(found.ss_flags & SS_ONSTACK)) {
+        found.ss_flags = SS_DISABLE;
+        if (sigaltstack(&found, NULL) == 0) {
+            (void)munmap(stack, STACK_BYTES);
+        }
     }
 }
 
@@ -142,6 +161,7 @@ __attribute__((destructor)) static void give_back(void) {
             (void)sigaction(signals[i].number, &before[i], NULL);
         }
     }
+    take_the_stack_back();
 }
 
 static int installed;

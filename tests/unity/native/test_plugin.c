@@ -1,8 +1,11 @@
 /* The plugin's life as Unity lives it: loaded, told of the engine, updated, unloaded, again and again.
  * SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE 1 /* sigaction() */
+
 #include "counts.h"
 #include "engine.h"
 
+#include <signal.h>
 #include <stdlib.h>
 
 static plugin p; /* opened by each test */
@@ -159,6 +162,45 @@ TEST_WITH(once_unloaded_the_engine_is_not_called_any_more, open_plugin, close_pl
     assert_int_equal(engine.log_count, 0);
     p.knurl_session_destroy(session);
 }
+
+/* --- signals --- */
+
+#ifndef _WIN32
+
+static volatile int handled;
+
+static void on_signal(int number) {
+    (void)number;
+    handled++;
+}
+
+/* Else the next signal would run code, on a stack, that is no longer there. */
+TEST(a_plugin_that_is_unloaded_gives_its_signals_and_its_stack_back) {
+    static const int numbers[] = {SIGTERM, SIGSEGV, SIGTSTP, SIGPIPE};
+    struct sigaction now;
+    struct sigaction mine;
+    memset(&mine, 0, sizeof mine);
+    mine.sa_handler = on_signal;
+    mine.sa_flags = SA_ONSTACK;
+    for (int round = 0; round < 2; round++) {
+        (void)open_plugin(NULL);
+        knurl_session *session = plugin_run(&p);
+        assert_int_equal(sigaction(SIGTERM, NULL, &now), 0);
+        assert_true(now.sa_handler != SIG_DFL);
+        p.knurl_session_destroy(session);
+        (void)close_plugin(NULL);
+        for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+            assert_int_equal(sigaction(numbers[i], NULL, &now), 0);
+            assert_true(now.sa_handler == SIG_DFL || numbers[i] == SIGSEGV); /* a sanitizer's */
+        }
+        assert_int_equal(sigaction(SIGUSR1, &mine, NULL), 0);
+        assert_int_equal(raise(SIGUSR1), 0);
+        assert_int_equal(handled, round + 1);
+        (void)signal(SIGUSR1, SIG_DFL);
+    }
+}
+
+#endif
 
 /* --- what still runs --- */
 
