@@ -336,6 +336,15 @@ TEST_WITH(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshar
 
 /* --- stops --- */
 
+static int wait_for_full_force(void) {
+    int is_full = 0;
+    for (int64_t until = now_ns() + 2000000000; !is_full && now_ns() < until;) {
+        is_full = knurl_load_double(&m->device.motor[1]) >= 1.0;
+        sleep_ns(1000000);
+    }
+    return is_full;
+}
+
 static void stop_by(int number) {
     (void)setpgid(0, 0); /* a group that no shell looks after is not stopped */
     (void)open_and_push(1);
@@ -343,9 +352,7 @@ static void stop_by(int number) {
     for (int k = 0; k < 2; k++) {
         crash_by(number);
         m->reached++;
-        for (int64_t until = now_ns() + 2000000000; m->device.motor[1] < 1.0 && now_ns() < until;) {
-            sleep_ns(1000000);
-        }
+        (void)wait_for_full_force();
     }
     exit(0);
 }
@@ -379,10 +386,7 @@ TEST_WITH(a_stop_zeroes_forces_and_they_come_back_by_the_ramp, share, unshare) {
             check_limp();
             const uint64_t count = m->device.writes;
             assert_int_equal(kill(pid, SIGCONT), 0);
-            for (int64_t until = now_ns() + 2000000000; m->device.motor[1] < 1.0 && now_ns() < until;) {
-                sleep_ns(1000000);
-            }
-            CHECK_SAME(m->device.motor[1], 1.0L);
+            assert_true(wait_for_full_force());
             ramps += first_force_after(count) < 0.9;
         }
         assert_int_equal(waitpid(pid, &status, 0), pid);
