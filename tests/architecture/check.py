@@ -32,15 +32,7 @@ SHORT_HEADERS = ("scene", "contact")
 HEADER_LINES = 120
 
 # What fails today, to be removed. An entry that no longer fails is an error too.
-KNOWN_CIRCLES = [
-    ["device/custom", "device/device", "device/exit", "device/fake/fake", "device/fake/fake_uri", "device/falcon/falcon",
-     "device/falcon/transport_usb", "device/link", "device/rawhid/choose", "device/rawhid/rawhid", "device/touch/touch",
-     "device/touch/touch_connect", "device/touch/touch_info", "device/touch/touch_servo"],
-    ["device/rawhid/geometry", "device/rawhid/kinematics"],
-    ["device/fake/hand", "device/fake/hand_path"],
-    ["gltf/hierarchy", "gltf/outline"],
-    ["bindings/godot/src/classes", "bindings/godot/src/serve"],
-]
+KNOWN_CIRCLES = [["bindings/godot/src/classes", "bindings/godot/src/serve"]]
 KNOWN_LONG_HEADERS = []
 
 

@@ -1,18 +1,11 @@
-/* One interface for all devices: finds the driver, guards positions and forces. SPDX-License-Identifier: MIT */
+/* One interface for all devices: guards positions and forces. SPDX-License-Identifier: MIT */
 #include "device/link.h"
 
 #include "base/atomic.h"
 #include "base/base.h"
 #include "base/vec3.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
-
-static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_driver, &knurl_falcon_driver,
-                                              &knurl_rawhid_driver};
-
-#define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
 /* What was shortened to the greatest force already may be longer by its rounding, and is sent as it is told. */
 #define ROUNDING 1e-15
@@ -31,47 +24,11 @@ void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, status, size);
 }
 
-knurl_result knurl_device_open(const char *uri, knurl_device **device) {
-    const size_t length = uri ? strcspn(uri, ":") : 0;
-    for (size_t i = 0; uri && i < DRIVER_COUNT; i++) {
-        const knurl_driver *driver = drivers[i];
-        if (strlen(driver->uri) == length && strncmp(driver->uri, uri, length) == 0) {
-            const knurl_result result = driver->open(uri[length] == ':' ? uri + length + 1 : "", device);
-            if (!result) {
-                knurl_device_register(*device);
-            }
-            return result;
-        }
-    }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'",
-                      uri ? uri : "(null)");
-}
-
 void knurl_device_close(knurl_device *device) {
     if (device) {
         knurl_device_unregister(device);
         device->driver->close(device);
     }
-}
-
-void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...) {
-    if (listings->count++ < listings->capacity) {
-        knurl_device_listing *listing = &listings->to[listings->count - 1];
-        va_list arguments;
-        (void)snprintf(listing->uri, sizeof listing->uri, "%s", uri);
-        (void)snprintf(listing->name, sizeof listing->name, "%s", name);
-        va_start(arguments, reason);
-        (void)vsnprintf(listing->reason, sizeof listing->reason, reason, arguments);
-        va_end(arguments);
-    }
-}
-
-uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
-    knurl_listings found = {listings, capacity, 0};
-    for (uint32_t i = 0; i < DRIVER_COUNT; i++) {
-        drivers[i]->list(&found);
-    }
-    return found.count;
 }
 
 knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {

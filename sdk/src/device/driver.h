@@ -14,10 +14,6 @@ typedef struct knurl_listings {
     uint32_t count;
 } knurl_listings;
 
-/* One more; `reason` is printf's, "" for a device that can be opened. */
-void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...)
-    KNURL_PRINTF(4, 5);
-
 typedef struct knurl_driver {
     const char *uri; /* what a URI begins with, up to a ':' */
     /* What is connected; at least one entry, with a reason where nothing is. [game thread] */
@@ -114,10 +110,5 @@ void knurl_device_after_force(knurl_device *device, const double force[3]);
 /* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);
 void knurl_device_unregister(knurl_device *device);
-
-extern const knurl_driver knurl_fake_driver;
-extern const knurl_driver knurl_touch_driver;
-extern const knurl_driver knurl_falcon_driver;
-extern const knurl_driver knurl_rawhid_driver;
 
 #endif

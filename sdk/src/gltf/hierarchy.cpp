@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "hierarchy.hpp"
-#include "outline.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -7,6 +7,9 @@
 
 namespace knurl::gltf {
 
+/** Nodes below each other. */
+constexpr size_t node_depth_max = 1024;
+
 struct Hierarchy {
     std::vector<int32_t> parents; ///< -1: none
     std::vector<uint32_t> shown;  ///< nodes of the scene to load, depth first, children in their order

@@ -7,9 +7,6 @@
 
 namespace knurl::gltf {
 
-/** Nodes below each other. */
-constexpr size_t node_depth_max = 1024;
-
 /** As many as a scene can hold. */
 constexpr size_t surfaces_max = size_t{1} << 20U;
 

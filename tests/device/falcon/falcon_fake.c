@@ -1,6 +1,8 @@
 /* A simulated Falcon where the driver looks for a real one. SPDX-License-Identifier: MIT */
 #include "falcon_fake.h"
 
+#include "device/listings.h"
+
 #include <string.h>
 
 #define STATUS_NS 1000000 /* the chip's latency timer: so often it sends a packet without data */

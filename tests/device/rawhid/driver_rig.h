@@ -9,6 +9,7 @@
 #include "base/vec3.h"
 #include "device/rawhid/choose.h"
 #include "device/rawhid/fake_hid.h"
+#include "device/rawhid/geometry.h"
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/rawhid.h"
 #include "device/rawhid/rawhid_double.h"

@@ -3,6 +3,7 @@
 #include "support/close.h"
 
 #include "base/vec3.h"
+#include "device/rawhid/geometry.h"
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/report.h"
 

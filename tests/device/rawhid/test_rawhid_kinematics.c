@@ -4,6 +4,7 @@
 
 #include "base/system.h"
 #include "base/vec3.h"
+#include "device/rawhid/geometry.h"
 #include "device/rawhid/hid_sim.h"
 #include "device/rawhid/kinematics.h"
 

@@ -3,7 +3,7 @@
 #include "support/close.h"
 
 #include "base/vec3.h"
-#include "device/driver.h"
+#include "device/drivers.h"
 #include "device/rawhid/emulated_hid.h"
 
 #include <signal.h>

@@ -1,5 +1,9 @@
 /* The fake device's driver. SPDX-License-Identifier: MIT */
-#include "device/fake/fake.h"
+#include "device/drivers.h"
+#include "device/fake/fake_uri.h"
+#include "device/fake/hand.h"
+#include "device/fake/plant.h"
+#include "device/listings.h"
 
 #include "base/atomic.h"
 #include "base/base.h"

@@ -1,5 +1,5 @@
 /* What follows "fake:". SPDX-License-Identifier: MIT */
-#include "device/fake/fake.h"
+#include "device/fake/fake_uri.h"
 
 #include <math.h>
 #include <stdlib.h>

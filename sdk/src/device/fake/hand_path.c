@@ -1,5 +1,5 @@
 /* A way over a surface that a simulated hand follows. SPDX-License-Identifier: MIT */
-#include "device/fake/hand.h"
+#include "device/fake/hand_path.h"
 
 #include "base/base.h"
 #include "base/vec3.h"

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/vec3.h"
+#include "device/drivers.h"
 #include "device/falcon/firmware.h"
 #include "device/falcon/frame.h"
 #include "device/falcon/kinematics.h"

@@ -1,6 +1,7 @@
 /* A Falcon over libusb. A transfer for what comes in is always under way, so that no answer waits for one to be asked
  * for. libusb's events are handled by whoever calls. SPDX-License-Identifier: MIT */
 #include "device/falcon/transport.h"
+#include "device/listings.h"
 
 #ifndef KNURL_HAVE_LIBUSB
 

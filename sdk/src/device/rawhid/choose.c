@@ -1,6 +1,7 @@
 /* The choice among HID interfaces. SPDX-License-Identifier: MIT */
 #include "device/rawhid/choose.h"
 
+#include "device/listings.h"
 #include "device/number.h"
 
 #include <stdio.h>

@@ -2,7 +2,6 @@
 #include "device/rawhid/geometry.h"
 
 #include "device/number.h"
-#include "device/rawhid/kinematics.h"
 
 #include <errno.h>
 #include <math.h>
@@ -10,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define TWO_PI 6.283185307179586
 
 enum { REAL, WHOLE, HEX, SIGN };
 
@@ -138,6 +139,17 @@ static knurl_result set_line(spot *s, word line, knurl_rawhid_geometry *geometry
     }
     s->seen |= UINT64_C(1) << i;
     return i == KEY_COUNT ? set_name(s, value, geometry) : set_number(s, &keys[i], value, geometry);
+}
+
+void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *geometry) {
+    for (int i = 0; i < 3; i++) {
+        const double gear = geometry->sign[i] * geometry->capstan[i] / geometry->body[i];
+        arm->length[i] = geometry->length[i];
+        arm->origin[i] = geometry->origin[i];
+        arm->radians[i] = TWO_PI / geometry->counts[i] * gear;
+        arm->milliamps[i] = 1000.0 * gear / geometry->torque_constant[i];
+    }
+    arm->max_milliamps = 1000.0 * geometry->max_current;
 }
 
 /* What no key can say alone. */

@@ -4,16 +4,17 @@
 #define KNURL_SRC_RAWHID_GEOMETRY_H
 
 #include "base/finite.h"
+#include "device/rawhid/kinematics.h"
 
 #include <knurl/base.h>
 
 #include <stddef.h>
 
 /* Every key but `name`: key, field, default, least, greatest, unit, kind. The defaults are WoodenHaptics v2015:
- * lengths, diameters, counts, torque constants (Maxon RE 30 310007), signs, home, workspace radius and the cap of 2 A as
- * in its makers' interface; 5 N, 1000 N/m and 8 N s/m as CHAI3D has them; what its motors hold for ever, how they warm
- * up, its mass and frictions are assumed. No file can raise the 2 A: the makers' amplifiers (Escon 24/4) do no more for
- * long, and their firmware stops at 3 A only. */
+ * lengths, diameters, counts, torque constants (Maxon RE 30 310007), signs, home, workspace radius and the cap of 2 A
+ * as in its makers' interface; 5 N, 1000 N/m and 8 N s/m as CHAI3D has them; what its motors hold for ever, how they
+ * warm up, its mass and frictions are assumed. No file can raise the 2 A: the makers' amplifiers (Escon 24/4) do no
+ * more for long, and their firmware stops at 3 A only. */
 #define KNURL_RAWHID_KEYS(X)                                                                                           \
     X(vendor, vendor, 0, 0, 65535, "", HEX)   /* 0: whichever is known */                                              \
     X(product, product, 0, 0, 65535, "", HEX) /* 0: whichever is known */                                              \
@@ -77,5 +78,8 @@ knurl_result knurl_rawhid_geometry_parse(const char *where, const char *text, si
 
 /* The same from a file. Errors also: KNURL_ERROR_IO, KNURL_ERROR_MEMORY. */
 knurl_result knurl_rawhid_geometry_load(const char *path, knurl_rawhid_geometry *geometry);
+
+/* Of a checked geometry. */
+void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *geometry);
 
 #endif

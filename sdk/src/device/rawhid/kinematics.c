@@ -8,17 +8,6 @@
 /* Which of the arm's own axes (0: towards the user, 1: right, 2: up) Knurl's x, y and z are. */
 static const int own_axis[3] = {1, 2, 0};
 
-void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *geometry) {
-    for (int i = 0; i < 3; i++) {
-        const double gear = geometry->sign[i] * geometry->capstan[i] / geometry->body[i];
-        arm->length[i] = geometry->length[i];
-        arm->origin[i] = geometry->origin[i];
-        arm->radians[i] = TWO_PI / geometry->counts[i] * gear;
-        arm->milliamps[i] = 1000.0 * gear / geometry->torque_constant[i];
-    }
-    arm->max_milliamps = 1000.0 * geometry->max_current;
-}
-
 void knurl_rawhid_angles(const knurl_rawhid_arm *arm, const int16_t counts[3], double angles[3]) {
     for (int i = 0; i < 3; i++) {
         angles[i] = arm->radians[i] * counts[i];

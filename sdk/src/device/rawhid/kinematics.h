@@ -8,8 +8,6 @@
 #ifndef KNURL_SRC_RAWHID_KINEMATICS_H
 #define KNURL_SRC_RAWHID_KINEMATICS_H
 
-#include "device/rawhid/geometry.h"
-
 #include <stdint.h>
 
 typedef struct knurl_rawhid_arm {
@@ -19,8 +17,6 @@ typedef struct knurl_rawhid_arm {
     double milliamps[3]; /* of a motor, a newton metre at its body */
     double max_milliamps;
 } knurl_rawhid_arm;
-
-void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *geometry);
 
 /* Angles A, B, C of the bodies, rad. */
 void knurl_rawhid_angles(const knurl_rawhid_arm *arm, const int16_t counts[3], double angles[3]);

@@ -4,7 +4,9 @@
 
 #include "base/atomic.h"
 #include "base/vec3.h"
+#include "device/drivers.h"
 #include "device/link.h"
+#include "device/listings.h"
 #include "device/rawhid/choose.h"
 #include "device/rawhid/kinematics.h"
 #include "device/uri.h"

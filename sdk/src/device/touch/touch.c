@@ -1,7 +1,9 @@
 /* 3D Systems Touch, by the HD library. Its scheduler owns the servo thread and is one for all devices: it starts with
  * the first loop (better after all devices were opened) and stops when the last device is closed.
  * SPDX-License-Identifier: MIT */
-#include "device/touch/touch.h"
+#include "device/drivers.h"
+#include "device/listings.h"
+#include "device/touch/touch_device.h"
 
 #include "base/atomic.h"
 #include "base/system.h"

@@ -1,6 +1,6 @@
 /* A Touch and HD: connecting, and the scheduler, which starts with the first loop and stops with the last device. All
  * under the lock of touch.c. SPDX-License-Identifier: MIT */
-#include "device/touch/touch.h"
+#include "device/touch/touch_device.h"
 
 #include "base/atomic.h"
 #include "base/system.h"

@@ -1,5 +1,5 @@
 /* What a Touch is, as far as HD tells. SPDX-License-Identifier: MIT */
-#include "device/touch/touch.h"
+#include "device/touch/touch_device.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
-/* The fake device: a plant in a hand, or a trace that is played. SPDX-License-Identifier: MIT */
-#ifndef KNURL_SRC_FAKE_H
-#define KNURL_SRC_FAKE_H
+/* What follows "fake:": keys and presets. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_FAKE_URI_H
+#define KNURL_SRC_FAKE_URI_H
 
-#include "device/driver.h"
-#include "device/fake/hand.h"
-#include "device/fake/plant.h"
+#include "base/finite.h"
+
+#include <knurl/device.h>
 
 /* Every key of a fake URI but `preset`: name, default, least, greatest, unit, meaning. One table for parsing and for
  * the help. The defaults are the preset "touch" and nobody's hand in particular: a light grip on a stylus, soft enough

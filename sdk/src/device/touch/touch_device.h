@@ -1,7 +1,7 @@
 /* What a Touch is made of. HD's scheduler thread calls a slot; a slot outlives its device, so that a call that comes
  * late finds nothing instead of freed memory. SPDX-License-Identifier: MIT */
-#ifndef KNURL_SRC_TOUCH_H
-#define KNURL_SRC_TOUCH_H
+#ifndef KNURL_SRC_TOUCH_DEVICE_H
+#define KNURL_SRC_TOUCH_DEVICE_H
 
 #include "device/driver.h"
 #include "device/touch/hd_load.h"

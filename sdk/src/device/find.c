@@ -1,0 +1,35 @@
+/* Finds the driver of a URI, and what is connected. SPDX-License-Identifier: MIT */
+#include "device/drivers.h"
+
+#include "base/base.h"
+
+#include <string.h>
+
+static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_driver, &knurl_falcon_driver,
+                                              &knurl_rawhid_driver};
+
+#define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
+
+knurl_result knurl_device_open(const char *uri, knurl_device **device) {
+    const size_t length = uri ? strcspn(uri, ":") : 0;
+    for (size_t i = 0; uri && i < DRIVER_COUNT; i++) {
+        const knurl_driver *driver = drivers[i];
+        if (strlen(driver->uri) == length && strncmp(driver->uri, uri, length) == 0) {
+            const knurl_result result = driver->open(uri[length] == ':' ? uri + length + 1 : "", device);
+            if (!result) {
+                knurl_device_register(*device);
+            }
+            return result;
+        }
+    }
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'",
+                      uri ? uri : "(null)");
+}
+
+uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
+    knurl_listings found = {listings, capacity, 0};
+    for (uint32_t i = 0; i < DRIVER_COUNT; i++) {
+        drivers[i]->list(&found);
+    }
+    return found.count;
+}

@@ -1,0 +1,17 @@
+/* Where drivers list what is connected. SPDX-License-Identifier: MIT */
+#include "device/listings.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...) {
+    if (listings->count++ < listings->capacity) {
+        knurl_device_listing *listing = &listings->to[listings->count - 1];
+        va_list arguments;
+        (void)snprintf(listing->uri, sizeof listing->uri, "%s", uri);
+        (void)snprintf(listing->name, sizeof listing->name, "%s", name);
+        va_start(arguments, reason);
+        (void)vsnprintf(listing->reason, sizeof listing->reason, reason, arguments);
+        va_end(arguments);
+    }
+}
