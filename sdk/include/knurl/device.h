@@ -115,7 +115,7 @@ typedef struct knurl_device_functions {
     /** Tries to find a lost device again: KNURL_OK or KNURL_ERROR_DEVICE_LOST; or null: it cannot be. [a thread of the
      * loop, while nothing is read or written] */
     knurl_result (*reopen)(void *user);
-    /** The last call; or null. [game thread] */
+    /** The last call; or null. [the thread that closes the device, or that destroys the loop that still had it] */
     void (*close)(void *user);
 } knurl_device_functions;
 
@@ -176,8 +176,9 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  *
  * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no
  * such driver, a library that it needs cannot be loaded, or the device cannot be guarded), KNURL_ERROR_DEVICE_LOST
- * (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it is there but may not be used: permissions),
- * KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file), KNURL_ERROR_MEMORY. [game thread] */
+ * (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it is there but may not be used: permissions, or this
+ * program or another has it open), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file),
+ * KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
 
 /** Makes a device of a caller's functions. Its positions are checked as any device's: what is not finite, or moves
@@ -185,7 +186,10 @@ KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device)
  * [game thread] */
 KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device);
 
-/** Lets go of the motors and closes; null is allowed. No loop may use the device. [game thread] */
+/** Zeroes the motors' force at once and for good, and closes; null is allowed. While a loop has the device it is kept
+ * for that loop, which ends by itself; knurl_loop_destroy() then closes it, and what a caller's own device needs must
+ * last until its `close` was called. To the caller it is gone. [game thread, or any that destroys what nobody else
+ * uses; not the haptic one of a device that no loop has] */
 KNURL_API void knurl_device_close(knurl_device *device);
 
 /** What is connected, and for kinds of which nothing is, why and what helps: fills at most `capacity` listings, returns
@@ -210,7 +214,8 @@ KNURL_API const char *knurl_fault_unit(int32_t code);
 
 /** Prepares for reading once every 1/update_rate_hz; the fake device starts its simulated time anew. A lost device is
  * looked for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep;
- * with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST. [game thread] */
+ * with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE (a loop has the device, which has
+ * started it). [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
 /** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls
@@ -262,7 +267,8 @@ KNURL_API knurl_result knurl_device_zero_on_exit(uint32_t faults_recover);
 KNURL_API const char *knurl_fake_keys(void);
 
 /** Gives the fake device's hand a stroke; from the next knurl_device_start().
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device). [game thread] */
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE (a loop with a haptic
+ * thread has it). [game thread] */
 KNURL_API knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc);
 
 /** What the simulated world really is, for studies and tests: nothing that a real device could tell. */
@@ -279,7 +285,8 @@ KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fa
 
 /** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated
  * linearly, the last one held. The positions are exact unless the URI names a resolution; no force moves them. Errors:
- * KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_MEMORY. [game thread] */
+ * KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE (a loop with a
+ * haptic thread has it), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count);
 
 /** The stroke of a name ("line", "sweep", "circle", "press", "rest").

@@ -32,7 +32,7 @@ typedef struct knurl_clock {
 
 typedef struct knurl_loop_desc {
     uint32_t struct_size;                /**< set by knurl_loop_desc_init() */
-    uint32_t hip;                        /**< which HIP of the scene; default 0 */
+    uint32_t hip;                        /**< which HIP of the scene; default 0; the loop's alone while it exists */
     knurl_device *device;                /**< required; the loop's alone while it exists */
     knurl_scene *scene;                  /**< committed, its HIP configured with the same update rate; or null */
     knurl_force_callback force_callback; /**< used where scene is null */
@@ -59,7 +59,7 @@ typedef struct knurl_percentiles {
 enum {
     KNURL_LOOP_IDLE = 0,    /**< never started */
     KNURL_LOOP_RUNNING = 1, /**< ticks */
-    KNURL_LOOP_DONE = 2,    /**< reached its tick limit, or was stopped */
+    KNURL_LOOP_DONE = 2,    /**< reached its tick limit, was stopped, or its device was closed or scene destroyed */
     KNURL_LOOP_LOST = 3     /**< the device no longer answered */
 };
 
@@ -88,15 +88,20 @@ typedef struct knurl_loop_stats {
 KNURL_API void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size);
 KNURL_API void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size);
 
-/** Makes a loop; it does not run yet.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the scene is not committed), KNURL_ERROR_MEMORY. [game thread] */
+/** Makes a loop, which from now on has its device and its HIP for itself; it does not run yet. Device and scene may be
+ * closed and destroyed before it: both are kept for it, their force is zero at once, and it ends by itself.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (another loop has the device or the HIP, whatever thread made it; or
+ * the scene is not committed), KNURL_ERROR_MEMORY, those of knurl_device_start(). [game thread] */
 KNURL_API knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop);
 
-/** Stops and gives everything back; null is allowed. [game thread, not from a callback] */
+/** Stops and gives everything back, with a device and a scene that were closed and destroyed meanwhile; null is
+ * allowed. From a callback it only asks for the end, as knurl_loop_request_stop() does: the loop is still there, to be
+ * destroyed outside of it. [game thread, or any that destroys what nobody else uses] */
 KNURL_API void knurl_loop_destroy(knurl_loop *loop);
 
 /** Starts the haptic thread, at an absolute-deadline rhythm, SCHED_FIFO where permitted (see stats.realtime).
- * Errors: KNURL_ERROR_STATE (started before), KNURL_ERROR_SYSTEM. [game thread] */
+ * Errors: KNURL_ERROR_STATE (started before, or its device was closed or its scene destroyed), KNURL_ERROR_SYSTEM.
+ * [game thread] */
 KNURL_API knurl_result knurl_loop_start(knurl_loop *loop);
 
 /** Instead of knurl_loop_start(): runs up to `ticks` ticks here and now, as fast as the machine can, with the same

@@ -224,7 +224,10 @@ KNURL_API void knurl_scene_desc_init(knurl_scene_desc *desc, uint32_t size);
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene);
 
-/** Gives everything back; null is allowed. No tick may run or follow. [game thread] */
+/** Gives everything back; null is allowed. While a loop has a HIP of the scene, the scene is kept for that loop, which
+ * ends by itself, its force zero at once; the last such loop's knurl_loop_destroy() then frees it. To the caller it is
+ * gone: its handle and its surfaces' names are not to be used. No tick of the caller's own may run or follow. [game
+ * thread, or any that destroys what nobody else uses] */
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface; before the commit or after.
@@ -283,12 +286,13 @@ KNURL_API uint64_t knurl_scene_bytes(const knurl_scene *scene);
 KNURL_API void knurl_scene_collect(knurl_scene *scene);
 
 /** Sets up one HIP and forgets what it did, but not how warm its motors are (with a loop: its device's). hip: 0 to
- * hip_count - 1. desc: null for all defaults. Until it is called a HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT.
- * [game thread, while that HIP does not tick] */
+ * hip_count - 1. desc: null for all defaults. Until it is called a HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT,
+ * KNURL_ERROR_STATE (a loop has it). [game thread, while the caller's own thread does not tick that HIP] */
 KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
 
 /** The workspace that a HIP's ticks use; after the commit also where it was left to the scene.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [game thread] */
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [any thread but the haptic]
+ */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
 
 /** The limits that a surface can exceed on a device. */
@@ -330,8 +334,8 @@ KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint3
  * is held by the next, where that lies at most 10 um higher or anywhere below, and the crack between them is crossed
  * within 5 ms. Of more than 32 surfaces about one place some may be overlooked (KNURL_TICK_CONTACTS_FULL says so).
  * Bounded time; no heap, lock, system call, clock, log or file, whatever other threads edit meanwhile. `output` is
- * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed),
- * KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
+ * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed,
+ * or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output) KNURL_NONBLOCKING;
 

@@ -24,11 +24,58 @@ void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, status, size);
 }
 
+static void close_now(knurl_device *device) {
+    knurl_device_unregister(device);
+    device->driver->close(device);
+}
+
+/* Whoever comes last closes it: the owner, or the loop that uses it. */
 void knurl_device_close(knurl_device *device) {
-    if (device) {
-        knurl_device_unregister(device);
-        device->driver->close(device);
+    if (!device) {
+        return;
     }
+    (void)__atomic_fetch_or(&device->halted, KNURL_HALTED | KNURL_HALTED_FOR_GOOD, __ATOMIC_ACQ_REL);
+    if (__atomic_fetch_or(&device->use, KNURL_DEVICE_CLOSED, __ATOMIC_ACQ_REL) == 0) {
+        close_now(device);
+    }
+}
+
+void knurl_device_release(knurl_device *device) {
+    if (__atomic_and_fetch(&device->use, KNURL_DEVICE_CLOSED, __ATOMIC_ACQ_REL)) {
+        close_now(device);
+    }
+}
+
+void knurl_device_claim_thread(knurl_device *device) {
+    (void)__atomic_fetch_or(&device->use, KNURL_DEVICE_THREAD, __ATOMIC_ACQ_REL);
+}
+
+knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use) {
+    if (knurl_load_acquire(&device->use) & use) {
+        return knurl_fail(KNURL_ERROR_STATE,
+                          "device '%s' is in use by a loop; do this before that is created or after "
+                          "it was destroyed",
+                          device->driver->uri);
+    }
+    return KNURL_OK;
+}
+
+int knurl_device_is_closed(const knurl_device *device) {
+    return (knurl_load_acquire(&device->halted) & KNURL_HALTED_FOR_GOOD) != 0;
+}
+
+knurl_result knurl_device_claim(knurl_device *device) {
+    uint32_t use = 0;
+    if (__atomic_compare_exchange_n(&device->use, &use, KNURL_DEVICE_LOOP, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
+        return KNURL_OK;
+    }
+    if (use & KNURL_DEVICE_CLOSED) {
+        return knurl_fail(KNURL_ERROR_STATE, "device '%s': expected an open one, found one that was closed",
+                          device->driver->uri);
+    }
+    return knurl_fail(KNURL_ERROR_STATE,
+                      "device '%s' is in use by another loop; destroy that loop first: a device is one loop's alone",
+                      device->driver->uri);
 }
 
 knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {
@@ -68,6 +115,11 @@ static void begin_check(knurl_device *device) {
 }
 
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
+    const knurl_result result = knurl_device_check_unused(device, KNURL_DEVICE_LOOP);
+    return result ? result : knurl_device_begin(device, update_rate_hz);
+}
+
+knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
     if (!knurl_is_within(update_rate_hz, 1.0, 100000.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected 1 to 100000 Hz, found %g Hz", update_rate_hz);
     }
@@ -180,15 +232,15 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
 
 void knurl_device_halt(knurl_device *device) {
     /* The fake device's motors obey the flag by themselves; an I/O thread writes zero within its next exchange. */
-    knurl_store_release(&device->halted, 1u);
+    (void)__atomic_fetch_or(&device->halted, KNURL_HALTED, __ATOMIC_ACQ_REL);
 }
 
 void knurl_device_release_halt(knurl_device *device) {
-    knurl_store_release(&device->halted, 0u);
+    (void)__atomic_fetch_and(&device->halted, ~KNURL_HALTED, __ATOMIC_ACQ_REL);
 }
 
 uint32_t knurl_device_is_halted(const knurl_device *device) {
-    return knurl_load_acquire(&device->halted);
+    return knurl_load_acquire(&device->halted) != 0;
 }
 
 knurl_result knurl_device_reopen(knurl_device *device) {

@@ -52,6 +52,16 @@ typedef struct knurl_position_check {
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
 
+/* Bits of knurl_device.use: a loop has it; that loop has started its haptic thread; its owner has closed it, and it is
+ * kept for that loop. */
+#define KNURL_DEVICE_LOOP   1u
+#define KNURL_DEVICE_THREAD 2u
+#define KNURL_DEVICE_CLOSED 4u
+
+/* Bits of knurl_device.halted: until knurl_device_release_halt(); for good. */
+#define KNURL_HALTED          1u
+#define KNURL_HALTED_FOR_GOOD 2u
+
 /* First member of every driver's own struct; zeroed but for handle, driver and max_force. */
 struct knurl_device {
     uint32_t handle; /* KNURL_HANDLE_DEVICE, first */
@@ -69,7 +79,8 @@ struct knurl_device {
     int64_t (*heat_now)(void *user); /* null: no loop has run */
     void *heat_user;
     /* atomics */
-    uint32_t halted;
+    uint32_t use;     /* KNURL_DEVICE_ bits */
+    uint32_t halted;  /* KNURL_HALTED bits */
     uint32_t lost;    /* nobody but reopen() may call the driver any more */
     uint32_t quiet;   /* 1: the latest force that went out was 0, and none is on its way */
     uint32_t buttons; /* of the latest reading */
@@ -95,6 +106,25 @@ static inline void knurl_device_free(knurl_device *device) {
 
 /* How long positions must be believable again after one was not, s. */
 #define KNURL_SETTLE_TIME 0.02
+
+/* A loop takes the device, which from then on is the loop's alone, and keeps it in being. Errors: KNURL_ERROR_STATE
+ * (another loop's, or it was closed). [any thread] */
+knurl_result knurl_device_claim(knurl_device *device);
+
+/* The loop is done with it; closes what its owner closed meanwhile. [not the haptic thread] */
+void knurl_device_release(knurl_device *device);
+
+/* The loop is about to start its haptic thread. */
+void knurl_device_claim_thread(knurl_device *device);
+
+/* KNURL_OK where `use`, of KNURL_DEVICE_ bits, is not made of it; else KNURL_ERROR_STATE with a sentence. */
+knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use);
+
+/* 1: its owner has closed it. [any thread] */
+int knurl_device_is_closed(const knurl_device *device);
+
+/* knurl_device_start() for the loop that has claimed it. */
+knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz);
 
 /* Looks for a lost device again. KNURL_OK: it is there. [not the haptic thread, while nobody reads or writes] */
 knurl_result knurl_device_reopen(knurl_device *device);

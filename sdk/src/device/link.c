@@ -21,7 +21,7 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     const int64_t age = now - link->forces[link->orders.front].time_ns;
     const int is_late = vec3_dot(newest, newest) > 0.0 && age > patience_ns();
     if (is_late && !link->is_late && !knurl_load_acquire(&device->halted)) {
-        knurl_store_release(&device->halted, 1u); /* whoever writes again comes back by a ramp */
+        knurl_device_halt(device); /* whoever writes again comes back by a ramp */
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
@@ -38,7 +38,7 @@ static void publish(knurl_link *link, const knurl_device_sample *sample) {
 /* By whoever notices it first: once, until the device is heard again. */
 static void tell_silence(knurl_link *link, double seconds) {
     if (!knurl_load_relaxed(&link->is_silent) && !__atomic_exchange_n(&link->is_silent, 1, __ATOMIC_ACQ_REL)) {
-        knurl_store_release(&link->device->halted, 1u);
+        knurl_device_halt(link->device);
         knurl_events_report(&link->device->events, KNURL_FAULT_SILENT, seconds);
     }
 }
@@ -55,7 +55,7 @@ static void judge(knurl_link *link, int outcome, int64_t now) {
         tell_silence(link, 1e-9 * (double)silence);
     }
     if (outcome == KNURL_LINK_LOST || (double)silence > 1e9 * KNURL_LINK_GIVE_UP) {
-        knurl_store_release(&device->halted, 1u);
+        knurl_device_halt(device);
         knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
         knurl_store_release(&link->lost, 1u);
     }
@@ -118,7 +118,9 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     link->device = device;
     link->exchange = exchange;
     link->native_rate = native_rate;
-    device->link = link;
+    if (device->link != link) { /* it is the same when a lost device is found again; any thread may be asking it then */
+        device->link = link;
+    }
     knurl_mailbox_init(&link->positions);
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);

@@ -40,7 +40,7 @@ static double next_gain(knurl_loop *loop, int paused, int *was_halted) {
     const int was_down = *was_halted || !loop->wanted;
     double gain = *was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
     loop->wanted = game_lives(loop, paused) && !paused;
-    if (was_down && loop->wanted && loop->ticks > 0) {
+    if (was_down && loop->wanted && loop->ticks > 0 && !knurl_device_is_closed(loop->desc.device)) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
     if (!loop->wanted) {
@@ -79,7 +79,7 @@ static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl
         const double gain = next_gain(loop, paused, &was_halted);
         input.attenuation = 1.0 - gain;
         input.paused = paused && gain == 0.0;
-        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
+        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
         vec3_copy(output->device_force, loop->force);
         vec3_copy(output->force, loop->scene_force);
     } else {
@@ -104,7 +104,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
         knurl_tick_output output;
         memset(&input, 0, sizeof input);
         input.absent = 1;
-        (void)knurl_scene_tick(loop->desc.scene, loop->desc.hip, &input, &output);
+        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, &output);
     }
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
         (void)knurl_device_write(loop->desc.device, loop->force); /* let go of by now; this is for drivers without a
@@ -141,9 +141,15 @@ static int run_tick(knurl_loop *loop) {
     return result == KNURL_OK || be_absent(loop, result);
 }
 
+int knurl_loop_is_abandoned(const knurl_loop *loop) {
+    return knurl_device_is_closed(loop->desc.device) ||
+           (loop->desc.scene && knurl_scene_is_destroyed(loop->desc.scene));
+}
+
 int knurl_loop_at_end(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->stop_requested) ||
-           (loop->desc.tick_limit > 0 && loop->ticks >= loop->desc.tick_limit);
+           (loop->desc.tick_limit > 0 && knurl_load_relaxed(&loop->ticks) >= loop->desc.tick_limit) ||
+           knurl_loop_is_abandoned(loop);
 }
 
 static uint64_t ramp_steps(const knurl_loop *loop) {
@@ -186,6 +192,9 @@ static int ramp_down(knurl_loop *loop) {
 }
 
 int knurl_loop_beat(knurl_loop *loop) {
+    if (knurl_loop_is_abandoned(loop)) {
+        return 0; /* at once, without a ramp */
+    }
     return knurl_loop_at_end(loop) ? ramp_down(loop) : run_tick(loop);
 }
 
@@ -203,8 +212,8 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
 
 /* A beat that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
-    if (overrun) {
-        loop->desc.device->check.gap += 1e-9 * (double)late; /* the hand did not wait */
+    if (overrun && !knurl_load_acquire(&loop->desc.device->lost)) { /* who looks for a lost one begins the check anew */
+        loop->desc.device->check.gap += 1e-9 * (double)late;        /* the hand did not wait */
     }
     if (knurl_loop_at_end(loop)) {
         return;

@@ -101,6 +101,7 @@ static void keeper_thread(void *argument) {
     const int64_t nap = limit > 80000000 || limit == 0 ? 20000000
                         : limit < 400000               ? 100000
                                                        : limit / 4; /* nobody waits long for it */
+    knurl_store_release(&loop->keeper_thread, knurl_system_thread_id());
     keeper k = {0, knurl_system_now_ns(), 0, 0, 0.0};
     while (is_running(loop)) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
@@ -120,7 +121,7 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "knurl_loop_desc: expected exactly one of scene and force_callback, found %s",
                           d->scene ? "both" : "none");
     }
-    if (d->scene && !d->scene->committed) {
+    if (d->scene && !knurl_load_acquire(&d->scene->committed)) {
         return knurl_fail(KNURL_ERROR_STATE, "knurl_loop_desc.scene: expected a committed scene, found an open one");
     }
     if (!knurl_is_within(d->update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX)) {
@@ -179,21 +180,49 @@ static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     return result || !d->scene ? result : knurl_scene_adopt_device(d->scene, d->hip, facts);
 }
 
+/* Device and HIP are this loop's alone. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */
+static knurl_result claim(const knurl_loop_desc *d) {
+    knurl_result result = knurl_device_claim(d->device);
+    if (!result && d->scene) {
+        result = knurl_scene_claim_hip(d->scene, d->hip);
+        if (result) {
+            knurl_device_release(d->device);
+        }
+    }
+    return result;
+}
+
+/* May free both: a host may have destroyed them meanwhile. */
+static void release(const knurl_loop_desc *d) {
+    if (d->scene) {
+        knurl_scene_release_hip(d->scene, d->hip);
+    }
+    knurl_device_release(d->device);
+}
+
+static knurl_result allocate(knurl_loop **loop) {
+    *loop = calloc(1, sizeof **loop);
+    return *loop ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof **loop);
+}
+
 knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     static const knurl_clock system_clock = {system_now, system_sleep, NULL};
     knurl_loop_desc d;
     knurl_loop_desc_init(&d, sizeof d);
     knurl_result result = knurl_desc_read("knurl_loop_desc", desc, &d, sizeof d);
     result = result ? result : check(&d);
-    knurl_hip_facts facts;
-    result = result ? result : adopt(&d, &facts);
-    result = result ? result : knurl_device_start(d.device, d.update_rate_hz);
+    result = result ? result : claim(&d);
     if (result) {
         return result;
     }
-    knurl_loop *made = calloc(1, sizeof *made);
-    if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof *made);
+    knurl_hip_facts facts;
+    knurl_loop *made = NULL;
+    result = adopt(&d, &facts);
+    result = result ? result : knurl_device_begin(d.device, d.update_rate_hz);
+    result = result ? result : allocate(&made);
+    if (result) {
+        release(&d);
+        return result;
     }
     made->handle = KNURL_HANDLE_LOOP;
     made->desc = d;
@@ -221,8 +250,13 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     if (knurl_load_acquire(&loop->state) != KNURL_LOOP_IDLE) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: expected one that never ran, found one that runs or has run");
     }
+    if (knurl_loop_is_abandoned(loop)) {
+        return knurl_fail(KNURL_ERROR_STATE, "loop: its %s",
+                          knurl_device_is_closed(loop->desc.device) ? "device was closed" : "scene was destroyed");
+    }
     const int scene_locked = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
-    loop->scene_locked = (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked);
+    knurl_store_relaxed(&loop->scene_locked, (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked));
+    knurl_device_claim_thread(loop->desc.device);
     knurl_loop_begin_heat(loop);
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
@@ -244,9 +278,18 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
 
 /* The ramp at the end, here and now. */
 static void finish_stepping(knurl_loop *loop) {
+    knurl_store_relaxed(&loop->stepping, 1u);
     knurl_loop_request_stop(loop);
     while (knurl_loop_beat(loop)) {}
     knurl_loop_end(loop, KNURL_LOOP_DONE);
+}
+
+/* 1: on this thread, below this call, the loop runs: it calls back, or looks for its device. */
+static int is_inside(const knurl_loop *loop) {
+    const uintptr_t here = knurl_system_thread_id();
+    const int runs = is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
+    return (runs && knurl_load_acquire(&loop->haptic_thread) == here) ||
+           knurl_load_acquire(&loop->keeper_thread) == here;
 }
 
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
@@ -263,17 +306,19 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
         knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     }
+    knurl_store_relaxed(&loop->stepping, 1u);
     for (uint64_t i = 0; i < ticks && is_running(loop) && !knurl_loop_at_end(loop); i++) {
         if (loop->desc.reconnect && device->lost) {
             (void)knurl_device_reopen(device);
         }
         if (!knurl_loop_beat(loop)) {
-            knurl_loop_end(loop, KNURL_LOOP_LOST);
+            knurl_loop_end(loop, loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE);
         }
     }
     if (is_running(loop) && knurl_loop_at_end(loop)) {
         finish_stepping(loop);
     }
+    knurl_store_relaxed(&loop->stepping, 0u);
     return KNURL_OK;
 }
 
@@ -295,8 +340,8 @@ void knurl_loop_heartbeat(knurl_loop *loop) {
 
 void knurl_loop_stop(knurl_loop *loop) {
     knurl_loop_request_stop(loop);
-    if (knurl_load_acquire(&loop->haptic_thread) == knurl_system_thread_id()) {
-        return; /* from a callback: the loop ends when this returns */
+    if (is_inside(loop)) {
+        return; /* the loop ends when this returns */
     }
     while (knurl_load_acquire(&loop->threaded) && is_running(loop)) { /* one that is stepped ends in its next step */
         (void)knurl_loop_wait(loop, 1.0);
@@ -315,6 +360,10 @@ void knurl_loop_destroy(knurl_loop *loop) {
     if (!loop) {
         return;
     }
+    if (is_inside(loop)) { /* it cannot wait for its own end, nor be freed under itself */
+        knurl_loop_request_stop(loop);
+        return;
+    }
     if (knurl_load_acquire(&loop->threaded)) {
         knurl_loop_stop(loop);
         if (loop->thread) {
@@ -327,6 +376,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
         knurl_system_join_thread(loop->keeper);
     }
     knurl_system_unlock_memory(loop, sizeof *loop);
+    release(&loop->desc);
     knurl_handle_clear(&loop->handle);
     free(loop);
 }
@@ -346,7 +396,7 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.overruns = knurl_load_relaxed(&loop->overruns);
     made.watchdogs = knurl_load_relaxed(&loop->watchdogs);
     made.realtime = knurl_load_relaxed(&loop->realtime);
-    made.memory_locked = loop->scene_locked && knurl_load_relaxed(&loop->stack_locked);
+    made.memory_locked = knurl_load_relaxed(&loop->scene_locked) && knurl_load_relaxed(&loop->stack_locked);
     made.tick_ns = percentiles_of(&loop->tick_ns);
     made.jitter_ns = percentiles_of(&loop->jitter_ns);
     made.heats = knurl_load_relaxed(&loop->heats);

@@ -53,6 +53,7 @@ struct knurl_loop {
     uint32_t stop_requested; /* by anyone */
     uint32_t paused;         /* by anyone: 1 */
     uint32_t threaded;       /* 1: started, not stepped */
+    uint32_t stepping;       /* 1: knurl_loop_step() runs */
     uint64_t ticks;
     uint64_t beats; /* ticks and steps of the ramp: what the watchdog looks at */
     uint64_t overruns;
@@ -67,6 +68,7 @@ struct knurl_loop {
     uint32_t scene_locked; /* the scene's and the loop's own memory */
     uint32_t stack_locked;
     uintptr_t haptic_thread;
+    uintptr_t keeper_thread;
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
 };
@@ -86,6 +88,9 @@ void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 
 /* beat.c */
 int knurl_loop_at_end(const knurl_loop *loop);
+
+/* 1: its device was closed or its scene destroyed; both are kept until the loop is destroyed. */
+int knurl_loop_is_abandoned(const knurl_loop *loop);
 
 /* One beat: a tick, a beat without a position, or at the end a step of the ramp. Returns 0 after the last. */
 int knurl_loop_beat(knurl_loop *loop);

@@ -4,6 +4,7 @@
 #include "base/base.h"
 #include "base/vec3.h"
 
+#include <stddef.h>
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
@@ -71,6 +72,16 @@ static knurl_result check_facts(const knurl_hip_facts *facts) {
     return KNURL_OK;
 }
 
+/* All of a HIP but its snapshot, which other threads read without the lock: it becomes that of a HIP before its first
+ * tick as a tick would write it. */
+static void replace(knurl_hip *hip, const knurl_hip *made) {
+    const size_t published = offsetof(knurl_hip, published);
+    const size_t after = offsetof(knurl_hip, given);
+    memcpy(hip, made, published);
+    memcpy((char *)hip + after, (const char *)made + after, sizeof *hip - after);
+    knurl_snapshot_clear(&hip->published);
+}
+
 knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest,
                               double time) {
     knurl_hip made;
@@ -98,6 +109,6 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
     knurl_contacts_init(&made.contacts, 1.0 / facts.rate, time);
-    *hip = made;
+    replace(hip, &made);
     return KNURL_OK;
 }

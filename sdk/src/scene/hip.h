@@ -17,8 +17,8 @@ typedef struct knurl_hip {
     knurl_velocity velocity;
     knurl_guard guard;
     knurl_hip_counts counts;
-    knurl_published published;
-    knurl_hip_desc given; /* as configured; what it leaves open a loop fills in */
+    knurl_published published; /* read by any thread, without the lock */
+    knurl_hip_desc given;      /* as configured; what it leaves open a loop fills in */
     knurl_contacts contacts;
 } knurl_hip;
 

@@ -1,6 +1,7 @@
 /* A scene's life on the game thread: create, surfaces, HIPs, commit. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
+#include "base/atomic.h"
 #include "base/base.h"
 
 #include <stdio.h>
@@ -28,6 +29,20 @@ static knurl_result check_scene_desc(const knurl_scene_desc *d) {
                           (unsigned)d->full_model);
     }
     return KNURL_OK;
+}
+
+/* No tick runs any more. */
+static void free_scene(knurl_scene *scene) {
+    knurl_surfaces_release(&scene->surfaces);
+    knurl_broad_phase_release(&scene->broad_phase);
+    knurl_epoch_release_all(&scene->epoch);
+    knurl_heap_free(&scene->heap, scene->hips);
+    for (int i = 0; i < 2; i++) {
+        knurl_system_mutex_destroy(&scene->mutexes[i]);
+    }
+    knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
+    heap.lock = NULL;
+    knurl_heap_free(&heap, scene);
 }
 
 knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene) {
@@ -59,7 +74,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     made->hip_count = d.hip_count;
     made->hips = knurl_heap_alloc(&made->heap, d.hip_count, sizeof *made->hips);
     if (!made->hips) {
-        knurl_scene_destroy(made);
+        free_scene(made);
         return KNURL_ERROR_MEMORY;
     }
     for (uint32_t hip = 0; hip < d.hip_count; hip++) {
@@ -73,21 +88,46 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     return KNURL_OK;
 }
 
+/* Whoever comes last frees it: its owner, or a loop that uses it. */
 void knurl_scene_destroy(knurl_scene *scene) {
     if (!scene) {
         return;
     }
-    knurl_surfaces_release(&scene->surfaces);
-    knurl_broad_phase_release(&scene->broad_phase);
-    knurl_epoch_release_all(&scene->epoch); /* no tick runs any more */
-    knurl_heap_free(&scene->heap, scene->hips);
-    for (int i = 0; i < 2; i++) {
-        knurl_system_mutex_destroy(&scene->mutexes[i]);
+    knurl_handle_clear(&scene->handle); /* also where loops still tick it */
+    if (__atomic_fetch_or(&scene->use, KNURL_SCENE_DESTROYED, __ATOMIC_ACQ_REL) == 0) {
+        free_scene(scene);
     }
-    knurl_handle_clear(&scene->handle);
-    knurl_heap heap = scene->heap; /* outlives the scene, which is its last block */
-    heap.lock = NULL;
-    knurl_heap_free(&heap, scene);
+}
+
+int knurl_scene_is_destroyed(const knurl_scene *scene) {
+    return (knurl_load_acquire(&scene->use) & KNURL_SCENE_DESTROYED) != 0;
+}
+
+void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip) {
+    const uint32_t left = __atomic_and_fetch(&scene->use, ~(1u << hip), __ATOMIC_ACQ_REL);
+    if (left == KNURL_SCENE_DESTROYED) {
+        free_scene(scene);
+    }
+}
+
+knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip) {
+    if (hip >= scene->hip_count) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
+                          (unsigned)scene->hip_count, (unsigned)hip);
+    }
+    uint32_t use = knurl_load_relaxed(&scene->use);
+    do {
+        if (use & KNURL_SCENE_DESTROYED) {
+            return knurl_fail(KNURL_ERROR_STATE, "scene: expected a scene, found one that was destroyed");
+        }
+        if (use >> hip & 1) {
+            return knurl_fail(KNURL_ERROR_STATE,
+                              "scene: HIP %u is in use by another loop; destroy that loop first, or give each its own "
+                              "HIP (knurl_scene_desc.hip_count)",
+                              (unsigned)hip);
+        }
+    } while (!__atomic_compare_exchange_n(&scene->use, &use, use | 1u << hip, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED));
+    return KNURL_OK;
 }
 
 void knurl_scene_lock(const knurl_scene *scene) {
@@ -136,7 +176,7 @@ static knurl_result commit(knurl_scene *scene) {
             knurl_scene_centre(scene, scene->hips[hip].workspace.origin);
         }
     }
-    scene->committed = result == KNURL_OK;
+    knurl_store_release(&scene->committed, (uint32_t)(result == KNURL_OK));
     return result;
 }
 

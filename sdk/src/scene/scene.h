@@ -7,12 +7,16 @@
 #include "base/handle.h"
 #include "scene/hip.h"
 
+/* In knurl_scene.use: destroyed by its owner, kept for the loops that use it. Above the bits of all HIPs. */
+#define KNURL_SCENE_DESTROYED 0x100u
+
 struct knurl_scene {
     uint32_t handle; /* KNURL_HANDLE_SCENE */
     /* read by ticks */
     uint32_t hip_count;
     knurl_hip *hips;
-    uint32_t committed;
+    uint32_t committed; /* atomic: 1 once all that ticks read is there */
+    uint32_t use;       /* atomic: bit i: a loop has HIP i; KNURL_SCENE_DESTROYED */
     uint32_t full_model;
     knurl_broad_phase broad_phase;
     knurl_epoch epoch;
@@ -33,9 +37,23 @@ double knurl_scene_time(const knurl_scene *scene);
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
 
-/* Fills in what a HIP's description leaves open, as the loop and its device have it, and forgets what the HIP did, but
- * not how warm its motors are.
- * Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
+/* A loop takes a HIP, which from then on is the loop's alone, and keeps the scene in being. Errors:
+ * KNURL_ERROR_ARGUMENT (hip), KNURL_ERROR_STATE (another loop's, or the scene was destroyed). [any thread] */
+knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip);
+
+/* The loop is done with it; frees a scene that was destroyed and that no other loop uses. [any thread but a tick's] */
+void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
+
+/* 1: its owner has destroyed it. [any thread] */
+int knurl_scene_is_destroyed(const knurl_scene *scene);
+
+/* knurl_scene_tick() for the loop that has claimed the HIP. */
+knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
+                            knurl_tick_output *output) KNURL_NONBLOCKING;
+
+/* Fills in what a claimed HIP's description leaves open, as the loop and its device have it, and forgets what the HIP
+ * did, but not how warm its motors are. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread]
+ */
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
 /* The force (N) that the loop sent without a tick, at its end: the latest tick's is told to be this one. Where the

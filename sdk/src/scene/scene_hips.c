@@ -1,6 +1,7 @@
 /* HIPs on the game thread: configure, adopt a device, read the latest tick. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
+#include "base/atomic.h"
 #include "base/base.h"
 
 static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
@@ -30,43 +31,51 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     knurl_result result = check_hip(scene, hip);
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
-        knurl_scene_lock(scene);
-        result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
+        knurl_scene_lock(scene); /* a loop that takes the HIP now sets it up after this */
+        if (knurl_load_acquire(&scene->use) >> hip & 1) {
+            result = knurl_fail(KNURL_ERROR_STATE,
+                                "scene: HIP %u is in use by a loop; configure it before that is created or after it "
+                                "was destroyed",
+                                (unsigned)hip);
+        } else {
+            result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
+        }
         knurl_scene_unlock(scene);
     }
     return result;
 }
 
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts) {
-    knurl_result result = check_hip(scene, hip);
-    if (result) {
-        return result;
-    }
     knurl_hip *h = &scene->hips[hip];
+    knurl_result result;
+    knurl_scene_lock(scene);
     knurl_hip_desc d = h->given;
     const knurl_workspace workspace = h->workspace;
-    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
-                          (unsigned)hip, d.update_rate_hz, facts->rate);
-    }
     d.workspace = h->centred ? NULL : &workspace;
-    knurl_scene_lock(scene);
-    result = set_up(scene, h, &d, facts, facts->max_force);
+    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT,
+                            "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
+                            (unsigned)hip, d.update_rate_hz, facts->rate);
+    } else {
+        result = set_up(scene, h, &d, facts, facts->max_force);
+    }
     knurl_scene_unlock(scene);
     return result;
 }
 
 knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {
-    const knurl_result result = check_hip(scene, hip);
+    knurl_result result = check_hip(scene, hip);
     if (result) {
         return result;
     }
+    knurl_scene_lock(scene);
     if (scene->hips[hip].centred && !scene->committed) {
-        return knurl_fail(KNURL_ERROR_STATE, "workspace: it is chosen at the commit, and the scene is not committed");
+        result = knurl_fail(KNURL_ERROR_STATE, "workspace: it is chosen at the commit, and the scene is not committed");
+    } else {
+        *workspace = scene->hips[hip].workspace;
     }
-    *workspace = scene->hips[hip].workspace;
-    return KNURL_OK;
+    knurl_scene_unlock(scene);
+    return result;
 }
 
 knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,

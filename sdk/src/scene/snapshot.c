@@ -11,6 +11,11 @@ void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
     c->passivities += (flags & KNURL_TICK_PASSIVITY) != 0;
 }
 
+void knurl_snapshot_clear(knurl_published *published) {
+    static const knurl_snapshot none;
+    knurl_snapshot_publish(published, &none.output, &none.counts);
+}
+
 void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot) {
     knurl_seqlock_read(&published->sequence, published->words, snapshot, sizeof *snapshot);
 }

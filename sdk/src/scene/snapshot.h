@@ -36,6 +36,9 @@ static inline void knurl_snapshot_publish(knurl_published *published, const knur
     knurl_seqlock_end(&published->sequence);
 }
 
+/* As before the first tick. [instead of the haptic thread] */
+void knurl_snapshot_clear(knurl_published *published);
+
 /* [any thread] */
 void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot);
 

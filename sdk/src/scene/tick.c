@@ -142,12 +142,28 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     return length;
 }
 
+/* No message: this may be the haptic thread. */
+static knurl_result refuse(knurl_result why, knurl_tick_output *output) {
+    memset(output, 0, sizeof *output);
+    output->event = KNURL_NO_EVENT;
+    return why;
+}
+
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                               knurl_tick_output *output) {
-    if (hip_index >= scene->hip_count || !scene->committed) { /* no message: this may be the haptic thread */
-        memset(output, 0, sizeof *output);
-        output->event = KNURL_NO_EVENT;
-        return hip_index >= scene->hip_count ? KNURL_ERROR_ARGUMENT : KNURL_ERROR_STATE;
+    if (hip_index < scene->hip_count && knurl_load_relaxed(&scene->use) >> hip_index & 1) {
+        return refuse(KNURL_ERROR_STATE, output);
+    }
+    return knurl_hip_tick(scene, hip_index, input, output);
+}
+
+knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
+                            knurl_tick_output *output) {
+    if (hip_index >= scene->hip_count) {
+        return refuse(KNURL_ERROR_ARGUMENT, output);
+    }
+    if (!knurl_load_acquire(&scene->committed)) {
+        return refuse(KNURL_ERROR_STATE, output);
     }
     knurl_hip *hip = &scene->hips[hip_index];
     double force = 0.0;

@@ -192,7 +192,7 @@ static knurl_result check_fake(const knurl_device *device, const char *what) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device: only the fake device takes a %s, found '%s'", what,
                           device->driver->uri);
     }
-    return KNURL_OK;
+    return knurl_device_check_unused(device, KNURL_DEVICE_THREAD); /* which reads what is to be replaced */
 }
 
 knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {

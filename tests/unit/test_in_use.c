@@ -1,0 +1,444 @@
+/* What a loop uses is the loop's alone, and outlives whoever destroys it first: a garbage-collected host finalises in
+ * any order. SPDX-License-Identifier: MIT */
+#include "device/core/home.h"
+#include "support/ledger.h"
+
+#include <knurl/knurl.h>
+
+#include <pthread.h>
+
+/* A device, a scene in whose wall that device stands, and a loop. */
+typedef struct set {
+    home home;
+    ledger books;
+    knurl_device *device;
+    knurl_scene *scene;
+    knurl_loop *loop;
+} set;
+
+static set s; /* set up anew by each test */
+
+/* Two HIPs in a wall of 400 N/m, 1 mm deep: 0.4 N. */
+static knurl_scene *wall_scene(ledger *books) {
+    surface_parts parts = surface_plane();
+    memset(books, 0, sizeof *books);
+    knurl_scene *scene = scene_with(books);
+    (void)add_surface(scene, &parts);
+    configure_plainly(scene, 0);
+    configure_plainly(scene, 1);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    return scene;
+}
+
+static knurl_result make_loop(knurl_device *device, knurl_scene *scene, uint32_t hip, knurl_loop **loop) {
+    knurl_loop_desc desc;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = device;
+    desc.scene = scene;
+    desc.hip = hip;
+    desc.watchdog_s = 0.0; /* a machine under load may set it off */
+    return knurl_loop_create(&desc, loop);
+}
+
+static void set_up(uint32_t blocking) {
+    memset(&s, 0, sizeof s);
+    s.device = home_open(&s.home, blocking);
+    home_place(&s.home, 0.0, 0.0, -0.001);
+    s.scene = wall_scene(&s.books);
+    assert_int_equal(make_loop(s.device, s.scene, 0, &s.loop), KNURL_OK);
+}
+
+static double motor(void) {
+    return knurl_load_double(&s.home.motor[2]);
+}
+
+static knurl_loop_stats stats_of(const knurl_loop *loop) {
+    knurl_loop_stats stats;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    return stats;
+}
+
+static void start_and_push(void) {
+    assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
+    const int64_t until = now_ns() + INT64_C(10000000000);
+    while (motor() < 0.39 && now_ns() < until) {
+        sleep_ns(500000);
+    }
+    CHECK_CLOSE(motor(), 0.4, 0.01);
+}
+
+/* Nothing is left of the set, and the device heard of its end once and last. */
+static void check_all_gone(void) {
+    assert_int_equal(s.home.closes, 1);
+    assert_true(s.home.close_order == s.home.order);
+    assert_true(motor() == 0.0);
+    assert_int_equal(s.books.blocks, 0);
+}
+
+/* --- one loop to a device, one to a HIP --- */
+
+TEST(a_second_loop_on_a_device_is_refused_and_names_it) {
+    struct {
+        knurl_loop *loop;
+    } second = {NULL};
+    set_up(0);
+    CHECK_REFUSED(make_loop(s.device, s.scene, 1, &second.loop), KNURL_ERROR_STATE, second);
+    check_message("device");
+    check_message("in use by another loop");
+    knurl_loop_destroy(s.loop);
+    assert_int_equal(make_loop(s.device, s.scene, 1, &second.loop), KNURL_OK); /* once that one is gone */
+    knurl_loop_destroy(second.loop);
+    knurl_device_close(s.device);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+TEST(a_second_loop_on_a_hip_is_refused_and_names_it) {
+    struct {
+        knurl_loop *loop;
+    } second = {NULL};
+    static home other;
+    knurl_device *device = home_open(&other, 0);
+    set_up(0);
+    start_and_push();
+    const uint64_t starts = other.starts;
+    CHECK_REFUSED(make_loop(device, s.scene, 0, &second.loop), KNURL_ERROR_STATE, second);
+    check_message("HIP 0");
+    check_message("in use by another loop");
+    assert_int_equal(other.starts, starts); /* nothing was begun */
+    CHECK_CLOSE(motor(), 0.4, 0.01);        /* and the first goes on as it was */
+    assert_int_equal(make_loop(device, s.scene, 1, &second.loop), KNURL_OK);
+    knurl_loop_destroy(second.loop);
+    knurl_loop_destroy(s.loop);
+    knurl_device_close(s.device);
+    knurl_device_close(device);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+TEST(a_loop_that_could_not_be_made_leaves_its_device_and_hip_to_others) {
+    knurl_loop *loop = NULL;
+    memset(&s, 0, sizeof s);
+    s.device = home_open(&s.home, 0);
+    s.scene = wall_scene(&s.books);
+    assert_int_equal(make_loop(s.device, s.scene, 7, &loop), KNURL_ERROR_ARGUMENT); /* no such HIP */
+    s.home.start_gives = KNURL_ERROR_DEVICE_LOST;
+    assert_int_equal(make_loop(s.device, s.scene, 0, &loop), KNURL_ERROR_DEVICE_LOST);
+    s.home.start_gives = KNURL_OK;
+    assert_int_equal(make_loop(s.device, s.scene, 0, &loop), KNURL_OK);
+    knurl_loop_destroy(loop);
+    knurl_device_close(s.device);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+/* Threads that make a loop at the same moment. */
+typedef struct rival {
+    knurl_device *device;
+    knurl_scene *scene;
+    uint32_t *go; /* atomic */
+    knurl_loop *loop;
+    knurl_result result;
+} rival;
+
+static void *make_as_rival(void *user) {
+    rival *r = user;
+    while (!knurl_load_acquire(r->go)) {}
+    r->result = make_loop(r->device, r->scene, 0, &r->loop);
+    return NULL;
+}
+
+/* Two loops on HIP 0 at once, on one device or on two. Returns how many were made. */
+static int race(knurl_device *first, knurl_device *second) {
+    uint32_t go = 0;
+    rival rivals[2] = {{first, s.scene, &go, NULL, KNURL_OK}, {second, s.scene, &go, NULL, KNURL_OK}};
+    pthread_t threads[2];
+    int made = 0;
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(pthread_create(&threads[i], NULL, make_as_rival, &rivals[i]), 0);
+    }
+    knurl_store_release(&go, 1u);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+        assert_true(rivals[i].result == KNURL_OK || rivals[i].result == KNURL_ERROR_STATE);
+        made += rivals[i].result == KNURL_OK;
+    }
+    for (size_t i = 0; i < 2; i++) {
+        knurl_loop_destroy(rivals[i].loop);
+    }
+    return made;
+}
+
+TEST(of_two_threads_that_make_a_loop_of_the_same_at_once_one_does) {
+    static home other;
+    knurl_device *device = home_open(&other, 0);
+    memset(&s, 0, sizeof s);
+    s.device = home_open(&s.home, 0);
+    s.scene = wall_scene(&s.books);
+    int turns_with_two = 0;
+    for (int turn = 0; turn < 200; turn++) {
+        turns_with_two += race(s.device, turn % 2 ? s.device : device) == 2;
+    }
+    /* (two may be made one after the other, where the first thread is late; never while both exist) */
+    assert_int_equal(turns_with_two, 0);
+    knurl_device_close(device);
+    knurl_device_close(s.device);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+TEST(what_would_change_a_device_or_a_hip_under_its_loop_is_refused) {
+    knurl_hip_desc hip;
+    knurl_stroke_desc stroke;
+    knurl_device *device = NULL;
+    knurl_loop *loop = NULL;
+    const double row[4] = {0.0, 0.0, 0.0, 0.0};
+    knurl_hip_desc_init(&hip, sizeof hip);
+    knurl_stroke_desc_init(&stroke, sizeof stroke);
+    assert_int_equal(knurl_device_open("fake", &device), KNURL_OK);
+    s.scene = wall_scene(&s.books);
+    assert_int_equal(make_loop(device, s.scene, 0, &loop), KNURL_OK);
+    assert_int_equal(knurl_scene_configure_hip(s.scene, 0, &hip), KNURL_ERROR_STATE);
+    check_message("HIP 0");
+    assert_int_equal(knurl_scene_configure_hip(s.scene, 1, &hip), KNURL_OK); /* nobody uses that one */
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_STATE);
+    check_message("in use");
+    assert_int_equal(knurl_fake_set_trace(device, row, 1), KNURL_OK); /* a loop that is stepped ticks on this thread */
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    assert_int_equal(knurl_fake_set_stroke(device, &stroke), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_fake_set_trace(device, row, 1), KNURL_ERROR_STATE);
+    check_message("in use");
+    const knurl_tick_input input = {.position = {0.0, 0.0, -0.001}};
+    knurl_tick_output output;
+    assert_int_equal(knurl_scene_tick(s.scene, 0, &input, &output), KNURL_ERROR_STATE);
+    assert_true(output.force[2] == 0.0);
+    knurl_loop_destroy(loop);
+    assert_int_equal(knurl_scene_configure_hip(s.scene, 0, &hip), KNURL_OK);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    assert_int_equal(knurl_fake_set_trace(device, row, 1), KNURL_OK);
+    assert_int_equal(knurl_fake_set_stroke(device, &stroke), KNURL_OK);
+    knurl_device_close(device);
+    knurl_scene_destroy(s.scene);
+}
+
+/* --- the end, in any order --- */
+
+enum { IDLE, RUNNING, STEPPED, ENDED, STATES };
+
+static void bring_to(int state) {
+    if (state == RUNNING || state == ENDED) {
+        start_and_push();
+    }
+    if (state == STEPPED) {
+        assert_int_equal(knurl_loop_step(s.loop, 100), KNURL_OK);
+        CHECK_CLOSE(motor(), 0.4, 0.01);
+    }
+    if (state == ENDED) {
+        knurl_loop_stop(s.loop);
+    }
+}
+
+static void end(char what) {
+    if (what == 'd') {
+        knurl_device_close(s.device);
+        knurl_device_close(s.device); /* a host may dispose of it and finalise it as well */
+    } else if (what == 's') {
+        knurl_scene_destroy(s.scene);
+    } else {
+        knurl_loop_destroy(s.loop);
+        s.loop = NULL;
+    }
+}
+
+/* An I/O thread writes it within its next exchange. */
+static void wait_for_no_force(void) {
+    const int64_t until = now_ns() + INT64_C(10000000000);
+    while (motor() != 0.0 && now_ns() < until) {
+        sleep_ns(200000);
+    }
+    assert_true(motor() == 0.0);
+}
+
+/* A loop whose device or scene was destroyed ends by itself, and its force is 0 as soon as it has. */
+static void check_loop_ended(int state) {
+    if (state == RUNNING) {
+        wait_for_no_force();
+        assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE);
+        assert_true(motor() == 0.0);
+    }
+    if (state == STEPPED) { /* its next step is its last */
+        const uint64_t ticks = stats_of(s.loop).ticks;
+        assert_int_equal(knurl_loop_step(s.loop, 10), KNURL_OK);
+        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE);
+        assert_true(stats_of(s.loop).ticks == ticks);
+        assert_true(motor() == 0.0);
+    }
+    if (state == IDLE) {
+        assert_int_equal(knurl_loop_start(s.loop), KNURL_ERROR_STATE);
+    }
+}
+
+static void check_order(const char *order, int state, uint32_t blocking) {
+    set_up(blocking);
+    bring_to(state);
+    for (const char *what = order; *what; what++) {
+        const int loop_is_left = s.loop && *what != 'l';
+        end(*what);
+        if (loop_is_left) {
+            assert_int_equal(s.home.closes, 0); /* not before its loop's */
+            assert_true(s.books.blocks > 0);
+            check_loop_ended(state);
+        }
+    }
+    check_all_gone();
+}
+
+TEST(device_scene_and_loop_may_be_destroyed_in_any_order) {
+    static const char *const orders[] = {"lds", "lsd", "dls", "sld", "dsl", "sdl"};
+    for (size_t i = 0; i < COUNT_OF(orders); i++) {
+        for (int at = 0; at < STATES; at++) {
+            check_order(orders[i], at, 0);
+        }
+    }
+}
+
+TEST(a_device_with_an_io_thread_likewise) {
+    check_order("dls", RUNNING, 1);
+    check_order("sdl", RUNNING, 1);
+    check_order("dsl", IDLE, 1);
+}
+
+TEST(a_closed_device_gets_no_force_any_more_whatever_its_loop_does) {
+    set_up(0);
+    start_and_push();
+    knurl_device_close(s.device);
+    assert_int_equal(knurl_device_is_halted(s.device), 1); /* memory that its loop still keeps */
+    knurl_device_release_halt(s.device);
+    assert_int_equal(knurl_device_is_halted(s.device), 1); /* for good */
+    assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+    assert_true(motor() == 0.0);
+    assert_int_equal(next_code(s.device, KNURL_FAULT_OVERRUN), 0); /* a close is no fault, and nothing resumed */
+    knurl_loop_destroy(s.loop);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+TEST(of_two_loops_on_a_destroyed_scene_the_last_one_frees_it) {
+    static home other;
+    knurl_loop *second = NULL;
+    knurl_device *device = home_open(&other, 0);
+    home_place(&other, 0.0, 0.0, -0.001);
+    set_up(0);
+    assert_int_equal(make_loop(device, s.scene, 1, &second), KNURL_OK);
+    start_and_push();
+    assert_int_equal(knurl_loop_start(second), KNURL_OK);
+    knurl_scene_destroy(s.scene);
+    knurl_loop_destroy(s.loop);
+    assert_true(s.books.blocks > 0);
+    assert_int_equal(knurl_loop_wait(second, 10.0), 1);
+    knurl_loop_destroy(second);
+    assert_int_equal(s.books.blocks, 0);
+    knurl_device_close(s.device);
+    knurl_device_close(device);
+    check_all_gone();
+}
+
+TEST(a_loop_that_looks_for_its_lost_device_ends_when_that_is_closed) {
+    knurl_loop_desc desc;
+    memset(&s, 0, sizeof s);
+    s.device = home_open(&s.home, 1);
+    home_place(&s.home, 0.0, 0.0, -0.001);
+    s.scene = wall_scene(&s.books);
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = s.device;
+    desc.scene = s.scene;
+    desc.reconnect = 1;
+    desc.watchdog_s = 0.0;
+    assert_int_equal(knurl_loop_create(&desc, &s.loop), KNURL_OK);
+    start_and_push();
+    home_inject(&s.home, DOUBLE_UNPLUG);
+    wait_for_count(&s.home.reopens, 1);
+    knurl_device_close(s.device);
+    assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+    knurl_loop_destroy(s.loop);
+    knurl_scene_destroy(s.scene);
+    assert_int_equal(s.home.closes, 1);
+    assert_int_equal(s.books.blocks, 0);
+}
+
+/* --- from a callback --- */
+
+/* What a callback does at its 50th call. */
+static void (*at_fifty)(void);
+static uint32_t calls; /* atomic */
+
+static void count_tick(const knurl_tick_output *output, void *user) {
+    (void)output;
+    (void)user;
+    if (__atomic_add_fetch(&calls, 1, __ATOMIC_ACQ_REL) == 50) {
+        at_fifty();
+    }
+}
+
+static void set_up_callback(void (*what)(void)) {
+    knurl_loop_desc desc;
+    memset(&s, 0, sizeof s);
+    at_fifty = what;
+    calls = 0;
+    s.device = home_open(&s.home, 0);
+    home_place(&s.home, 0.0, 0.0, -0.001);
+    s.scene = wall_scene(&s.books);
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = s.device;
+    desc.scene = s.scene;
+    desc.tick_callback = count_tick;
+    assert_int_equal(knurl_loop_create(&desc, &s.loop), KNURL_OK);
+}
+
+static void destroy_all(void) {
+    knurl_scene_destroy(s.scene);
+    knurl_device_close(s.device);
+    knurl_loop_destroy(s.loop);
+}
+
+static void destroy_loop(void) {
+    knurl_loop_destroy(s.loop);
+}
+
+TEST(a_loop_that_is_destroyed_in_its_callback_only_ends) {
+    for (int turn = 0; turn < 2; turn++) {
+        set_up_callback(destroy_loop);
+        if (turn == 0) {
+            assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
+            assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+        } else {
+            assert_int_equal(knurl_loop_step(s.loop, 1000), KNURL_OK);
+        }
+        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE); /* it is still there */
+        assert_int_equal(stats_of(s.loop).ticks, 50);
+        assert_true(motor() == 0.0);
+        knurl_loop_destroy(s.loop); /* outside of it */
+        knurl_device_close(s.device);
+        knurl_scene_destroy(s.scene);
+        check_all_gone();
+    }
+}
+
+TEST(all_three_destroyed_in_a_callback_are_gone_with_the_loop) {
+    for (int turn = 0; turn < 2; turn++) {
+        set_up_callback(destroy_all);
+        if (turn == 0) {
+            assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
+            assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+        } else {
+            assert_int_equal(knurl_loop_step(s.loop, 1000), KNURL_OK);
+        }
+        assert_int_equal(stats_of(s.loop).ticks, 50);
+        assert_true(motor() == 0.0);
+        assert_int_equal(s.home.closes, 0);
+        knurl_loop_destroy(s.loop);
+        check_all_gone();
+    }
+}
