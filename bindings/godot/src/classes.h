@@ -1,5 +1,5 @@
-/* Classes as tables: properties, methods and signals in rows, registered and served by one piece of code.
- * SPDX-License-Identifier: MIT */
+/* Classes as tables: properties, methods and signals in rows, registered (register.c) and served (serve.c) by one piece
+ * of code. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_CLASSES_H
 #define KNURL_GODOT_CLASSES_H
 
@@ -78,11 +78,5 @@ enum {
     GD_INTERNAL_PROCESS = 25,
     GD_TRANSFORM_CHANGED = 2000
 };
-
-void gd_register(const gd_class *class);
-void gd_unregister(const gd_class *class);
-
-/* The instance of that class behind an object, or null. */
-void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class);
 
 #endif

@@ -1,9 +1,10 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "device.h"
+
+#include "follow.h"
+#include "signals.h"
 
 #include <string.h>
-
-device *devices[DEVICE_SLOTS];
 
 int64_t device_fail(const char *where, knurl_result result) {
     enum {
@@ -148,7 +149,7 @@ void device_stop(device *d) {
     d->wants_start = 0;
     if (d->runs) {
         device_release(d);
-        signals_let_go(d); /* last: a handler finds a device that is stopped, and may start it */
+        signals_end_contact(d); /* last: a handler finds a device that is stopped, and may start it */
     }
 }
 
@@ -159,6 +160,8 @@ void device_process(device *d) {
     if (d->runs) {
         follow_all(d);
         knurl_session_update(d->session);
-        signals_tell(d);
+        while (signals_tell(d)) {
+            device_stop(d);
+        }
     }
 }

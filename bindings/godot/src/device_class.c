@@ -1,5 +1,7 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "device.h"
+#include "status.h"
+#include "trace.h"
 
 #include <knurl/gltf.h>
 

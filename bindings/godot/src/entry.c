@@ -1,5 +1,6 @@
 /* Where the engine comes in. SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "device.h"
+#include "register.h"
 
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* Surfaces follow their nodes into the scenes of running devices. SPDX-License-Identifier: MIT */
+#include "follow.h"
+
 #include "mesh.h"
-#include "world.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,6 @@
 /* Tells the engine of the classes in the tables. SPDX-License-Identifier: MIT */
+#include "register.h"
+
 #include "serve.h"
 
 #include <stdio.h>

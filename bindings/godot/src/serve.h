@@ -1,9 +1,11 @@
-/* Between classes.c, which serves instances, and register.c, which tells the engine of them.
- * SPDX-License-Identifier: MIT */
+/* Serves instances of classes. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_SERVE_H
 #define KNURL_GODOT_SERVE_H
 
 #include "classes.h"
+
+/* The instance of that class behind an object, or null. */
+void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class);
 
 /* What the engine calls of an instance; class_userdata is the gd_class. */
 GDExtensionObjectPtr gd_create(void *class_userdata);

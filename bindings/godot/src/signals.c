@@ -1,6 +1,5 @@
-/* Signals of a KnurlDevice: what happened since the last frame. Any of their handlers may stop the device.
- * SPDX-License-Identifier: MIT */
-#include "world.h"
+/* Signals of a KnurlDevice: what happened since the last frame. SPDX-License-Identifier: MIT */
+#include "signals.h"
 
 static GDExtensionObjectPtr node_of(const device *d, knurl_surface id) {
     for (const surface *s = surfaces; s; s = s->next) {
@@ -22,7 +21,7 @@ static void emit_contact(const device *d, const char *signal, GDExtensionObjectP
     gd.variant_destroy(&argument);
 }
 
-void signals_let_go(device *d) {
+void signals_end_contact(device *d) {
     if (d->touched) {
         const GDExtensionObjectPtr node = d->touched_node;
         d->touched = 0;
@@ -58,7 +57,7 @@ static void tell_fault(const device *d, const knurl_session_event *event) {
     gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
 }
 
-void signals_tell(device *d) {
+int signals_tell(device *d) {
     knurl_session_event event;
     while (d->runs && knurl_session_next_event(d->session, &event)) {
         switch (event.kind) {
@@ -67,7 +66,7 @@ void signals_tell(device *d) {
             break;
         case KNURL_SESSION_CONTACT_ENDED:
             if (event.surface == d->touched) { /* else it was told when its node left */
-                signals_let_go(d);
+                signals_end_contact(d);
             }
             break;
         case KNURL_SESSION_BUTTON:
@@ -77,8 +76,8 @@ void signals_tell(device *d) {
             tell_fault(d, &event);
             break;
         default: /* it has ended */
-            device_stop(d);
-            break;
+            return 1;
         }
     }
+    return 0;
 }

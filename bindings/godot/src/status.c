@@ -1,5 +1,5 @@
 /* KnurlDevice.get_status(): everything that counts, in one Dictionary. SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "status.h"
 
 #include <string.h>
 

@@ -1,19 +1,9 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "follow.h"
+#include "serve.h"
+#include "signals.h"
 
 #include <string.h>
-
-surface *surfaces;
-surface *marked_surfaces;
-
-/* Surfaces outside of a tree have nothing to tell. */
-void surface_mark(surface *s) {
-    if (!s->is_marked && (s->previous || surfaces == s)) {
-        s->is_marked = 1;
-        s->next_marked = marked_surfaces;
-        marked_surfaces = s;
-    }
-}
 
 static int init(void *self) {
     surface *s = self;
@@ -149,7 +139,7 @@ static void leave(surface *s) {
     unlink_surface(s);
     for (int i = 0; i < DEVICE_SLOTS; i++) { /* last: a handler may do what it likes */
         if (devices[i] && devices[i]->touched_node == s->base.object) {
-            signals_let_go(devices[i]);
+            signals_end_contact(devices[i]);
         }
     }
 }

@@ -1,6 +1,8 @@
 /* KnurlDevice.play_trace(): forces for positions, as fast as the machine can, on the calling thread.
  * SPDX-License-Identifier: MIT */
-#include "world.h"
+#include "trace.h"
+
+#include "device.h"
 
 #include <stdlib.h>
 #include <string.h>

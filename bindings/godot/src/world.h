@@ -55,39 +55,4 @@ void surface_mark(surface *s);
 /* Running devices, or null. */
 extern device *devices[DEVICE_SLOTS];
 
-/* follow.c: surfaces into a device's scene, along with their nodes, and out. Errors are pushed. */
-void follow_add(device *d, surface *s);
-void follow_remove(device *d, surface *s);
-void follow_all(device *d);
-
-/* Where a Node3D stands, in the world: 1, or 0 where it is scaled to nothing. */
-int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
-
-/* Why a surface cannot be felt, a line each, in a caller's buffer; "" where it can. */
-void follow_explain(const surface *s, char *text, size_t size);
-
-/* device.c. start and stop: see KnurlDevice. */
-int64_t device_start(device *d);
-void device_stop(device *d);
-void device_process(device *d);
-
-/* Its parts: a session, if there is none yet; a slot, an opened session, all surfaces in its scene; and all of these
- * given back. After a failure device_release() is still to be called. */
-knurl_result device_make_session(device *d);
-knurl_result device_prepare(device *d);
-void device_release(device *d);
-
-/* Pushes knurl_error_message() as an error; the engine's Error of a result. */
-int64_t device_fail(const char *where, knurl_result result);
-
-/* signals.c: what happened since the last frame. */
-void signals_tell(device *d);
-void signals_let_go(device *d);
-
-/* trace.c: KnurlDevice.play_trace(). */
-void trace_play(void *self, const void *const *arguments, void *result);
-
-/* status.c: KnurlDevice.get_status(). */
-void status_tell(void *self, const void *const *arguments, void *result);
-
 #endif

@@ -1,0 +1,22 @@
+/* A KnurlDevice's life: open, run, stop.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_GODOT_DEVICE_H
+#define KNURL_GODOT_DEVICE_H
+
+#include "world.h"
+
+/* See KnurlDevice. */
+int64_t device_start(device *d);
+void device_stop(device *d);
+void device_process(device *d);
+
+/* Its parts: a session, if there is none yet; a slot, an opened session, all surfaces in its scene; and all of these
+ * given back. After a failure device_release() is still to be called. */
+knurl_result device_make_session(device *d);
+knurl_result device_prepare(device *d);
+void device_release(device *d);
+
+/* Pushes knurl_error_message() as an error; the engine's Error of a result. */
+int64_t device_fail(const char *where, knurl_result result);
+
+#endif
