@@ -47,6 +47,12 @@ typedef struct knurl_exit_actions {
  * SIGILL are left alone too. 0: the system refused. Later calls change nothing. */
 int knurl_system_on_exit(const knurl_exit_actions *actions, int faults_recover);
 
+/* Takes a device's node, so that no other opening of it, here or in another process, can take it too: until it is given
+ * back, or the process ends, however it ends. Above 0: taken, the number to give it back by; 0: another has it; below
+ * 0: the system cannot tell. */
+intptr_t knurl_system_take_node(const char *path);
+void knurl_system_give_back_node(intptr_t node);
+
 /* Libraries that are loaded at run time. Null: `why` says what the system says. */
 typedef struct knurl_library knurl_library;
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size);

@@ -5,14 +5,17 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <time.h>
+#include <unistd.h>
 
 /* Above the kernel's threaded interrupt handlers (50), where audio servers stand too; well below the watchdogs (99). */
 #define REALTIME_PRIORITY 70
@@ -139,6 +142,27 @@ int knurl_system_lock_stack(uintptr_t *start) {
     }
     *start = (uintptr_t)pages;
     return mlock(pages, sizeof pages) == 0;
+}
+
+/* By a lock on an opening of our own: those who open the node for its data keep theirs to themselves. The kernel gives
+ * a lock back with the last descriptor, so also after SIGKILL. */
+intptr_t knurl_system_take_node(const char *path) {
+    const int node = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (node < 0) {
+        return -1;
+    }
+    if (flock(node, LOCK_EX | LOCK_NB) == 0) {
+        return (intptr_t)node + 1;
+    }
+    const int why = errno;
+    (void)close(node);
+    return why == EWOULDBLOCK ? 0 : -1;
+}
+
+void knurl_system_give_back_node(intptr_t node) {
+    if (node > 0) {
+        (void)close((int)(node - 1));
+    }
 }
 
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {

@@ -243,6 +243,31 @@ static void explain(DWORD error, char *why, size_t why_size) {
     }
 }
 
+/* By a named mutex, which lives as long as a handle to it does; its owner does not matter. */
+intptr_t knurl_system_take_node(const char *path) {
+    char name[MAX_PATH] = "Global\\knurl-";
+    size_t used = strlen(name);
+    for (; *path && used + 1 < sizeof name; path++) {
+        name[used++] = *path == '\\' ? '/' : *path; /* a backslash ends a namespace's name */
+    }
+    name[used] = '\0';
+    HANDLE mutex = CreateMutexA(NULL, FALSE, name);
+    const DWORD why = GetLastError();
+    if (mutex && why != ERROR_ALREADY_EXISTS) {
+        return (intptr_t)mutex;
+    }
+    if (mutex) {
+        (void)CloseHandle(mutex);
+    }
+    return mutex || why == ERROR_ACCESS_DENIED ? 0 : -1; /* denied: it is another account's */
+}
+
+void knurl_system_give_back_node(intptr_t node) {
+    if (node > 0) {
+        (void)CloseHandle((HANDLE)node);
+    }
+}
+
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {
     wchar_t wide[1024];
     DWORD before = 0;

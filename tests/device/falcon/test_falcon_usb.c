@@ -165,7 +165,7 @@ TEST(a_device_that_somebody_else_holds_is_refused) {
     setup.is_held = 1;
     plug_in(&setup);
     CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_SYSTEM, device);
-    check_message("somebody else uses it");
+    check_message("in use: by another program, by this one");
     falcon_emulated_stop();
 }
 

@@ -6,7 +6,6 @@
 #include "device/drivers.h"
 #include "device/rawhid/emulated_hid.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -280,4 +279,66 @@ TEST_WITH(a_guard_zeroes_the_currents_of_a_host_that_is_killed_or_stands_still, 
         assert_int_equal(waitpid(child, &status, 0), child);
         assert_true(WIFSIGNALED(status));
     }
+}
+
+/* --- one at a time --- */
+
+TEST_WITH(a_second_opening_in_this_program_is_refused_in_a_sentence, set_up, tear_down) {
+    knurl_device_sample sample;
+    plug(0xffab, 64);
+    knurl_device *device = open_device();
+    check_refused(KNURL_ERROR_SYSTEM, "/dev/hidraw0 could not be opened: it is in use");
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample)); /* the first goes on */
+    knurl_device_close(device);
+    knurl_device_close(open_device());
+}
+
+/* A second program. Returns its exit code: 0 where it was refused in a sentence. */
+static int open_in_another_program(void) {
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        knurl_device *device = NULL;
+        const knurl_result result = knurl_device_open("rawhid", &device);
+        _exit(result == KNURL_OK                                                         ? 1
+              : result != KNURL_ERROR_SYSTEM || !strstr(knurl_error_message(), "in use") ? 2
+                                                                                         : 0);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+TEST_WITH(a_device_that_another_program_has_is_refused_in_a_sentence, set_up, tear_down) {
+    knurl_device_sample sample;
+    plug(0xffab, 64);
+    knurl_device *device = open_device();
+    assert_int_equal(open_in_another_program(), 0);
+    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    knurl_device_close(device);
+}
+
+/* Nobody gives anything back then but the kernel. */
+TEST_WITH(a_program_that_was_killed_has_no_device_any_more, set_up, tear_down) {
+    int pipes[2];
+    int status = 0;
+    char opened = 0;
+    plug(0xffab, 64);
+    assert_int_equal(pipe(pipes), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        knurl_device *device = NULL;
+        const char told = knurl_device_open("rawhid", &device) == KNURL_OK ? 'y' : 'n';
+        (void)!write(pipes[1], &told, 1);
+        (void)pause();
+        _exit(0);
+    }
+    assert_int_equal(read(pipes[0], &opened, 1), 1);
+    assert_int_equal(opened, 'y');
+    check_refused(KNURL_ERROR_SYSTEM, "in use");
+    assert_int_equal(kill(child, SIGKILL), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    knurl_device_close(open_device());
+    (void)close(pipes[0]);
+    (void)close(pipes[1]);
 }

@@ -248,8 +248,8 @@ static knurl_result refused(const char *doing, int code) {
     }
     if (code == LIBUSB_ERROR_BUSY) {
         return knurl_fail(KNURL_ERROR_SYSTEM,
-                          "device 'falcon': found (0403:cb48), but somebody else uses it: another program, or the "
-                          "kernel's ftdi_sio; close the one or unload the other");
+                          "device 'falcon': found (0403:cb48), but it is in use: by another program, by this one, "
+                          "or by the kernel's ftdi_sio; close the one or unload the other");
     }
     if (code == LIBUSB_ERROR_NO_DEVICE) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'falcon': it was unplugged while it was opened");

@@ -18,6 +18,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
 
 #include <hidapi.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #ifdef __linux__
 #include <errno.h>
@@ -157,41 +158,69 @@ static size_t hid_look(void *user, uint16_t vendor, uint16_t product, knurl_rawh
     return count;
 }
 
+/* An open device. hidapi would open one twice, for two threads or programs that then both drive its motors. */
+typedef struct port {
+    hid_device *device;
+    intptr_t node; /* knurl_system_take_node() */
+} port;
+
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
-    return lib.write(self, bytes, size) == (int)size;
+    return lib.write(((port *)self)->device, bytes, size) == (int)size;
 }
 
 static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
-    return lib.read_timeout(self, bytes, room, milliseconds);
+    return lib.read_timeout(((port *)self)->device, bytes, room, milliseconds);
 }
 
 static void port_close(void *self) {
+    port *p = self;
     lock();
-    lib.close(self);
+    lib.close(p->device);
     leave();
     unlock();
+    knurl_system_give_back_node(p->node);
+    free(p);
 }
 
-static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhid_port *port, char *why,
-                        size_t why_size) {
-    (void)user;
+/* Null: `why` says why. */
+static hid_device *open_path(const char *path, char *why, size_t why_size) {
     hid_device *device = NULL;
     lock();
     if (!enter()) {
         (void)snprintf(why, why_size, "hidapi could not be started");
     } else {
-        device = lib.open_path(found->path);
+        device = lib.open_path(path);
         if (!device) {
             narrow(lib.error(NULL), why, why_size);
             leave();
         }
     }
     unlock();
-    const knurl_rawhid_port made = {device, port_write, port_read, port_close};
-    if (device) {
-        *port = made;
+    return device;
+}
+
+static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhid_port *opened, char *why,
+                        size_t why_size) {
+    (void)user;
+    port *p = calloc(1, sizeof *p);
+    if (!p) {
+        (void)snprintf(why, why_size, "no memory");
+        return 0;
     }
-    return device != NULL;
+    p->node = knurl_system_take_node(found->path);
+    if (p->node == 0) {
+        (void)snprintf(why, why_size, "it is in use: another program, or this one, has it open");
+    } else {
+        p->device = open_path(found->path, why, why_size); /* what could not be taken for want of rights says so here */
+    }
+    if (!p->device) {
+        knurl_system_give_back_node(p->node);
+        free(p);
+        return 0;
+    }
+    const knurl_rawhid_port made = {p, port_write, port_read, port_close};
+    *opened = made;
+    return 1;
 }
 
 /* hidapi keeps its own descriptor to itself; a node may be opened more than once. */
