@@ -75,7 +75,7 @@ static void halt_all(void) {
     for (int i = 0; i < DEVICE_ROOM; i++) {
         knurl_device *device = knurl_load_acquire(&open_devices[i]);
         if (device) {
-            knurl_store_release(&device->halted, 1u);
+            knurl_device_halt(device);
         }
     }
 }
