@@ -26,6 +26,7 @@ void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
 
 static void close_now(knurl_device *device) {
     knurl_device_unregister(device);
+    knurl_motor_heat_keep(device);
     device->driver->close(device);
 }
 

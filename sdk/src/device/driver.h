@@ -15,7 +15,8 @@ typedef struct knurl_listings {
 } knurl_listings;
 
 typedef struct knurl_driver {
-    const char *uri; /* what a URI begins with, up to a ':' */
+    const char *uri;     /* what a URI begins with, up to a ':' */
+    uint32_t keeps_heat; /* 1: a device that is opened again is as warm as the one of its kind that was closed last */
     /* What is connected; at least one entry, with a reason where nothing is. [game thread] */
     void (*list)(knurl_listings *listings);
     /* options: what follows "uri:", or "". Makes a zeroed knurl_device with knurl_device_init() and max_force set,
@@ -52,6 +53,14 @@ typedef struct knurl_position_check {
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
 
+/* What a device's latest loop left: how warm the motors were, when, and by which clock. */
+typedef struct knurl_motor_heat {
+    double square;              /* N^2: as a force of this square makes them in the long run */
+    int64_t at;                 /* ns */
+    int64_t (*now)(void *user); /* null: no loop has run */
+    void *user;
+} knurl_motor_heat;
+
 /* Bits of knurl_device.use: a loop has it; that loop has started its haptic thread; its owner has closed it, and it is
  * kept for that loop. */
 #define KNURL_DEVICE_LOOP   1u
@@ -72,12 +81,7 @@ struct knurl_device {
     struct knurl_link *link; /* the I/O thread that exchanges, see link.h; null: there is none */
     knurl_position_check check;
     knurl_events events;
-    /* What its latest loop left: how warm the motors were (N^2: as a force of this square makes them in the long run),
-     * when, and by which clock. A thread that starts a loop reads them, one that ends it writes them. */
-    double heat;
-    int64_t heat_at;
-    int64_t (*heat_now)(void *user); /* null: no loop has run */
-    void *heat_user;
+    knurl_motor_heat motors; /* a thread that starts a loop reads it, one that ends it writes it */
     /* atomics */
     uint32_t use;     /* KNURL_DEVICE_ bits */
     uint32_t halted;  /* KNURL_HALTED bits */
@@ -140,5 +144,10 @@ void knurl_device_after_force(knurl_device *device, const double force[3]);
 /* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);
 void knurl_device_unregister(knurl_device *device);
+
+/* Motors stay warm while their device is closed: kept in the process by kind of device (motor_heat.c). Keep: before it
+ * is closed. Recall: before its first loop. [any thread but the haptic] */
+void knurl_motor_heat_keep(const knurl_device *device);
+void knurl_motor_heat_recall(knurl_device *device);
 
 #endif

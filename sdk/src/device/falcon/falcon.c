@@ -380,6 +380,7 @@ static knurl_result falcon_reopen(knurl_device *device) {
 
 const knurl_driver knurl_falcon_driver = {
     .uri = "falcon",
+    .keeps_heat = 1,
     .list = falcon_list,
     .open = falcon_open,
     .close = falcon_close,

@@ -377,6 +377,7 @@ static knurl_result rawhid_open(const char *options, knurl_device **device) {
 
 const knurl_driver knurl_rawhid_driver = {
     .uri = "rawhid",
+    .keeps_heat = 1,
     .list = rawhid_list,
     .open = rawhid_open,
     .close = rawhid_close,

@@ -230,6 +230,7 @@ static void touch_list(knurl_listings *listings) {
 
 const knurl_driver knurl_touch_driver = {
     .uri = "touch",
+    .keeps_heat = 1,
     .list = touch_list,
     .open = touch_open,
     .close = touch_close,

@@ -1,0 +1,46 @@
+/* How warm the motors of closed devices are. SPDX-License-Identifier: MIT */
+#include "device/driver.h"
+
+#include "base/atomic.h"
+
+/* As many as there are drivers of real devices; one more would begin cold. */
+#define KINDS 4
+
+static struct {
+    const knurl_driver *driver; /* null: free */
+    knurl_motor_heat motors;
+} kept[KINDS];
+
+static uint32_t held; /* atomic: 1 for the few loads and stores of a thread that closes a device or starts a loop */
+
+/* With `held`. Null: there is none of the device's kind, or no room. */
+static knurl_motor_heat *find(const knurl_device *device) {
+    for (int i = 0; i < KINDS && device->driver->keeps_heat; i++) {
+        if (!kept[i].driver || kept[i].driver == device->driver) {
+            kept[i].driver = device->driver;
+            return &kept[i].motors;
+        }
+    }
+    return NULL;
+}
+
+static void copy(const knurl_device *device, const knurl_motor_heat *from, knurl_motor_heat *to) {
+    while (__atomic_exchange_n(&held, 1u, __ATOMIC_ACQUIRE)) {}
+    knurl_motor_heat *known = find(device);
+    if (known) {
+        *(to ? to : known) = *(from ? from : known);
+    }
+    knurl_store_release(&held, 0u);
+}
+
+void knurl_motor_heat_keep(const knurl_device *device) {
+    if (device->motors.now) {
+        copy(device, &device->motors, NULL);
+    }
+}
+
+void knurl_motor_heat_recall(knurl_device *device) {
+    if (!device->motors.now) {
+        copy(device, NULL, &device->motors);
+    }
+}

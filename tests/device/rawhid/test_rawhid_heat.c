@@ -1,0 +1,50 @@
+/* Motors that were warm when their device was closed are warm when it is opened again. SPDX-License-Identifier: MIT */
+#include "device/rawhid/driver_rig.h"
+
+#include <knurl/loop.h>
+
+#define SECONDS 0.3
+#define FORCE   3.0
+
+static void press(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[1] = FORCE;
+}
+
+/* Presses for `seconds`. Returns the motors' heat before and after, by the loop's own telling. */
+static void run(double seconds, double *before, double *after) {
+    knurl_loop_desc desc;
+    knurl_loop_stats stats;
+    knurl_loop *loop = NULL;
+    open_device("");
+    (void)wait_for_position();
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = device;
+    desc.force_callback = press;
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    knurl_loop_stats_init(&stats, sizeof stats);
+    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    *before = stats.heat;
+    sleep_s(seconds);
+    knurl_loop_stop(loop);
+    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    *after = stats.heat;
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+    device = NULL;
+}
+
+/* theta' = ((F/continuous)^2 - theta)/time; the ramps at both ends and late ticks leave more than half of it. */
+TEST_WITH(a_device_that_is_opened_again_is_as_warm_as_it_was, set_up, tear_down) {
+    const double expected = (FORCE * FORCE / (1.7 * 1.7)) * (1.0 - exp(-SECONDS / 60.0));
+    double before;
+    double warm;
+    double again;
+    run(SECONDS, &before, &warm);
+    assert_true(before < 0.05 * expected && warm > 0.5 * expected);
+    run(0.02, &again, &before);
+    assert_true(again > 0.9 * warm); /* it cools by a 60th in a second */
+}
