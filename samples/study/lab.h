@@ -16,7 +16,7 @@ typedef struct lab_grip {
     double mass;      /**< kg */
 } lab_grip;
 
-/** "none", "loose", "light", "medium", "firm", ended by a null name (lab.c says where from). */
+/** "none", "loose", "light", "medium", "firm", ended by a null name (lab_run.c says where from). */
 extern const lab_grip lab_grips[];
 
 /** Null: there is none of that name. */

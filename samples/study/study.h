@@ -5,7 +5,7 @@
 #define KNURL_STUDY_H
 
 #include "metrics.h"
-#include "out.h"
+#include "study_out.h"
 
 /** One study. Progress goes to stderr where that is a terminal. */
 typedef struct study {
@@ -30,19 +30,5 @@ int study_half_cycles(const char *folder); /* every half cycle's impulse, on fac
 int study_transitions(const char *folder); /* turns, stops, lift-off, changes in an event; prints its table */
 int study_failures(const char *folder);    /* where methods fail; writes failures.md too */
 int study_stability(const char *folder);   /* where walls and gratings run away; prints its checks */
-
-/** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
- * why. */
-int study_open(out_file *file, const char *folder, const char *name);
-
-/** Writes FOLDER/NAME.csv and FOLDER/NAME.json by one function, which returns 0, or 1 where memory is not to be had
- * (that is then said). Both files are there whole, or neither. 0, or 1 having said why. */
-int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user);
-
-/** A number into JSON (out_number(), with null for what is not finite). */
-void study_json_number(FILE *stream, double value);
-
-/** "  name: 40 %" on a terminal; nothing in a pipe. share: 0..1; 1 ends the line. */
-void study_progress(const char *name, double share);
 
 #endif

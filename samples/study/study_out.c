@@ -1,0 +1,58 @@
+/* What the studies share: files, numbers, progress. SPDX-License-Identifier: MIT */
+#include "study_out.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int study_open(out_file *file, const char *folder, const char *name) {
+    char path[1024];
+    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    memset(file, 0, sizeof *file);
+    if (length < 0 || (size_t)length >= sizeof path) {
+        fprintf(stderr, "knurl: %s: the path is too long\n", folder);
+        return 1;
+    }
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "knurl: %s: the folder cannot be made: %s\n", folder, strerror(errno));
+        return 1;
+    }
+    return out_open(file, path);
+}
+
+int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user) {
+    char csv_name[64];
+    char json_name[64];
+    out_file csv;
+    out_file json;
+    (void)snprintf(csv_name, sizeof csv_name, "%s.csv", name);
+    (void)snprintf(json_name, sizeof json_name, "%s.json", name);
+    if (study_open(&csv, folder, csv_name)) {
+        return 1;
+    }
+    int failed = study_open(&json, folder, json_name);
+    if (!failed && write(csv.stream, json.stream, user)) {
+        fprintf(stderr, "knurl: study: %s: no memory\n", name);
+        failed = 1;
+    }
+    failed = failed || out_keep(&csv) || out_keep(&json);
+    out_discard(&csv);
+    out_discard(&json);
+    return failed;
+}
+
+void study_json_number(FILE *stream, double value) {
+    if (isfinite(value)) {
+        out_number(stream, value);
+    } else {
+        fputs("null", stream);
+    }
+}
+
+void study_progress(const char *name, double share) {
+    if (isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r  %s: %3.0f %%%s", name, 100.0 * share, share >= 1.0 ? "\n" : "");
+    }
+}
