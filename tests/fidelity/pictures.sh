@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# The pictures whose data are quick to make again show what the code does: assets/pictures/NAME.data says what NAME.png
+# was drawn from. `./run figures --check` looks at all the others. usage: pictures.sh KNURL FOLDER
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+code=0
+mkdir -p "$2"
+"$1" run "$root/assets/plate_1d.glb" --stroke sweep --seconds 5 --fast --out "$2/sweep.csv" >"$2/sweep.json" # the demo's
+/usr/bin/python3 -B "$root/samples/study/drawn.py" --check "$root/assets/pictures/sweep.data" "$2/sweep.csv" || code=1
+for name in signals coverage temporal preferences; do
+    "$1" study $name --out "$2" >/dev/null
+    /usr/bin/python3 -B "$root/samples/study/drawn.py" --check "$root/assets/pictures/$name.data" \
+        "$2/$name".{json,csv} || code=1
+done
+exit $code
