@@ -142,7 +142,7 @@ static int next_fault(knurl_session *s, knurl_session_event *event) {
             return 0;
         }
         s->faults_due--;
-    } while (s->is_mouse && fault.code == KNURL_FAULT_SILENT); /* nobody has moved it yet */
+    } while (s->mouse && fault.code == KNURL_FAULT_SILENT); /* nobody has moved it yet */
     event->kind = KNURL_SESSION_FAULT;
     event->code = fault.code;
     event->value = fault.value;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* s: how far a steady motion lags behind. A critically damped filter of 2/LAG rad/s leaves 9 % (peak, by its transfer
@@ -88,7 +89,11 @@ static knurl_result write(void *user, const double force[3]) {
     return KNURL_OK;
 }
 
-knurl_result knurl_mouse_open(knurl_mouse *m, knurl_device **device) {
+knurl_result knurl_mouse_open(knurl_mouse **mouse, knurl_device **device) {
+    knurl_mouse *m = calloc(1, sizeof *m);
+    if (!m) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "mouse: could not get %u bytes", (unsigned)sizeof *m);
+    }
     knurl_device_functions functions;
     knurl_device_functions_init(&functions, sizeof functions);
     functions.user = m;
@@ -96,7 +101,14 @@ knurl_result knurl_mouse_open(knurl_mouse *m, knurl_device **device) {
     functions.start = start;
     functions.read = read;
     functions.write = write;
-    return knurl_device_open_functions(&functions, device);
+    functions.close = free;
+    const knurl_result result = knurl_device_open_functions(&functions, device);
+    if (result) {
+        free(m);
+    } else {
+        *mouse = m;
+    }
+    return result;
 }
 
 void knurl_mouse_move(knurl_mouse *m, const double position[3]) {

@@ -16,8 +16,8 @@ typedef struct knurl_mouse {
     double position[3], velocity[3];
 } knurl_mouse;
 
-/* Opens it; `m`, zeroed, is the caller's and must outlast the device. */
-knurl_result knurl_mouse_open(knurl_mouse *m, knurl_device **device);
+/* Opens it. *mouse is the device's: it goes with that, which may be later than its close. */
+knurl_result knurl_mouse_open(knurl_mouse **mouse, knurl_device **device);
 
 /* Where the HIP is to be, device frame. [game thread] */
 void knurl_mouse_move(knurl_mouse *m, const double position[3]);

@@ -13,7 +13,7 @@
 
 knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]) {
     double at[3];
-    if (!session->is_mouse) {
+    if (!session->mouse) {
         return knurl_fail(KNURL_ERROR_STATE, "session: expected one whose device is the mouse, found %s",
                           session->device ? "another device" : "one that is closed");
     }
@@ -22,7 +22,7 @@ knurl_result knurl_session_move_hip(knurl_session *session, const double positio
                           position[1], position[2]);
     }
     knurl_workspace_to_device(&session->desc.workspace, position, at);
-    knurl_mouse_move(&session->mouse, at);
+    knurl_mouse_move(session->mouse, at);
     return KNURL_OK;
 }
 

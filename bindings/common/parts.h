@@ -19,7 +19,7 @@ struct knurl_session {
     knurl_loop *loop;     /* or null: neither started nor played */
     knurl_session_desc desc;
     int32_t stroke; /* KNURL_STROKE_, or 0: none */
-    uint32_t is_fake, is_mouse;
+    uint32_t is_fake;
     uint32_t paused;
     uint32_t runs; /* 1: the haptic thread was started, and was not seen to have ended */
     /* what the latest update found, for knurl_session_next_event() */
@@ -32,7 +32,7 @@ struct knurl_session {
     uint32_t has_ended;            /* by itself, and it is to be told */
     uint64_t overruns, counted_at; /* and the tick when they were counted */
     knurl_board board;
-    knurl_mouse mouse;
+    knurl_mouse *mouse; /* the device's; null where that is no mouse */
 };
 
 /* hand.c: lays the fake device's stroke over the scene's first surface. *outside: that surface, where it lies outside

@@ -59,7 +59,6 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
         session->desc = *desc;
         session->desc.device = session->desc.stroke = NULL; /* the caller's, and looked at */
         session->is_fake = is_fake;
-        session->is_mouse = strcmp(device, "mouse") == 0;
         session->stroke = stroke;
     }
     return result;
@@ -175,8 +174,8 @@ void knurl_session_close(knurl_session *session) {
     knurl_device_close(session->device);
     session->loop = NULL;
     session->device = NULL;
-    session->runs = session->is_fake = session->is_mouse = 0;
+    session->runs = session->is_fake = 0;
     memset(&session->board, 0, sizeof session->board);
-    memset(&session->mouse, 0, sizeof session->mouse);
+    session->mouse = NULL;
     knurl_session_forget(session);
 }

@@ -318,3 +318,36 @@ int main(void) {
     others_than_ours = thread_count();
     return suite_run("session_life");
 }
+
+/* A host may give a session's scene and device to a loop of its own, and finalise that last. */
+TEST(what_a_loop_of_the_hosts_still_uses_outlives_the_session) {
+    static const double there[3] = {0.0, 0.0, -0.001};
+    for (int turn = 0; turn < 20; turn++) {
+        knurl_loop_desc desc;
+        knurl_loop_stats stats;
+        knurl_loop *loop = NULL;
+        knurl_session *s = make_session();
+        const knurl_session_desc mouse = describe("mouse", "");
+        open_session(s, &mouse);
+        (void)add_plate(s, 0.0, 0.0, 0.0);
+        assert_int_equal(knurl_scene_commit(knurl_session_scene(s)), KNURL_OK);
+        assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.scene = knurl_session_scene(s);
+        desc.device = knurl_session_device(s);
+        desc.update_rate_hz = 10000.0;
+        desc.watchdog_s = 0.0;
+        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+        assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_ERROR_STATE); /* the HIP is that loop's */
+        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        knurl_loop_stats_init(&stats, sizeof stats);
+        while (stats.ticks < 20) {
+            assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+        }
+        knurl_session_destroy(s);
+        assert_int_equal(knurl_loop_wait(loop, 10.0), 1);
+        assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+        assert_int_equal(stats.state, KNURL_LOOP_DONE);
+        knurl_loop_destroy(loop);
+    }
+}

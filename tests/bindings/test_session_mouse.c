@@ -6,7 +6,7 @@
 #define PI 3.14159265358979323846
 
 typedef struct rig {
-    knurl_mouse m;
+    knurl_mouse *m; /* the device's */
     knurl_device *device;
 } rig;
 
@@ -18,7 +18,7 @@ static void open_rig(rig *r, double rate) {
 
 static void move_x(rig *r, double x) {
     const double position[3] = {x, 0.0, 0.0};
-    knurl_mouse_move(&r->m, position);
+    knurl_mouse_move(r->m, position);
 }
 
 static double read_x(rig *r) {
