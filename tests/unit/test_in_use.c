@@ -242,7 +242,9 @@ static void bring_to(int state) {
 static void end(char what) {
     if (what == 'd') {
         knurl_device_close(s.device);
-        knurl_device_close(s.device); /* a host may dispose of it and finalise it as well */
+        if (s.loop) { /* whose memory it still is */
+            knurl_device_close(s.device);
+        }
     } else if (what == 's') {
         knurl_scene_destroy(s.scene);
     } else {
