@@ -77,6 +77,9 @@ static void collect_overruns(knurl_session *s) {
 }
 
 void knurl_session_update(knurl_session *session) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return;
+    }
     if (session->runs) {
         knurl_loop_heartbeat(session->loop);
         const uint32_t is_over = knurl_loop_wait(session->loop, 0.0); /* before its last events are collected */
@@ -150,6 +153,9 @@ static int next_fault(knurl_session *s, knurl_session_event *event) {
 }
 
 uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *event) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(event)) {
+        return 0;
+    }
     knurl_session_event found = {0, 0, 0.0, 0};
     int is_found = next_touch(session, &found) || next_button(session, &found) || next_fault(session, &found);
     if (!is_found && session->has_ended) {
@@ -164,6 +170,9 @@ uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *e
 }
 
 void knurl_session_get_state(const knurl_session *session, knurl_session_state *state) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(state)) {
+        return;
+    }
     knurl_board_tick sent;
     memset(state, 0, sizeof *state);
     if (!session->runs) {
@@ -186,5 +195,8 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
 }
 
 uint32_t knurl_session_get_history(const knurl_session *session, uint32_t count, float *rows) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(rows)) {
+        return 0;
+    }
     return knurl_board_history(&session->board, count, rows);
 }

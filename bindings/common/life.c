@@ -37,6 +37,9 @@ static void leave(knurl_session *session) {
 }
 
 void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size) {
+    if (KNURL_IS_NULL(desc)) {
+        return;
+    }
     knurl_session_desc defaults;
     memset(&defaults, 0, sizeof defaults);
     defaults.struct_size = size;
@@ -50,6 +53,9 @@ void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size) {
 }
 
 knurl_result knurl_session_create(knurl_session **session) {
+    if (KNURL_IS_NULL(session)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_session *made = calloc(1, sizeof *made);
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "session: could not get %u bytes", (unsigned)sizeof *made);
@@ -66,7 +72,7 @@ knurl_result knurl_session_create(knurl_session **session) {
 }
 
 void knurl_session_destroy(knurl_session *session) {
-    if (session) {
+    if (session && !KNURL_BAD_HANDLE(session, SESSION)) {
         leave(session); /* first: from here on knurl_session_close_all() does not see it */
         knurl_session_close(session);
         knurl_scene_destroy(session->scene);
@@ -87,13 +93,13 @@ uint32_t knurl_session_close_all(void) {
 }
 
 knurl_scene *knurl_session_scene(knurl_session *session) {
-    return session->scene;
+    return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->scene;
 }
 
 knurl_device *knurl_session_device(knurl_session *session) {
-    return session->device;
+    return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->device;
 }
 
 knurl_loop *knurl_session_loop(knurl_session *session) {
-    return session->loop;
+    return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->loop;
 }

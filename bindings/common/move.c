@@ -12,6 +12,9 @@
 #define LONGEST    0.1
 
 knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(position)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     double at[3];
     if (!session->mouse) {
         return knurl_fail(KNURL_ERROR_STATE, "session: expected one whose device is the mouse, found %s",
@@ -28,6 +31,10 @@ knurl_result knurl_session_move_hip(knurl_session *session, const double positio
 
 knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
                                         const double position[3], const double rotation[4]) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(way) || KNURL_IS_NULL(position) ||
+        KNURL_IS_NULL(rotation)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_board_tick sent;
     double length = 0.0;
     double seconds = 0.0;
@@ -76,6 +83,9 @@ static int is_in_reach(const knurl_session *s, const knurl_surface_info *info) {
 }
 
 void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return;
+    }
     knurl_surface_info info;
     knurl_surface_check check;
     knurl_surface_info_init(&info, sizeof info);

@@ -1,4 +1,5 @@
 /* Splits an engine's matrices into what a scene's surfaces have and what is baked. SPDX-License-Identifier: MIT */
+#include "base/handle.h"
 #include "session.h"
 
 #include <math.h>
@@ -44,6 +45,9 @@ static void to_quaternion(const double r[9], double q[4]) {
 }
 
 uint32_t knurl_session_same_rest(const double a[9], const double b[9]) {
+    if (KNURL_IS_NULL(a) || KNURL_IS_NULL(b)) {
+        return 0;
+    }
     double largest = 0.0;
     double difference = 0.0;
     for (int i = 0; i < 9; i++) {
@@ -70,6 +74,9 @@ static int make_axes(const double columns[3][3], double axes[3][3]) {
 }
 
 uint32_t knurl_session_split_pose(const double matrix[12], knurl_session_pose *pose) {
+    if (KNURL_IS_NULL(matrix) || KNURL_IS_NULL(pose)) {
+        return 0;
+    }
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     knurl_session_pose made;
     double columns[3][3];

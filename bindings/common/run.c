@@ -6,9 +6,9 @@
 #include <string.h>
 
 static knurl_result check(const knurl_session_desc *d) {
-    if (!d || d->struct_size != sizeof *d) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc: expected one of %u bytes, found %s of %u",
-                          (unsigned)sizeof *d, d ? "one" : "null", d ? (unsigned)d->struct_size : 0u);
+    if (d->struct_size != sizeof *d) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc: expected one of %u bytes, found one of %u",
+                          (unsigned)sizeof *d, (unsigned)d->struct_size);
     }
     if (d->reconnect > 1 || d->clamp > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -40,6 +40,9 @@ static knurl_result open_device(knurl_session *session, const char *device) {
 }
 
 knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     if (session->device) {
         return knurl_fail(KNURL_ERROR_STATE, "session: expected one that is closed, found one that is open");
     }
@@ -103,6 +106,9 @@ static void warn(const knurl_session *session, knurl_surface outside, char *warn
 }
 
 knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_surface outside = 0;
     knurl_result result = prepare(session);
     result = result || !session->is_fake ? result : knurl_session_lay_stroke(session, &outside);
@@ -120,6 +126,9 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
 }
 
 void knurl_session_set_paused(knurl_session *session, uint32_t paused) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return;
+    }
     session->paused = paused != 0;
     if (session->loop && session->paused) {
         knurl_loop_pause(session->loop);
@@ -130,9 +139,9 @@ void knurl_session_set_paused(knurl_session *session, uint32_t paused) {
 
 /* The rows in device coordinates. */
 static knurl_result lay_trace(const knurl_session *session, const double *rows, uint64_t count) {
-    if (!rows || count == 0 || count > SIZE_MAX / (4 * sizeof *rows)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "rows: expected t, x, y, z of one tick or more, found %s of %llu",
-                          rows ? "rows" : "null", (unsigned long long)count);
+    if (count == 0 || count > SIZE_MAX / (4 * sizeof *rows)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "rows: expected t, x, y, z of one tick or more, found %llu",
+                          (unsigned long long)count);
     }
     double *moved = malloc((size_t)count * 4 * sizeof *moved);
     if (!moved) {
@@ -149,9 +158,11 @@ static knurl_result lay_trace(const knurl_session *session, const double *rows, 
 
 knurl_result knurl_session_play(knurl_session *session, const double *rows, uint64_t row_count, uint64_t ticks,
                                 double *forces, uint64_t *played) {
-    if (ticks < 1 || ticks > 100000000 || !forces) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "ticks: expected 1 to 1e8 and room for their forces, found %llu%s",
-                          (unsigned long long)ticks, forces ? "" : " and null");
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(rows) || KNURL_IS_NULL(forces) || KNURL_IS_NULL(played)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    if (ticks < 1 || ticks > 100000000) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "ticks: expected 1 to 1e8, found %llu", (unsigned long long)ticks);
     }
     knurl_result result = prepare(session);
     result = result ? result : lay_trace(session, rows, row_count);
@@ -170,6 +181,9 @@ knurl_result knurl_session_play(knurl_session *session, const double *rows, uint
 }
 
 void knurl_session_close(knurl_session *session) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return;
+    }
     knurl_loop_destroy(session->loop);
     knurl_device_close(session->device);
     session->loop = NULL;

@@ -96,7 +96,7 @@ KNURL_API void knurl_session_destroy(knurl_session *session);
 KNURL_API uint32_t knurl_session_close_all(void);
 
 /** The session's scene, for surfaces: knurl_scene_add_surface() and so on, knurl_gltf_load_file(). It is the same from
- * create to destroy. Never null. [game thread] */
+ * create to destroy, never null. [game thread] */
 KNURL_API knurl_scene *knurl_session_scene(knurl_session *session);
 
 /** The device of an open session, for knurl_device_get_info() and so on; null while closed. [game thread] */

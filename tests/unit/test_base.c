@@ -85,6 +85,21 @@ TEST(fail_may_quote_the_sentence_before) {
     assert_string_equal(knurl_error_message(), "surface 'top': amplitude: below 0");
 }
 
+TEST(a_failure_on_the_haptic_path_says_so_in_place_of_the_sentence_before) {
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: below 0");
+    assert_int_equal(knurl_fail_static(KNURL_ERROR_DEVICE_LOST, "gone"), KNURL_ERROR_DEVICE_LOST);
+    assert_string_equal(knurl_error_message(), "gone");
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: %s", "below 0");
+    assert_string_equal(knurl_error_message(), "amplitude: below 0");
+}
+
+TEST(fail_without_a_format_still_says_something) {
+    const char *format = NULL;
+    (void)knurl_fail(KNURL_ERROR_ARGUMENT, "stale");
+    assert_int_equal(knurl_fail(KNURL_ERROR_IO, format), KNURL_ERROR_IO);
+    assert_string_equal(knurl_error_message(), "no reason was given");
+}
+
 static void *fail_elsewhere(void *seen) {
     char (*messages)[32] = seen;
     (void)snprintf(messages[0], 32, "%s", knurl_error_message());
@@ -303,6 +318,26 @@ TEST(a_snapshot_is_never_torn_and_never_older_than_the_one_before) {
     }
     assert_int_equal(pthread_join(thread, NULL), 0);
     assert_int_equal(latest, SNAPSHOTS); /* what is read after the last write is the last write */
+}
+
+TEST(a_text_ends_in_whatever_an_older_caller_has_of_it) {
+    typedef struct texted {
+        uint32_t struct_size, other;
+        char text[8];
+    } texted;
+    const texted full = {sizeof(texted), 0x01020304, "1234567"};
+    for (uint32_t size = 8; size <= sizeof full; size++) {
+        texted caller;
+        memset(&caller, 0x77, sizeof caller);
+        caller.struct_size = size;
+        assert_int_equal(knurl_desc_return("texted", &full, sizeof full, &caller), KNURL_OK);
+        knurl_desc_end_text(&caller, offsetof(texted, text), sizeof caller);
+        assert_int_equal(caller.other, full.other);
+        for (uint32_t i = 8; i < sizeof full; i++) {
+            const uint32_t at = i - 8;
+            assert_int_equal(caller.text[at], i >= size ? 0x77 : i == size - 1 ? 0 : full.text[at]);
+        }
+    }
 }
 
 /* --- handles --- */

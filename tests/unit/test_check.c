@@ -61,6 +61,20 @@ TEST(a_surface_within_its_limits_has_nothing_to_be_warned_of) {
 }
 
 /* (b + B)/(T/2 + td) with the wall's own B: 5/1.5 ms; at 2 kHz the delay is half as long: 3/0.75 ms. */
+TEST(a_message_ends_in_whatever_an_older_caller_has_of_it) {
+    setting s = plain();
+    s.parts.material.stiffness = 4000.0;
+    knurl_scene *scene = scene_in(&s);
+    for (uint32_t room = 1; room < 100; room++) {
+        knurl_surface_check older;
+        memset(&older, 0x77, sizeof older);
+        older.struct_size = (uint32_t)offsetof(knurl_surface_check, message) + room;
+        assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_surface_at(scene, 0), &older), KNURL_OK);
+        assert_int_equal(strlen(older.message), room - 1); /* the sentence is longer */
+    }
+    knurl_scene_destroy(scene);
+}
+
 TEST(stability_is_the_bound_of_a_delayed_wall_and_says_by_how_much) {
     setting s = plain();
     s.parts.material.stiffness = 5000.0;

@@ -107,7 +107,7 @@ TEST(what_is_no_device_is_unknown) {
         CHECK_REFUSED(knurl_device_open(strange[i], &out.device), KNURL_ERROR_UNKNOWN, out);
         assert_non_null(strstr(knurl_error_message(), strange[i]));
     }
-    CHECK_REFUSED(knurl_device_open(NULL, &out.device), KNURL_ERROR_UNKNOWN, out);
+    CHECK_REFUSED(knurl_device_open(NULL, &out.device), KNURL_ERROR_ARGUMENT, out);
 }
 
 TEST(a_listing_names_every_kind_of_device_and_why_it_cannot_be_had) {
@@ -150,6 +150,23 @@ TEST(the_fake_device_is_a_touch) {
     knurl_device_info untouched;
     memset(&untouched, 0, sizeof untouched);
     CHECK_REFUSED(knurl_device_get_info(device, &untouched), KNURL_ERROR_ARGUMENT, untouched);
+    knurl_device_close(device);
+}
+
+TEST(a_name_ends_in_whatever_an_older_caller_has_of_it) {
+    knurl_device_info full;
+    knurl_device *device = open_device("fake");
+    knurl_device_info_init(&full, sizeof full);
+    assert_int_equal(knurl_device_get_info(device, &full), KNURL_OK);
+    for (uint32_t size = 9; size <= offsetof(knurl_device_info, name) + sizeof full.name; size++) {
+        knurl_device_info older;
+        memset(&older, 0x77, sizeof older);
+        older.struct_size = size;
+        const size_t room = size - offsetof(knurl_device_info, name);
+        assert_int_equal(knurl_device_get_info(device, &older), KNURL_OK);
+        assert_non_null(memchr(older.name, '\0', room));
+        assert_memory_equal(older.name, full.name, strlen(older.name));
+    }
     knurl_device_close(device);
 }
 
@@ -264,7 +281,9 @@ TEST(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again)
             knurl_device_sample sample;
             memset(&sample, 0x11, sizeof sample);
             const knurl_device_sample before = sample;
+            (void)knurl_fail(KNURL_ERROR_IO, "an older sentence");
             assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
+            assert_string_equal(knurl_error_message(), knurl_result_string(KNURL_ERROR_DEVICE_LOST));
             assert_memory_equal(&sample, &before, sizeof sample);
             assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
         }

@@ -245,7 +245,7 @@ TEST(strokes_have_the_names_that_the_tool_takes) {
         assert_non_null(strstr(knurl_error_message(), names[i]));
     }
     assert_non_null(strstr(knurl_error_message(), "zigzag"));
-    CHECK_REFUSED(knurl_stroke_from_name(NULL, &stroke), KNURL_ERROR_UNKNOWN, stroke);
+    CHECK_REFUSED(knurl_stroke_from_name(NULL, &stroke), KNURL_ERROR_ARGUMENT, stroke);
 }
 
 TEST(a_bad_stroke_is_refused) {

@@ -98,6 +98,31 @@ TEST(ids_of_removed_surfaces_stay_stale) {
     knurl_scene_destroy(scene);
 }
 
+TEST(an_id_of_another_scene_is_stale_and_says_so) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scenes[2] = {empty_scene(1), empty_scene(1)};
+    knurl_surface ids[2];
+    const char *name = NULL;
+    for (int i = 0; i < 2; i++) {
+        ids[i] = add_surface(scenes[i], &parts); /* both of them at their scene's first place */
+    }
+    for (int i = 0; i < 2; i++) {
+        CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], ids[1 - i]), KNURL_ERROR_STALE_ID, parts);
+        check_message("another scene's");
+        CHECK_REFUSED(knurl_scene_surface_name(scenes[i], ids[1 - i], &name), KNURL_ERROR_STALE_ID, name);
+        assert_int_equal(knurl_scene_surface_count(scenes[i]), 1);
+        CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], 1), KNURL_ERROR_STALE_ID, parts);
+        check_message("names none");
+    }
+    assert_int_equal(knurl_scene_remove_surface(scenes[0], ids[0]), KNURL_OK);
+    knurl_scene_destroy(scenes[0]);
+    knurl_scene *after = empty_scene(1); /* may have its memory, but not its ids */
+    (void)add_surface(after, &parts);
+    CHECK_REFUSED(knurl_scene_remove_surface(after, ids[0]), KNURL_ERROR_STALE_ID, parts);
+    knurl_scene_destroy(after);
+    knurl_scene_destroy(scenes[1]);
+}
+
 TEST(order_of_adding_survives_removal) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);

@@ -67,18 +67,27 @@ enum {
 #undef KNURL_RESULT_ENUMERATOR
 };
 
-/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are untouched unless a call returns KNURL_OK. */
+/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are untouched unless a call returns KNURL_OK.
+ *
+ * Pointers, of all functions: null, where a function's comment does not allow it, and a handle (a scene, a device, a
+ * loop, a session) that is of another kind or was destroyed are KNURL_ERROR_ARGUMENT with a sentence that names the
+ * parameter. Functions that return something else do nothing and return 0 or null, with the same sentence but for those
+ * that may run in a tick. A destroyed handle is recognised as long as nothing else has got its memory: that finds
+ * mistakes in most cases, and no more is promised. */
 typedef int32_t knurl_result;
 
 /** The sentence for a result code; never null, static, also for codes this version does not know. [any thread] */
 KNURL_API const char *knurl_result_string(knurl_result result);
 
 /** What went wrong in the latest failing call *on this thread*, in a sentence that names the thing, what was expected
- * and what was found. Valid until the next failing call on this thread; "" before the first. [any thread] */
+ * and what was found. Where that was a call of the haptic path (knurl_scene_tick(), knurl_device_read() and _write(),
+ * knurl_fake_get_truth()) it is one of a few fixed sentences, which cost a tick nothing. Valid until the next failing
+ * call on this thread; "" before the first. [any thread] */
 KNURL_API const char *knurl_error_message(void);
 
-/** Sets this thread's error message (printf style, at most 1023 bytes; control characters become spaces) and returns
- * `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick] */
+/** Sets this thread's error message (printf style, at most 1023 bytes; control characters become spaces; null for
+ * none) and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick]
+ */
 KNURL_API knurl_result knurl_fail(knurl_result code, const char *format, ...) KNURL_PRINTF(2, 3);
 
 /** The version of the library that is running, "major.minor.patch"; static. [any thread] */

@@ -192,8 +192,9 @@ KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions 
  * uses; not the haptic one of a device that no loop has] */
 KNURL_API void knurl_device_close(knurl_device *device);
 
-/** What is connected, and for kinds of which nothing is, why and what helps: fills at most `capacity` listings, returns
- * how many there are. Looks at the machine's USB devices: some milliseconds. [game thread] */
+/** What is connected, and for kinds of which nothing is, why and what helps: fills at most `capacity` listings (none
+ * where `listings` is null), returns how many there are. Looks at the machine's USB devices: some milliseconds. [game
+ * thread] */
 KNURL_API uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity);
 
 /** What the device is. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
@@ -221,12 +222,12 @@ KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_ra
 /** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls
  * the loop, and only there can it be read and written. Errors: KNURL_ERROR_DEVICE_LOST; KNURL_ERROR_DEVICE_NOT_READY:
  * there is no position to be trusted now, and the motors are let go (halted); why is an event; KNURL_ERROR_STATE. No
- * heap, lock, wait or message. [haptic thread] */
+ * heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample);
 
 /** Writes the force (device axes, N). A force that is not finite is written as 0; longer than max_force is shortened.
  * A device with an I/O thread plays it until the next one, 10 ms at most.
- * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or message. [haptic thread] */
+ * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 
 /** Lets go of the motors at once, whatever the haptic thread does; what it writes afterwards counts again only after
@@ -236,7 +237,7 @@ KNURL_API void knurl_device_halt(knurl_device *device);
 /** Ends a halt. [haptic thread] */
 KNURL_API void knurl_device_release_halt(knurl_device *device);
 
-/** 1 while halted. [any thread] */
+/** 1 while halted; 0 for a device that is none. [any thread] */
 KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
 /** Opt-in: zeroes the forces of all open devices before the process ends or stops. Up to 20 ms are waited until zero
@@ -279,8 +280,8 @@ typedef struct knurl_fake_truth {
     double hand[3];     /**< N: what the hand's spring and damper pull with now */
 } knurl_fake_truth;
 
-/** The fake device as of its latest reading. Errors, without a message: KNURL_ERROR_UNSUPPORTED (not a fake device, or
- * one that plays a trace). No heap, lock or message. [haptic thread] */
+/** The fake device as of its latest reading. Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays a
+ * trace). No heap or lock. [haptic thread] */
 KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth);
 
 /** Plays positions instead of a hand: rows of t (s, ascending), x, y, z (m, device frame), copied, interpolated

@@ -86,7 +86,8 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
 
 /** One tick of a checked grating. position: m along the surface's x and y (S1, LOCKED); null for LOCKED where there is
  * none, which then counts the way by the velocity. velocity: m/s along x and y, of the HIP relative to the surface, as
- * the position changes. state and output: caller's.
+ * the position changes. state and output: caller's. Null elsewhere, or where S1 has no position: nothing is
+ * done.
  * S2: a new period and amplitude are taken only when an event has ended (Algorithm 7); with no event, below the
  * deadband or where an event would last over 1e6 ticks, the height is 0. LOCKED: phase p counts cycles crossed in the
  * direction of motion: on a grating of one direction from the position (a cycle begins where Eq. 11 rises), on a grid

@@ -127,7 +127,8 @@ KNURL_API void knurl_loop_resume(knurl_loop *loop);
 /** A sign of life from the game; see heartbeat_s. [any thread] */
 KNURL_API void knurl_loop_heartbeat(knurl_loop *loop);
 
-/** Waits up to `seconds` for the end; 1 if the loop is not running (any more), else 0. [any thread but the haptic] */
+/** Waits up to `seconds` for the end; 1 if the loop is not running (any more, or is none), else 0. [any thread but the
+ * haptic] */
 KNURL_API uint32_t knurl_loop_wait(knurl_loop *loop, double seconds);
 
 /** What the loop has done so far. Errors: KNURL_ERROR_ARGUMENT. [any thread] */

@@ -17,7 +17,9 @@ extern "C" {
 
 typedef struct knurl_scene knurl_scene;
 
-/** Names a surface inside one scene: index + generation. 0 names none; an id outlives its surface as a stale one. */
+/** Names a surface of one scene: its place there, which surface at that place, and which of the process's scenes. 0
+ * names none; an id outlives its surface as a stale one, and is stale in every other scene (KNURL_ERROR_STALE_ID). That
+ * holds for 2^23 surfaces at one place and 2^20 scenes one after another; then numbers are used again. */
 typedef uint64_t knurl_surface;
 
 /** Surfaces that one HIP can touch at once. */
@@ -204,13 +206,13 @@ typedef struct knurl_hip_counts {
     uint64_t heats;                 /**< ticks with KNURL_TICK_HEAT */
     uint64_t passivities;           /**< ticks with KNURL_TICK_PASSIVITY */
     double force_max;               /**< N, longest force played */
-    double heat; /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
-                      1 only with KNURL_UNGUARDED_HEAT. A loop's HIP begins with its device's */
-    double half_cycles_crossed;     /**< ridges and grooves that the HIP passed, with every method and not rounded: the
-                                         sum of 2 f_t / f_h over all touched surfaces' ticks (Eq. 12: a stroke of L
-                                         metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
-                                         of S1 and S2 in metres; without a grating none */
-    uint64_t half_cycles_played;    /**< half cycles that began after others: sign changes of the rendered heights */
+    double heat;                 /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
+                                      1 only with KNURL_UNGUARDED_HEAT. A loop's HIP begins with its device's */
+    double half_cycles_crossed;  /**< ridges and grooves that the HIP passed, with every method and not rounded: the
+                                      sum of 2 f_t / f_h over all touched surfaces' ticks (Eq. 12: a stroke of L
+                                      metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
+                                      of S1 and S2 in metres; without a grating none */
+    uint64_t half_cycles_played; /**< half cycles that began after others: sign changes of the rendered heights */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -232,7 +234,7 @@ KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface; before the commit or after.
  * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_FULL,
- * KNURL_ERROR_MEMORY. [any thread but the haptic] */
+ * KNURL_ERROR_MEMORY. surface: gets its id; may be null. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
                                                knurl_surface *surface);
 
@@ -335,11 +337,13 @@ KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint3
  * within 5 ms. Of more than 32 surfaces about one place some may be overlooked (KNURL_TICK_CONTACTS_FULL says so).
  * Bounded time; no heap, lock, system call, clock, log or file, whatever other threads edit meanwhile. `output` is
  * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed,
- * or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip). [haptic thread, one a HIP] */
+ * or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip, null or a handle that is none).
+ * [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output) KNURL_NONBLOCKING;
 
 /** The latest complete tick of a HIP, as one consistent snapshot, for cursors and plots. All zeros before the first.
+ * output, counts: either may be null.
  * Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
                                             knurl_hip_counts *counts);

@@ -4,6 +4,7 @@
 #define KNURL_SRC_BASE_H
 
 #include "base/finite.h"
+#include "base/handle.h"
 
 #include <knurl/base.h>
 
@@ -13,12 +14,25 @@
 #define KNURL_THREAD_LOCAL __thread /* C99 has none; every other compiler that builds this has this one */
 #endif
 
+/* For a call on the haptic path that fails: this thread's error message becomes `sentence`, which stays where it is (a
+ * literal, knurl_result_string()). One store into the thread's memory: no heap, lock or formatting. Returns `code`. */
+#if defined(__GNUC__)
+__attribute__((cold)) /* branches to it are kept out of the way of those that go well */
+#endif
+knurl_result knurl_fail_static(knurl_result code, const char *sentence) KNURL_NONBLOCKING;
+
 /* Writes a filled-in local struct (its first field a uint32_t struct_size) into a caller's of `size` bytes, which may
- * be older and shorter, or newer and longer: what this version does not know becomes 0. */
-void knurl_desc_write(const void *local, uint32_t local_size, void *caller, uint32_t size);
+ * be older and shorter, or newer and longer: what this version does not know becomes 0. Null: nothing is written, and
+ * the error message names the parameter. */
+#define knurl_desc_write(local, local_size, caller, size)                                                              \
+    (KNURL_IS_NULL(caller) ? (void)0 : knurl_desc_copy((local), (local_size), (caller), (size)))
+void knurl_desc_copy(const void *local, uint32_t local_size, void *caller, uint32_t size);
 
 /* The same for a struct that is an output and whose caller has set struct_size. Errors: KNURL_ERROR_ARGUMENT. */
 knurl_result knurl_desc_return(const char *type, const void *local, uint32_t local_size, void *caller);
+
+/* Ends a text (bytes `begin` to `end` of the struct) that an older caller's struct, returned by now, cuts off. */
+void knurl_desc_end_text(void *caller, size_t begin, size_t end);
 
 /* Reads a caller's struct over a local one that holds the defaults. An older caller's missing fields keep them; a newer
  * caller's extra fields must be 0. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED. */

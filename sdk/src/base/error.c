@@ -8,7 +8,18 @@
 #define KNURL_TEXT_(x) #x
 #define KNURL_TEXT(x)  KNURL_TEXT_(x)
 
-static KNURL_THREAD_LOCAL char error_message[1024];
+/* The loader sets this aside for every thread before it runs: no memory is asked for at its first use, which may be in
+ * a tick. It has room for a word, not for a message. Other systems have no such promise; see
+ * knurl_loop_haptic_thread().
+ */
+#if defined(__GLIBC__)
+#define READY_AT_ONCE __attribute__((tls_model("initial-exec")))
+#else
+#define READY_AT_ONCE
+#endif
+
+static KNURL_THREAD_LOCAL char formatted[1024];
+static KNURL_THREAD_LOCAL const char *latest READY_AT_ONCE; /* `formatted`, a static sentence, or null: none yet */
 
 const char *knurl_result_string(knurl_result result) {
     switch (result) {
@@ -23,21 +34,34 @@ const char *knurl_result_string(knurl_result result) {
 }
 
 const char *knurl_error_message(void) {
-    return error_message;
+    return latest ? latest : "";
 }
 
+#if defined(__clang__) && __clang_major__ >= 20
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wfunction-effects" /* what is thread-local may take memory: not `latest` */
+#endif
+knurl_result knurl_fail_static(knurl_result code, const char *sentence) {
+    latest = sentence;
+    return code;
+}
+#if defined(__clang__) && __clang_major__ >= 20
+#pragma clang diagnostic pop
+#endif
+
 knurl_result knurl_fail(knurl_result code, const char *format, ...) {
-    char text[sizeof error_message]; /* built apart, so that the old message may be one of the arguments */
+    char text[sizeof formatted]; /* built apart, so that the old message may be one of the arguments */
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
+    (void)vsnprintf(text, sizeof text, format ? format : "no reason was given", arguments);
     va_end(arguments);
     for (char *c = text; *c; c++) { /* one line, whatever a file's names hold */
         if ((unsigned char)*c < 0x20 || *c == 0x7f) {
             *c = ' ';
         }
     }
-    memcpy(error_message, text, sizeof text);
+    memcpy(formatted, text, sizeof text);
+    latest = formatted;
     return code;
 }
 
@@ -45,7 +69,7 @@ const char *knurl_version_string(void) {
     return KNURL_TEXT(KNURL_VERSION_MAJOR) "." KNURL_TEXT(KNURL_VERSION_MINOR) "." KNURL_TEXT(KNURL_VERSION_PATCH);
 }
 
-void knurl_desc_write(const void *local, uint32_t local_size, void *caller, uint32_t size) {
+void knurl_desc_copy(const void *local, uint32_t local_size, void *caller, uint32_t size) {
     const uint32_t known = size < local_size ? size : local_size;
     memset(caller, 0, size);
     memcpy(caller, local, known);
@@ -69,9 +93,17 @@ knurl_result knurl_desc_return(const char *type, const void *local, uint32_t loc
     uint32_t size = 0;
     const knurl_result result = check_size(type, caller, &size);
     if (!result) {
-        knurl_desc_write(local, local_size, caller, size);
+        knurl_desc_copy(local, local_size, caller, size);
     }
     return result;
+}
+
+void knurl_desc_end_text(void *caller, size_t begin, size_t end) {
+    uint32_t size;
+    memcpy(&size, caller, sizeof size);
+    if (size > begin && size < end) {
+        ((char *)caller)[size - 1] = '\0';
+    }
 }
 
 knurl_result knurl_desc_read(const char *type, const void *caller, void *local, uint32_t local_size) {

@@ -140,6 +140,9 @@ static knurl_result check(const knurl_device_functions *f, knurl_device_info *in
 }
 
 knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device) {
+    if (KNURL_IS_NULL(functions) || KNURL_IS_NULL(device)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_device_functions f;
     knurl_device_info info = {0};
     knurl_device_functions_init(&f, sizeof f);

@@ -32,7 +32,7 @@ static void close_now(knurl_device *device) {
 
 /* Whoever comes last closes it: the owner, or the loop that uses it. */
 void knurl_device_close(knurl_device *device) {
-    if (!device) {
+    if (!device || KNURL_BAD_HANDLE(device, DEVICE)) {
         return;
     }
     (void)__atomic_fetch_or(&device->halted, KNURL_HALTED | KNURL_HALTED_FOR_GOOD, __ATOMIC_ACQ_REL);
@@ -80,13 +80,24 @@ knurl_result knurl_device_claim(knurl_device *device) {
 }
 
 knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(info)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_device_info made;
     knurl_device_info_init(&made, sizeof made);
     device->driver->get_info(device, &made);
-    return knurl_desc_return("knurl_device_info", &made, sizeof made, info);
+    const knurl_result result = knurl_desc_return("knurl_device_info", &made, sizeof made, info);
+    if (!result) {
+        knurl_desc_end_text(info, offsetof(knurl_device_info, name),
+                            offsetof(knurl_device_info, name) + sizeof info->name);
+    }
+    return result;
 }
 
 knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_status *status) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(status)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_device_status made;
     knurl_device_status_init(&made, sizeof made);
     made.lost = knurl_load_acquire(&device->lost);
@@ -103,6 +114,9 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
 }
 
 uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(event)) {
+        return 0;
+    }
     return knurl_events_next(&device->events, event);
 }
 
@@ -116,6 +130,9 @@ static void begin_check(knurl_device *device) {
 }
 
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
+    if (KNURL_BAD_HANDLE(device, DEVICE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     const knurl_result result = knurl_device_check_unused(device, KNURL_DEVICE_LOOP);
     return result ? result : knurl_device_begin(device, update_rate_hz);
 }
@@ -186,7 +203,7 @@ static void lose(knurl_device *device) {
     knurl_store_release(&device->lost, 1u);
 }
 
-knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
+static knurl_result read_device(knurl_device *device, knurl_device_sample *sample) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
@@ -207,7 +224,17 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
     return result;
 }
 
-knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
+knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
+    if (!KNURL_IS_HANDLE(device, DEVICE) || !sample) {
+        return knurl_fail_static(KNURL_ERROR_ARGUMENT,
+                                 "knurl_device_read: expected a device that is open and a sample, "
+                                 "found null or a handle that is none");
+    }
+    const knurl_result result = read_device(device, sample);
+    return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
+}
+
+static knurl_result write_device(knurl_device *device, const double force[3]) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
@@ -229,6 +256,16 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
         lose(device);
     }
     return result;
+}
+
+knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
+    if (!KNURL_IS_HANDLE(device, DEVICE) || !force) {
+        return knurl_fail_static(KNURL_ERROR_ARGUMENT,
+                                 "knurl_device_write: expected a device that is open and a force, "
+                                 "found null or a handle that is none");
+    }
+    const knurl_result result = write_device(device, force);
+    return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
 }
 
 knurl_result knurl_device_reopen(knurl_device *device) {

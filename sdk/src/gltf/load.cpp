@@ -167,6 +167,12 @@ knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &lo
     }
 }
 
+bool is_null(const void *pointer, const char *name) {
+    if (pointer == nullptr)
+        (void)knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a pointer, found null", name);
+    return pointer == nullptr;
+}
+
 bool has_gltf_name(const fs::path &path) {
     std::string extension = path.extension().u8string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -178,17 +184,18 @@ bool has_gltf_name(const fs::path &path) {
 } // namespace knurl::gltf
 
 using knurl::gltf::Failure;
+using knurl::gltf::is_null;
 
 void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
-    if (report == nullptr || size < sizeof report->struct_size)
+    if (is_null(report, "report") || size < sizeof report->struct_size)
         return;
     std::memset(report, 0, size);
     report->struct_size = size;
 }
 
 knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report) {
-    if (scene == nullptr || path == nullptr)
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_gltf_load_file: expected a scene and a path, found null");
+    if (is_null(path, "path") || knurl_scene_bytes(scene) == 0) // which says what is wrong with a scene that has none
+        return KNURL_ERROR_ARGUMENT;
     return knurl::gltf::guarded(path, report, [&](const knurl::gltf::Listener &listener) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
@@ -201,8 +208,8 @@ knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gl
 
 knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64_t size, const char *name,
                                     const char *folder, knurl_gltf_report *report) {
-    if (scene == nullptr || (data == nullptr && size != 0))
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_gltf_load_memory: expected a scene and data, found null");
+    if ((size != 0 && is_null(data, "data")) || knurl_scene_bytes(scene) == 0)
+        return KNURL_ERROR_ARGUMENT;
     return knurl::gltf::guarded(name, report, [&](const knurl::gltf::Listener &listener) {
         if (size > knurl::gltf::bytes_max)
             throw Failure(KNURL_ERROR_IO, "expected at most 1 GiB, found " + std::to_string(size) + " bytes");

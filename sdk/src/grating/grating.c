@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <knurl/grating.h>
 
+#include "base/handle.h"
 #include "grating/locked.h"
 #include "grating/phase.h"
 #include "vibration/event.h"
@@ -25,16 +26,22 @@ const char *knurl_method_name(int32_t method) {
 }
 
 knurl_result knurl_method_from_name(const char *name, int32_t *method) {
-    for (size_t i = 0; name && i < sizeof methods / sizeof *methods; i++) {
+    if (KNURL_IS_NULL(name) || KNURL_IS_NULL(method)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strcmp(methods[i].name, name) == 0) {
             *method = methods[i].method;
             return KNURL_OK;
         }
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected S1, S2 or locked, found '%s'", name ? name : "(null)");
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected S1, S2 or locked, found '%s'", name);
 }
 
 knurl_result knurl_grating_check(knurl_grating *grating) {
+    if (KNURL_IS_NULL(grating)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     const double *fs = grating->spatial_frequency;
     if (!(fs[0] >= 0.0 && knurl_is_finite(fs[0]) && fs[1] >= 0.0 && knurl_is_finite(fs[1]))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -71,6 +78,9 @@ static double highest(const double spatial_frequency[2], const double velocity[2
 }
 
 double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) {
+    if (!spatial_frequency || !velocity) {
+        return 0.0;
+    }
     return highest(spatial_frequency, velocity);
 }
 
@@ -79,6 +89,9 @@ double knurl_grating_s1_line(double position, double spatial_frequency, double a
 }
 
 double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
+    if (!position || !spatial_frequency) {
+        return 0.0;
+    }
     /* cos(2 pi p) is positive where p + 1/4 is in the first half of its cycle. */
     const int x = knurl_first_half(position[0] * spatial_frequency[0] + 0.25);
     const int y = knurl_first_half(position[1] * spatial_frequency[1] + 0.25);
@@ -111,6 +124,9 @@ static void tell_turn(knurl_grating_state *state, knurl_grating_output *output) 
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
+    if (!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1)) {
+        return;
+    }
     const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
     const double frequency = highest(grating->spatial_frequency, velocity);
     output->height = 0.0;

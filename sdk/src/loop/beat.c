@@ -236,6 +236,7 @@ void knurl_loop_haptic_thread(void *argument) {
     knurl_loop *loop = argument;
     uintptr_t stack = 0;
     int overrun;
+    (void)knurl_error_message(); /* what it needs of the thread's memory is there from here on */
     knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
     knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));

@@ -366,6 +366,9 @@ static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface id, in
 
 knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip, knurl_surface surface,
                                    int32_t stroke, knurl_stroke_report *report) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_stroke_report made = {0};
     layer *l = calloc(1, sizeof *l);
     if (!l) {

@@ -113,8 +113,9 @@ static void keeper_thread(void *argument) {
 }
 
 static knurl_result check(const knurl_loop_desc *d) {
-    if (!d->device) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.device: expected a device, found null");
+    if (knurl_is_bad_handle(d->device, KNURL_HANDLE_DEVICE, "knurl_loop_desc.device") ||
+        (d->scene && knurl_is_bad_handle(d->scene, KNURL_HANDLE_SCENE, "knurl_loop_desc.scene"))) {
+        return KNURL_ERROR_ARGUMENT;
     }
     if (!d->scene == !d->force_callback) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -206,6 +207,9 @@ static knurl_result allocate(knurl_loop **loop) {
 }
 
 knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
+    if (KNURL_IS_NULL(desc) || KNURL_IS_NULL(loop)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     static const knurl_clock system_clock = {system_now, system_sleep, NULL};
     knurl_loop_desc d;
     knurl_loop_desc_init(&d, sizeof d);
@@ -247,6 +251,9 @@ static knurl_result start_haptics(knurl_loop *loop) {
 }
 
 knurl_result knurl_loop_start(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     if (knurl_load_acquire(&loop->state) != KNURL_LOOP_IDLE) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: expected one that never ran, found one that runs or has run");
     }
@@ -293,6 +300,9 @@ static int is_inside(const knurl_loop *loop) {
 }
 
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_device *device = loop->desc.device;
     if (knurl_load_acquire(&loop->threaded)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: it has a haptic thread and cannot be stepped");
@@ -323,22 +333,37 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
 }
 
 void knurl_loop_request_stop(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return;
+    }
     knurl_store_release(&loop->stop_requested, 1u);
 }
 
 void knurl_loop_pause(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return;
+    }
     knurl_store_release(&loop->paused, 1u);
 }
 
 void knurl_loop_resume(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return;
+    }
     knurl_store_release(&loop->paused, 0u);
 }
 
 void knurl_loop_heartbeat(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return;
+    }
     (void)__atomic_fetch_add(&loop->signs, 1, __ATOMIC_RELAXED);
 }
 
 void knurl_loop_stop(knurl_loop *loop) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return;
+    }
     knurl_loop_request_stop(loop);
     if (is_inside(loop)) {
         return; /* the loop ends when this returns */
@@ -349,6 +374,9 @@ void knurl_loop_stop(knurl_loop *loop) {
 }
 
 uint32_t knurl_loop_wait(knurl_loop *loop, double seconds) {
+    if (KNURL_BAD_HANDLE(loop, LOOP)) {
+        return 1;
+    }
     const int64_t until = knurl_system_now_ns() + (int64_t)(fmin(fmax(seconds, 0.0), 1e9) * 1e9);
     while (is_running(loop) && knurl_system_now_ns() < until) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 500000);
@@ -357,7 +385,7 @@ uint32_t knurl_loop_wait(knurl_loop *loop, double seconds) {
 }
 
 void knurl_loop_destroy(knurl_loop *loop) {
-    if (!loop) {
+    if (!loop || KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
     if (is_inside(loop)) { /* it cannot wait for its own end, nor be freed under itself */
@@ -389,6 +417,9 @@ static knurl_percentiles percentiles_of(const knurl_histogram *histogram) {
 }
 
 knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stats) {
+    if (KNURL_BAD_HANDLE(loop, LOOP) || KNURL_IS_NULL(stats)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_loop_stats made;
     memset(&made, 0, sizeof made);
     made.state = knurl_load_acquire(&loop->state);

@@ -3,6 +3,7 @@
 #include <knurl/motion.h>
 
 #include "base/finite.h"
+#include "base/handle.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,6 +44,9 @@ static uint32_t stride_at(double rate) {
 }
 
 knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity) {
+    if (KNURL_IS_NULL(velocity)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_LOWPASS) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE, FOAW or LOWPASS, found %d",
                           (int)method);
@@ -75,6 +79,9 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
 }
 
 void knurl_velocity_reset(knurl_velocity *velocity) {
+    if (!velocity) {
+        return;
+    }
     velocity->started = 0;
 }
 
@@ -231,6 +238,9 @@ __attribute__((target("avx"))) static void foaw_avx(knurl_velocity *velocity, do
 #endif
 
 void knurl_velocity_update(knurl_velocity *velocity, const double position[3], double out[3]) {
+    if (!velocity || !position || !out) {
+        return;
+    }
     if (velocity->method == KNURL_VELOCITY_DIFFERENCE) {
         difference(velocity, position, out);
         return;

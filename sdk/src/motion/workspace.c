@@ -1,17 +1,24 @@
 /* From a device's workspace into the scene and back. SPDX-License-Identifier: MIT */
 #include <knurl/motion.h>
 
+#include "base/handle.h"
 #include "base/vec3.h"
 
 #include <string.h>
 
 void knurl_workspace_init(knurl_workspace *workspace) {
+    if (KNURL_IS_NULL(workspace)) {
+        return;
+    }
     memset(workspace, 0, sizeof *workspace);
     workspace->rotation[0] = workspace->rotation[4] = workspace->rotation[8] = 1.0;
     workspace->scale = 1.0;
 }
 
 knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
+    if (KNURL_IS_NULL(workspace)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     const double *r = workspace->rotation;
     double cross[3];
     if (!vec3_finite(workspace->origin)) {
@@ -35,12 +42,18 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
 }
 
 void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]) {
+    if (!workspace || !device || !scene) {
+        return;
+    }
     double turned[3];
     mat3_mul(workspace->rotation, device, turned);
     vec3_madd(workspace->origin, workspace->scale, turned, scene);
 }
 
 void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]) {
+    if (!workspace || !scene || !device) {
+        return;
+    }
     double offset[3];
     vec3_sub(scene, workspace->origin, offset);
     vec3_scale(1.0 / workspace->scale, offset, offset);
@@ -48,10 +61,16 @@ void knurl_workspace_to_device(const knurl_workspace *workspace, const double sc
 }
 
 void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]) {
+    if (!workspace || !device || !scene) {
+        return;
+    }
     mat3_mul(workspace->rotation, device, scene);
     vec3_scale(workspace->scale, scene, scene);
 }
 
 void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]) {
+    if (!workspace || !scene || !device) {
+        return;
+    }
     mat3_mul_transposed(workspace->rotation, scene, device);
 }

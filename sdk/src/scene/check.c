@@ -119,6 +119,9 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
 
 knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface surface,
                                        knurl_surface_check *check) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(check)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_surface_check made;
     if (hip >= scene->hip_count) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
@@ -130,5 +133,11 @@ knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, k
         inspect(&scene->hips[hip], data, &made);
     }
     knurl_scene_unlock(scene);
-    return data ? knurl_desc_return("knurl_surface_check", &made, sizeof made, check) : KNURL_ERROR_STALE_ID;
+    const knurl_result result =
+        data ? knurl_desc_return("knurl_surface_check", &made, sizeof made, check) : KNURL_ERROR_STALE_ID;
+    if (!result) {
+        knurl_desc_end_text(check, offsetof(knurl_surface_check, message),
+                            offsetof(knurl_surface_check, message) + sizeof check->message);
+    }
+    return result;
 }

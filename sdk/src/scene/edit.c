@@ -14,6 +14,9 @@ static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
 }
 
 knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface *surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_surface_data *made = NULL;
     knurl_result result =
         knurl_surface_build(&scene->heap, desc, scene->full_model, &made); /* long; without the lock */
@@ -33,6 +36,9 @@ knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_des
 }
 
 knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_scene_lock(scene);
     knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
@@ -63,6 +69,9 @@ static knurl_result set_material(knurl_scene *scene, knurl_surface surface, cons
 }
 
 knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface, const knurl_material_desc *material) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(material)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_scene_lock(scene);
     const knurl_result result = set_material(scene, surface, material);
     knurl_scene_unlock(scene);
@@ -91,6 +100,9 @@ static knurl_result set_transform(knurl_scene *scene, knurl_surface surface, con
 
 knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface, const double position[3],
                                        const double rotation[4], double seconds) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_pose pose;
     knurl_result result = knurl_surface_check_pose(position, rotation, &pose);
     if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
@@ -105,6 +117,9 @@ knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface
 }
 
 void knurl_scene_collect(knurl_scene *scene) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return;
+    }
     knurl_scene_lock(scene);
     knurl_epoch_collect(&scene->epoch);
     knurl_scene_unlock(scene);

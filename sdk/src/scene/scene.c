@@ -45,7 +45,17 @@ static void free_scene(knurl_scene *scene) {
     knurl_heap_free(&heap, scene);
 }
 
+/* 1 and on, round and round: 0 is no scene's, so that no id is 0 and small numbers are nobody's ids. */
+static uint64_t next_tag(void) {
+    static uint64_t made; /* atomic */
+    const uint64_t before = __atomic_fetch_add(&made, 1, __ATOMIC_RELAXED);
+    return before % KNURL_ID_TAG_MAX + 1;
+}
+
 knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene) {
+    if (KNURL_IS_NULL(scene)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_scene_desc d;
     knurl_scene_desc_init(&d, sizeof d);
     knurl_result result = desc ? knurl_desc_read("knurl_scene_desc", desc, &d, sizeof d) : KNURL_OK;
@@ -69,6 +79,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     made->full_model = d.full_model;
     made->surfaces.heap = &made->heap;
     made->surfaces.limit = d.max_surfaces;
+    made->surfaces.tag = next_tag();
     knurl_epoch_init(&made->epoch, &made->heap);
     knurl_broad_phase_init(&made->broad_phase, &made->epoch, &made->surfaces);
     made->hip_count = d.hip_count;
@@ -90,7 +101,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
 
 /* Whoever comes last frees it: its owner, or a loop that uses it. */
 void knurl_scene_destroy(knurl_scene *scene) {
-    if (!scene) {
+    if (!scene || KNURL_BAD_HANDLE(scene, SCENE)) {
         return;
     }
     knurl_handle_clear(&scene->handle); /* also where loops still tick it */
@@ -181,6 +192,9 @@ static knurl_result commit(knurl_scene *scene) {
 }
 
 knurl_result knurl_scene_commit(knurl_scene *scene) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_scene_lock(scene);
     const knurl_result result = commit(scene);
     knurl_scene_unlock(scene);
@@ -188,6 +202,9 @@ knurl_result knurl_scene_commit(knurl_scene *scene) {
 }
 
 uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return 0;
+    }
     knurl_scene_lock(scene);
     const uint32_t count = scene->surfaces.count;
     knurl_scene_unlock(scene);
@@ -195,6 +212,9 @@ uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
 }
 
 knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return 0;
+    }
     knurl_scene_lock(scene);
     const knurl_surface id = index < scene->surfaces.count ? knurl_surfaces_at(&scene->surfaces, index)->id : 0;
     knurl_scene_unlock(scene);
@@ -206,7 +226,7 @@ static const knurl_surface_data *find(const knurl_scene *scene, const char *name
     size_t used = 0;
     for (uint32_t i = 0; i < scene->surfaces.count; i++) {
         const knurl_surface_data *candidate = knurl_surfaces_at(&scene->surfaces, i);
-        if (name && strcmp(candidate->name, name) == 0) {
+        if (strcmp(candidate->name, name) == 0) {
             return candidate;
         }
         const int more = snprintf(known + used, size - used, "%s'%s'", i ? ", " : "", candidate->name);
@@ -217,6 +237,9 @@ static const knurl_surface_data *find(const knurl_scene *scene, const char *name
 }
 
 knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name) || KNURL_IS_NULL(surface)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     char known[512] = "";
     knurl_scene_lock(scene);
     const knurl_surface_data *data = find(scene, name, known, sizeof known);
@@ -224,13 +247,16 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
     knurl_scene_unlock(scene);
     if (!id) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "surface: expected one of %s, found '%s'",
-                          known[0] ? known : "(no surface)", name ? name : "(null)");
+                          known[0] ? known : "(no surface)", name);
     }
     *surface = id;
     return KNURL_OK;
 }
 
 knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_scene_lock(scene);
     const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
@@ -241,9 +267,15 @@ knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface su
 }
 
 uint64_t knurl_scene_bytes(const knurl_scene *scene) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return 0;
+    }
     return knurl_heap_bytes(&scene->heap);
 }
 
 knurl_result knurl_scene_lock_memory(knurl_scene *scene) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     return knurl_heap_lock(&scene->heap);
 }

@@ -26,6 +26,9 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
 }
 
 knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_hip_desc d;
     knurl_hip_desc_init(&d, sizeof d);
     knurl_result result = check_hip(scene, hip);
@@ -64,6 +67,9 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
 }
 
 knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_result result = check_hip(scene, hip);
     if (result) {
         return result;
@@ -80,6 +86,9 @@ knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, k
 
 knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
                                   knurl_hip_counts *counts) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     const knurl_result result = check_hip(scene, hip);
     if (!result) {
         knurl_snapshot snapshot;

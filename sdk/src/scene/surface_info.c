@@ -74,6 +74,9 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
 }
 
 knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface, knurl_surface_info *info) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(info)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_surface_info made;
     knurl_scene_lock(scene);
     const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);

@@ -44,7 +44,8 @@ knurl_result knurl_surfaces_add(knurl_surfaces *s, knurl_surface_data *surface) 
     }
     surface->place = s->vacant[--s->vacant_count];
     surface->generation = s->generations[surface->place];
-    surface->id = (uint64_t)surface->generation << 32 | (surface->place + 1);
+    surface->id =
+        (uint64_t)surface->generation << KNURL_ID_GENERATION_AT | s->tag << KNURL_ID_TAG_AT | (surface->place + 1);
     s->items[surface->place] = surface;
     s->order[s->count++] = surface->place;
     return KNURL_OK;
@@ -64,19 +65,23 @@ void knurl_surfaces_remove(knurl_surfaces *s, knurl_surface_data *surface) {
     s->count--;
     memmove(&s->order[at], &s->order[at + 1], (s->count - at) * sizeof *s->order);
     s->items[surface->place] = NULL;
-    s->generations[surface->place]++;
+    s->generations[surface->place] = (surface->generation + 1) & KNURL_ID_GENERATION_MAX;
     s->vacant[s->vacant_count++] = surface->place;
 }
 
 knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *s, knurl_surface id) {
-    const uint32_t place = (uint32_t)(id & UINT32_MAX) - 1; /* 0 wraps to a place that no scene has */
+    const uint32_t place = (uint32_t)(id & KNURL_ID_PLACE_MAX) - 1; /* 0 wraps to a place that no scene has */
     knurl_surface_data *surface = place < s->capacity ? s->items[place] : NULL;
-    if (!surface || surface->id != id) {
-        knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which names none",
-                   (unsigned long long)id);
-        return NULL;
+    if (surface && surface->id == id) {
+        return surface;
     }
-    return surface;
+    const uint64_t tag = id >> KNURL_ID_TAG_AT & KNURL_ID_TAG_MAX;
+    knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which %s",
+               (unsigned long long)id,
+               tag == 0        ? "names none"
+               : tag != s->tag ? "is another scene's"
+                               : "names none any more");
+    return NULL;
 }
 
 void knurl_surfaces_release(knurl_surfaces *s) {

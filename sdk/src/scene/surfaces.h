@@ -5,7 +5,17 @@
 
 #include "scene/surface.h"
 
-/* Zeroed but for heap and limit: empty. */
+/* A surface's id, from its lowest bit on: place + 1 in 21 bits (max_surfaces is at most 2^20), the scene's tag in 20,
+ * the place's generation in 23. Tags come again after 2^20 - 1 scenes of a process, generations after 2^23 surfaces at
+ * one place: an id would have to be kept through all of them, and used just then, to name another surface than it did.
+ */
+#define KNURL_ID_PLACE_MAX      ((UINT64_C(1) << 21) - 1)
+#define KNURL_ID_TAG_MAX        ((UINT64_C(1) << 20) - 1)
+#define KNURL_ID_GENERATION_MAX ((1u << 23) - 1)
+#define KNURL_ID_TAG_AT         21
+#define KNURL_ID_GENERATION_AT  41
+
+/* Zeroed but for heap, limit and tag: empty. */
 typedef struct knurl_surfaces {
     knurl_heap *heap;
     knurl_surface_data **items; /* by place; null: free */
@@ -16,6 +26,7 @@ typedef struct knurl_surfaces {
     uint32_t vacant_count;
     uint32_t capacity; /* of the four arrays; grows up to `limit` */
     uint32_t limit;
+    uint64_t tag; /* 1 to KNURL_ID_TAG_MAX: of this scene, and of no other */
 } knurl_surfaces;
 
 /* Gives a surface its place and id. Errors: KNURL_ERROR_FULL, KNURL_ERROR_MEMORY. */

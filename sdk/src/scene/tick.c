@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include "base/atomic.h"
+#include "base/base.h"
 
 #include <string.h>
 
@@ -142,17 +143,25 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     return length;
 }
 
-/* No message: this may be the haptic thread. */
-static knurl_result refuse(knurl_result why, knurl_tick_output *output) {
-    memset(output, 0, sizeof *output);
-    output->event = KNURL_NO_EVENT;
-    return why;
+/* No formatted message: this may be the haptic thread. */
+static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_output *output) {
+    if (output) {
+        memset(output, 0, sizeof *output);
+        output->event = KNURL_NO_EVENT;
+    }
+    return knurl_fail_static(why, sentence);
 }
 
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                               knurl_tick_output *output) {
+    if (!KNURL_IS_HANDLE(scene, SCENE) || !input || !output) {
+        return refuse(KNURL_ERROR_ARGUMENT,
+                      "knurl_scene_tick: expected a scene, an input and an output, found null or a handle that is none",
+                      output);
+    }
     if (hip_index < scene->hip_count && knurl_load_relaxed(&scene->use) >> hip_index & 1) {
-        return refuse(KNURL_ERROR_STATE, output);
+        return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: hip: expected one that no loop has, found a loop's",
+                      output);
     }
     return knurl_hip_tick(scene, hip_index, input, output);
 }
@@ -160,10 +169,11 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                             knurl_tick_output *output) {
     if (hip_index >= scene->hip_count) {
-        return refuse(KNURL_ERROR_ARGUMENT, output);
+        return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: hip: expected below hip_count, found more", output);
     }
     if (!knurl_load_acquire(&scene->committed)) {
-        return refuse(KNURL_ERROR_STATE, output);
+        return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",
+                      output);
     }
     knurl_hip *hip = &scene->hips[hip_index];
     double force = 0.0;

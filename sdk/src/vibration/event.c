@@ -1,5 +1,6 @@
 /* One T3 event: Algorithms 2, 4 and 5 with Eqs. 7 and 8, chosen by Algorithm 6. SPDX-License-Identifier: MIT */
 #include "vibration/event.h"
+#include "base/handle.h"
 #include "vibration/ticks.h"
 
 #include <math.h>
@@ -56,6 +57,9 @@ void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *eve
 }
 
 knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event) {
+    if (KNURL_IS_NULL(event)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     if (!(knurl_is_finite(period_ticks) && period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to %g ticks, found %g",
                           KNURL_MAX_PERIOD_TICKS, period_ticks);
@@ -68,5 +72,5 @@ knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event
 }
 
 double knurl_event_height(const knurl_event *event, int32_t index) {
-    return index >= 0 && index < event->length ? knurl_event_value(event, index) : 0.0;
+    return event && index >= 0 && index < event->length ? knurl_event_value(event, index) : 0.0;
 }

@@ -1,4 +1,5 @@
 /* Temporal signals: T1 (Algorithm 1), T2 (Algorithm 3, Eqs. 1-4), T3 (Algorithm 6). SPDX-License-Identifier: MIT */
+#include "base/handle.h"
 #include "vibration/ticks.h"
 
 #include <knurl/vibration.h>
@@ -24,6 +25,9 @@ static knurl_result init_mix(knurl_wave *wave) {
 
 knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
                              knurl_wave *wave) {
+    if (KNURL_IS_NULL(wave)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     if (method != KNURL_T1 && method != KNURL_T2 && method != KNURL_T3) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d",
                           (int)method);
@@ -72,6 +76,9 @@ static double sample(const knurl_wave *wave, uint64_t tick) {
 }
 
 double knurl_wave_value(const knurl_wave *wave, uint64_t tick) {
+    if (!wave) {
+        return 0.0;
+    }
     if (wave->method == KNURL_T1) {
         return sample(wave, tick);
     }

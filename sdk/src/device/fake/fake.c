@@ -178,8 +178,14 @@ static knurl_result fake_write(knurl_device *device, const double force[3]) {
 
 knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth) {
     const fake *f = (const fake *)(const void *)device;
+    if (!KNURL_IS_HANDLE(device, DEVICE) || !truth) {
+        return knurl_fail_static(KNURL_ERROR_ARGUMENT,
+                                 "knurl_fake_get_truth: expected a device that is open and a truth, "
+                                 "found null or a handle that is none");
+    }
     if (device->driver != &knurl_fake_driver || f->trace) {
-        return KNURL_ERROR_UNSUPPORTED;
+        return knurl_fail_static(KNURL_ERROR_UNSUPPORTED,
+                                 "knurl_fake_get_truth: expected a fake device that plays no trace, found another");
     }
     vec3_copy(f->plant.position, truth->position);
     vec3_copy(f->plant.velocity, truth->velocity);
@@ -196,6 +202,9 @@ static knurl_result check_fake(const knurl_device *device, const char *what) {
 }
 
 knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_stroke_desc stroke;
     knurl_hand_path path;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
@@ -216,7 +225,7 @@ knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc
 }
 
 static knurl_result check_trace(const double *rows, uint64_t row_count) {
-    if (!rows || row_count == 0 || row_count > UINT64_C(1) << 32) {
+    if (row_count == 0 || row_count > UINT64_C(1) << 32) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "trace: expected 1 to 2^32 rows, found %llu",
                           (unsigned long long)row_count);
     }
@@ -237,6 +246,9 @@ static knurl_result check_trace(const double *rows, uint64_t row_count) {
 }
 
 knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(rows)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
     knurl_result result = check_fake(device, "trace");
     result = result ? result : check_trace(rows, row_count);
     if (result) {

@@ -31,14 +31,16 @@ void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size) {
 }
 
 knurl_result knurl_stroke_from_name(const char *name, int32_t *stroke) {
-    for (size_t i = 0; name && i < sizeof strokes / sizeof *strokes; i++) {
+    if (KNURL_IS_NULL(name) || KNURL_IS_NULL(stroke)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    for (size_t i = 0; i < sizeof strokes / sizeof *strokes; i++) {
         if (strcmp(strokes[i].name, name) == 0) {
             *stroke = strokes[i].stroke;
             return KNURL_OK;
         }
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected line, sweep, circle, press or rest, found '%s'",
-                      name ? name : "(null)");
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "stroke: expected line, sweep, circle, press or rest, found '%s'", name);
 }
 
 knurl_result knurl_stroke_check(knurl_stroke_desc *s) {

@@ -94,7 +94,7 @@ static int call_tick(touch *t) {
 static void play(touch *t, int more) {
     double force[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(t->force);
-    if (more && knurl_is_finite(length) && !t->pause && !knurl_device_is_halted(&t->base) &&
+    if (more && knurl_is_finite(length) && !t->pause && !knurl_load_acquire(&t->base.halted) &&
         !knurl_device_must_be_zero()) {
         vec3_scale(length > t->base.max_force ? t->base.max_force / length : 1.0, t->force, force);
     }

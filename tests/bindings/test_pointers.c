@@ -1,0 +1,359 @@
+/* Every public function with null for each of its pointers in turn, with handles of another kind and with handles that
+ * were destroyed: nothing crashes, nothing is written, and a sentence names the parameter. pointers.py writes the table
+ * from the headers, so that no function is left out. Each call is made in a process of its own.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include "session.h"
+
+#include <knurl/knurl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "pointers.g.h"
+
+enum { KIND_SCENE = 1, KIND_DEVICE, KIND_LOOP, KIND_SESSION, KINDS = KIND_SESSION };
+enum { RETURNS_NOTHING, RETURNS_VALUE, RETURNS_RESULT };
+enum { MOST_PARAMETERS = 6 };
+
+/* Valid arguments. */
+typedef struct fixture {
+    structs with;
+    knurl_scene *scene, *open_scene; /* committed, with a surface 'plate'; not committed */
+    knurl_device *device;
+    knurl_loop *loop;
+    knurl_session *session, *open_session, *mouse_session, *played_session;
+    const void *destroyed[KINDS + 1];
+    knurl_surface surface, session_surface;
+    knurl_scene *new_scene;
+    knurl_device *new_device;
+    knurl_loop *new_loop;
+    knurl_session *new_session;
+    knurl_surface new_surface;
+    const char *name;
+    void *file;
+    uint64_t file_size, count;
+    int32_t number;
+    double vector[4], quaternion[4], matrix[12], rows[8], out[4], forces[12];
+    float history[2];
+    char text[256];
+} fixture;
+
+typedef struct parameter {
+    const char *name;
+    int kind; /* KIND_, or 0: no handle */
+    int may_be_null;
+} parameter;
+
+typedef struct function {
+    const char *name;
+    int returns;
+    int is_quiet; /* 1: on the haptic path: a sentence only where it returns a result */
+    int pointer_count;
+    parameter pointers[MOST_PARAMETERS];
+    void (*fill)(fixture *f, void **pointers);
+    int64_t (*call)(fixture *f, void **pointers);
+} function;
+
+#define FUNCTIONS
+#include "pointers.g.h"
+
+/* In the child, where cmocka would go on with the next test. */
+#define NEED(condition)                                                                                                \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            print_error("%s:%d: %s: %s\n", __FILE__, __LINE__, #condition, knurl_error_message());                     \
+            _exit(3);                                                                                                  \
+        }                                                                                                              \
+    } while (0)
+#define NEED_OK(call) NEED((call) == KNURL_OK)
+
+static void no_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[0] = force[1] = force[2] = 0.0;
+}
+
+static void get_info(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = 1.0;
+}
+
+static knurl_result read_none(void *user, knurl_device_sample *sample) {
+    (void)user;
+    memset(sample, 0, sizeof *sample);
+    return KNURL_OK;
+}
+
+static knurl_result write_none(void *user, const double force[3]) {
+    (void)user;
+    (void)force;
+    return KNURL_OK;
+}
+
+static knurl_surface add_plate(fixture *f, knurl_scene *scene) {
+    knurl_surface id = 0;
+    NEED_OK(knurl_scene_add_surface(scene, &f->with.surface_desc, &id));
+    return id;
+}
+
+static knurl_session *make_session(fixture *f, const char *device, int is_played) {
+    knurl_session *session = NULL;
+    knurl_session_desc desc;
+    knurl_session_desc_init(&desc, sizeof desc);
+    desc.device = device;
+    NEED_OK(knurl_session_create(&session));
+    f->session_surface = add_plate(f, knurl_session_scene(session));
+    if (device) {
+        NEED_OK(knurl_session_open(session, &desc));
+    }
+    if (is_played) {
+        NEED_OK(knurl_session_play(session, f->rows, 2, 4, f->forces, &f->count));
+    }
+    return session;
+}
+
+static void read_plate(fixture *f) {
+    FILE *file = fopen(KNURL_TEST_ASSETS "/plate_1d.glb", "rb");
+    NEED(file);
+    NEED(fseek(file, 0, SEEK_END) == 0);
+    f->file_size = (uint64_t)ftell(file);
+    rewind(file);
+    f->file = malloc((size_t)f->file_size);
+    NEED(f->file);
+    NEED(fread(f->file, 1, (size_t)f->file_size, file) == f->file_size);
+    NEED(fclose(file) == 0);
+}
+
+static void fill_structs(fixture *f) {
+    structs *w = &f->with;
+    init_structs(w);
+    w->surface_desc.name = "plate";
+    w->surface_desc.plane = &w->plane_desc;
+    w->surface_desc.material = &w->material_desc;
+    w->device_functions.get_info = get_info;
+    w->device_functions.read = read_none;
+    w->device_functions.write = write_none;
+    w->grating.spatial_frequency[0] = 1000.0;
+    w->grating.update_rate_hz = 1000.0;
+    w->grating.method = KNURL_LOCKED;
+    w->session_desc.device = "fake";
+    knurl_workspace_init(&w->workspace);
+    NEED_OK(knurl_event_init(5.0, 1e-4, &w->event));
+    NEED_OK(knurl_wave_init(KNURL_T3, 0.01, 1.0, 1000.0, &w->wave));
+    NEED_OK(knurl_velocity_init(KNURL_VELOCITY_AUTO, 0.0, 1000.0, &w->velocity));
+}
+
+/* Handles that were destroyed, the last of all, so that nothing else has their memory. */
+static void destroy_some(fixture *f) {
+    knurl_scene *scene = NULL;
+    knurl_device *device = NULL;
+    knurl_loop *loop = NULL;
+    knurl_session *session = NULL;
+    NEED_OK(knurl_session_create(&session));
+    NEED_OK(knurl_scene_create(NULL, &scene));
+    NEED_OK(knurl_device_open("fake", &device));
+    f->with.loop_desc.device = device;
+    NEED_OK(knurl_loop_create(&f->with.loop_desc, &loop));
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+    knurl_scene_destroy(scene);
+    knurl_session_destroy(session);
+    f->destroyed[KIND_SCENE] = scene;
+    f->destroyed[KIND_DEVICE] = device;
+    f->destroyed[KIND_LOOP] = loop;
+    f->destroyed[KIND_SESSION] = session;
+}
+
+static void make(fixture *f) {
+    memset(f, 0, sizeof *f);
+    f->quaternion[3] = f->matrix[0] = f->matrix[5] = f->matrix[10] = 1.0;
+    f->rows[4] = 1.0;
+    f->number = 1;
+    fill_structs(f);
+    read_plate(f);
+    NEED_OK(knurl_scene_create(NULL, &f->scene));
+    f->surface = add_plate(f, f->scene);
+    NEED_OK(knurl_scene_commit(f->scene));
+    NEED_OK(knurl_scene_create(NULL, &f->open_scene));
+    NEED_OK(knurl_device_open("fake", &f->device));
+    knurl_device *other = NULL;
+    NEED_OK(knurl_device_open("fake", &other));
+    f->with.loop_desc.force_callback = no_force;
+    f->with.loop_desc.device = other;
+    NEED_OK(knurl_loop_create(&f->with.loop_desc, &f->loop));
+    f->session = make_session(f, NULL, 0);
+    f->mouse_session = make_session(f, "mouse", 0);
+    f->played_session = make_session(f, "fake", 1);
+    f->open_session = make_session(f, "fake", 0);
+    destroy_some(f);
+    f->with.loop_desc.device = f->device;
+}
+
+static const void *handle_of(const fixture *f, int kind) {
+    return kind == KIND_SCENE    ? (const void *)f->scene
+           : kind == KIND_DEVICE ? (const void *)f->device
+           : kind == KIND_LOOP   ? (const void *)f->loop
+                                 : (const void *)f->session;
+}
+
+/* What a function that returns a value says of a handle that is none. */
+static int64_t value_of_none(const char *name) {
+    return strcmp(name, "knurl_loop_wait") == 0; /* it is not running: nobody waits for it for ever */
+}
+
+/* In the child: calls a function with `bad` for one of its pointers. Returns what is wrong with what came of it. */
+static const char *call_with(const function *on, int at, const void *bad, fixture *f) {
+    static fixture before;
+    void *p[MOST_PARAMETERS] = {NULL};
+    on->fill(f, p);
+    memcpy(&p[at], &bad, sizeof bad);
+    (void)knurl_fail(KNURL_ERROR_STATE, "stale");
+    before = *f;
+    const int64_t returned = on->call(f, p);
+    const char *message = knurl_error_message();
+    if (bad == NULL && on->pointers[at].may_be_null) {
+        return NULL;
+    }
+    if (on->returns == RETURNS_RESULT && returned != KNURL_ERROR_ARGUMENT) {
+        return "it does not return KNURL_ERROR_ARGUMENT";
+    }
+    if (on->returns == RETURNS_VALUE && returned != value_of_none(on->name)) {
+        return "it returns something";
+    }
+    if (strcmp(on->name, "knurl_scene_tick") == 0) { /* its output is always filled in, with no force */
+        before.with.tick_output = f->with.tick_output;
+    }
+    if (memcmp(&before, f, sizeof before) != 0) {
+        return "it writes something";
+    }
+    if ((on->returns == RETURNS_RESULT || !on->is_quiet) && !strstr(message, on->pointers[at].name)) {
+        return message[0] ? message : "no message";
+    }
+    return NULL;
+}
+
+/* A process of its own for one call; cmocka's handlers would have it go on after a crash. Returns 0 in it. */
+static pid_t begin_child(void) {
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+    (void)fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    for (size_t i = 0; child == 0 && i < COUNT_OF(crashes); i++) {
+        (void)signal(crashes[i], SIG_DFL);
+    }
+    if (child == 0) {
+        (void)alarm(10); /* nothing here waits */
+    }
+    return child;
+}
+
+typedef struct tally {
+    int calls, crashes, complaints;
+    int crashing_functions;
+} tally;
+
+/* One call in a process of its own. Returns 1 where it crashed. */
+static int try_one(const function *on, int at, int kind, int is_destroyed, tally *sum) {
+    const char *what = is_destroyed ? "destroyed" : kind ? "another kind" : "null";
+    const pid_t child = begin_child();
+    if (child == 0) {
+        static fixture f;
+        make(&f);
+        const void *bad = is_destroyed ? f.destroyed[kind] : kind ? handle_of(&f, kind) : NULL;
+        const char *wrong = call_with(on, at, bad, &f);
+        if (wrong) {
+            print_error("%s: %s %s: %s\n", on->name, on->pointers[at].name, what, wrong);
+        }
+        _exit(wrong ? 2 : 0);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    const int crashed = !WIFEXITED(status) || (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 2);
+    if (crashed) {
+        print_error("%s: %s %s: it crashes\n", on->name, on->pointers[at].name, what);
+    }
+    sum->calls++;
+    sum->crashes += crashed;
+    sum->complaints += !crashed && WEXITSTATUS(status) != 0;
+    return crashed;
+}
+
+static void check_none(const char *what, const tally *sum) {
+    print_message("%d calls with %s: %d crashed (%d functions), %d went wrong\n", sum->calls, what, sum->crashes,
+                  sum->crashing_functions, sum->complaints);
+    assert_true(sum->calls > 0);
+    assert_int_equal(sum->crashes + sum->complaints, 0);
+}
+
+TEST(null_for_any_pointer_is_an_error_that_names_it) {
+    tally sum = {0, 0, 0, 0};
+    for (size_t i = 0; i < COUNT_OF(functions); i++) {
+        int crashes = 0;
+        for (int at = 0; at < functions[i].pointer_count; at++) {
+            crashes += try_one(&functions[i], at, 0, 0, &sum);
+        }
+        sum.crashing_functions += crashes > 0;
+    }
+    check_none("null", &sum);
+}
+
+TEST(a_handle_of_another_kind_is_an_error_that_names_it) {
+    tally sum = {0, 0, 0, 0};
+    for (size_t i = 0; i < COUNT_OF(functions); i++) {
+        int crashes = 0;
+        for (int at = 0; at < functions[i].pointer_count; at++) {
+            const int kind = functions[i].pointers[at].kind;
+            if (kind) {
+                crashes += try_one(&functions[i], at, kind % KINDS + 1, 0, &sum);
+            }
+        }
+        sum.crashing_functions += crashes > 0;
+    }
+    check_none("a handle of another kind", &sum);
+}
+
+TEST(a_handle_that_was_destroyed_is_an_error_that_names_it) {
+    tally sum = {0, 0, 0, 0};
+    for (size_t i = 0; i < COUNT_OF(functions); i++) {
+        int crashes = 0;
+        for (int at = 0; at < functions[i].pointer_count; at++) {
+            const int kind = functions[i].pointers[at].kind;
+            if (kind) {
+                crashes += try_one(&functions[i], at, kind, 1, &sum);
+            }
+        }
+        sum.crashing_functions += crashes > 0;
+    }
+    check_none("a destroyed handle", &sum);
+}
+
+/* Else the calls above might be refused for another reason. */
+TEST(the_table_s_arguments_are_valid_but_for_the_one_that_is_replaced) {
+    for (size_t i = 0; i < COUNT_OF(functions); i++) {
+        const pid_t child = begin_child();
+        if (child == 0) {
+            static fixture f;
+            void *p[MOST_PARAMETERS] = {NULL};
+            make(&f);
+            functions[i].fill(&f, p);
+            const int64_t returned = functions[i].call(&f, p);
+            const int is_meant = returned == KNURL_OK || strcmp(functions[i].name, "knurl_fail") == 0 ||
+                                 functions[i].returns != RETURNS_RESULT;
+            if (!is_meant) {
+                print_error("%s: %d, %s\n", functions[i].name, (int)returned, knurl_error_message());
+            }
+            _exit(!is_meant);
+        }
+        int status = 0;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        if (status != 0) {
+            print_error("%s with valid arguments\n", functions[i].name);
+        }
+        assert_int_equal(status, 0);
+    }
+}
