@@ -4,7 +4,6 @@
 #include "json_out.h"
 #include "study.h"
 
-#include <math.h>
 #include <string.h>
 
 static void print_summary(const gratings_summary *s) {
