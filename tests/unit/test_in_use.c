@@ -370,6 +370,71 @@ TEST(a_loop_that_looks_for_its_lost_device_ends_when_that_is_closed) {
     assert_int_equal(s.books.blocks, 0);
 }
 
+/* Each on a thread of its own, once `go` is set. */
+typedef struct finaliser {
+    char what;
+    uint32_t *go; /* atomic */
+} finaliser;
+
+static void *finalise(void *user) {
+    finaliser *f = user;
+    while (!knurl_load_acquire(f->go)) {}
+    if (f->what == 'd') {
+        knurl_device_close(s.device);
+    } else if (f->what == 's') {
+        knurl_scene_destroy(s.scene);
+    } else {
+        knurl_loop_destroy(s.loop);
+    }
+    return NULL;
+}
+
+/* Finalises what `which` names at once, while `meanwhile` (or null) is done here. */
+static void finalise_at_once(const char *which, void (*meanwhile)(void)) {
+    uint32_t go = 0;
+    pthread_t threads[3];
+    finaliser finalisers[3];
+    const size_t count = strlen(which);
+    for (size_t i = 0; i < count; i++) {
+        finalisers[i].what = which[i];
+        finalisers[i].go = &go;
+        assert_int_equal(pthread_create(&threads[i], NULL, finalise, &finalisers[i]), 0);
+    }
+    knurl_store_release(&go, 1u);
+    if (meanwhile) {
+        meanwhile();
+    }
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+    }
+}
+
+TEST(device_scene_and_loop_may_be_destroyed_at_once_on_three_threads) {
+    for (int turn = 0; turn < 40; turn++) {
+        set_up(turn % 4 == 3);
+        if (turn % 2) {
+            start_and_push();
+        }
+        finalise_at_once("dsl", NULL);
+        check_all_gone();
+    }
+}
+
+static void start_or_be_refused(void) {
+    const knurl_result result = knurl_loop_start(s.loop);
+    assert_true(result == KNURL_OK || result == KNURL_ERROR_STATE);
+}
+
+TEST(a_start_that_races_with_a_close_is_refused_or_ends) {
+    for (int turn = 0; turn < 40; turn++) {
+        set_up(0);
+        finalise_at_once("ds", start_or_be_refused);
+        assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+        knurl_loop_destroy(s.loop);
+        check_all_gone();
+    }
+}
+
 /* --- from a callback --- */
 
 /* What a callback does at its 50th call. */

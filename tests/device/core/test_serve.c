@@ -19,6 +19,7 @@ typedef struct servo {
     uint32_t unplugged;
 
     int64_t stall_ns; /* before the next tick */
+    uint64_t closes;
     uint64_t generation, ticks, reads, writes, strangers, reopens, refuse_reopens;
     int64_t reopen_takes_ns;
     int64_t lingers_ns;      /* in the tick that finds it lost */
@@ -121,8 +122,13 @@ static knurl_result servo_reopen(knurl_device *device) {
     return KNURL_OK;
 }
 
+static void servo_close(knurl_device *device) {
+    servo_of(device)->closes++;
+}
+
 static const knurl_driver servo_driver = {
     .uri = "servo",
+    .close = servo_close,
     .get_info = servo_info,
     .start = servo_start,
     .read = servo_read,
@@ -383,4 +389,28 @@ TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, NULL, e
     }
     start();
     wait_for_ticks(5);
+}
+
+/* Also while it is away and nobody calls the tick. */
+TEST_WITH(a_close_ends_the_loop_and_its_destroy_closes, NULL, end) {
+    for (int lost = 0; lost < 2; lost++) {
+        begin();
+        t.desc.reconnect = 1;
+        s.refuse_reopens = UINT64_MAX;
+        start();
+        wait_for_ticks(20);
+        if (lost) {
+            knurl_store_release(&s.unplugged, 1u);
+            wait_until_absent();
+        }
+        knurl_device_close(&s.device);
+        assert_int_equal(knurl_loop_wait(t.loop, 10.0), 1);
+        assert_int_equal(stats().state, KNURL_LOOP_DONE);
+        check_silence();
+        assert_true(lost || knurl_load_double(&s.motor) == 0.0);
+        assert_int_equal(s.closes, 0);
+        assert_int_equal(end(NULL), 0); /* destroys it */
+        assert_int_equal(s.closes, 1);
+    }
+    begin();
 }
