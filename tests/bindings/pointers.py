@@ -194,12 +194,12 @@ def main(output, headers):
     structs = structs_of(functions)
     made = [row_of(name, returned, parameters, in_tick) for returned, name, parameters, in_tick in functions]
     with open(output, "w", encoding="utf-8") as file:
-        file.write("/* Written by pointers.py. */\n#ifndef FUNCTIONS\ntypedef struct structs {\n")
+        file.write("/* Written by pointers.py. */\n/* NOLINTBEGIN */\n#ifndef FUNCTIONS\ntypedef struct structs {\n")
         file.writelines(f"    knurl_{base} {base};\n" for base in structs)
         file.write("} structs;\n\nstatic void init_structs(structs *s) {\n    memset(s, 0, sizeof *s);\n")
         file.writelines(f"    {init}(&s->{base}, sizeof s->{base});\n" for base, init in structs.items() if init)
         file.write("}\n#else\n" + "".join(thunk for thunk, _ in made))
-        file.write("static const function functions[] = {\n" + "".join(row for _, row in made) + "};\n#endif\n")
+        file.write("static const function functions[] = {\n" + "".join(row for _, row in made) + "};\n#endif\n/* NOLINTEND */\n")
 
 
 if __name__ == "__main__":

@@ -343,6 +343,7 @@ TEST(a_text_ends_in_whatever_an_older_caller_has_of_it) {
 /* --- handles --- */
 
 TEST(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one) {
+    static uint32_t elsewhere[2];
     uint32_t scene[2] = {KNURL_HANDLE_SCENE, 0};
     const void *none = NULL;
     assert_false(KNURL_BAD_HANDLE(scene, SCENE));
@@ -351,7 +352,7 @@ TEST(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one)
     assert_string_equal(knurl_error_message(), "none: expected a scene, found null");
     assert_true(KNURL_BAD_HANDLE(scene, DEVICE));
     assert_string_equal(knurl_error_message(), "scene: expected a device, found a scene");
-    assert_true(KNURL_BAD_HANDLE((char *)scene + 1, SCENE)); /* no object begins there */
+    assert_true(KNURL_BAD_HANDLE((char *)elsewhere + 1, SCENE)); /* no object begins there */
     knurl_handle_clear(scene);
     assert_false(KNURL_IS_HANDLE(scene, SCENE));
     assert_true(KNURL_BAD_HANDLE(scene, SCENE));

@@ -259,6 +259,7 @@ uint32_t knurl_loop_serve(void *argument) {
     knurl_store_release(&loop->is_served, 1u); /* before the device can be found lost */
     const int64_t now = loop->clock.now_ns(loop->clock.user);
     if (loop->served_at == 0) {
+        (void)knurl_error_message(); /* as on a haptic thread of ours */
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     } else {
         const double late = fmax(0.0, (double)(now - loop->served_at) - period);

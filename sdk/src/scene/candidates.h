@@ -57,7 +57,7 @@ typedef struct knurl_hip_path {
 } knurl_hip_path;
 
 /* Empties the list. */
-void knurl_candidates_reset(knurl_candidates *candidates);
+void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;
 
 /* Makes the list complete for a path, where it is not yet. */
 void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_phase *phase,

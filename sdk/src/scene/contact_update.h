@@ -59,7 +59,7 @@ typedef struct knurl_contacts {
 void knurl_contacts_init(knurl_contacts *contacts, double period, double time);
 
 /* No contact; the next tick is a first one. */
-void knurl_contacts_reset(knurl_contacts *contacts);
+void knurl_contacts_reset(knurl_contacts *contacts) KNURL_NONBLOCKING;
 
 /* From the HIP's position (scene, m) to the surfaces that it is in contact with: contacts->active. Adds to *flags:
  * KNURL_TICK_CONTACTS_FULL. */
