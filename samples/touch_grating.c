@@ -29,7 +29,7 @@ static void on_interrupt(int number) {
 
 typedef struct sample {
     knurl_scene *scene;
-    knurl_surface plates[PLATES];
+    knurl_surface_id plates[PLATES];
     knurl_device *device;
     knurl_loop *loop;
 } sample;

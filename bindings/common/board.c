@@ -85,7 +85,7 @@ uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows) 
     return copy_ring(&b->written, b->history, KNURL_BOARD_TICKS, end > count ? end - count : 0, end, rows);
 }
 
-uint32_t knurl_board_changes(knurl_board *b, knurl_surface *surfaces) {
+uint32_t knurl_board_changes(knurl_board *b, knurl_surface_id *surfaces) {
     const uint64_t begin = b->seen;
     b->seen = __atomic_load_n(&b->changes, __ATOMIC_ACQUIRE);
     return copy_ring(&b->changes, b->changed, KNURL_BOARD_CHANGES, begin, b->seen, surfaces);

@@ -10,7 +10,7 @@ enum { KNURL_BOARD_TICKS = KNURL_SESSION_HISTORY, KNURL_BOARD_CHANGES = 64 };
 typedef struct knurl_board_tick {
     double hip[3], proxy[3], force[3]; /* scene axes */
     double height, temporal_frequency;
-    knurl_surface surface;
+    knurl_surface_id surface;
     uint64_t tick; /* of the HIP, counted from 1 */
     uint64_t sent; /* ticks so far: with those that had no position there are more of the HIP */
 } knurl_board_tick;
@@ -23,7 +23,7 @@ typedef struct knurl_board {
     uint64_t written, history[KNURL_BOARD_TICKS]; /* two floats a tick: m, N along the normal */
     uint64_t changes, changed[KNURL_BOARD_CHANGES];
     /* the haptic thread's */
-    knurl_surface last;
+    knurl_surface_id last;
     double *forces; /* or null: three a tick, for knurl_session_play() */
     uint64_t force_count, force_capacity;
     /* the game thread's */
@@ -40,6 +40,6 @@ uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows);
 
 /* The surfaces that became the one touched since the last call, oldest first, at most KNURL_BOARD_CHANGES; 0 for none.
  */
-uint32_t knurl_board_changes(knurl_board *b, knurl_surface *surfaces);
+uint32_t knurl_board_changes(knurl_board *b, knurl_surface_id *surfaces);
 
 #endif

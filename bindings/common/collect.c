@@ -7,12 +7,12 @@
 /* As many faults as a device keeps. */
 enum { MOST_FAULTS = 64, BUTTONS = 32 };
 
-static int is_there(const knurl_session *s, knurl_surface id) {
+static int is_there(const knurl_session *s, knurl_surface_id id) {
     const char *name;
-    return id != 0 && knurl_scene_surface_name(s->scene, id, &name) == KNURL_OK;
+    return id != 0 && knurl_scene_get_surface_name(s->scene, id, &name) == KNURL_OK;
 }
 
-static void touch(knurl_session *s, knurl_surface id) {
+static void touch(knurl_session *s, knurl_surface_id id) {
     s->latest = id;
     s->touches[(s->first_touch + s->touch_count) % KNURL_SESSION_TOUCHES] = id;
     if (s->touch_count < KNURL_SESSION_TOUCHES) {
@@ -37,11 +37,11 @@ static int look(const knurl_session *s, knurl_board_tick *sent) {
 
 /* A touch shorter than a frame is told as well; what comes back within a frame was never away. */
 static void collect_touches(knurl_session *s) {
-    knurl_surface met[KNURL_BOARD_CHANGES];
+    knurl_surface_id met[KNURL_BOARD_CHANGES];
     knurl_board_tick sent;
     const uint32_t count = knurl_board_changes(&s->board, met);
     (void)look(s, &sent);
-    const knurl_surface last = is_there(s, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
+    const knurl_surface_id last = is_there(s, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
     for (uint32_t i = 0; i < count; i++) {
         int is_new = met[i] != 0 && met[i] != s->latest && met[i] != last;
         for (uint32_t j = 0; j < i; j++) {
@@ -106,7 +106,7 @@ void knurl_session_forget(knurl_session *session) {
 /* A touch begins when the one before has ended, however many were forgotten in between. */
 static int next_touch(knurl_session *s, knurl_session_event *event) {
     while (s->touch_count > 0) {
-        const knurl_surface id = s->touches[s->first_touch];
+        const knurl_surface_id id = s->touches[s->first_touch];
         if (s->touched && s->touched != id) {
             event->kind = KNURL_SESSION_CONTACT_ENDED;
             event->surface = s->touched;

@@ -2,8 +2,8 @@
 #include "parts.h"
 
 /* Without a stroke the hand stands still at the workspace's origin. */
-knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface *outside) {
-    const knurl_surface first = knurl_scene_surface_at(session->scene, 0);
+knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface_id *outside) {
+    const knurl_surface_id first = knurl_scene_get_surface(session->scene, 0);
     if (session->stroke && first) {
         knurl_stroke_report report;
         knurl_stroke_report_init(&report, sizeof report);

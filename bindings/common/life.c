@@ -92,14 +92,14 @@ uint32_t knurl_session_close_all(void) {
     return running;
 }
 
-knurl_scene *knurl_session_scene(knurl_session *session) {
+knurl_scene *knurl_session_get_scene(knurl_session *session) {
     return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->scene;
 }
 
-knurl_device *knurl_session_device(knurl_session *session) {
+knurl_device *knurl_session_get_device(knurl_session *session) {
     return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->device;
 }
 
-knurl_loop *knurl_session_loop(knurl_session *session) {
+knurl_loop *knurl_session_get_loop(knurl_session *session) {
     return KNURL_BAD_HANDLE(session, SESSION) ? NULL : session->loop;
 }

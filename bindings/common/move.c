@@ -29,7 +29,7 @@ knurl_result knurl_session_move_hip(knurl_session *session, const double positio
     return KNURL_OK;
 }
 
-knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
+knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface, knurl_session_way *way,
                                         const double position[3], const double rotation[4]) {
     if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(way) || KNURL_IS_NULL(position) ||
         KNURL_IS_NULL(rotation)) {
@@ -82,7 +82,7 @@ static int is_in_reach(const knurl_session *s, const knurl_surface_info *info) {
     return is_near;
 }
 
-void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size) {
+void knurl_session_explain(knurl_session *session, knurl_surface_id surface, char *text, uint32_t size) {
     if (KNURL_BAD_HANDLE(session, SESSION)) {
         return;
     }
@@ -94,7 +94,7 @@ void knurl_session_explain(knurl_session *session, knurl_surface surface, char *
     if (!session->device) {
         return;
     }
-    if (!knurl_scene_surface_info(session->scene, surface, &info) && !is_in_reach(session, &info)) {
+    if (!knurl_scene_get_surface_info(session->scene, surface, &info) && !is_in_reach(session, &info)) {
         knurl_session_say(text, size,
                           "It lies outside of the device's workspace: move the KnurlDevice there, or raise its "
                           "workspace scale.");

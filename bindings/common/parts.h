@@ -23,10 +23,11 @@ struct knurl_session {
     uint32_t paused;
     uint32_t runs; /* 1: the haptic thread was started, and was not seen to have ended */
     /* what the latest update found, for knurl_session_next_event() */
-    knurl_surface touches[KNURL_SESSION_TOUCHES]; /* a ring: what was touched after one another, with 0 for nothing */
+    knurl_surface_id
+        touches[KNURL_SESSION_TOUCHES]; /* a ring: what was touched after one another, with 0 for nothing */
     uint32_t first_touch, touch_count;
-    knurl_surface latest;  /* the touch after the ring's last */
-    knurl_surface touched; /* as told */
+    knurl_surface_id latest;  /* the touch after the ring's last */
+    knurl_surface_id touched; /* as told */
     uint32_t buttons, told_buttons;
     uint32_t faults_due;           /* at most so many: who handles each slower than they come would never be done */
     uint32_t has_ended;            /* by itself, and it is to be told */
@@ -37,7 +38,7 @@ struct knurl_session {
 
 /* hand.c: lays the fake device's stroke over the scene's first surface. *outside: that surface, where it lies outside
  * of the workspace, else untouched. */
-knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface *outside);
+knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface_id *outside);
 
 /* text.c: makes a caller's text empty; adds a sentence to it, on a line of its own. Both do nothing where there is no
  * text, and what does not fit is cut off after a whole character. */

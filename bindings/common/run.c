@@ -95,9 +95,9 @@ static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
     return knurl_loop_create(&desc, &session->loop);
 }
 
-static void warn(const knurl_session *session, knurl_surface outside, char *warning, uint32_t size) {
+static void warn(const knurl_session *session, knurl_surface_id outside, char *warning, uint32_t size) {
     const char *name = "";
-    if (outside && !knurl_scene_surface_name(session->scene, outside, &name)) {
+    if (outside && !knurl_scene_get_surface_name(session->scene, outside, &name)) {
         knurl_session_say(warning, size,
                           "surface '%s' lies outside of the workspace, so the stroke over it is cut short: move the "
                           "device to it",
@@ -109,7 +109,7 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
     if (KNURL_BAD_HANDLE(session, SESSION)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_surface outside = 0;
+    knurl_surface_id outside = 0;
     knurl_result result = prepare(session);
     result = result || !session->is_fake ? result : knurl_session_lay_stroke(session, &outside);
     result = result ? result : make_loop(session, session->desc.heartbeat_s);

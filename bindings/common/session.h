@@ -1,8 +1,8 @@
 /* What every engine's binding does the same way, in C, so that a binding is conversion, lifetime and editor comfort:
  * one device, one scene and one loop that live and end together, and what happened to them, told once a frame. Life:
- * create; add surfaces to knurl_session_scene(); open; (add what only running devices feel); start; an update a frame;
- * close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched without
- * waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
+ * create; add surfaces to knurl_session_get_scene(); open; (add what only running devices feel); start; an update a
+ * frame; close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched
+ * without waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SESSION_H
 #define KNURL_SESSION_H
@@ -41,7 +41,7 @@ typedef struct knurl_session_state {
     double force[3];           /**< N, as sent */
     double height;             /**< m: of the grating under the finger */
     double temporal_frequency; /**< Hz: ridges a second that the motion asks for */
-    knurl_surface surface;     /**< what was last told to be touched (KNURL_SESSION_CONTACT_STARTED), or 0 */
+    knurl_surface_id surface;  /**< what was last told to be touched (KNURL_SESSION_CONTACT_STARTED), or 0 */
     uint64_t ticks;            /**< sent since the start */
     uint64_t overruns;         /**< ticks that came late; updates count them ten times a second */
     uint32_t buttons;          /**< bit 0: first button; as of the latest update */
@@ -63,7 +63,7 @@ typedef struct knurl_session_event {
     int32_t kind; /**< KNURL_SESSION_ */
     int32_t code;
     double value;
-    knurl_surface surface; /**< it may be gone from the scene by now */
+    knurl_surface_id surface; /**< it may be gone from the scene by now */
 } knurl_session_event;
 
 /** A surface that follows an engine's object. The binding's, one a surface and session; before its first move in a run:
@@ -97,13 +97,13 @@ KNURL_API uint32_t knurl_session_close_all(void);
 
 /** The session's scene, for surfaces: knurl_scene_add_surface() and so on, knurl_gltf_load_file(). It is the same from
  * create to destroy, never null. [game thread] */
-KNURL_API knurl_scene *knurl_session_scene(knurl_session *session);
+KNURL_API knurl_scene *knurl_session_get_scene(knurl_session *session);
 
 /** The device of an open session, for knurl_device_get_info() and so on; null while closed. [game thread] */
-KNURL_API knurl_device *knurl_session_device(knurl_session *session);
+KNURL_API knurl_device *knurl_session_get_device(knurl_session *session);
 
 /** The loop of a session that was started or has played, for knurl_loop_get_stats(); null otherwise. [game thread] */
-KNURL_API knurl_loop *knurl_session_loop(knurl_session *session);
+KNURL_API knurl_loop *knurl_session_get_loop(knurl_session *session);
 
 /** Opens the device. Errors: KNURL_ERROR_STATE (open already), KNURL_ERROR_ARGUMENT (which field), KNURL_ERROR_UNKNOWN
  * (stroke), and those of knurl_device_open(). [game thread] */
@@ -122,7 +122,7 @@ KNURL_API knurl_result knurl_session_start(knurl_session *session, char *warning
 KNURL_API knurl_result knurl_session_play(knurl_session *session, const double *rows, uint64_t row_count,
                                           uint64_t ticks, double *forces, uint64_t *played);
 
-/** Ends the run, lets go and closes the device; what was touched is told as ended by the next
+/** Ends the run, zeroes the force and closes the device; what was touched is told as ended by the next
  * knurl_session_next_event(). Surfaces stay. Twice is fine. [game thread] */
 KNURL_API void knurl_session_close(knurl_session *session);
 
@@ -159,12 +159,13 @@ KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const doub
 /** Moves a surface along with its object: felt as a motion that took the time since the last move, in ticks, or as a
  * leap where it is faster than 10 m/s. rotation: unit quaternion. Errors: those of knurl_scene_set_transform().
  * [game thread] */
-KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface surface, knurl_session_way *way,
-                                                  const double position[3], const double rotation[4]);
+KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface,
+                                                  knurl_session_way *way, const double position[3],
+                                                  const double rotation[4]);
 
 /** Why a surface of an open session cannot be felt, or, once that is started, not as asked for: a sentence a line, ""
  * where all is well; cut off after `size` - 1 bytes. [game thread] */
-KNURL_API void knurl_session_explain(knurl_session *session, knurl_surface surface, char *text, uint32_t size);
+KNURL_API void knurl_session_explain(knurl_session *session, knurl_surface_id surface, char *text, uint32_t size);
 
 /** Splits a matrix (row-major, three rows of four, the last column m): 1, or 0, with the pose untouched, where it has
  * no volume (a scale of 0) or is not finite. [any thread] */

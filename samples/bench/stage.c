@@ -22,7 +22,7 @@ static void make_material(const bench_case *c, knurl_material_desc *m) {
 
 static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, const double position[3], double half_x,
                               double half_y) {
-    knurl_surface surface;
+    knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_plane_desc plane;
     knurl_surface_desc_init(&d, sizeof d);
@@ -37,7 +37,7 @@ static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, 
 
 static knurl_result add_mesh(knurl_scene *scene, const knurl_material_desc *m, const double position[3],
                              const knurl_mesh_desc *mesh) {
-    knurl_surface surface;
+    knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_surface_desc_init(&d, sizeof d);
     memcpy(d.position, position, sizeof d.position);
@@ -114,11 +114,11 @@ static knurl_result configure_hips(knurl_scene *scene, uint32_t hips) {
 }
 
 static knurl_result measure(bench_stage *stage) {
-    for (uint32_t i = 0; i < knurl_scene_surface_count(stage->scene); i++) {
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene); i++) {
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
         const knurl_result result =
-            knurl_scene_surface_info(stage->scene, knurl_scene_surface_at(stage->scene, i), &info);
+            knurl_scene_get_surface_info(stage->scene, knurl_scene_get_surface(stage->scene, i), &info);
         if (result) {
             return result;
         }
@@ -154,8 +154,8 @@ static knurl_result change(const bench_stage *stage, const bench_case *c) {
     knurl_material_desc m;
     knurl_result result = configure_hips(stage->scene, c->hips); /* forgets what they touched */
     make_material(c, &m);
-    for (uint32_t i = 0; i < knurl_scene_surface_count(stage->scene) && !result; i++) {
-        result = knurl_scene_set_material(stage->scene, knurl_scene_surface_at(stage->scene, i), &m);
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene) && !result; i++) {
+        result = knurl_scene_set_material(stage->scene, knurl_scene_get_surface(stage->scene, i), &m);
     }
     return result;
 }
@@ -179,12 +179,12 @@ knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
 
 knurl_result bench_stage_move(bench_stage *stage, double seconds) {
     knurl_result result = KNURL_OK;
-    for (uint32_t i = 0; i < knurl_scene_surface_count(stage->scene) && !result; i++) {
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene) && !result; i++) {
         const double swing = sin(2.0 * acos(-1.0) * seconds + i);
         const double position[3] = {MOVING_SWING * swing, 0.0, -MOVING_HEIGHT * i};
         const double half_turn = i > 0 ? 0.05 * swing : 0.0; /* the one that is felt stays level */
         const double rotation[4] = {sin(half_turn), 0.0, 0.0, cos(half_turn)};
-        result = knurl_scene_set_transform(stage->scene, knurl_scene_surface_at(stage->scene, i), position, rotation,
+        result = knurl_scene_set_transform(stage->scene, knurl_scene_get_surface(stage->scene, i), position, rotation,
                                            1.0 / BENCH_FRAME_RATE);
     }
     return result;

@@ -119,7 +119,7 @@ static knurl_result make_loop(const exp_session *session, exp_run *run, knurl_lo
     desc.force_callback = on_tick;
     desc.user = run;
     desc.update_rate_hz = EXP_RATE;
-    desc.unguarded = KNURL_UNGUARDED_HEAT; /* as printed: 2.1 N; a real device's own protection has the last word */
+    desc.protections = 0; /* as printed: 2.1 N; a real device's own protection has the last word */
     desc.tick_limit = session->answers == EXP_SIMULATED ? run->end_tick : 0;
     const knurl_result result = knurl_loop_create(&desc, loop);
     return result || session->fast ? result : knurl_loop_start(*loop);

@@ -89,11 +89,11 @@ typedef struct exp_session {
 
 /* What a trial came to. */
 typedef struct exp_outcome {
-    int32_t chosen;                 /* 0: the first (left), 1: the second (right) */
-    double rt_s;                    /* from when the question was put; 0 where simulated */
-    uint64_t ticks;                 /* played, restarts not counted */
-    uint64_t saturations;           /* ticks whose force the device could not give in full */
-    uint64_t frequency_saturations; /* ticks whose temporal frequency was above half the update rate */
+    int32_t chosen;            /* 0: the first (left), 1: the second (right) */
+    double rt_s;               /* from when the question was put; 0 where simulated */
+    uint64_t ticks;            /* played, restarts not counted */
+    uint64_t saturations;      /* ticks whose force the device could not give in full */
+    uint64_t saturation_ticks; /* ticks whose temporal frequency was above half the update rate */
     uint64_t overruns;
     uint32_t restarts;   /* the hand had left the sphere */
     double contact_s[2]; /* experiment 3: with the left and the right surface */

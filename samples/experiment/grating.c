@@ -14,7 +14,7 @@
 
 typedef struct explorer {
     knurl_scene *scene;
-    knurl_surface surfaces[2];
+    knurl_surface_id surfaces[2];
     uint64_t contacts[2]; /* ticks */
     int32_t wanted;       /* simulated: the side that is stroked; -1: both, before the question may be put */
     uint32_t reserved;
@@ -43,7 +43,7 @@ static const char *cue(uint64_t tick) {
 
 /* A plate whose front looks up (angle about x -90 degrees) or sideways (about y +-90 degrees). */
 static knurl_result add_plane(knurl_scene *scene, const double centre[3], const double half[2], int axis, double turn,
-                              const knurl_material_desc *material, knurl_surface *id) {
+                              const knurl_material_desc *material, knurl_surface_id *id) {
     knurl_plane_desc plane;
     knurl_surface_desc surface;
     knurl_plane_desc_init(&plane, sizeof plane);
@@ -81,7 +81,7 @@ static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     hip.resolution = session->info.resolution;
     hip.max_force = session->info.max_force;
     hip.workspace = &workspace;
-    hip.unguarded = KNURL_UNGUARDED_ALL; /* S1 and S2 as printed, saturation and all */
+    hip.protections = 0; /* S1 and S2 as printed, saturation and all */
     return knurl_scene_configure_hip(scene, 0, &hip);
 }
 
@@ -146,8 +146,8 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     sum->rt_s += outcome.rt_s;
     sum->ticks += outcome.ticks;
     sum->overruns += outcome.overruns;
-    sum->saturations += counts.force_limits;
-    sum->frequency_saturations += counts.frequency_saturations;
+    sum->saturations += counts.force_limit_ticks;
+    sum->saturation_ticks += counts.saturation_ticks;
     sum->contact_s[0] += (double)e.contacts[0] / EXP_RATE;
     sum->contact_s[1] += (double)e.contacts[1] / EXP_RATE;
     knurl_scene_destroy(e.scene);

@@ -8,7 +8,7 @@
 
 /* What a session adds up to, for its last lines. */
 typedef struct totals {
-    uint64_t ticks, saturations, frequency_saturations, overruns;
+    uint64_t ticks, saturations, saturation_ticks, overruns;
     uint32_t trials, saturated_trials, restarts;
 } totals;
 
@@ -17,7 +17,7 @@ static void add(totals *t, const exp_outcome *o) {
     t->ticks += o->ticks;
     t->saturations += o->saturations;
     t->saturated_trials += o->saturations > 0;
-    t->frequency_saturations += o->frequency_saturations;
+    t->saturation_ticks += o->saturation_ticks;
     t->overruns += o->overruns;
     t->restarts += o->restarts;
 }
@@ -62,8 +62,7 @@ static void report(const exp_session *session, const totals *t) {
     printf("force above the device's %.3g N: %llu ticks in %u trials, shortened to it\n", session->info.max_force,
            (unsigned long long)t->saturations, (unsigned)t->saturated_trials);
     if (d->experiment == 3) {
-        printf("temporal frequency above half the update rate: %llu ticks\n",
-               (unsigned long long)t->frequency_saturations);
+        printf("temporal frequency above half the update rate: %llu ticks\n", (unsigned long long)t->saturation_ticks);
     }
     printf("overruns: %llu; trials begun anew: %u\n", (unsigned long long)t->overruns, (unsigned)t->restarts);
     printf("written: %s\n", session->out);

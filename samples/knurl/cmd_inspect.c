@@ -66,19 +66,19 @@ static void print_surface(tool_json *json, const knurl_surface_info *info, int r
 }
 
 static void print_scene(tool_json *json, const knurl_scene *scene, const knurl_device_info *device, uint32_t skipped) {
-    const uint32_t count = knurl_scene_surface_count(scene);
+    const uint32_t count = knurl_scene_get_surface_count(scene);
     json_open(json, NULL, '{');
     json_open(json, "surfaces", '[');
     for (uint32_t i = 0; i < count; i++) {
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
-        if (knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, i), &info) == KNURL_OK) {
+        if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK) {
             print_surface(json, &info, in_reach(scene, device, &info));
         }
     }
     json_close(json, ']');
     json_number(json, "skipped", skipped);
-    json_number(json, "bytes", (double)knurl_scene_bytes(scene));
+    json_number(json, "bytes", (double)knurl_scene_get_bytes(scene));
     if (count == 0) {
         json_string(json, "hint", hint);
     }
@@ -123,7 +123,7 @@ int cmd_inspect(int argc, char **argv) {
     tool_json json = {pretty, 0, 1};
     print_scene(&json, scene, &device, report.skipped);
     tool_warn(scene);
-    if (knurl_scene_surface_count(scene) == 0) {
+    if (knurl_scene_get_surface_count(scene) == 0) {
         fprintf(stderr, "knurl: hint: %s: %s\n", path, hint);
     }
     knurl_scene_destroy(scene);

@@ -24,7 +24,7 @@ typedef struct run {
     knurl_scene *scene;
     knurl_device *device;
     knurl_loop *loop;
-    knurl_surface surface; /* that is stroked */
+    knurl_surface_id surface; /* that is stroked */
     recorder recorder;
     felt felt;
     faults faults;
@@ -76,11 +76,11 @@ static int read_options(int argc, char **argv, run_options *o) {
 
 /* --method: for every surface, instead of its own. */
 static knurl_result set_methods(knurl_scene *scene, int32_t method) {
-    for (uint32_t i = 0; i < knurl_scene_surface_count(scene); i++) {
-        const knurl_surface surface = knurl_scene_surface_at(scene, i);
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); i++) {
+        const knurl_surface_id surface = knurl_scene_get_surface(scene, i);
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
-        knurl_result result = knurl_scene_surface_info(scene, surface, &info);
+        knurl_result result = knurl_scene_get_surface_info(scene, surface, &info);
         info.material.method = method;
         result = result ? result : knurl_scene_set_material(scene, surface, &info.material);
         if (result) {
@@ -121,7 +121,7 @@ static int load(run *r) {
         (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }
-    if (knurl_scene_surface_count(r->scene) == 0) {
+    if (knurl_scene_get_surface_count(r->scene) == 0) {
         return tool_error(TOOL_FAILURE,
                           "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' says how to tag",
                           o->path);
@@ -134,7 +134,7 @@ static int is_fake(const run_options *o) {
 }
 
 /* A fake device gets its hand or its trace; at a real one, somebody sits. */
-static int lay(run *r, knurl_surface surface, double *last_t) {
+static int lay(run *r, knurl_surface_id surface, double *last_t) {
     const run_options *o = &r->options;
     if (!is_fake(o)) {
         const char *fakes = o->fast ? "--fast" : o->stroke ? "--stroke" : o->trace ? "--trace" : NULL;
@@ -156,7 +156,7 @@ static int open_device(run *r) {
         const int is_usage = result == KNURL_ERROR_UNKNOWN || result == KNURL_ERROR_ARGUMENT;
         return tool_library_error(is_usage ? TOOL_USAGE : TOOL_FAILURE, "run: --device");
     }
-    knurl_surface surface = knurl_scene_surface_at(r->scene, 0);
+    knurl_surface_id surface = knurl_scene_get_surface(r->scene, 0);
     if (o->surface && knurl_scene_find_surface(r->scene, o->surface, &surface)) {
         return tool_library_error(TOOL_FAILURE, o->path);
     }
@@ -308,15 +308,15 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "half_cycles_crossed", floor(counts.half_cycles_crossed));
     json_number(&json, "half_cycles_played", (double)counts.half_cycles_played);
     json_number(&json, "overruns", (double)stats->overruns);
-    json_number(&json, "watchdogs", (double)stats->watchdogs);
+    json_number(&json, "watchdogs", (double)stats->watchdog_trips);
     json_number(&json, "absences", (double)stats->absences);
-    json_number(&json, "saturations", (double)counts.force_limits);
-    json_number(&json, "frequency_saturations", (double)counts.frequency_saturations);
-    json_number(&json, "not_finite", (double)counts.not_finite);
-    json_number(&json, "entries", (double)counts.entries);
-    json_number(&json, "slews", (double)counts.slews);
-    json_number(&json, "heats", (double)counts.heats);
-    json_number(&json, "passivities", (double)counts.passivities);
+    json_number(&json, "saturations", (double)counts.force_limit_ticks);
+    json_number(&json, "saturation_ticks", (double)counts.saturation_ticks);
+    json_number(&json, "not_finite", (double)counts.non_finite_ticks);
+    json_number(&json, "entries", (double)counts.entry_ticks);
+    json_number(&json, "slews", (double)counts.slew_ticks);
+    json_number(&json, "heats", (double)counts.heat_ticks);
+    json_number(&json, "passivities", (double)counts.passivity_ticks);
     json_number(&json, "heat", counts.heat);
     json_number(&json, "force_max_n", counts.force_max);
     faults_print(&r->faults, &json);

@@ -17,12 +17,12 @@ static int is_moving(int32_t stroke) {
     return stroke == KNURL_STROKE_LINE || stroke == KNURL_STROKE_SWEEP || stroke == KNURL_STROKE_CIRCLE;
 }
 
-int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface surface, double seconds) {
+int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface_id surface, double seconds) {
     knurl_hip_counts counts;
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
     if (seconds < JUDGED_S || knurl_scene_get_tick(scene, 0, NULL, &counts) ||
-        knurl_scene_surface_info(scene, surface, &info)) {
+        knurl_scene_get_surface_info(scene, surface, &info)) {
         return TOOL_OK;
     }
     if (counts.contact_ticks == 0) {

@@ -19,6 +19,6 @@ void felt_take(felt *f, const knurl_tick_output *output);
 
 /* After a whole run of `seconds`: TOOL_OK, or TOOL_NOTHING_FELT having said why on stderr. A run of less than a second
  * is not judged: its hand has only just come down. */
-int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface surface, double seconds);
+int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface_id surface, double seconds);
 
 #endif

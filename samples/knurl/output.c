@@ -92,10 +92,10 @@ void json_end(tool_json *json) {
 }
 
 void tool_warn(const knurl_scene *scene) {
-    for (uint32_t i = 0; i < knurl_scene_surface_count(scene); i++) {
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); i++) {
         knurl_surface_check check;
         knurl_surface_check_init(&check, sizeof check);
-        if (knurl_scene_check_surface(scene, 0, knurl_scene_surface_at(scene, i), &check)) {
+        if (knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, i), &check)) {
             continue;
         }
         for (char *line = check.message, *end; *line; line = end) {

@@ -45,7 +45,7 @@ static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
         fputc(',', f);
     }
     if (o->surface) {
-        (void)knurl_scene_surface_name(r->scene, o->surface, &name);
+        (void)knurl_scene_get_surface_name(r->scene, o->surface, &name);
     }
     tool_print_cell(f, name);
     for (size_t i = 0; i < sizeof after / sizeof *after; i++) {

@@ -38,7 +38,7 @@ static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, kn
     return TOOL_OK;
 }
 
-int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface) {
+int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface_id surface) {
     knurl_workspace workspace;
     knurl_surface_info info;
     knurl_device_info limits;
@@ -46,7 +46,7 @@ int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface
     double normal[3];
     knurl_surface_info_init(&info, sizeof info);
     knurl_device_info_init(&limits, sizeof limits);
-    if (knurl_scene_surface_info(scene, surface, &info) || knurl_device_get_info(device, &limits) ||
+    if (knurl_scene_get_surface_info(scene, surface, &info) || knurl_device_get_info(device, &limits) ||
         knurl_scene_get_workspace(scene, 0, &workspace)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
@@ -56,7 +56,7 @@ int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface
     return room(&limits, centre, normal) < 0.01 ? move_workspace(scene, &info, &workspace) : TOOL_OK;
 }
 
-int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke, double *length) {
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface_id surface, int32_t stroke, double *length) {
     knurl_stroke_report report;
     knurl_stroke_report_init(&report, sizeof report);
     const int code = stroke_place(scene, device, surface);

@@ -6,11 +6,11 @@
 
 /* Where the surface lies outside the workspace, the workspace is moved to it, and that is said on stderr. TOOL_ codes.
  */
-int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface surface);
+int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface_id surface);
 
 /* The same, and the fake device's hand strokes the surface, 1 mm below it (knurl_fake_lay_stroke()).
  * *length: m from one end to the other, or once round; 0 where it stays. TOOL_ codes. */
-int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface surface, int32_t stroke, double *length);
+int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface_id surface, int32_t stroke, double *length);
 
 /* Plays a CSV of t,x,y,z in scene metres; *last_t: the time of its last row, s. TOOL_ codes. */
 int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t);

@@ -24,7 +24,7 @@ static int run_raw(const failure_sink *sink, lab_case *c, lab_result *result) {
     int failed = lab_run(c, &signals, result);
     if (!failed) {
         draw_depths(sink, "raw, mm deep", c, &signals);
-        c->unguarded = 0;
+        c->without = 0;
         failed = lab_run(c, &signals, &guarded);
         draw_depths(sink, "by default", c, &signals);
     }
@@ -80,8 +80,8 @@ int failure_wall_quantised(const failure_sink *sink, double *number) {
 }
 
 /* One plane that a default Touch presses into. 0, or 1 with the library's message. */
-static int make_wall(const knurl_material_desc *material, uint32_t unguarded, knurl_scene **scene) {
-    knurl_surface surface;
+static int make_wall(const knurl_material_desc *material, uint32_t without, knurl_scene **scene) {
+    knurl_surface_id surface;
     knurl_surface_desc desc;
     knurl_plane_desc plane;
     knurl_hip_desc hip;
@@ -91,7 +91,7 @@ static int make_wall(const knurl_material_desc *material, uint32_t unguarded, kn
     desc.plane = &plane;
     desc.material = material;
     knurl_hip_desc_init(&hip, sizeof hip);
-    hip.unguarded = unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~without;
     return knurl_scene_create(NULL, scene) || knurl_scene_add_surface(*scene, &desc, &surface) ||
            knurl_scene_configure_hip(*scene, 0, &hip) || knurl_scene_commit(*scene);
 }
@@ -114,7 +114,7 @@ int failure_force_limit(const failure_sink *sink, double *number) {
     input.velocity[0] = 0.25;
     input.position[2] = -material.amplitude;
     *number = 0.0;
-    int made = make_wall(&material, KNURL_UNGUARDED_ALL, &scene) == 0;
+    int made = make_wall(&material, KNURL_PROTECT_ALL, &scene) == 0;
     for (int k = 0; made && k < TICKS; k++) {
         input.position[0] = 0.25e-3 * k + 0.1e-3;
         made = knurl_scene_tick(scene, 0, &input, &out) == KNURL_OK;

@@ -10,7 +10,7 @@
 #define IMAGES     10   /* update rates that the held spectrum is summed to: 99 % of a square wave's images */
 #define MIX_CYCLES 2.4  /* 6 ticks of 2.5 ticks a cycle */
 
-double study_event_cycles(const knurl_event *event) {
+double study_event_cycles(const knurl_vibration_event *event) {
     return event->kind == KNURL_EVENT_MIXED ? MIX_CYCLES : 1.0;
 }
 

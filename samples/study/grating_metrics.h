@@ -12,7 +12,7 @@
 enum { STUDY_CROSSED_MAP = 0, STUDY_CROSSED_PATH = 1 };
 
 /** Cycles that an event of T3 counts as: 1, the six-tick mix 6/2.5 = 2.4. */
-double study_event_cycles(const knurl_event *event);
+double study_event_cycles(const knurl_vibration_event *event);
 
 /** Where the HIP is at one tick. */
 typedef struct study_motion {

@@ -24,7 +24,7 @@ typedef struct scan {
 } scan;
 
 static knurl_result add_surface(knurl_scene *scene, const study_sheet *sheet, double period) {
-    knurl_surface surface;
+    knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_material_desc m;
     knurl_plane_desc plane;
@@ -56,7 +56,7 @@ static knurl_result reset_hip(knurl_scene *scene) {
     knurl_hip_desc_init(&d, sizeof d);
     d.update_rate_hz = HALF_CYCLES_RATE;
     d.resolution = 0.0;
-    d.unguarded = KNURL_UNGUARDED_ALL; /* strokes begin pressed in */
+    d.protections = 0; /* strokes begin pressed in */
     d.workspace = &workspace;
     return knurl_scene_configure_hip(scene, 0, &d);
 }

@@ -38,7 +38,7 @@ void lab_case_init(lab_case *c) {
                                .stiffness = 400.0,
                                .period = 0.002,
                                .method = KNURL_S2,
-                               .unguarded = KNURL_UNGUARDED_ALL};
+                               .without = KNURL_PROTECT_ALL};
     *c = defaults;
 }
 
@@ -136,7 +136,7 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     knurl_plane_desc plane;
     knurl_workspace workspace;
     knurl_hip_desc hip;
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene_desc_init(&desc, sizeof desc);
     knurl_surface_desc_init(&surface, sizeof surface);
     knurl_material_desc_init(&material, sizeof material);
@@ -165,7 +165,7 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     hip.viscous = info->viscous;
     hip.delay = info->delay;
     hip.max_stiffness = info->max_stiffness;
-    hip.unguarded = c->unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~c->without;
     knurl_result result = knurl_scene_create(&desc, scene);
     result = result ? result : knurl_scene_configure_hip(*scene, 0, &hip);
     result = result ? result : knurl_scene_add_surface(*scene, &surface, &id);

@@ -14,7 +14,7 @@ static const char *const period_kinds[] = {"even", "odd", "odd", "mixed", "other
 
 /* The one or two square waves that a signal is the sum of: T2's are in the wave; the mixed case is Eq. 8's. 0 for T1,
  * and for a T3 event that is no mix. */
-static int parts_of(const knurl_wave *wave, knurl_event parts[2]) {
+static int parts_of(const knurl_wave *wave, knurl_vibration_event parts[2]) {
     if (wave->method == KNURL_T2) {
         parts[0] = wave->parts[0];
         parts[1] = wave->parts[1];
@@ -22,21 +22,21 @@ static int parts_of(const knurl_wave *wave, knurl_event parts[2]) {
     }
     if (wave->method == KNURL_T3 && wave->parts[0].kind == KNURL_EVENT_MIXED) {
         const double root = sqrt(13.0);
-        return knurl_event_init(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
-                       knurl_event_init(3.0, 3.0 * AMPLITUDE / root, &parts[1])
+        return knurl_vibration_event_init(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
+                       knurl_vibration_event_init(3.0, 3.0 * AMPLITUDE / root, &parts[1])
                    ? 0
                    : 2;
     }
     return 0;
 }
 
-static double part_value(const knurl_event *part, uint64_t tick) {
-    return knurl_event_height(part, (int32_t)(tick % (uint64_t)part->length));
+static double part_value(const knurl_vibration_event *part, uint64_t tick) {
+    return knurl_vibration_event_height(part, (int32_t)(tick % (uint64_t)part->length));
 }
 
 /* tick, value, and the parts where the signal is a sum of two. */
 static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
-    knurl_event parts[2];
+    knurl_vibration_event parts[2];
     const int count = parts_of(wave, parts);
     for (uint64_t tick = 0; tick < TICKS; tick++) {
         fprintf(csv, "T%d,%g,%d,", (int)wave->method, period_ms, (int)tick);
@@ -52,7 +52,7 @@ static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
 }
 
 static void write_parts(FILE *json, const knurl_wave *wave) {
-    knurl_event parts[2];
+    knurl_vibration_event parts[2];
     const int count = parts_of(wave, parts);
     fputs("[", json);
     for (int i = 0; i < count && count == 2; i++) {

@@ -78,7 +78,7 @@ typedef struct stability_map {
     const char *label;  /**< for people */
     const char *grip;
     int32_t method; /**< of stability_methods */
-    uint32_t unguarded;
+    uint32_t without;
 } stability_map;
 
 typedef struct stability_cell {

@@ -24,15 +24,15 @@ static const struct {
 
 static const struct {
     const char *device, *label;
-    uint32_t unguarded;
-} plants[] = {{"preset=touch&coulomb=0", "Touch without dry friction", KNURL_UNGUARDED_ALL},
+    uint32_t without;
+} plants[] = {{"preset=touch&coulomb=0", "Touch without dry friction", KNURL_PROTECT_ALL},
               {"preset=touch&coulomb=0", "Touch without dry friction", 0},
-              {"preset=touch", "Touch", KNURL_UNGUARDED_ALL},
+              {"preset=touch", "Touch", KNURL_PROTECT_ALL},
               {"preset=touch", "Touch", 0}};
 
 static const char *const devices[][2] = {{"preset=touch", "Touch"}, {"preset=falcon", "Falcon"}};
 static const char *const grips[] = {"loose", "light", "firm"};
-static const uint32_t guards[] = {KNURL_UNGUARDED_ALL, 0};
+static const uint32_t guards[] = {KNURL_PROTECT_ALL, 0};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -50,7 +50,7 @@ static int bounds_at(size_t index, stability_map *map) {
     map->label = plants[plant].label;
     map->grip = "loose";
     map->method = 0;
-    map->unguarded = plants[plant].unguarded;
+    map->without = plants[plant].without;
     return 1;
 }
 
@@ -88,7 +88,7 @@ int stability_map_at(const char *figure, size_t index, stability_map *map) {
     map->device = devices[row / (COUNT(grips) * COUNT(guards))][0];
     map->label = devices[row / (COUNT(grips) * COUNT(guards))][1];
     map->grip = grips[row / COUNT(guards) % COUNT(grips)];
-    map->unguarded = guards[row % COUNT(guards)];
+    map->without = guards[row % COUNT(guards)];
     map->method = method;
     return 1;
 }
@@ -122,7 +122,7 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
     (void)snprintf(device, 160, map->device, value);
     c->device = device;
     c->grip = lab_grip_named(map->grip);
-    c->unguarded = map->unguarded;
+    c->without = map->without;
     c->method = method->method;
     c->amplitude = method->texture ? TEXTURE_A : 0.0;
     if (strcmp(map->figure, "stability_amplitudes") == 0) {

@@ -33,7 +33,7 @@ static void write_cell(FILE *csv, const stability_map *map, const stability_cell
         cell->x, cell->y,  r->energy, r->unauthorised, r->activity_force, r->activity_motion, r->activity,
         r->felt, r->asked, r->bangs,  r->swing,        r->force_max,      r->guarded_ticks};
     fprintf(csv, "%s,%s,%s,%s,%s,%s", map->name, map->label, map->grip, stability_methods[map->method].name,
-            map->unguarded ? "raw" : "protected", lab_outcome_name(r->outcome));
+            map->without ? "raw" : "protected", lab_outcome_name(r->outcome));
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         fputs(",", csv);
         out_number(csv, values[i]);
@@ -103,7 +103,7 @@ static void print_runaways(const chart *c) {
             all += within;
             counts[c->cell[m][i].result.outcome] += within;
         }
-        printf("| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->unguarded ? "raw" : "protected",
+        printf("| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->without ? "raw" : "protected",
                stability_methods[map->method].name, counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
     }
 }

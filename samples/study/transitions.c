@@ -52,13 +52,13 @@ static void place(int transition, int tick, int happens, double *x, double *z, d
     }
 }
 
-static knurl_result build(int32_t method, double fs_right, knurl_scene **scene, knurl_surface *left) {
+static knurl_result build(int32_t method, double fs_right, knurl_scene **scene, knurl_surface_id *left) {
     knurl_result result = knurl_scene_create(NULL, scene);
     for (int i = 0; i < 2 && !result; i++) {
         knurl_plane_desc plane;
         knurl_surface_desc desc;
         knurl_material_desc material;
-        knurl_surface surface;
+        knurl_surface_id surface;
         knurl_plane_desc_init(&plane, sizeof plane);
         knurl_surface_desc_init(&desc, sizeof desc);
         knurl_material_desc_init(&material, sizeof material);
@@ -83,7 +83,7 @@ static knurl_result build(int32_t method, double fs_right, knurl_scene **scene, 
     return result ? result : knurl_scene_configure_hip(*scene, 0, &hip);
 }
 
-static knurl_result change_material(knurl_scene *scene, knurl_surface surface, int32_t method) {
+static knurl_result change_material(knurl_scene *scene, knurl_surface_id surface, int32_t method) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.method = method;
@@ -98,7 +98,7 @@ typedef struct watch {
     double height, sum;
     int64_t event;
     uint32_t contacts;
-    knurl_surface surface; /* who leaves one has lifted off it */
+    knurl_surface_id surface; /* who leaves one has lifted off it */
 } watch;
 
 static void judge(const knurl_tick_output *out, int since, watch *w, outcome *o) {
@@ -124,7 +124,7 @@ static void judge(const knurl_tick_output *out, int since, watch *w, outcome *o)
 /* One method, one transition, begun in one tick of an event; the worst of several go into one outcome. */
 static knurl_result run(int32_t method, int transition, int phase, FILE *csv, outcome *o) {
     knurl_scene *scene = NULL;
-    knurl_surface left = 0;
+    knurl_surface_id left = 0;
     const int happens = BEFORE + phase;
     watch w = {0.0, 0.0, KNURL_NO_EVENT, 0, 0};
     knurl_result result = build(method, 0.5 * FS, &scene, &left);

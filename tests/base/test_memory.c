@@ -184,7 +184,7 @@ TEST(a_scene_takes_all_its_memory_from_its_allocator_and_counts_it) {
     knurl_scene *scene = NULL;
     memset(&b, 0, sizeof b);
     assert_int_equal(build_scene(&allocator, &scene), KNURL_OK);
-    assert_int_equal(knurl_scene_bytes(scene), b.bytes);
+    assert_int_equal(knurl_scene_get_bytes(scene), b.bytes);
     assert_true(b.bytes > 0);
     knurl_scene_destroy(scene);
     assert_int_equal(b.count, 0);

@@ -36,7 +36,7 @@ static inline void open_session(knurl_session *s, const knurl_session_desc *desc
 }
 
 /** A smooth plate of 0.1 x 0.1 m, front towards +z, about (x, y, z). */
-static inline knurl_surface add_plate(knurl_session *s, double x, double y, double z) {
+static inline knurl_surface_id add_plate(knurl_session *s, double x, double y, double z) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_DEFAULT, 0.0, 0.0, 0.0);
     parts.material.stiffness = STIFFNESS;
@@ -44,12 +44,12 @@ static inline knurl_surface add_plate(knurl_session *s, double x, double y, doub
     parts.desc.position[0] = x;
     parts.desc.position[1] = y;
     parts.desc.position[2] = z;
-    return add_surface(knurl_session_scene(s), &parts);
+    return add_surface(knurl_session_get_scene(s), &parts);
 }
 
 /** As knurl_session_start(), but what ticks is knurl_loop_step(). */
 static inline void begin(knurl_session *s) {
-    knurl_surface outside = 0;
+    knurl_surface_id outside = 0;
     knurl_loop_desc desc;
     knurl_hip_desc hip;
     knurl_loop_desc_init(&desc, sizeof desc);
@@ -90,7 +90,7 @@ static inline void lift(knurl_session *s) {
 }
 
 /** The next event is this one. */
-static inline void check_event(knurl_session *s, int32_t kind, knurl_surface surface) {
+static inline void check_event(knurl_session *s, int32_t kind, knurl_surface_id surface) {
     knurl_session_event event;
     assert_int_equal(knurl_session_next_event(s, &event), 1);
     assert_int_equal(event.kind, kind);

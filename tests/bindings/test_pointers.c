@@ -26,12 +26,12 @@ typedef struct fixture {
     knurl_loop *loop;
     knurl_session *session, *open_session, *mouse_session, *played_session;
     const void *destroyed[KINDS + 1];
-    knurl_surface surface, session_surface;
+    knurl_surface_id surface, session_surface;
     knurl_scene *new_scene;
     knurl_device *new_device;
     knurl_loop *new_loop;
     knurl_session *new_session;
-    knurl_surface new_surface;
+    knurl_surface_id new_surface;
     const char *name;
     unsigned char file[65536];
     uint64_t file_size, count;
@@ -94,8 +94,8 @@ static knurl_result write_none(void *user, const double force[3]) {
     return KNURL_OK;
 }
 
-static knurl_surface add_plate(fixture *f, knurl_scene *scene) {
-    knurl_surface id = 0;
+static knurl_surface_id add_plate(fixture *f, knurl_scene *scene) {
+    knurl_surface_id id = 0;
     NEED_OK(knurl_scene_add_surface(scene, &f->with.surface_desc, &id));
     return id;
 }
@@ -106,7 +106,7 @@ static knurl_session *make_session(fixture *f, const char *device, int is_played
     knurl_session_desc_init(&desc, sizeof desc);
     desc.device = device;
     NEED_OK(knurl_session_create(&session));
-    f->session_surface = add_plate(f, knurl_session_scene(session));
+    f->session_surface = add_plate(f, knurl_session_get_scene(session));
     if (device) {
         NEED_OK(knurl_session_open(session, &desc));
     }
@@ -138,7 +138,7 @@ static void fill_structs(fixture *f) {
     w->grating.method = KNURL_LOCKED;
     w->session_desc.device = "fake";
     knurl_workspace_init(&w->workspace);
-    NEED_OK(knurl_event_init(5.0, 1e-4, &w->event));
+    NEED_OK(knurl_vibration_event_init(5.0, 1e-4, &w->vibration_event));
     NEED_OK(knurl_wave_init(KNURL_T3, 0.01, 1.0, 1000.0, &w->wave));
     NEED_OK(knurl_velocity_init(KNURL_VELOCITY_AUTO, 0.0, 1000.0, &w->velocity));
 }

@@ -5,7 +5,7 @@
 
 #include "base/system.h"
 
-static void take(knurl_board *b, uint64_t tick, knurl_surface felt) {
+static void take(knurl_board *b, uint64_t tick, knurl_surface_id felt) {
     knurl_tick_output output;
     memset(&output, 0, sizeof output);
     output.tick = tick;
@@ -40,7 +40,7 @@ TEST(the_history_is_of_the_latest_ticks_oldest_first) {
 
 TEST(changes_of_what_is_touched_are_told_once_each) {
     static knurl_board b;
-    knurl_surface met[KNURL_BOARD_CHANGES];
+    knurl_surface_id met[KNURL_BOARD_CHANGES];
     knurl_board_tick now;
     memset(&b, 0, sizeof b);
     take(&b, 0, 7);
@@ -91,8 +91,8 @@ static void check_history(const knurl_board *b) {
 
 TEST(nothing_is_torn_however_fast_the_ticks_come) {
     static knurl_board b;
-    knurl_surface met[KNURL_BOARD_CHANGES];
-    knurl_surface latest = 0;
+    knurl_surface_id met[KNURL_BOARD_CHANGES];
+    knurl_surface_id latest = 0;
     knurl_board_tick now;
     memset(&b, 0, sizeof b);
     is_over = 0;

@@ -9,7 +9,7 @@ enum { STARTED = KNURL_SESSION_CONTACT_STARTED, ENDED = KNURL_SESSION_CONTACT_EN
 /* Three plates side by side, the first under the origin; open, with a loop to step. */
 typedef struct three {
     knurl_session *s;
-    knurl_surface plate[3];
+    knurl_surface_id plate[3];
 } three;
 
 static void set_up(three *t, const char *device) {
@@ -164,7 +164,7 @@ TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
 TEST(each_start_has_its_end_however_long_nobody_asked) {
     three t;
     knurl_session_event event;
-    knurl_surface touched = 0;
+    knurl_surface_id touched = 0;
     uint32_t count = 0;
     set_up(&t, "fake");
     for (int i = 0; i < 1000; i++) {
@@ -277,7 +277,7 @@ static void check_fault(knurl_session *s, int32_t code, double value) {
 TEST(a_lost_device_is_told_and_then_the_end) {
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
     knurl_session *s = make_session();
-    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     desc.reconnect = 0;
     open_session(s, &desc);
     begin(s);

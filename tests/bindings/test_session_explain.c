@@ -1,21 +1,21 @@
 /* Sentences for people: why something is not felt, what went wrong. SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
-static knurl_surface add_at(knurl_session *s, double x, double stiffness) {
+static knurl_surface_id add_at(knurl_session *s, double x, double stiffness) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_DEFAULT, 0.0, 0.0, 0.0);
     parts.material.stiffness = stiffness;
     parts.desc.name = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80"; /* two bytes, three, four */
     parts.desc.position[0] = x;
-    return add_surface(knurl_session_scene(s), &parts);
+    return add_surface(knurl_session_get_scene(s), &parts);
 }
 
 TEST(what_can_be_felt_needs_no_words) {
     const knurl_session_desc desc = describe("fake", "");
     char text[64] = "?";
     knurl_session *s = make_session();
-    const knurl_surface plate = add_at(s, 0.0, 300.0);
-    const knurl_surface far = add_at(s, 5.0, 1e6);
+    const knurl_surface_id plate = add_at(s, 0.0, 300.0);
+    const knurl_surface_id far = add_at(s, 5.0, 1e6);
     knurl_session_explain(s, far, text, sizeof text);
     assert_string_equal(text, ""); /* closed: nobody knows */
     open_session(s, &desc);
@@ -35,7 +35,7 @@ TEST(what_lies_out_of_reach_is_said_to) {
         knurl_session_desc desc = describe("fake", "");
         char text[1024] = "?";
         knurl_session *s = make_session();
-        const knurl_surface plate = add_at(s, cases[i][0], 100.0);
+        const knurl_surface_id plate = add_at(s, cases[i][0], 100.0);
         desc.workspace.scale = cases[i][1];
         open_session(s, &desc);
         begin(s);
@@ -50,7 +50,7 @@ TEST(reasons_have_a_line_each) {
     char text[2048] = "?";
     knurl_surface_check check;
     knurl_session *s = make_session();
-    const knurl_surface hard = add_at(s, 5.0, 1e5);
+    const knurl_surface_id hard = add_at(s, 5.0, 1e5);
     open_session(s, &desc);
     begin(s);
     knurl_surface_check_init(&check, sizeof check);

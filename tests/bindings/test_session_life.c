@@ -44,8 +44,8 @@ static void start(knurl_session *s) {
 static void check_closed(knurl_session *s) {
     const knurl_session_state now = state_of(s);
     float rows[2];
-    assert_null(knurl_session_device(s));
-    assert_null(knurl_session_loop(s));
+    assert_null(knurl_session_get_device(s));
+    assert_null(knurl_session_get_loop(s));
     assert_memory_equal(&now, zeros, sizeof now);
     assert_int_equal(knurl_session_get_history(s, 1, rows), 0);
     check_no_event(s);
@@ -54,8 +54,8 @@ static void check_closed(knurl_session *s) {
 TEST(a_new_session_is_closed_and_its_scene_is_empty) {
     knurl_session *s = make_session();
     check_closed(s);
-    assert_non_null(knurl_session_scene(s));
-    assert_int_equal(knurl_scene_surface_count(knurl_session_scene(s)), 0);
+    assert_non_null(knurl_session_get_scene(s));
+    assert_int_equal(knurl_scene_get_surface_count(knurl_session_get_scene(s)), 0);
     knurl_session_update(s);
     knurl_session_close(s);
     knurl_session_close(s);
@@ -89,16 +89,16 @@ TEST(nothing_is_opened_or_started_twice) {
     char warning[8] = "as was";
     knurl_session *s = make_session();
     open_fake(s);
-    const knurl_device *device = knurl_session_device(s);
+    const knurl_device *device = knurl_session_get_device(s);
     assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
     check_message("open");
-    assert_ptr_equal(knurl_session_device(s), device);
+    assert_ptr_equal(knurl_session_get_device(s), device);
     start(s);
-    const knurl_loop *loop = knurl_session_loop(s);
+    const knurl_loop *loop = knurl_session_get_loop(s);
     CHECK_REFUSED(knurl_session_start(s, warning, sizeof warning), KNURL_ERROR_STATE, warning);
     check_message("started");
     assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
-    assert_true(knurl_session_loop(s) == loop && state_of(s).running);
+    assert_true(knurl_session_get_loop(s) == loop && state_of(s).running);
     knurl_session_destroy(s);
 }
 
@@ -139,7 +139,7 @@ TEST(strings_are_not_kept) {
     char stroke[] = "line";
     knurl_session_desc desc = describe(device, stroke);
     knurl_session *s = make_session();
-    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     open_session(s, &desc);
     memset(device, 'x', sizeof device);
     memset(stroke, 'x', sizeof stroke);
@@ -157,7 +157,7 @@ TEST(no_strings_are_a_fake_device_that_stands_still) {
     knurl_session *s = make_session();
     open_session(s, &desc);
     knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(knurl_session_device(s), &info), KNURL_OK);
+    assert_int_equal(knurl_device_get_info(knurl_session_get_device(s), &info), KNURL_OK);
     assert_non_null(strstr(info.name, "fake"));
     begin(s);
     step(s, 500);
@@ -168,8 +168,8 @@ TEST(no_strings_are_a_fake_device_that_stands_still) {
 
 TEST(surfaces_outlive_runs) {
     knurl_session *s = make_session();
-    knurl_scene *scene = knurl_session_scene(s);
-    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+    knurl_scene *scene = knurl_session_get_scene(s);
+    const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     for (int round = 0; round < 3; round++) {
         open_fake(s);
         begin(s);
@@ -181,8 +181,8 @@ TEST(surfaces_outlive_runs) {
         knurl_session_close(s);
         check_event(s, KNURL_SESSION_CONTACT_ENDED, plate);
         check_closed(s);
-        assert_ptr_equal(knurl_session_scene(s), scene);
-        assert_int_equal(knurl_scene_surface_count(scene), 1);
+        assert_ptr_equal(knurl_session_get_scene(s), scene);
+        assert_int_equal(knurl_scene_get_surface_count(scene), 1);
     }
     knurl_session_destroy(s);
 }
@@ -207,7 +207,7 @@ TEST(surfaces_may_come_before_between_and_during_runs) {
 
 TEST(a_scene_that_the_caller_committed_is_fine) {
     knurl_session *s = make_session();
-    assert_int_equal(knurl_scene_commit(knurl_session_scene(s)), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(knurl_session_get_scene(s)), KNURL_OK);
     open_fake(s);
     start(s);
     knurl_session_destroy(s);
@@ -330,11 +330,11 @@ TEST(what_a_loop_of_the_hosts_still_uses_outlives_the_session) {
         const knurl_session_desc mouse = describe("mouse", "");
         open_session(s, &mouse);
         (void)add_plate(s, 0.0, 0.0, 0.0);
-        assert_int_equal(knurl_scene_commit(knurl_session_scene(s)), KNURL_OK);
+        assert_int_equal(knurl_scene_commit(knurl_session_get_scene(s)), KNURL_OK);
         assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
         knurl_loop_desc_init(&desc, sizeof desc);
-        desc.scene = knurl_session_scene(s);
-        desc.device = knurl_session_device(s);
+        desc.scene = knurl_session_get_scene(s);
+        desc.device = knurl_session_get_device(s);
         desc.update_rate_hz = 10000.0;
         desc.watchdog_s = 0.0;
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);

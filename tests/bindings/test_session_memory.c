@@ -48,8 +48,8 @@ static knurl_result live(const char *device, int plays) {
         return result;
     }
     surface_parts parts = surface_plane();
-    knurl_surface plate = 0;
-    result = knurl_scene_add_surface(knurl_session_scene(s), surface_ready(&parts), &plate);
+    knurl_surface_id plate = 0;
+    result = knurl_scene_add_surface(knurl_session_get_scene(s), surface_ready(&parts), &plate);
     result = result ? result : knurl_session_open(s, &desc);
     if (!result && plays) {
         result = knurl_session_play(s, rows, 2, 20, forces, &played);

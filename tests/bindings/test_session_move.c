@@ -5,7 +5,7 @@ static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
 
 typedef struct rig {
     knurl_session *s;
-    knurl_surface plate;
+    knurl_surface_id plate;
     knurl_session_way way;
 } rig;
 
@@ -179,7 +179,7 @@ TEST(the_mouse_is_moved_in_the_scene) {
     desc.workspace.scale = 2.0;
     open_session(s, &desc);
     assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
-    assert_int_equal(knurl_device_read(knurl_session_device(s), &sample), KNURL_OK);
+    assert_int_equal(knurl_device_read(knurl_session_get_device(s), &sample), KNURL_OK);
     knurl_workspace_to_device(&desc.workspace, there, expected);
     CHECK_VECTOR(sample.position, expected[0], expected[1], expected[2], 0.0);
     knurl_session_destroy(s);

@@ -9,7 +9,7 @@ static const double path[] = {0.0, -0.02, 0.0,   0.004,   0.1, -0.02, 0.0, -0.00
 
 enum { ROWS = sizeof path / sizeof *path / 4 };
 
-static knurl_surface add_rough_plate(knurl_scene *scene) {
+static knurl_surface_id add_rough_plate(knurl_scene *scene) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_DEFAULT, 1000.0, 0.0, 0.0002);
     parts.material.stiffness = 1500.0; /* a Touch promises 1020: clamped, it is another plate */
@@ -80,7 +80,7 @@ static void check_same_forces(const knurl_session_desc *how) {
     knurl_session *s = make_session();
     uint64_t played = 0;
     double largest = 0.0;
-    (void)add_rough_plate(knurl_session_scene(s));
+    (void)add_rough_plate(knurl_session_get_scene(s));
     memset(&expected, 0, sizeof expected);
     play_by_hand(how, &expected);
     assert_int_equal(expected.count, TICKS);

@@ -33,7 +33,7 @@ TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
     static float rows[2 * KNURL_SESSION_HISTORY];
     knurl_session_event event;
     knurl_session *s = make_session();
-    const knurl_surface plate = add_plate(s, 0.02, 0.01, 0.005);
+    const knurl_surface_id plate = add_plate(s, 0.02, 0.01, 0.005);
     run(s, &desc);
     assert_int_equal(state_of(s).running, 1);
     CHECK_UNTIL(s, feels(s));
@@ -60,7 +60,7 @@ TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
     knurl_session_desc desc = describe("fake", "rest");
     desc.heartbeat_s = 0.1;
     knurl_session *s = make_session();
-    const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.005);
+    const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.005);
     run(s, &desc);
     assert_int_equal(state_of(s).paused, 0);
     CHECK_UNTIL(s, feels(s));
@@ -142,7 +142,7 @@ TEST(without_a_heartbeat_a_game_may_be_silent) {
 static uint64_t count_absences(knurl_session *s) {
     knurl_loop_stats stats;
     knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(knurl_session_loop(s), &stats), KNURL_OK);
+    assert_int_equal(knurl_loop_get_stats(knurl_session_get_loop(s), &stats), KNURL_OK);
     return stats.absences;
 }
 
@@ -198,7 +198,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
     static float rows[2 * 256];
     knurl_session *s = make_session();
     for (int round = 0; round < 3; round++) {
-        const knurl_surface plate = add_plate(s, 0.0, 0.0, 0.0);
+        const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
         knurl_session_way way = {{0.0, 0.0, 0.0}, 0};
         run(s, &desc);
         for (int frame = 0; frame < 50; frame++) {
@@ -211,7 +211,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
             assert_int_equal(state_of(s).running, 1);
             knurl_system_sleep_until_ns(knurl_system_now_ns() + 2000000);
         }
-        assert_int_equal(knurl_scene_remove_surface(knurl_session_scene(s), plate), KNURL_OK);
+        assert_int_equal(knurl_scene_remove_surface(knurl_session_get_scene(s), plate), KNURL_OK);
         knurl_session_update(s);
         while (knurl_session_next_event(s, &event)) {}
         assert_true(state_of(s).surface == 0);

@@ -46,7 +46,7 @@ static uint32_t check_node(const knurl_mesh *mesh, uint32_t index, uint8_t *seen
 static void check_hierarchy(const knurl_mesh *mesh) {
     uint8_t *seen = calloc(mesh->triangle_count, 1);
     uint32_t nodes = 0;
-    assert_true(check_node(mesh, 0, seen, &nodes) <= KNURL_BVH_MAX_DEPTH);
+    assert_true(check_node(mesh, 0, seen, &nodes) <= KNURL_BVH_DEPTH_MAX);
     assert_int_equal(nodes, mesh->node_count);
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         assert_int_equal(seen[i], 1);

@@ -212,7 +212,7 @@ class Loaded {
     knurl_surface_info info(uint32_t index = 0) const {
         knurl_surface_info made;
         knurl_surface_info_init(&made, sizeof made);
-        assert_int_equal(knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, index), &made), KNURL_OK);
+        assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, index), &made), KNURL_OK);
         return made;
     }
 
@@ -241,7 +241,7 @@ inline void assert_fails(const std::string &bytes, knurl_result code, std::initi
         fail_msg("expected result %d, found %d: %s", code, result, result ? knurl_error_message() : "it loads");
     assert_message("test.glb", parts);
     assert_int_equal(loaded.report.surfaces, 77);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 0);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 0);
 }
 
 inline void assert_near(const double *found, std::initializer_list<double> expected, double tolerance = 1e-6) {

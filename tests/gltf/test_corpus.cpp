@@ -72,13 +72,13 @@ void count(Counts &counts, const fs::path &path, knurl_result result, const Load
     if (result == KNURL_OK) {
         ++counts.loaded;
         counts.surfaces += loaded.report.surfaces;
-        assert_int_equal(knurl_scene_surface_count(loaded.scene), loaded.report.surfaces);
+        assert_int_equal(knurl_scene_get_surface_count(loaded.scene), loaded.report.surfaces);
         return;
     }
     ++counts.failed;
     assert_true(result < 0);
     assert_message(name.c_str(), {});
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 0);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 0);
     if (std::getenv("KNURL_VERBOSE") != nullptr)
         std::printf("%s: %s\n", path.filename().c_str(), knurl_error_message());
 }

@@ -40,7 +40,7 @@ class Folder {
 knurl_result load_file(const std::string &path, knurl_gltf_report *report = nullptr) {
     Loaded loaded;
     const knurl_result result = knurl_gltf_load_file(loaded.scene, path.c_str(), &loaded.report);
-    assert_int_equal(loaded.report.surfaces, result == KNURL_OK ? knurl_scene_surface_count(loaded.scene) : 0);
+    assert_int_equal(loaded.report.surfaces, result == KNURL_OK ? knurl_scene_get_surface_count(loaded.scene) : 0);
     if (report != nullptr)
         *report = loaded.report;
     return result;
@@ -74,7 +74,7 @@ TEST(both_containers_and_both_endings) {
     }
     Loaded both(quad().glb());
     both.assert_loads(quad().gltf());
-    assert_int_equal(knurl_scene_surface_count(both.scene), 2);
+    assert_int_equal(knurl_scene_get_surface_count(both.scene), 2);
 }
 
 TEST(names_and_kinds_of_files) {
@@ -110,10 +110,10 @@ TEST(arguments_are_checked) {
     const std::string bytes = quad().glb();
     loaded.report.struct_size = 0;
     assert_int_equal(loaded.load(bytes), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 0);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 0);
     assert_int_equal(knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), nullptr, nullptr, nullptr),
                      KNURL_OK);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 1);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 1);
 }
 
 TEST(external_buffers) {

@@ -129,12 +129,12 @@ TEST(truncated_files_fail) {
 
 /// Loads or fails, and is all or nothing.
 void assert_clean(Loaded &loaded, const std::string &bytes) {
-    const uint32_t before = knurl_scene_surface_count(loaded.scene);
+    const uint32_t before = knurl_scene_get_surface_count(loaded.scene);
     const knurl_result result = loaded.load(bytes);
-    const uint32_t added = knurl_scene_surface_count(loaded.scene) - before;
+    const uint32_t added = knurl_scene_get_surface_count(loaded.scene) - before;
     assert_int_equal(added, result == KNURL_OK ? loaded.report.surfaces : 0);
-    while (knurl_scene_surface_count(loaded.scene) > 0)
-        assert_int_equal(knurl_scene_remove_surface(loaded.scene, knurl_scene_surface_at(loaded.scene, 0)), KNURL_OK);
+    while (knurl_scene_get_surface_count(loaded.scene) > 0)
+        assert_int_equal(knurl_scene_remove_surface(loaded.scene, knurl_scene_get_surface(loaded.scene, 0)), KNURL_OK);
 }
 
 TEST(every_change_of_a_byte_of_the_headers_is_survived) {

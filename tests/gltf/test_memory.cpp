@@ -69,10 +69,10 @@ TEST(the_loader_without_memory) {
             break;
         assert_int_equal(result, KNURL_ERROR_MEMORY);
         assert_message("test.glb", {"memory"});
-        assert_int_equal(knurl_scene_surface_count(loaded.scene), 1);
+        assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 1);
     }
     assert_true(failures > 10);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 3);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 3);
 }
 
 /// Three tagged meshes of a wavy strip, behind `untagged` others of their own geometry.
@@ -113,7 +113,7 @@ TEST(a_scene_costs_what_it_tags) {
         bytes[1] += among.info(i).bytes - std::strlen(among.info(i).name);
     }
     assert_int_equal(bytes[1], bytes[0]);
-    assert_in_range(knurl_scene_bytes(among.scene), bytes[0], knurl_scene_bytes(alone.scene) + 64);
+    assert_in_range(knurl_scene_get_bytes(among.scene), bytes[0], knurl_scene_get_bytes(alone.scene) + 64);
 }
 
 struct Pool {
@@ -147,10 +147,10 @@ TEST(the_scene_without_memory) {
             break;
         assert_int_equal(result, KNURL_ERROR_MEMORY);
         assert_message("test.glb", {"node "});
-        assert_int_equal(knurl_scene_surface_count(scene), 0);
+        assert_int_equal(knurl_scene_get_surface_count(scene), 0);
     }
     assert_true(failures > 4);
-    assert_int_equal(knurl_scene_surface_count(scene), 2);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 2);
     knurl_scene_destroy(scene);
 }
 

@@ -176,12 +176,12 @@ TEST(skins_and_morph_targets_are_refused_where_tagged) {
 
 TEST(all_surfaces_or_none) {
     Loaded loaded(triangle().glb());
-    const uint64_t bytes = knurl_scene_bytes(loaded.scene);
+    const uint64_t bytes = knurl_scene_get_bytes(loaded.scene);
     File file = triangle();
     file.nodes = R"({"mesh":0},{"mesh":0},{"mesh":0,"scale":[0,1,1]})";
     assert_int_equal(loaded.load(file.glb()), KNURL_ERROR_FORMAT);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 1);
-    assert_int_equal(knurl_scene_bytes(loaded.scene), bytes);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 1);
+    assert_int_equal(knurl_scene_get_bytes(loaded.scene), bytes);
     assert_int_equal(loaded.report.surfaces, 1);
 }
 
@@ -189,7 +189,7 @@ TEST(a_file_can_be_loaded_after_the_commit) {
     Loaded loaded(triangle().glb());
     assert_int_equal(knurl_scene_commit(loaded.scene), KNURL_OK);
     assert_int_equal(loaded.load(triangle().glb()), KNURL_OK);
-    assert_int_equal(knurl_scene_surface_count(loaded.scene), 2);
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 2);
 }
 
 } // namespace

@@ -90,7 +90,7 @@ TEST(untagged_files_load_as_nothing) {
         const Loaded loaded(file.glb());
         assert_int_equal(loaded.report.surfaces, 0);
         assert_int_equal(loaded.report.skipped, 1);
-        assert_int_equal(knurl_scene_surface_count(loaded.scene), 0);
+        assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 0);
     }
 }
 

@@ -190,7 +190,7 @@ TEST(amplitude_and_length_are_held_until_the_event_ends) {
     double amplitude = A;
     for (int k = 0; k < 20000; k++) {
         const int was_playing = w.state.playing;
-        const knurl_event event = w.state.event;
+        const knurl_vibration_event event = w.state.event;
         w.grating.amplitude = random_between(&seed, 0.1 * A, A);
         w.grating.spatial_frequency[0] = random_between(&seed, 0.6 * FS, 1.4 * FS);
         x += 0.25e-3;

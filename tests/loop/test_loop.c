@@ -142,7 +142,7 @@ TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, NULL,
     const knurl_loop_stats stats = rig_stats(&r);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(stats.ticks, 250);
-    assert_int_equal(stats.watchdogs, 0);
+    assert_int_equal(stats.watchdog_trips, 0);
     rig_destroy(&r);
 }
 

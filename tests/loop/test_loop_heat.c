@@ -160,8 +160,8 @@ TEST_WITH(periods_that_a_thread_missed_while_it_pressed_warm, NULL, end_bench) {
 TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_bench) {
     const struct {
         double continuous;
-        uint32_t unguarded;
-    } hips[] = {{1.76, 0}, {(double)INFINITY, 0}, {0.0, KNURL_UNGUARDED_HEAT}};
+        uint32_t without;
+    } hips[] = {{1.76, 0}, {(double)INFINITY, 0}, {0.0, KNURL_PROTECT_HEAT}};
     for (size_t i = 0; i < COUNT_OF(hips); i++) {
         knurl_hip_desc hip;
         knurl_workspace workspace;
@@ -170,14 +170,14 @@ TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_benc
         knurl_hip_desc_init(&hip, sizeof hip);
         hip.workspace = &workspace;
         hip.continuous_force = hips[i].continuous;
-        hip.unguarded = hips[i].unguarded;
+        hip.protections = KNURL_PROTECT_ALL & ~hips[i].without;
         assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);
         bench_create(&b);
         step(2000);
         end_loop();
         b.position[1] = 0.01;
         hip.continuous_force = 0.0;
-        hip.unguarded = 0;
+        hip.protections = KNURL_PROTECT_ALL;
         assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);
         bench_create(&b);
         step(1);

@@ -303,7 +303,7 @@ TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, e
         knurl_hip_desc_init(&hip, sizeof hip);
         knurl_workspace_init(&workspace);
         hip.max_force = limits[i][0];
-        hip.unguarded = KNURL_UNGUARDED_ALL; /* it jumps 9 mm into the wall */
+        hip.protections = 0; /* it jumps 9 mm into the wall */
         hip.workspace = &workspace;
         assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
         rig_init(&r);

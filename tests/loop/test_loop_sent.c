@@ -150,14 +150,14 @@ TEST_WITH(a_force_that_was_limited_is_sent_as_it_is_told, NULL, end_bench) {
         const double tilt[4] = {-0.70710678118654752, 0.0, 0.01 * i, 0.70710678118654752 + 0.007 * i};
         const double size = sqrt(tilt[0] * tilt[0] + tilt[2] * tilt[2] + tilt[3] * tilt[3]);
         const double unit[4] = {tilt[0] / size, 0.0, tilt[2] / size, tilt[3] / size};
-        assert_int_equal(knurl_scene_set_transform(b.scene, knurl_scene_surface_at(b.scene, 0), here, unit, 0.0),
+        assert_int_equal(knurl_scene_set_transform(b.scene, knurl_scene_get_surface(b.scene, 0), here, unit, 0.0),
                          KNURL_OK);
         bench_create(&b);
         for (int k = 0; k < 40; k++) {
             b.position[1] -= 0.0005;
             step_and_check(&b, 1);
         }
-        assert_true(bench_counts(&b).force_limits > 10);
+        assert_true(bench_counts(&b).force_limit_ticks > 10);
         bench_close(&b);
     }
 }

@@ -283,7 +283,7 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_
     rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.seen, 1); /* let go while the callback stood */
-    assert_true(rig_stats(&r).watchdogs >= 1);
+    assert_true(rig_stats(&r).watchdog_trips >= 1);
     assert_int_equal(rig_stats(&r).ticks, 600);
     CHECK_SAME(r.written[100][1], 0.0L); /* what was computed in the stall is not played */
     double best = 0.0;
@@ -303,7 +303,7 @@ TEST_WITH(without_a_watchdog_nobody_lets_go, NULL, end_rig) {
     rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.seen, 0);
-    assert_int_equal(rig_stats(&r).watchdogs, 0);
+    assert_int_equal(rig_stats(&r).watchdog_trips, 0);
     for (int tick = 0; tick < 60; tick++) {
         CHECK_SAME(r.written[tick][1], 1.0L);
     }
@@ -318,7 +318,7 @@ TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, NULL, 
     r.desc.tick_limit = 50;
     rig_create(&r);
     rig_run(&r);
-    assert_int_equal(rig_stats(&r).watchdogs, 0);
+    assert_int_equal(rig_stats(&r).watchdog_trips, 0);
     assert_in_range(r.writes, 849, 851);
     for (uint64_t k = 51; k < r.writes; k++) {
         CHECK_CLOSE(r.written[k - 1][1] - r.written[k][1], 1.0 / 800.0, 1e-5);

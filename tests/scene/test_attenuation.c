@@ -7,7 +7,7 @@
 #define K 400.0
 
 /* A wall of 400 N/m with front up at z = 0; device axes are the scene's; every protection. */
-static knurl_scene *wall(uint32_t unguarded) {
+static knurl_scene *wall(uint32_t without) {
     knurl_hip_desc hip;
     knurl_workspace workspace;
     surface_parts parts = surface_plane();
@@ -16,7 +16,7 @@ static knurl_scene *wall(uint32_t unguarded) {
     knurl_hip_desc_init(&hip, sizeof hip);
     knurl_workspace_init(&workspace);
     hip.resolution = 0.0;
-    hip.unguarded = unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~without;
     hip.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
@@ -43,7 +43,7 @@ static knurl_hip_counts counts_of(const knurl_scene *scene) {
 TEST(the_share_that_is_asked_for_is_sent_and_told) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.999, 1.0};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
-        knurl_scene *scene = wall(KNURL_UNGUARDED_ALL);
+        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
         knurl_tick_output told;
         const knurl_tick_output out = tick(scene, -0.005, shares[i], 0); /* 2 N */
         CHECK_CLOSE(out.force[2], 2.0 * (1.0 - shares[i]), 1e-12);
@@ -61,7 +61,7 @@ TEST(what_is_no_share_sends_nothing) {
     static const double wrong[] = {-1e-9, -1.0,        1.0 + 1e-9,       2.0,
                                    1e300, (double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < COUNT_OF(wrong); i++) {
-        knurl_scene *scene = wall(KNURL_UNGUARDED_ALL);
+        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
         const knurl_tick_output out = tick(scene, -0.005, wrong[i], 0);
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
         CHECK_VECTOR(out.device_force, 0.0, 0.0, 0.0, 0.0);
@@ -72,7 +72,7 @@ TEST(what_is_no_share_sends_nothing) {
 
 /* theta' = ((F/0.88 N)^2 - theta)/60 s. */
 TEST(what_is_not_sent_warms_no_motor) {
-    knurl_scene *scene = wall(KNURL_UNGUARDED_ALL & ~KNURL_UNGUARDED_HEAT);
+    knurl_scene *scene = wall(KNURL_PROTECT_ALL & ~KNURL_PROTECT_HEAT);
     for (int i = 0; i < 5000; i++) {
         (void)tick(scene, -0.005, 0.5, 0); /* 1 N of 2 */
     }
@@ -86,7 +86,7 @@ TEST(what_is_not_sent_warms_no_motor) {
 
 /* 12 N of which 3.3 N can be played: half of that is 1.65 N. */
 TEST(a_share_is_of_what_the_device_can_play) {
-    knurl_scene *scene = wall(KNURL_UNGUARDED_ALL);
+    knurl_scene *scene = wall(KNURL_PROTECT_ALL);
     for (int i = 1; i <= 30; i++) {
         (void)tick(scene, -0.001 * i, 0.0, 0);
     }
@@ -98,7 +98,7 @@ TEST(a_share_is_of_what_the_device_can_play) {
 
 /* From none to whole within a tick: 3.3 N within 5 ms is 0.66 N a tick, from what was sent before. */
 TEST(the_slew_limit_is_from_what_was_sent) {
-    knurl_scene *scene = wall(KNURL_UNGUARDED_ENTRY);
+    knurl_scene *scene = wall(KNURL_PROTECT_ENTRY);
     for (int i = 0; i < 20; i++) {
         (void)tick(scene, -0.008, 0.0, 0);
     }
@@ -116,11 +116,11 @@ TEST(a_wall_that_was_not_felt_comes_back_as_after_an_entry) {
     for (int i = 0; i < 30; i++) {
         (void)tick(scene, -0.008, 0.0, 0);
     }
-    const uint64_t entries = counts_of(scene).entries;
+    const uint64_t entries = counts_of(scene).entry_ticks;
     for (int i = 0; i < 10; i++) {
         assert_int_equal(tick(scene, -0.008, 1.0, 0).flags & KNURL_TICK_ENTRY, 0);
     }
-    assert_true(counts_of(scene).entries == entries);
+    assert_true(counts_of(scene).entry_ticks == entries);
     for (int i = 1; i <= 20; i++) {
         const knurl_tick_output out = tick(scene, -0.008, 0.0, 0);
         CHECK_CLOSE(out.force[2], K * fmin(0.008, 0.0005 * i), 1e-12);
@@ -131,7 +131,7 @@ TEST(a_wall_that_was_not_felt_comes_back_as_after_an_entry) {
 TEST(what_is_not_finite_is_found_however_little_is_sent) {
     static const double shares[] = {0.0, 0.5, 1.0};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
-        knurl_scene *scene = wall(KNURL_UNGUARDED_ALL);
+        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
         (void)tick(scene, -0.001, shares[i], 0);
         const knurl_tick_output out = tick(scene, (double)NAN, shares[i], 0);
         assert_true((out.flags & KNURL_TICK_NOT_FINITE) != 0);

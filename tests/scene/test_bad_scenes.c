@@ -11,12 +11,12 @@ static double bent(double x, double y) {
 
 /* What was pressed before a bad surface came is pressed as before. */
 static void check_refused(knurl_scene *scene, surface_parts *bad, const char *word) {
-    knurl_surface id = 77;
-    const uint64_t bytes = knurl_scene_bytes(scene);
+    knurl_surface_id id = 77;
+    const uint64_t bytes = knurl_scene_get_bytes(scene);
     CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(bad), &id), KNURL_ERROR_ARGUMENT, id);
     check_message(word);
-    assert_int_equal(knurl_scene_surface_count(scene), 1);
-    assert_true(knurl_scene_bytes(scene) == bytes);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 1);
+    assert_true(knurl_scene_get_bytes(scene) == bytes);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).force[2], K * 0.001, 1e-12L);
 }
 
@@ -69,7 +69,7 @@ static void probe_all_over(knurl_scene *scene, const shape *s, double scale, uin
         const knurl_tick_output out = tick_at(scene, at[0], at[1], at[2]);
         assert_true(isfinite(out.force[0]) && isfinite(out.force[1]) && isfinite(out.force[2]));
         assert_true(isfinite(out.depth) && isfinite(out.proxy[0]) && isfinite(length3(out.normal)));
-        assert_true(length3(out.force) <= KNURL_MAX_CONTACTS * K * (fmax(0.0, out.depth) + 1e-9) * (1.0 + 1e-9) + 1e-9);
+        assert_true(length3(out.force) <= KNURL_CONTACTS_MAX * K * (fmax(0.0, out.depth) + 1e-9) * (1.0 + 1e-9) + 1e-9);
     }
 }
 
@@ -81,7 +81,7 @@ TEST(coordinates_beyond_all_measure_give_finite_forces) {
         surface_parts parts = surface_mesh(&s);
         parts.desc.axis[0] = 1.0;
         knurl_scene *scene = empty_scene(1);
-        knurl_surface id = 77;
+        knurl_surface_id id = 77;
         configure_plainly(scene, 0);
         const knurl_result result = knurl_scene_add_surface(scene, surface_ready(&parts), &id);
         assert_true(result == KNURL_OK || result == KNURL_ERROR_ARGUMENT);
@@ -91,7 +91,7 @@ TEST(coordinates_beyond_all_measure_give_finite_forces) {
             assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
             probe_all_over(scene, &s, sizes[i], 5);
             (void)tick_at(scene, 0.0, 0.0, 0.0);
-            assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+            assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
             assert_true(isfinite(length3(info.anchor)) && isfinite(length3(info.stretch)));
         } else {
             assert_true(strlen(knurl_error_message()) > 10);
@@ -123,7 +123,7 @@ TEST(stray_vertex_far_away_leaves_the_rest_touchable) {
 static knurl_surface_info info_of(const knurl_scene *scene) {
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, 0), &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
     return info;
 }
 
@@ -292,7 +292,7 @@ TEST(edges_of_many_triangles_are_survived) {
     for (int k = 0; k < 5000; k++) {
         const knurl_tick_output out = tick_at(scene, random_between(&seed, -0.002, 0.002),
                                               random_between(&seed, -0.06, 0.06), random_between(&seed, -0.002, 0.002));
-        assert_true(isfinite(length3(out.force)) && length3(out.force) <= KNURL_MAX_CONTACTS * K * 0.1);
+        assert_true(isfinite(length3(out.force)) && length3(out.force) <= KNURL_CONTACTS_MAX * K * 0.1);
     }
     knurl_scene_destroy(scene);
     shape_free(&s);

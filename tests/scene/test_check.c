@@ -44,7 +44,7 @@ static knurl_surface_check check_of(setting *s) {
     knurl_surface_check check;
     knurl_scene *scene = scene_in(s);
     knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_surface_at(scene, 0), &check), KNURL_OK);
+    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
     knurl_scene_destroy(scene);
     return check;
 }
@@ -69,7 +69,7 @@ TEST(a_message_ends_in_whatever_an_older_caller_has_of_it) {
         knurl_surface_check older;
         memset(&older, 0x77, sizeof older);
         older.struct_size = (uint32_t)offsetof(knurl_surface_check, message) + room;
-        assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_surface_at(scene, 0), &older), KNURL_OK);
+        assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &older), KNURL_OK);
         assert_int_equal(strlen(older.message), room - 1); /* the sentence is longer */
     }
     knurl_scene_destroy(scene);
@@ -155,7 +155,7 @@ TEST(clamp_keeps_walls_and_textures_within_their_limits) {
         s.parts.material.stiffness = 5000.0;
         set_grating(&s.parts, KNURL_S1, 100.0, 0.0, 0.002);
         s.hip.clamp = clamp;
-        s.hip.unguarded = KNURL_UNGUARDED_ALL;
+        s.hip.protections = 0;
         s.hip.resolution = 0.0;
         knurl_scene *scene = scene_in(&s);
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0002);
@@ -175,7 +175,7 @@ TEST(checks_of_nothing_are_refused) {
     knurl_surface_check check;
     knurl_scene *scene = scene_in(&s);
     knurl_surface_check_init(&check, sizeof check);
-    const knurl_surface surface = knurl_scene_surface_at(scene, 0);
+    const knurl_surface_id surface = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_check_surface(scene, 1, surface, &check), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_scene_remove_surface(scene, surface), KNURL_OK);
     assert_int_equal(knurl_scene_check_surface(scene, 0, surface, &check), KNURL_ERROR_STALE_ID);

@@ -13,7 +13,7 @@ static const double sizes[] = {0.002, 0.003, 0.004, 0.005, 0.008}; /* m, of a ti
 
 /* A floor at z = 0 of square tiles from (0, 0) on, side by side; the one at (column, row) is `odd` higher, and its id
  * told. */
-static knurl_scene *lay_floor(double size, int column, int row, double odd, knurl_surface *odd_id) {
+static knurl_scene *lay_floor(double size, int column, int row, double odd, knurl_surface_id *odd_id) {
     knurl_scene_desc desc;
     knurl_scene *scene = NULL;
     surface_parts parts = surface_plane();
@@ -27,7 +27,7 @@ static knurl_scene *lay_floor(double size, int column, int row, double odd, knur
         parts.desc.position[0] = size * (i % SIDE + 0.5);
         parts.desc.position[1] = size * ((double)(i / SIDE) + 0.5);
         parts.desc.position[2] = is_odd ? odd : 0.0;
-        const knurl_surface id = add_surface(scene, &parts);
+        const knurl_surface_id id = add_surface(scene, &parts);
         if (is_odd && odd_id) {
             *odd_id = id;
         }
@@ -62,7 +62,7 @@ static void check_drag(double size, double along_x, double along_y) {
     knurl_scene *scene = lay_floor(size, -1, -1, 0.0, NULL);
     dragged d = {{0.0207, 0.0211}, {STEP * along_x, STEP * along_y}};
     int tiles = 0;
-    knurl_surface latest = 0;
+    knurl_surface_id latest = 0;
     for (int k = 0; k < TICKS; k++) {
         const knurl_tick_output out = tick_at(scene, d.at[0], d.at[1], -DEPTH);
         if (out.contacts == 0 || (out.flags & KNURL_TICK_CONTACTS_FULL) != 0) {
@@ -118,7 +118,7 @@ TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
 /* Along the middle of the odd tile's row, from 8 tiles before it to its far rim, in whole ticks a tile; the HIP's
  * height is DEPTH below the others. What the ticks over the odd one felt: contacts, and their depth. */
 static void drag_onto(double size, double odd, double wanted, int held) {
-    knurl_surface id = 0;
+    knurl_surface_id id = 0;
     knurl_scene *scene = lay_floor(size, 50, 50, odd, &id);
     int over_it = 0;
     for (double x = 42.0 * size + 1e-4; x < 51.0 * size - 1e-4; x += STEP) {

@@ -18,14 +18,14 @@ static knurl_scene *open_scene(int committed) {
     return scene;
 }
 
-static void set_stiffness(knurl_scene *scene, knurl_surface surface, double stiffness) {
+static void set_stiffness(knurl_scene *scene, knurl_surface_id surface, double stiffness) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.stiffness = stiffness;
     assert_int_equal(knurl_scene_set_material(scene, surface, &material), KNURL_OK);
 }
 
-static void set_place(knurl_scene *scene, knurl_surface surface, double x, double y, double z) {
+static void set_place(knurl_scene *scene, knurl_surface_id surface, double x, double y, double z) {
     const double position[3] = {x, y, z};
     assert_int_equal(knurl_scene_set_transform(scene, surface, position, UPRIGHT, 0.0), KNURL_OK);
 }
@@ -40,18 +40,18 @@ TEST(every_edit_works_before_the_commit_and_after_it) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
         knurl_scene *scene = open_scene(committed);
-        const knurl_surface kept = add_surface(scene, &parts);
-        const knurl_surface removed = add_surface(scene, &parts);
+        const knurl_surface_id kept = add_surface(scene, &parts);
+        const knurl_surface_id removed = add_surface(scene, &parts);
         parts.desc.position[0] = 1.0;
-        const knurl_surface other = add_surface(scene, &parts);
+        const knurl_surface_id other = add_surface(scene, &parts);
         set_stiffness(scene, kept, 800.0);
         set_place(scene, kept, 0.0, 0.0, 0.002);
         assert_int_equal(knurl_scene_remove_surface(scene, removed), KNURL_OK);
         if (!committed) {
             assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
         }
-        assert_int_equal(knurl_scene_surface_count(scene), 2);
-        assert_true(knurl_scene_surface_at(scene, 0) == kept && knurl_scene_surface_at(scene, 1) == other);
+        assert_int_equal(knurl_scene_get_surface_count(scene), 2);
+        assert_true(knurl_scene_get_surface(scene, 0) == kept && knurl_scene_get_surface(scene, 1) == other);
         knurl_tick_output out = press(scene, 0.0, -0.001);
         CHECK_VECTOR(out.force, 0.0, 0.0, 800.0 * 0.003, TOL);
         assert_true(out.surface == kept);
@@ -67,7 +67,7 @@ TEST(of_several_edits_the_newest_wins) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
         knurl_scene *scene = open_scene(committed);
-        const knurl_surface id = add_surface(scene, &parts);
+        const knurl_surface_id id = add_surface(scene, &parts);
         for (int i = 0; i <= 50; i++) {
             set_stiffness(scene, id, 100.0 + 10.0 * i);
             set_place(scene, id, 0.0, 0.0, 1e-4 * i);
@@ -84,7 +84,7 @@ TEST(of_several_edits_the_newest_wins) {
 TEST(material_and_place_do_not_undo_each_other) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = open_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     set_place(scene, id, 0.0, 0.0, 0.004);
     set_stiffness(scene, id, 500.0);
     CHECK_CLOSE(press(scene, 0.0, 0.003).force[2], 0.5, TOL);
@@ -103,10 +103,10 @@ TEST(material_and_place_do_not_undo_each_other) {
 
 TEST(ids_stay_stale_for_ever) {
     enum { TURNS = 5000 };
-    static knurl_surface ids[TURNS];
+    static knurl_surface_id ids[TURNS];
     surface_parts parts = surface_plane();
     knurl_scene *scene = open_scene(1);
-    const knurl_surface kept = add_surface(scene, &parts);
+    const knurl_surface_id kept = add_surface(scene, &parts);
     const char *name = "untouched";
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
@@ -114,20 +114,20 @@ TEST(ids_stay_stale_for_ever) {
         ids[i] = add_surface(scene, &parts);
         assert_int_equal(knurl_scene_remove_surface(scene, ids[i]), KNURL_OK);
     }
-    const knurl_surface last = add_surface(scene, &parts);
+    const knurl_surface_id last = add_surface(scene, &parts);
     for (int i = 0; i < TURNS; i += i < 20 ? 1 : 97) {
         const double position[3] = {0.0, 0.0, 0.0};
         assert_true(ids[i] != last && ids[i] != kept);
         CHECK_REFUSED(knurl_scene_remove_surface(scene, ids[i]), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_material(scene, ids[i], &parts.material), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_transform(scene, ids[i], position, UPRIGHT, 0.0), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_surface_name(scene, ids[i], &name), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_surface_info(scene, ids[i], &info), KNURL_ERROR_STALE_ID, info);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scene, ids[i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_get_surface_info(scene, ids[i], &info), KNURL_ERROR_STALE_ID, info);
     }
-    assert_int_equal(knurl_scene_surface_count(scene), 2);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 2);
     assert_int_equal(knurl_scene_remove_surface(scene, last), KNURL_OK);
     assert_int_equal(knurl_scene_remove_surface(scene, kept), KNURL_OK);
-    assert_int_equal(knurl_scene_surface_count(scene), 0);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 0);
     knurl_scene_destroy(scene);
 }
 
@@ -135,8 +135,8 @@ TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;
     knurl_scene *scene = NULL;
-    knurl_surface ids[6];
-    knurl_surface id = 77;
+    knurl_surface_id ids[6];
+    knurl_surface_id id = 77;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.max_surfaces = 6;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
@@ -160,19 +160,19 @@ TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
 /* --- what is refused --- */
 
 /* A scene whose one surface is pressed 1 mm deep. */
-static knurl_scene *pressed_scene(knurl_surface *id) {
+static knurl_scene *pressed_scene(knurl_surface_id *id) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
-    *id = knurl_scene_surface_at(scene, 0);
+    *id = knurl_scene_get_surface(scene, 0);
     (void)press(scene, 0.0, -0.001);
     return scene;
 }
 
-static void check_still_pressed(knurl_scene *scene, knurl_surface id) {
+static void check_still_pressed(knurl_scene *scene, knurl_surface_id id) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
     assert_true(out.surface == id);
-    assert_int_equal(knurl_scene_surface_count(scene), 1);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 1);
 }
 
 TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
@@ -193,7 +193,7 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
         {{0.0, 0.0, 0.1}, {0.0, 0.0, 0.0, 1.0}, (double)NAN, "seconds"},
         {{0.0, 0.0, 0.1}, {0.0, 0.0, 0.0, 1.0}, (double)INFINITY, "seconds"},
     };
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         CHECK_REFUSED(knurl_scene_set_transform(scene, id, cases[i].position, cases[i].rotation, cases[i].seconds),
@@ -201,7 +201,7 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
         check_message(cases[i].word);
         check_still_pressed(scene, id);
     }
-    static const knurl_surface unknown[] = {0, UINT64_MAX, 2, UINT64_C(1) << 32};
+    static const knurl_surface_id unknown[] = {0, UINT64_MAX, 2, UINT64_C(1) << 32};
     const double elsewhere[3] = {0.0, 0.0, 0.1};
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         CHECK_REFUSED(knurl_scene_set_transform(scene, unknown[i], elsewhere, UPRIGHT, 0.1), KNURL_ERROR_STALE_ID, id);
@@ -214,7 +214,7 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
 TEST(transforms_at_the_edge_of_doubles_leave_the_force_finite) {
     static const double far_off[] = {1e150, 1e300, 1.7e308};
     for (size_t i = 0; i < COUNT_OF(far_off); i++) {
-        knurl_surface id;
+        knurl_surface_id id;
         knurl_scene *scene = pressed_scene(&id);
         const double there[3] = {far_off[i], -far_off[i], 0.0};
         const double back[3] = {-far_off[i], far_off[i], 0.0};
@@ -235,7 +235,7 @@ TEST(transforms_at_the_edge_of_doubles_leave_the_force_finite) {
 }
 
 TEST(materials_out_of_range_are_refused_after_the_commit_and_change_nothing) {
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
     for (int i = 0; i < 6; i++) {
         knurl_material_desc bad;
@@ -258,9 +258,9 @@ TEST(materials_out_of_range_are_refused_after_the_commit_and_change_nothing) {
 
 TEST(surface_refused_after_the_commit_changes_nothing) {
     surface_parts bad = surface_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
-    knurl_surface made = 77;
+    knurl_surface_id made = 77;
     bad.desc.position[2] = 0.001;
     bad.material.stiffness = -1.0;
     CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(&bad), &made), KNURL_ERROR_ARGUMENT, made);
@@ -276,7 +276,7 @@ TEST(surface_refused_after_the_commit_changes_nothing) {
 /* --- edits under a HIP --- */
 
 TEST(removing_what_is_touched_lets_go_at_the_next_tick) {
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     for (int k = 0; k < 3; k++) {
@@ -293,11 +293,11 @@ TEST(removing_what_is_touched_lets_go_at_the_next_tick) {
 /* The place is reused; the contact is not. */
 TEST(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar) {
     surface_parts parts = surface_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     parts.desc.position[2] = 0.0145; /* above the HIP, further than a first tick captures */
-    const knurl_surface next = add_surface(scene, &parts);
+    const knurl_surface_id next = add_surface(scene, &parts);
     knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
     assert_true(out.surface == 0);
@@ -310,10 +310,10 @@ TEST(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar) {
 TEST(of_two_surfaces_touched_the_other_stays) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = open_scene(1);
-    const knurl_surface lower = add_surface(scene, &parts);
+    const knurl_surface_id lower = add_surface(scene, &parts);
     parts.desc.position[2] = 0.001;
     parts.material.stiffness = 300.0;
-    const knurl_surface upper = add_surface(scene, &parts);
+    const knurl_surface_id upper = add_surface(scene, &parts);
     knurl_tick_output out = press(scene, 0.0, -0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, 400.0 * 0.001 + 300.0 * 0.002, TOL);
     assert_true(out.surface == upper);
@@ -331,7 +331,7 @@ TEST(surface_added_under_a_hip_holds_it_when_it_comes_down) {
     for (int i = 0; i < 20; i++) {
         parts.desc.position[0] = 0.3 * i;
         (void)tick_at(scene, 0.3 * i, 0.0, 1e-5);
-        const knurl_surface id = add_surface(scene, &parts);
+        const knurl_surface_id id = add_surface(scene, &parts);
         const knurl_tick_output out = tick_at(scene, 0.3 * i, 0.0, -0.001);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
         assert_true(out.surface == id);
@@ -343,20 +343,20 @@ TEST(surface_added_under_a_hip_holds_it_when_it_comes_down) {
  * stiffness is the new one at once. */
 static void change_in_mid_event(double new_fs, double new_amplitude) {
     surface_parts parts = surface_plane();
-    knurl_event first;
-    knurl_event next;
+    knurl_vibration_event first;
+    knurl_vibration_event next;
     const double at[3] = {0.0, 0.0, -0.002};
     const double velocity[3] = {0.05, 0.0, 0.0};
     set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = scene_of(&parts);
-    assert_int_equal(knurl_event_init(20.0, 0.0005, &first), KNURL_OK);
-    assert_int_equal(knurl_event_init(1000.0 / (0.05 * (new_fs > 0.0 ? new_fs : 1000.0)), new_amplitude, &next),
-                     KNURL_OK);
+    assert_int_equal(knurl_vibration_event_init(20.0, 0.0005, &first), KNURL_OK);
+    assert_int_equal(
+        knurl_vibration_event_init(1000.0 / (0.05 * (new_fs > 0.0 ? new_fs : 1000.0)), new_amplitude, &next), KNURL_OK);
     for (int k = 0; k < 60; k++) {
         const knurl_tick_output out = tick_moving(scene, at, velocity);
         const int old = k < 40; /* the change comes within the second event */
-        const double height = old            ? knurl_event_height(&first, k % first.length)
-                              : new_fs > 0.0 ? knurl_event_height(&next, (k - 40) % next.length)
+        const double height = old            ? knurl_vibration_event_height(&first, k % first.length)
+                              : new_fs > 0.0 ? knurl_vibration_event_height(&next, (k - 40) % next.length)
                                              : 0.0;
         CHECK_CLOSE(out.height, height, 1e-15L);
         CHECK_VECTOR(out.force, 0.0, 0.0, (k <= 25 ? 400.0 : 800.0) * (height + 0.002), TOL);
@@ -390,7 +390,7 @@ TEST(material_with_higher_crests_reaches_further_at_the_next_tick) {
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
     set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0010);
-    const knurl_surface id = knurl_scene_surface_at(scene, 0);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0008);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.0002, TOL);
@@ -402,11 +402,11 @@ TEST(info_tells_what_an_edit_made_of_a_surface) {
     knurl_surface_info info;
     knurl_scene *scene = open_scene(1);
     parts.desc.name = "lid";
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     set_stiffness(scene, id, 650.0);
     set_place(scene, id, 0.5, 0.0, 0.25);
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     assert_string_equal(info.name, "lid");
     CHECK_SAME(info.material.stiffness, 650.0);
     CHECK_VECTOR(info.anchor, 0.5, 0.0, 0.25, 1e-12);
@@ -423,7 +423,7 @@ TEST(info_tells_what_an_edit_made_of_a_surface) {
 enum { MODEL_ROOM = 300, NAMES = 40 };
 
 typedef struct plain_list {
-    knurl_surface ids[MODEL_ROOM];
+    knurl_surface_id ids[MODEL_ROOM];
     int names[MODEL_ROOM];
     uint32_t count;
 } plain_list;
@@ -431,15 +431,15 @@ typedef struct plain_list {
 static void compare_place(const knurl_scene *scene, const plain_list *list, uint32_t index) {
     const char *name = NULL;
     char expected[16];
-    assert_true(knurl_scene_surface_at(scene, index) == list->ids[index]);
-    assert_int_equal(knurl_scene_surface_name(scene, list->ids[index], &name), KNURL_OK);
+    assert_true(knurl_scene_get_surface(scene, index) == list->ids[index]);
+    assert_int_equal(knurl_scene_get_surface_name(scene, list->ids[index], &name), KNURL_OK);
     (void)snprintf(expected, sizeof expected, "n%d", list->names[index]);
     assert_string_equal(name, expected);
 }
 
 static void compare_find(const knurl_scene *scene, const plain_list *list, int number) {
     char name[16];
-    knurl_surface found = 77;
+    knurl_surface_id found = 77;
     uint32_t first = 0;
     (void)snprintf(name, sizeof name, "n%d", number);
     while (first < list->count && list->names[first] != number) {
@@ -472,8 +472,8 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
             memmove(&list.ids[index], &list.ids[index + 1], (list.count - index) * sizeof list.ids[0]);
             memmove(&list.names[index], &list.names[index + 1], (list.count - index) * sizeof list.names[0]);
         }
-        assert_int_equal(knurl_scene_surface_count(scene), list.count);
-        assert_true(knurl_scene_surface_at(scene, list.count) == 0);
+        assert_int_equal(knurl_scene_get_surface_count(scene), list.count);
+        assert_true(knurl_scene_get_surface(scene, list.count) == 0);
         compare_find(scene, &list, (int)random_integer(&seed, 0, NAMES - 1));
         for (uint32_t i = 0; i < list.count; i += step % 500 == 0 ? 1 : 37) {
             compare_place(scene, &list, i);
@@ -482,7 +482,7 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, random_between(&seed, -0.012, 0.012));
             const char *felt = NULL;
             assert_true(isfinite(length3(out.force)));
-            assert_true(out.surface == 0 || knurl_scene_surface_name(scene, out.surface, &felt) == KNURL_OK);
+            assert_true(out.surface == 0 || knurl_scene_get_surface_name(scene, out.surface, &felt) == KNURL_OK);
         }
     }
     knurl_scene_destroy(scene);

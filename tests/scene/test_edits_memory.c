@@ -10,7 +10,7 @@ static double slope(double x, double y) {
 }
 
 /* A committed scene with a plane under HIP 0, pressed 1 mm deep. */
-static knurl_scene *pressed_scene(ledger *books, knurl_surface *id) {
+static knurl_scene *pressed_scene(ledger *books, knurl_surface_id *id) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_with(books);
     configure_plainly(scene, 0);
@@ -22,22 +22,22 @@ static knurl_scene *pressed_scene(ledger *books, knurl_surface *id) {
     return scene;
 }
 
-static knurl_result set_stiffness(knurl_scene *scene, knurl_surface id, double stiffness) {
+static knurl_result set_stiffness(knurl_scene *scene, knurl_surface_id id, double stiffness) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.stiffness = stiffness;
     return knurl_scene_set_material(scene, id, &material);
 }
 
-static knurl_result set_height(knurl_scene *scene, knurl_surface id, double z, double seconds) {
+static knurl_result set_height(knurl_scene *scene, knurl_surface_id id, double z, double seconds) {
     const double position[3] = {0.0, 0.0, z};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
     return knurl_scene_set_transform(scene, id, position, rotation, seconds);
 }
 
 /* Adds 50 surfaces, meshes among them, edits and ticks, and takes all out again. */
-static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface first, shape *sheet) {
-    knurl_surface ids[50];
+static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface_id first, shape *sheet) {
+    knurl_surface_id ids[50];
     surface_parts parts[2] = {surface_plane(), surface_mesh(sheet)};
     for (int i = 0; i < 50; i++) {
         parts[i % 2].desc.name = i % 3 ? "a name of some length" : NULL;
@@ -45,7 +45,7 @@ static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface fi
         ids[i] = add_surface(scene, &parts[i % 2]);
         assert_int_equal(set_stiffness(scene, first, 300.0 + i), KNURL_OK);
         (void)tick_at(scene, 0.01 * i, 0.0, i % 4 ? -0.001 : 0.004);
-        assert_true(knurl_scene_bytes(scene) == books->bytes);
+        assert_true(knurl_scene_get_bytes(scene) == books->bytes);
     }
     for (int i = 0; i < 50; i++) {
         assert_int_equal(set_height(scene, ids[i], 0.001 * i, i % 2 ? 0.02 : 0.0), KNURL_OK);
@@ -54,7 +54,7 @@ static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface fi
     for (int i = 49; i >= 0; i--) {
         assert_int_equal(knurl_scene_remove_surface(scene, ids[(i * 7) % 50]), KNURL_OK);
         (void)tick_at(scene, 0.0, 0.0, i % 2 ? -0.001 : 0.001);
-        assert_true(knurl_scene_bytes(scene) == books->bytes);
+        assert_true(knurl_scene_get_bytes(scene) == books->bytes);
     }
     assert_int_equal(set_stiffness(scene, first, K), KNURL_OK);
     assert_int_equal(set_height(scene, first, 0.0, 0.0), KNURL_OK);
@@ -64,17 +64,17 @@ static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface fi
 
 TEST(bytes_return_to_where_they_were) {
     ledger books = {0, 0, 0, 0};
-    knurl_surface id;
+    knurl_surface_id id;
     shape sheet = shape_sheet(5, 5, (const double[2]){0.02, 0.02}, slope);
     knurl_scene *scene = pressed_scene(&books, &id);
     for (int round = 0; round < 3; round++) { /* tables grow to what a round needs, and keep that */
         busy_round(scene, &books, id, &sheet);
     }
-    const uint64_t before = knurl_scene_bytes(scene);
+    const uint64_t before = knurl_scene_get_bytes(scene);
     const int32_t blocks = books.blocks;
     for (int round = 0; round < 3; round++) {
         busy_round(scene, &books, id, &sheet);
-        assert_true(knurl_scene_bytes(scene) == before && books.bytes == before);
+        assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
         assert_int_equal(books.blocks, blocks);
     }
     knurl_scene_destroy(scene);
@@ -87,15 +87,15 @@ TEST(bytes_return_to_where_they_were) {
 TEST(edits_that_are_replaced_do_not_pile_up) {
     for (int paused = 0; paused < 2; paused++) {
         ledger books = {0, 0, 0, 0};
-        knurl_surface id;
+        knurl_surface_id id;
         knurl_scene *scene = pressed_scene(&books, &id);
-        const uint64_t before = knurl_scene_bytes(scene);
+        const uint64_t before = knurl_scene_get_bytes(scene);
         for (int i = 0; i < 10000; i++) {
             assert_int_equal(i % 2 ? set_stiffness(scene, id, 400.0) : set_height(scene, id, 0.0, 0.01), KNURL_OK);
             if (!paused) {
                 (void)tick_at(scene, 0.0, 0.0, -0.001);
             }
-            assert_true(knurl_scene_bytes(scene) == books.bytes);
+            assert_true(knurl_scene_get_bytes(scene) == books.bytes);
             assert_true(books.bytes < before + 16384);
         }
         knurl_scene_destroy(scene);
@@ -106,22 +106,22 @@ TEST(edits_that_are_replaced_do_not_pile_up) {
 /* A HIP that is configured and never ticks holds nothing up. */
 TEST(hip_that_does_not_tick_holds_no_memory_back) {
     ledger books = {0, 0, 0, 0};
-    knurl_surface id;
+    knurl_surface_id id;
     shape sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, slope);
     surface_parts parts = surface_mesh(&sheet);
     knurl_scene *scene = pressed_scene(&books, &id);
-    knurl_surface mesh = add_surface(scene, &parts);
+    knurl_surface_id mesh = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_remove_surface(scene, mesh), KNURL_OK);
     knurl_scene_collect(scene);
-    const uint64_t before = knurl_scene_bytes(scene);
+    const uint64_t before = knurl_scene_get_bytes(scene);
     mesh = add_surface(scene, &parts);
-    assert_true(knurl_scene_bytes(scene) > before + 1800 * 12);
+    assert_true(knurl_scene_get_bytes(scene) > before + 1800 * 12);
     (void)tick_at(scene, 0.0, 0.0, -0.001); /* HIP 0 touches it; HIP 1 never comes */
     assert_int_equal(knurl_scene_remove_surface(scene, mesh), KNURL_OK);
     (void)tick_at(scene, 0.0, 0.0, -0.001);
     (void)tick_at(scene, 0.0, 0.0, -0.001);
     knurl_scene_collect(scene);
-    assert_true(knurl_scene_bytes(scene) == before && books.bytes == before);
+    assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
     shape_free(&sheet);
@@ -129,7 +129,7 @@ TEST(hip_that_does_not_tick_holds_no_memory_back) {
 
 TEST(scene_destroyed_in_the_midst_of_edits_gives_everything_back) {
     ledger books = {0, 0, 0, 0};
-    knurl_surface id;
+    knurl_surface_id id;
     surface_parts parts = surface_plane();
     knurl_scene *scene = pressed_scene(&books, &id);
     for (int i = 0; i < 20; i++) {
@@ -144,9 +144,9 @@ TEST(scene_destroyed_in_the_midst_of_edits_gives_everything_back) {
 }
 
 /* One edit of each kind; returns its result. */
-static knurl_result edit(knurl_scene *scene, knurl_surface id, int kind, shape *sheet) {
+static knurl_result edit(knurl_scene *scene, knurl_surface_id id, int kind, shape *sheet) {
     surface_parts parts = kind == 3 ? surface_mesh(sheet) : surface_plane();
-    knurl_surface made = 77;
+    knurl_surface_id made = 77;
     knurl_result result;
     parts.desc.name = "added";
     parts.desc.position[2] = 0.0005;
@@ -171,23 +171,23 @@ static const double AFTER[5] = {0.8, 0.8, 0.4 + 0.6, 0.4 + 0.6, 0.0};
 /* Edits with one request refused: 1 where that made it fail. */
 static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {
     ledger books = {0, 0, 0, 0};
-    knurl_surface id;
+    knurl_surface_id id;
     surface_parts far_off = surface_plane();
     knurl_scene *scene = pressed_scene(&books, &id);
     far_off.desc.position[0] = 3.0;
     for (int i = 0; i < crowd; i++) {
         (void)add_surface(scene, &far_off);
     }
-    const uint32_t count = knurl_scene_surface_count(scene);
+    const uint32_t count = knurl_scene_get_surface_count(scene);
     knurl_scene_collect(scene);
     books.refused = books.requests + refused;
     const knurl_result result = edit(scene, id, kind, sheet);
     books.refused = 0;
-    assert_true(knurl_scene_bytes(scene) == books.bytes);
+    assert_true(knurl_scene_get_bytes(scene) == books.bytes);
     if (result != KNURL_OK) {
         assert_int_equal(result, KNURL_ERROR_MEMORY);
         assert_non_null(strstr(knurl_error_message(), "memory"));
-        assert_int_equal(knurl_scene_surface_count(scene), count);
+        assert_int_equal(knurl_scene_get_surface_count(scene), count);
         for (int k = 0; k < 3; k++) {
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
             CHECK_CLOSE(out.force[2], K * 0.001, 1e-12);
@@ -195,7 +195,7 @@ static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {
         }
         assert_int_equal(edit(scene, id, kind, sheet), KNURL_OK);
     }
-    assert_int_equal(knurl_scene_surface_count(scene), count + (kind == 2 || kind == 3) - (kind == 4));
+    assert_int_equal(knurl_scene_get_surface_count(scene), count + (kind == 2 || kind == 3) - (kind == 4));
     (void)tick_at(scene, 0.0, 0.0, 0.010);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).force[2], AFTER[kind], 1e-6); /* a sheet's floats */
     knurl_scene_destroy(scene);
@@ -254,13 +254,13 @@ TEST(commit_that_gets_no_memory_can_be_made_again) {
 
 TEST(ticks_neither_ask_for_memory_nor_give_any_back) {
     ledger books = {0, 0, 0, 0};
-    knurl_surface id;
+    knurl_surface_id id;
     surface_parts parts = surface_plane();
     knurl_scene *scene = pressed_scene(&books, &id);
     uint64_t seed = 8;
     for (int i = 0; i < 200; i++) {
         parts.desc.position[0] = 0.005 * i;
-        const knurl_surface other = add_surface(scene, &parts);
+        const knurl_surface_id other = add_surface(scene, &parts);
         assert_int_equal(set_stiffness(scene, id, 400.0 + i), KNURL_OK);
         assert_int_equal(set_height(scene, other, 0.002, 0.01), KNURL_OK);
         if (i % 3 == 0) {

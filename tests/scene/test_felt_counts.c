@@ -117,12 +117,12 @@ static shape uneven_sheet(double ratio) {
 static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *info) {
     knurl_scene *scene = empty_scene(1);
     knurl_surface_check check;
-    const knurl_surface id = add_surface(scene, parts);
+    const knurl_surface_id id = add_surface(scene, parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     knurl_surface_check_init(&check, sizeof check);
     assert_int_equal(knurl_scene_check_surface(scene, 0, id, &check), KNURL_OK);
     knurl_surface_info_init(info, sizeof *info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, info), KNURL_OK);
     info->name = "";
     knurl_scene_destroy(scene);
     return check;

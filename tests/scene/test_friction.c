@@ -326,7 +326,7 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
 TEST(friction_taken_away_in_contact_is_gone_at_the_next_tick) {
     surface_parts parts = rough_plane(MU);
     knurl_scene *scene = pressed(&parts, DEPTH);
-    const knurl_surface id = knurl_scene_surface_at(scene, 0);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     CHECK_CLOSE(tick_at(scene, 0.003, 0.0, -DEPTH).force[0], -MU * K * DEPTH, TOL);
     parts.material.friction = 0.0;
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
@@ -345,7 +345,7 @@ TEST(surface_that_slides_drags_a_resting_hip) {
     knurl_scene *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.01, 0.0, 0.0};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
-    const knurl_surface id = knurl_scene_surface_at(scene, 0);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_set_transform(scene, id, end, rotation, 0.2), KNURL_OK); /* 0.05 mm a tick */
     for (int k = 1; k <= 250; k++) {
         const double gone = fmin(5e-5 * k, 0.01);
@@ -363,7 +363,7 @@ TEST(surface_that_goes_with_the_hip_pulls_no_way) {
     knurl_scene *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.05, 0.02, 0.01};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
-    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_surface_at(scene, 0), end, rotation, 0.1), KNURL_OK);
+    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.1), KNURL_OK);
     for (int k = 1; k <= 100; k++) {
         const knurl_tick_output out = tick_at(scene, 0.0005 * k, 0.0002 * k, -DEPTH + 0.0001 * k);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * DEPTH, 1e-10L);
@@ -381,7 +381,7 @@ TEST(surface_that_turns_takes_the_anchor_along) {
     (void)tick_at(scene, at[0], at[1], 0.005);
     (void)tick_at(scene, at[0], at[1], at[2]);
     turn_about(z, 0.015, end.quaternion); /* 1.5 mm of way */
-    move_to(scene, knurl_scene_surface_at(scene, 0), &end, 0.1);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &end, 0.1);
     for (int k = 1; k <= 120; k++) {
         const double angle = 0.00015 * (k < 100 ? k : 100);
         const double anchor[2] = {cos(angle) * at[0] - sin(angle) * at[1], sin(angle) * at[0] + cos(angle) * at[1]};
@@ -397,7 +397,7 @@ TEST(jump_of_the_surface_starts_friction_anew) {
     const double end[3] = {0.1, 0.0, 0.0};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
     (void)tick_at(scene, 0.0003, 0.0, -DEPTH);
-    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_surface_at(scene, 0), end, rotation, 0.0), KNURL_OK);
+    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.0), KNURL_OK);
     CHECK_VECTOR(tick_at(scene, 0.0003, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL);
     knurl_scene_destroy(scene);
 }

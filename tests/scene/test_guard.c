@@ -8,14 +8,14 @@
 #define K     700.0
 #define TICKS 600
 
-/* HIP 0 with every protection but those of `unguarded`, device axes the scene's, no quantum. */
-static knurl_hip_desc guarded(uint32_t unguarded) {
+/* HIP 0 with every protection but those of `without`, device axes the scene's, no quantum. */
+static knurl_hip_desc guarded(uint32_t without) {
     static knurl_workspace workspace;
     knurl_hip_desc hip;
     knurl_workspace_init(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.resolution = 0.0;
-    hip.unguarded = unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~without;
     hip.workspace = &workspace;
     return hip;
 }
@@ -52,7 +52,7 @@ TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
         assert_int_equal((out.flags & KNURL_TICK_ENTRY) != 0, tick < 18);
         assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
     }
-    assert_true(counts_of(scene).entries == 17);
+    assert_true(counts_of(scene).entry_ticks == 17);
     knurl_scene_destroy(scene);
 }
 
@@ -79,7 +79,7 @@ TEST(a_wall_that_jumps_comes_in_as_a_ramp) {
         (void)tick_at(scene, 0.0, 0.0, 0.001 - 0.0002 * (tick + 1));
     }
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).force[2], 0.1, 1e-12);
-    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_surface_at(scene, 0), up, straight, 0.0), KNURL_OK);
+    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), up, straight, 0.0), KNURL_OK);
     for (int tick = 1; tick <= 20; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
         CHECK_CLOSE(out.force[2], 100.0 * fmin(0.007, 0.001 + 0.0005 * tick), 1e-12);
@@ -100,7 +100,7 @@ TEST(a_force_grows_no_faster_than_the_slew_rate) {
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
             CHECK_CLOSE(out.force[2], fmin(3.3, step * tick), 1e-12);
         }
-        assert_true(counts_of(scene).slews > 0);
+        assert_true(counts_of(scene).slew_ticks > 0);
         knurl_scene_destroy(scene);
     }
 }
@@ -129,7 +129,7 @@ TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {
             knurl_scene *scenes[2];
             for (uint32_t i = 0; i < 2; i++) {
                 surface_parts parts = wall(K);
-                knurl_hip_desc hip = guarded(i ? KNURL_UNGUARDED_ALL : 0);
+                knurl_hip_desc hip = guarded(i ? KNURL_PROTECT_ALL : 0);
                 hip.continuous_force = (double)INFINITY;
                 set_grating(&parts, methods[m], 1000.0, 0.0, 3.3 / (2.8745 * K));
                 scenes[i] = scene_with(&parts, &hip);
@@ -156,7 +156,7 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
     surface_parts parts = wall(1000.0);
     const double held = 2.0;
     const double tau = 2.0;
-    knurl_hip_desc hip = guarded(KNURL_UNGUARDED_ENTRY | KNURL_UNGUARDED_SLEW);
+    knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.heat_time = tau;
     hip.continuous_force = 0.88;
     knurl_scene *scene = scene_with(&parts, &hip);
@@ -178,7 +178,7 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
         sum2 += tick > 20000 ? last * last : 0.0;
     }
     CHECK_CLOSE(sqrt(sum2 / 10000.0), 0.88, 0.005);
-    assert_true(last >= 0.88 && counts_of(scene).heats > 20000);
+    assert_true(last >= 0.88 && counts_of(scene).heat_ticks > 20000);
     for (int tick = 0; tick < 10000; tick++) { /* five time constants off the wall */
         (void)tick_at(scene, 0.0, 0.0, 0.01);
     }
@@ -189,7 +189,7 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
 
 TEST(an_endless_continuous_force_is_no_limit) {
     surface_parts parts = wall(1000.0);
-    knurl_hip_desc hip = guarded(KNURL_UNGUARDED_ENTRY | KNURL_UNGUARDED_SLEW);
+    knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.continuous_force = (double)INFINITY;
     hip.heat_time = 0.1;
     knurl_scene *scene = scene_with(&parts, &hip);
@@ -209,10 +209,10 @@ TEST(a_callback_warms_the_same_motors) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 9000), KNURL_OK);
     CHECK_CLOSE(rig_stats(&r).heat, ratio2 * (1.0 - exp(-0.15)), 1e-9);
-    assert_true(rig_stats(&r).heats == 0);
+    assert_true(rig_stats(&r).heat_ticks == 0);
     CHECK_CLOSE(r.written[(9000 - 1) % RIG_ROOM][1], 2.0, 1e-12);
     assert_int_equal(knurl_loop_step(r.loop, 360000), KNURL_OK);
-    assert_true(rig_stats(&r).heat <= 1.0 && rig_stats(&r).heats > 300000);
+    assert_true(rig_stats(&r).heat <= 1.0 && rig_stats(&r).heat_ticks > 300000);
     CHECK_CLOSE(r.written[(369000 - 1) % RIG_ROOM][1], 0.88, 0.01);
     rig_destroy(&r);
 }
@@ -220,10 +220,10 @@ TEST(a_callback_warms_the_same_motors) {
 TEST(a_callback_may_leave_the_heat_to_its_device) {
     rig_init(&r);
     r.force[1] = 2.0;
-    r.desc.unguarded = KNURL_UNGUARDED_HEAT;
+    r.desc.protections = 0;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 60000), KNURL_OK);
-    assert_true(rig_stats(&r).heats == 0);
+    assert_true(rig_stats(&r).heat_ticks == 0);
     CHECK_CLOSE(r.written[(60000 - 1) % RIG_ROOM][1], 2.0, 1e-12);
     rig_destroy(&r);
 }
@@ -342,7 +342,7 @@ TEST(configuring_a_hip_or_giving_it_a_device_ends_an_alarm) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0004);
         CHECK_CLOSE(out.force[2], 1020.0 * 0.0004, 1e-12);
         assert_int_equal(out.flags & KNURL_TICK_PASSIVITY, 0);
-        assert_int_equal(counts_of(scene).passivities, 0);
+        assert_int_equal(counts_of(scene).passivity_ticks, 0);
         knurl_scene_destroy(scene);
     }
 }
@@ -365,7 +365,7 @@ TEST(protections_that_are_no_numbers_are_refused) {
         assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
     }
     knurl_hip_desc bad = good;
-    bad.unguarded = KNURL_UNGUARDED_ALL + 1;
+    bad.protections = KNURL_PROTECT_ALL + 1;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
     bad = good;
     bad.clamp = 2;

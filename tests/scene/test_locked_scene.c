@@ -157,7 +157,7 @@ static double sheared(double x, double y) {
 static const char *model_of(knurl_scene *scene) {
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, 0), &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
     return info.model;
 }
 

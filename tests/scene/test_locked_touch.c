@@ -78,13 +78,13 @@ TEST(a_change_of_surface_in_an_event_begins_the_other_ones_anew) {
     right.desc.position[0] = 0.05;
     right.material.spatial_frequency[0] = 700.0;
     right.material.amplitude = 0.5 * A;
-    const knurl_surface first = add_surface(scene, &left);
-    const knurl_surface second = add_surface(scene, &right);
+    const knurl_surface_id first = add_surface(scene, &left);
+    const knurl_surface_id second = add_surface(scene, &right);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     for (int i = 0; i < 14; i++) {
         double last = 0.0;
         int64_t event = KNURL_NO_EVENT;
-        knurl_surface on = 0;
+        knurl_surface_id on = 0;
         configure_plainly(scene, 0);
         (void)slide(scene, -0.01, 0.01, 0.0);
         for (int k = 0; k < 130; k++) {
@@ -318,7 +318,7 @@ TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
     for (int fast = 0; fast < 2; fast++) {
         surface_parts parts = grating_on(NULL, KNURL_LOCKED);
         knurl_scene *scene = scene_of(&parts);
-        const knurl_surface id = knurl_scene_surface_at(scene, 0);
+        const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
         const double way[3] = {fast ? 0.025 : 0.005, 0.0, 0.0};
         int64_t events = -1;
         int begun = 0;

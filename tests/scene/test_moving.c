@@ -26,16 +26,16 @@ static knurl_tick_output stand_at(knurl_scene *scene, double x, double y, double
     return tick_moving(scene, (const double[3]){x, y, z}, (const double[3]){0.0, 0.0, 0.0});
 }
 
-static knurl_scene *stood_on(surface_parts *parts, knurl_surface *id) {
+static knurl_scene *stood_on(surface_parts *parts, knurl_surface_id *id) {
     knurl_scene *scene = scene_of(parts);
-    *id = knurl_scene_surface_at(scene, 0);
+    *id = knurl_scene_get_surface(scene, 0);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
     return scene;
 }
 
 TEST(surface_rises_evenly_and_stays) {
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose top = at_height(0.0, 0.0, 0.005);
     move_to(scene, id, &top, 0.05);
@@ -53,7 +53,7 @@ TEST(surface_rises_evenly_and_stays) {
 TEST(damping_takes_the_relative_velocity_along_the_normal) {
     surface_parts parts = wide_plane();
     parts.material.damping = 5.0;
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose top = at_height(0.0, 0.0, 0.005);
     move_to(scene, id, &top, 0.05);
@@ -74,19 +74,19 @@ TEST(damping_takes_the_relative_velocity_along_the_normal) {
 /* The surface slides at 0.1 m/s under a HIP that rests: T3 events at f_t = fs v = 100 Hz. */
 TEST(sliding_under_a_resting_hip_plays_events) {
     surface_parts parts = wide_plane();
-    knurl_event event;
-    knurl_surface id;
+    knurl_vibration_event event;
+    knurl_surface_id id;
     set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = stood_on(&parts, &id);
     const pose end = at_height(0.02, 0.0, 0.0);
-    assert_int_equal(knurl_event_init(10.0, 0.0005, &event), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_init(10.0, 0.0005, &event), KNURL_OK);
     move_to(scene, id, &end, 0.2);
     for (int k = 1; k < 200; k++) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
         CHECK_CLOSE(out.surface_velocity[0], -0.1, 1e-12L);
         CHECK_CLOSE(out.surface_velocity[1], 0.0, 1e-12L);
         CHECK_CLOSE(out.temporal_frequency, 100.0, 1e-8L);
-        CHECK_CLOSE(out.height, knurl_event_height(&event, (k - 1) % 10), 1e-15L);
+        CHECK_CLOSE(out.height, knurl_vibration_event_height(&event, (k - 1) % 10), 1e-15L);
         assert_int_equal(out.event, (k - 1) / 10);
         CHECK_CLOSE(out.force[2], K * (out.height + 0.001), TOL);
     }
@@ -102,7 +102,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
 
 TEST(surface_that_goes_with_the_hip_plays_none) {
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     set_grating(&parts, KNURL_S2, 1000.0, 500.0, 0.0005);
     parts.material.damping = 5.0;
     knurl_scene *scene = stood_on(&parts, &id);
@@ -132,7 +132,7 @@ static void rotate_under(double angle, double shown_angle, double sign) {
         end.quaternion[i] *= sign;
     }
     (void)stand_at(scene, hip[0], hip[1], hip[2]);
-    move_to(scene, knurl_scene_surface_at(scene, 0), &end, 0.1);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &end, 0.1);
     const double omega = angle / 0.1;
     for (int k = 1; k <= 120; k++) {
         const knurl_tick_output out = stand_at(scene, hip[0], hip[1], hip[2]);
@@ -185,7 +185,7 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
         (void)stand_at(scene, hip[0], hip[1], hip[2]);
         pose_point(&from, (const double[3]){0.001, -0.002, -0.008}, hip);
         (void)stand_at(scene, hip[0], hip[1], hip[2]);
-        move_to(scene, knurl_scene_surface_at(scene, 0), &to, 0.04);
+        move_to(scene, knurl_scene_get_surface(scene, 0), &to, 0.04);
         for (int k = 1; k < 40; k++) {
             const double share = k / 40.0;
             pose now;
@@ -235,7 +235,7 @@ TEST(arrival_is_exactly_at_the_target) {
         knurl_scene *there = scene_of(&parts);
         place(&parts, &from);
         knurl_scene *moved = scene_of(&parts);
-        move_to(moved, knurl_scene_surface_at(moved, 0), &to, 0.003 * run); /* also 0, also not whole ticks */
+        move_to(moved, knurl_scene_get_surface(moved, 0), &to, 0.003 * run); /* also 0, also not whole ticks */
         for (int k = 0; k < 3 * run + 3; k++) {
             (void)stand_at(moved, 5.0, 5.0, 5.0);
             (void)stand_at(there, 5.0, 5.0, 5.0);
@@ -256,7 +256,7 @@ TEST(arrival_is_exactly_at_the_target) {
 
 TEST(new_target_on_the_way_goes_on_from_where_it_is) {
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.005);
     const pose back = at_height(0.0, 0.0, 0.001);
@@ -275,7 +275,7 @@ TEST(new_target_on_the_way_goes_on_from_where_it_is) {
 TEST(targets_frame_by_frame_make_no_jumps) {
     uint64_t seed = 5;
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     double z = 0.0;
     double last = 0.001;
@@ -302,7 +302,7 @@ TEST(targets_frame_by_frame_make_no_jumps) {
 TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
     static const double y[3] = {0.0, 1.0, 0.0};
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     pose end = HOME;
     turn_about(y, 0.4, end.quaternion);
@@ -324,7 +324,7 @@ TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
 TEST(before_the_commit_a_way_is_made_at_once) {
     surface_parts parts = wide_plane();
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     const pose there = at_height(0.0, 0.0, 0.003);
     configure_plainly(scene, 0);
     move_to(scene, id, &there, 5.0);
@@ -347,7 +347,7 @@ TEST(jump_passes_by_what_is_on_its_way) {
         knurl_scene *scene = scene_of(&parts);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
-        move_to(scene, knurl_scene_surface_at(scene, 0), &high, 0.0);
+        move_to(scene, knurl_scene_get_surface(scene, 0), &high, 0.0);
         for (int k = 0; k < 5; k++) {
             const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
             CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
@@ -367,7 +367,7 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
                  {0.0, -0.002, 0.0},  {0.6, 0.0, 0.0},       {0.0, -0.0005, 0.0005}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         surface_parts parts = wide_plane();
-        knurl_surface id;
+        knurl_surface_id id;
         set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
         knurl_scene *scene = stood_on(&parts, &id);
         const pose end = at_height(cases[i].x, 0.0, cases[i].z);
@@ -385,7 +385,7 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
 
 TEST(jump_ends_a_way) {
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.005);
     const pose home = HOME;
@@ -402,7 +402,7 @@ TEST(jump_ends_a_way) {
 
 TEST(while_nobody_ticks_the_way_waits) {
     surface_parts parts = wide_plane();
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.004);
     const pose higher = at_height(0.0, 0.0, 0.008);
@@ -432,7 +432,7 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
         hip.update_rate_hz = rates[i];
         assert_int_equal(knurl_scene_configure_hip(scene, i, &hip), KNURL_OK);
     }
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     for (int k = 0; k < 480; k++) { /* quarters of a millisecond; a way of 0.08 s from 0.02 s on */
         assert_int_equal(knurl_scene_tick(scene, 1, &input, &out[1]), KNURL_OK);
@@ -466,7 +466,7 @@ TEST(way_at_4_khz_takes_its_seconds) {
     hip.max_force = 100.0;
     hip.update_rate_hz = 4000.0;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
     move_to(scene, id, &up, 0.02);

@@ -95,7 +95,7 @@ static void meet_head_on(int kind, uint32_t full_model, uint64_t *seed) {
         if (k % frame == 0) {
             pose target = now;
             add3(now.position, frame * TICK, wall_velocity, target.position);
-            move_to(scene, knurl_scene_surface_at(scene, 0), &target, frame * TICK);
+            move_to(scene, knurl_scene_get_surface(scene, 0), &target, frame * TICK);
         }
         add3(now.position, TICK, wall_velocity, now.position);
         add3(hip, TICK, hip_velocity, hip);
@@ -130,7 +130,7 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     pose end = from;
     const int ticks = (int)fmin(50.0, 2.0 / (omega * TICK)); /* less than half a turn: that is the way it goes */
     turn_about(x, start + omega * TICK * ticks, end.quaternion);
-    move_to(scene, knurl_scene_surface_at(scene, 0), &end, TICK * ticks);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &end, TICK * ticks);
     for (int k = 1; k <= ticks && start + omega * TICK * k < 0.5; k++) {
         pose now = from;
         turn_about(x, start + omega * TICK * k, now.quaternion);
@@ -156,7 +156,7 @@ TEST(single_sided_wall_that_comes_from_behind_passes) {
     knurl_scene *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
     p.position[2] = -0.0297;
-    move_to(scene, knurl_scene_surface_at(scene, 0), &p, 0.05);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &p, 0.05);
     for (int k = 0; k < 60; k++) {
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0).contacts, 0);
     }
@@ -171,7 +171,7 @@ TEST(double_sided_wall_that_comes_from_behind_pushes) {
     knurl_scene *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
     p.position[2] = -0.0195;
-    move_to(scene, knurl_scene_surface_at(scene, 0), &p, 0.04);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &p, 0.04);
     for (int k = 1; k <= 40; k++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0);
         CHECK_CLOSE(out.force[2], k > 20 ? -K * (0.001 * k - 0.0205) : 0.0, 1e-9L);
@@ -211,7 +211,7 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
     (void)tick_moving(resting, at, none);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     add3(end.position, -0.2, velocity, end.position);
-    move_to(moving, knurl_scene_surface_at(moving, 0), &end, 0.2);
+    move_to(moving, knurl_scene_get_surface(moving, 0), &end, 0.2);
     uint32_t touched = 0;
     for (int k = 1; k < 200; k++) {
         double there[3];
@@ -254,7 +254,7 @@ static void compare_turning(double omega, double friction) {
     (void)tick_moving(resting, at, none);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     turn_about(z, -0.3 * omega, end.quaternion);
-    move_to(moving, knurl_scene_surface_at(moving, 0), &end, 0.3);
+    move_to(moving, knurl_scene_get_surface(moving, 0), &end, 0.3);
     for (int k = 1; k < 300; k++) {
         double q[4];
         double there[3];

@@ -57,13 +57,13 @@ static void lay_tiles(knurl_scene *scene, uint64_t seed, const shape *s) {
 
 /* One edit of a scene, the same in each for the same numbers; near (x, y), or from far away to there. */
 static void edit(knurl_scene *scene, uint64_t seed, const shape *s, double x, double y) {
-    const uint32_t count = knurl_scene_surface_count(scene);
+    const uint32_t count = knurl_scene_get_surface_count(scene);
     const int64_t kind = random_integer(&seed, 0, 9);
-    const knurl_surface any = knurl_scene_surface_at(scene, (uint32_t)random_integer(&seed, 0, count - 1));
+    const knurl_surface_id any = knurl_scene_get_surface(scene, (uint32_t)random_integer(&seed, 0, count - 1));
     const int column = (int)fmin(SIDE - 1.0, fmax(0.0, x / PITCH));
     const int row = (int)fmin(SIDE - 1.0, fmax(0.0, y / PITCH));
     const uint32_t here = (uint32_t)(row * SIDE + column); /* close by, as long as few were taken out */
-    const knurl_surface near = knurl_scene_surface_at(scene, here < count ? here : 0);
+    const knurl_surface_id near = knurl_scene_get_surface(scene, here < count ? here : 0);
     surface_parts parts = tile(&seed, s, x + random_between(&seed, -0.1, 0.1), y + random_between(&seed, -0.1, 0.1));
     pose p;
     memcpy(p.position, parts.desc.position, sizeof p.position);
@@ -162,7 +162,7 @@ static int compare_models(uint32_t model, uint64_t seed, int ticks, int edit_eve
             print_difference(k, &a, &b);
         }
         check_same_output(&a, &b);
-        assert_true(isfinite(length3(a.force)) && a.contacts <= KNURL_MAX_CONTACTS);
+        assert_true(isfinite(length3(a.force)) && a.contacts <= KNURL_CONTACTS_MAX);
         touched += a.contacts > 0;
     }
     knurl_scene_destroy(reduced);
@@ -227,8 +227,8 @@ TEST(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged) {
         for (int k = 0; k <= 100; k++) {
             const double z = 0.005 - 1e-4 * k + 3e-5;
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, z);
-            CHECK_CLOSE(out.force[2], z < 0.0 ? KNURL_MAX_CONTACTS * K * -z : 0.0, 1e-9L);
-            assert_int_equal(out.contacts, z < 0.0 ? KNURL_MAX_CONTACTS : 0);
+            CHECK_CLOSE(out.force[2], z < 0.0 ? KNURL_CONTACTS_MAX * K * -z : 0.0, 1e-9L);
+            assert_int_equal(out.contacts, z < 0.0 ? KNURL_CONTACTS_MAX : 0);
             flags |= out.flags;
         }
         assert_int_equal(flags, KNURL_TICK_CONTACT | KNURL_TICK_CONTACTS_FULL);
@@ -241,7 +241,7 @@ TEST(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged) {
 /* 60 were here and are gone, before a HIP came by or under it: they take no room among those near it. */
 TEST(surfaces_taken_out_are_no_longer_near) {
     for (int committed = 0; committed < 2; committed++) {
-        knurl_surface gone[60];
+        knurl_surface_id gone[60];
         surface_parts parts = surface_plane();
         knurl_scene *scene = many_scene(0, 1);
         if (committed) {
@@ -250,7 +250,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
         for (int i = 0; i < 60; i++) {
             gone[i] = add_surface(scene, &parts);
         }
-        const knurl_surface floor_id = add_surface(scene, &parts);
+        const knurl_surface_id floor_id = add_surface(scene, &parts);
         if (!committed) {
             assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
         }
@@ -268,7 +268,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
 
 /* 60 have come by here on their way and are long gone: the floor is felt all the same. */
 TEST(surfaces_that_went_by_are_no_longer_near) {
-    knurl_surface passers[60];
+    knurl_surface_id passers[60];
     surface_parts parts = surface_plane();
     knurl_scene *scene = many_scene(0, 1);
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
@@ -278,7 +278,7 @@ TEST(surfaces_that_went_by_are_no_longer_near) {
         passers[i] = add_surface(scene, &parts);
     }
     surface_parts floor_parts = surface_plane();
-    const knurl_surface floor_id = add_surface(scene, &floor_parts);
+    const knurl_surface_id floor_id = add_surface(scene, &floor_parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)tick_at(scene, 0.0, 0.0, 0.1);
     for (int i = 0; i < 60; i++) {
@@ -339,7 +339,7 @@ TEST(of_a_stack_the_topmost_is_met_first) {
             const double z = top + 0.005 - 4e-5 * k - 1e-5; /* 3 mm deep in the end */
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, z);
             const int through = z < top ? (int)((top - z) / 0.0003) + 1 : 0;
-            const int felt = through < KNURL_MAX_CONTACTS ? through : KNURL_MAX_CONTACTS;
+            const int felt = through < KNURL_CONTACTS_MAX ? through : KNURL_CONTACTS_MAX;
             double force = 0.0;
             for (int i = 0; i < felt; i++) {
                 force += K * (top - 0.0003 * i - z);

@@ -5,32 +5,32 @@ static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFI
 
 #define CHECK_ADD_REFUSED(scene, parts, code, word)                                                                    \
     do {                                                                                                               \
-        knurl_surface id_ = 77;                                                                                        \
-        const uint32_t count_ = knurl_scene_surface_count(scene);                                                      \
+        knurl_surface_id id_ = 77;                                                                                     \
+        const uint32_t count_ = knurl_scene_get_surface_count(scene);                                                  \
         CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(parts), &id_), code, id_);                          \
         check_message(word);                                                                                           \
-        assert_int_equal(knurl_scene_surface_count(scene), count_);                                                    \
+        assert_int_equal(knurl_scene_get_surface_count(scene), count_);                                                \
     } while (0)
 
 TEST(life_goes_from_create_to_tick) {
     knurl_scene *scene = NULL;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
-    assert_int_equal(knurl_scene_surface_count(scene), 0);
-    assert_true(knurl_scene_surface_at(scene, 0) == 0);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 0);
+    assert_true(knurl_scene_get_surface(scene, 0) == 0);
     surface_parts parts = surface_plane();
     parts.desc.name = "first";
-    const knurl_surface first = add_surface(scene, &parts);
+    const knurl_surface_id first = add_surface(scene, &parts);
     parts.desc.name = NULL;
-    const knurl_surface second = add_surface(scene, &parts);
+    const knurl_surface_id second = add_surface(scene, &parts);
     assert_true(first != second);
-    assert_int_equal(knurl_scene_surface_count(scene), 2);
-    assert_true(knurl_scene_surface_at(scene, 0) == first);
-    assert_true(knurl_scene_surface_at(scene, 1) == second);
-    assert_true(knurl_scene_surface_at(scene, 2) == 0);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 2);
+    assert_true(knurl_scene_get_surface(scene, 0) == first);
+    assert_true(knurl_scene_get_surface(scene, 1) == second);
+    assert_true(knurl_scene_get_surface(scene, 2) == 0);
     const char *name = NULL;
-    assert_int_equal(knurl_scene_surface_name(scene, first, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, first, &name), KNURL_OK);
     assert_string_equal(name, "first");
-    assert_int_equal(knurl_scene_surface_name(scene, second, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, second, &name), KNURL_OK);
     assert_string_equal(name, "");
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_true((tick_at(scene, 0.0, 0.0, -0.001).flags & KNURL_TICK_CONTACT) != 0);
@@ -68,10 +68,10 @@ TEST(scene_descriptions_out_of_range_are_refused) {
 TEST(a_scene_is_committed_once) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    knurl_surface id = add_surface(scene, &parts);
+    knurl_surface_id id = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     CHECK_REFUSED(knurl_scene_commit(scene), KNURL_ERROR_STATE, id);
-    assert_int_equal(knurl_scene_surface_count(scene), 1);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 1);
     knurl_scene_destroy(scene);
 }
 
@@ -81,27 +81,27 @@ TEST(ids_of_removed_surfaces_stay_stale) {
     const char *name = "untouched";
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
-    const knurl_surface kept = add_surface(scene, &parts);
-    const knurl_surface removed = add_surface(scene, &parts);
+    const knurl_surface_id kept = add_surface(scene, &parts);
+    const knurl_surface_id removed = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_remove_surface(scene, removed), KNURL_OK);
-    const knurl_surface next = add_surface(scene, &parts); /* takes the place, not the id */
+    const knurl_surface_id next = add_surface(scene, &parts); /* takes the place, not the id */
     assert_true(next != removed);
-    const knurl_surface stale[] = {removed, 0, UINT64_MAX, next + 1, kept + ((uint64_t)1 << 32)};
+    const knurl_surface_id stale[] = {removed, 0, UINT64_MAX, next + 1, kept + ((uint64_t)1 << 32)};
     for (size_t i = 0; i < COUNT_OF(stale); i++) {
         CHECK_REFUSED(knurl_scene_remove_surface(scene, stale[i]), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_material(scene, stale[i], &parts.material), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_surface_name(scene, stale[i], &name), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_surface_info(scene, stale[i], &info), KNURL_ERROR_STALE_ID, info);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scene, stale[i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_get_surface_info(scene, stale[i], &info), KNURL_ERROR_STALE_ID, info);
     }
-    assert_int_equal(knurl_scene_surface_name(scene, kept, &name), KNURL_OK);
-    assert_int_equal(knurl_scene_surface_name(scene, next, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, kept, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, next, &name), KNURL_OK);
     knurl_scene_destroy(scene);
 }
 
 TEST(an_id_of_another_scene_is_stale_and_says_so) {
     surface_parts parts = surface_plane();
     knurl_scene *scenes[2] = {empty_scene(1), empty_scene(1)};
-    knurl_surface ids[2];
+    knurl_surface_id ids[2];
     const char *name = NULL;
     for (int i = 0; i < 2; i++) {
         ids[i] = add_surface(scenes[i], &parts); /* both of them at their scene's first place */
@@ -109,8 +109,8 @@ TEST(an_id_of_another_scene_is_stale_and_says_so) {
     for (int i = 0; i < 2; i++) {
         CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], ids[1 - i]), KNURL_ERROR_STALE_ID, parts);
         check_message("another scene's");
-        CHECK_REFUSED(knurl_scene_surface_name(scenes[i], ids[1 - i], &name), KNURL_ERROR_STALE_ID, name);
-        assert_int_equal(knurl_scene_surface_count(scenes[i]), 1);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scenes[i], ids[1 - i], &name), KNURL_ERROR_STALE_ID, name);
+        assert_int_equal(knurl_scene_get_surface_count(scenes[i]), 1);
         CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], 1), KNURL_ERROR_STALE_ID, parts);
         check_message("names none");
     }
@@ -126,17 +126,17 @@ TEST(an_id_of_another_scene_is_stale_and_says_so) {
 TEST(order_of_adding_survives_removal) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    knurl_surface ids[9];
+    knurl_surface_id ids[9];
     for (int i = 0; i < 9; i++) {
         ids[i] = add_surface(scene, &parts);
     }
     assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
     assert_int_equal(knurl_scene_remove_surface(scene, ids[4]), KNURL_OK);
-    const knurl_surface last = add_surface(scene, &parts);
-    const knurl_surface expected[8] = {ids[1], ids[2], ids[3], ids[5], ids[6], ids[7], ids[8], last};
-    assert_int_equal(knurl_scene_surface_count(scene), 8);
+    const knurl_surface_id last = add_surface(scene, &parts);
+    const knurl_surface_id expected[8] = {ids[1], ids[2], ids[3], ids[5], ids[6], ids[7], ids[8], last};
+    assert_int_equal(knurl_scene_get_surface_count(scene), 8);
     for (uint32_t i = 0; i < 8; i++) {
-        assert_true(knurl_scene_surface_at(scene, i) == expected[i]);
+        assert_true(knurl_scene_get_surface(scene, i) == expected[i]);
     }
     knurl_scene_destroy(scene);
 }
@@ -145,7 +145,7 @@ TEST(full_scene_has_room_after_a_removal) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;
     knurl_scene *scene = NULL;
-    knurl_surface id = 0;
+    knurl_surface_id id = 0;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.max_surfaces = 6;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
@@ -162,7 +162,7 @@ TEST(full_scene_has_room_after_a_removal) {
 TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     for (parts.material.method = KNURL_METHOD_DEFAULT; parts.material.method <= KNURL_LOCKED; parts.material.method++) {
         (void)add_surface(scene, &parts);
         assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
@@ -192,7 +192,7 @@ TEST(materials_out_of_range_are_refused_by_name) {
         {&bad.material.orientation, "orientation", (double)NAN},
     };
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &good);
+    const knurl_surface_id id = add_surface(scene, &good);
     for (size_t i = 0; i < COUNT_OF(fields); i++) {
         for (size_t k = 0; k <= COUNT_OF(NO_NUMBERS); k++) {
             bad = good;
@@ -203,7 +203,7 @@ TEST(materials_out_of_range_are_refused_by_name) {
     }
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK); /* what was set first still holds */
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK); /* what was set first still holds */
     assert_memory_equal(&info.material, &good.material, sizeof info.material);
     knurl_scene_destroy(scene);
 }
@@ -243,7 +243,7 @@ TEST(surface_is_exactly_one_shape_with_a_material) {
     shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
     surface_parts parts = surface_mesh(&sheet);
     knurl_scene *scene = empty_scene(1);
-    knurl_surface id = 77;
+    knurl_surface_id id = 77;
     knurl_surface_desc desc = *surface_ready(&parts);
     desc.plane = &parts.plane;
     CHECK_REFUSED(knurl_scene_add_surface(scene, &desc, &id), KNURL_ERROR_ARGUMENT, id);
@@ -259,7 +259,7 @@ TEST(surface_is_exactly_one_shape_with_a_material) {
     CHECK_REFUSED(knurl_scene_add_surface(scene, NULL, &id), KNURL_ERROR_ARGUMENT, id);
     parts.mesh.index_count = 4;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "multiple of 3");
-    assert_int_equal(knurl_scene_surface_count(scene), 0);
+    assert_int_equal(knurl_scene_get_surface_count(scene), 0);
     knurl_scene_destroy(scene);
     shape_free(&sheet);
 }
@@ -273,7 +273,7 @@ TEST(mesh_needs_a_direction_and_s1_coordinates) {
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "axis");
     parts.mesh.tangents = tangents;
     set_grating(&parts, KNURL_S2, 500.0, 0.0, 0.0005);
-    const knurl_surface id = add_surface(scene, &parts); /* S2 needs a direction only */
+    const knurl_surface_id id = add_surface(scene, &parts); /* S2 needs a direction only */
     set_grating(&parts, KNURL_S1, 500.0, 0.0, 0.0005);
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "S1");
     CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_ARGUMENT, id);
@@ -293,13 +293,13 @@ TEST(info_tells_the_axis_that_was_given) {
     surface_parts parts = surface_plane();
     knurl_surface_info_init(&info, sizeof info);
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
-    assert_int_equal(knurl_scene_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
     for (int i = 0; i < 3; i++) {
         CHECK_SAME(info.axis[i], 0.0);
     }
     parts.desc.axis[0] = -3.0;
     parts.desc.axis[1] = 4.0;
-    assert_int_equal(knurl_scene_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
     CHECK_CLOSE(info.axis[0], -0.6, 1e-15);
     CHECK_CLOSE(info.axis[1], 0.8, 1e-15);
     CHECK_SAME(info.axis[2], 0.0);
@@ -310,8 +310,8 @@ TEST(unknown_names_are_answered_with_the_known) {
     static const char *const names[] = {"bark", "silk", "bark"};
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    knurl_surface ids[3];
-    knurl_surface found = 77;
+    knurl_surface_id ids[3];
+    knurl_surface_id found = 77;
     CHECK_REFUSED(knurl_scene_find_surface(scene, "bark", &found), KNURL_ERROR_UNKNOWN, found);
     for (int i = 0; i < 3; i++) {
         parts.desc.name = names[i];

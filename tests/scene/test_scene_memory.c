@@ -14,13 +14,13 @@ TEST(removing_gives_the_bytes_back) {
     knurl_scene *scene = scene_with(&books);
     surface_parts plane = surface_plane();
     (void)add_surface(scene, &plane); /* the places for the first few surfaces stay */
-    const uint64_t before = knurl_scene_bytes(scene);
+    const uint64_t before = knurl_scene_get_bytes(scene);
     for (int i = 0; i < 3; i++) {
-        const knurl_surface id = add_surface(scene, &parts);
-        assert_true(knurl_scene_bytes(scene) == books.bytes);
+        const knurl_surface_id id = add_surface(scene, &parts);
+        assert_true(knurl_scene_get_bytes(scene) == books.bytes);
         assert_true(books.bytes > before + 1800 * 12);
         assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
-        assert_true(knurl_scene_bytes(scene) == before);
+        assert_true(knurl_scene_get_bytes(scene) == before);
         assert_true(books.bytes == before);
     }
     knurl_scene_destroy(scene);
@@ -39,9 +39,9 @@ TEST(refused_surfaces_leave_no_bytes) {
     surface_parts bad = surface_mesh(&sheet);
     bad.desc.name = "refused";
     bad.material.stiffness = -1.0; /* found after the mesh was built */
-    knurl_surface id = 77;
+    knurl_surface_id id = 77;
     CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(&bad), &id), KNURL_ERROR_ARGUMENT, id);
-    assert_true(books.bytes == before && knurl_scene_bytes(scene) == before);
+    assert_true(books.bytes == before && knurl_scene_get_bytes(scene) == before);
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
     shape_free(&sheet);
@@ -52,8 +52,8 @@ static int add_without(int32_t refused, surface_parts *parts) {
     ledger books = {0, 0, 0, 0};
     knurl_scene *scene = scene_with(&books);
     surface_parts plane = surface_plane();
-    knurl_surface first = 0;
-    knurl_surface id = 77;
+    knurl_surface_id first = 0;
+    knurl_surface_id id = 77;
     for (int i = 0; i < 4; i++) { /* one more makes the scene grow */
         first = first ? first : add_surface(scene, &plane);
         (void)(i > 0 ? add_surface(scene, &plane) : 0);
@@ -63,13 +63,13 @@ static int add_without(int32_t refused, surface_parts *parts) {
     if (result != KNURL_OK) {
         assert_int_equal(result, KNURL_ERROR_MEMORY);
         assert_true(id == 77);
-        assert_int_equal(knurl_scene_surface_count(scene), 4);
-        assert_true(knurl_scene_bytes(scene) == books.bytes);
+        assert_int_equal(knurl_scene_get_surface_count(scene), 4);
+        assert_true(knurl_scene_get_bytes(scene) == books.bytes);
         books.refused = 0;
         id = add_surface(scene, parts);
     }
-    assert_true(knurl_scene_surface_at(scene, 0) == first);
-    assert_true(knurl_scene_surface_at(scene, 4) == id);
+    assert_true(knurl_scene_get_surface(scene, 0) == first);
+    assert_true(knurl_scene_get_surface(scene, 4) == id);
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
     assert_true(books.bytes == 0);
@@ -113,9 +113,9 @@ TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     parts.material.friction = 7.0;
     parts.material.orientation = (double)NAN;
     parts.material.struct_size = offsetof(knurl_material_desc, damping);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     CHECK_SAME(info.material.stiffness, 123.0);
     CHECK_SAME(info.material.damping, 0.0);
     CHECK_SAME(info.material.friction, 0.0);
@@ -149,7 +149,7 @@ TEST(newer_structs_are_refused_only_where_their_news_is_used) {
     } newer;
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     knurl_material_desc_init(&newer.known, sizeof newer);
     assert_int_equal(newer.known.struct_size, sizeof newer);
     CHECK_SAME(newer.appended[1], 0.0);
@@ -164,10 +164,10 @@ TEST(shorter_info_is_written_no_further_than_its_size) {
     surface_parts parts = surface_plane();
     knurl_surface_info info;
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     memset(&info, 0x77, sizeof info);
     info.struct_size = offsetof(knurl_surface_info, bytes);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     assert_string_equal(info.shape, "plane");
     assert_int_equal(info.struct_size, offsetof(knurl_surface_info, bytes));
     assert_true(info.bytes == UINT64_C(0x7777777777777777));
@@ -185,9 +185,9 @@ TEST(info_tells_what_a_plane_came_to_be) {
     parts.plane.half_extents[0] = 0.02;
     parts.plane.half_extents[1] = 0.03;
     parts.material.orientation = asin(1.0); /* the grating's x along the plane's y, the scene's z */
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     assert_string_equal(info.name, "wall");
     assert_string_equal(info.model, "plane");
     assert_int_equal(info.triangle_count, 0);
@@ -213,9 +213,9 @@ TEST(info_tells_how_uvs_stretch) {
     surface_parts parts = surface_mesh(&sheet);
     knurl_surface_info info;
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface id = add_surface(scene, &parts);
+    const knurl_surface_id id = add_surface(scene, &parts);
     knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     assert_string_equal(info.shape, "mesh");
     assert_string_equal(info.model, "mesh+bvh");
     assert_int_equal(info.triangle_count, 4);

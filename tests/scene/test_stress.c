@@ -27,7 +27,7 @@ enum {
 /* What editors have done, and what HIPs may ask. */
 typedef struct stage {
     knurl_scene *scene;
-    knurl_surface ids[4];
+    knurl_surface_id ids[4];
     uint64_t done[4]; /* atomic: the number of the latest edit that is complete */
     uint64_t gone;    /* atomic: of COMES, the latest that was taken out */
     uint32_t over;    /* atomic */
@@ -311,7 +311,7 @@ TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
         glide(&s, &seed);
     }
     knurl_scene_collect(s.scene);
-    const uint64_t before = knurl_scene_bytes(s.scene);
+    const uint64_t before = knurl_scene_get_bytes(s.scene);
     memset(w, 0, sizeof w);
     for (uint32_t i = 0; i < HIPS; i++) {
         w[i].stage = &s;
@@ -335,7 +335,7 @@ TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
     }
     assert_true(halves == 0);
     knurl_scene_collect(s.scene);
-    assert_true(knurl_scene_bytes(s.scene) == books.bytes);
+    assert_true(knurl_scene_get_bytes(s.scene) == books.bytes);
     assert_true(books.bytes <= before + 1024); /* tables may differ; hundreds of records would be far more */
     knurl_scene_destroy(s.scene);
     assert_int_equal(books.blocks, 0);

@@ -29,7 +29,7 @@ TEST(smooth_surface_pushes_with_stiffness_times_depth) {
             CHECK_SAME(out.depth, touched ? depth : 0.0);
             assert_int_equal(out.contacts, touched);
             assert_int_equal(out.flags, touched ? KNURL_TICK_CONTACT : 0);
-            assert_true(out.surface == (touched ? knurl_scene_surface_at(scene, 0) : 0));
+            assert_true(out.surface == (touched ? knurl_scene_get_surface(scene, 0) : 0));
         }
         CHECK_SAME(out.height, 0.0);
         assert_int_equal(out.event, KNURL_NO_EVENT);
@@ -66,21 +66,21 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
     knurl_scene *scene = empty_scene(1);
     knurl_hip_desc hip;
     knurl_workspace workspace;
-    knurl_event event;
+    knurl_vibration_event event;
     knurl_workspace_init(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.max_force = 1e3;
-    hip.unguarded = KNURL_UNGUARDED_ALL; /* it is 2 mm in at its first tick */
+    hip.protections = 0; /* it is 2 mm in at its first tick */
     hip.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     (void)add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    assert_int_equal(knurl_event_init(rate / frequency, A, &event), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_init(rate / frequency, A, &event), KNURL_OK);
     for (int32_t k = 0; k < 5 * event.length; k++) {
         const double hip_at[3] = {0.01 * sin(k), 0.02 * cos(k), -0.002}; /* where it is makes no difference */
         const knurl_tick_output out = tick_moving(scene, hip_at, velocity);
-        const double height = knurl_event_height(&event, k % event.length);
+        const double height = knurl_vibration_event_height(&event, k % event.length);
         CHECK_CLOSE(out.height, height, 1e-15L);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * (height + 0.002), TOL);
         assert_int_equal(out.event, k / event.length);

@@ -102,7 +102,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     knurl_hip_counts counts;
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
-    hip.unguarded = KNURL_UNGUARDED_ALL; /* it jumps into the walls */
+    hip.protections = 0; /* it jumps into the walls */
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     (void)add_surface(scene, &parts);
     parts.desc.rotation[0] = parts.desc.rotation[3] = sqrt(0.5); /* a wall that looks to -y */
@@ -119,7 +119,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     CHECK_CLOSE(out.depth, 0.008, 1e-15L); /* what is told is not shortened */
     (void)tick_at(scene, 0.0, 0.008, -0.006);
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    assert_true(counts.force_limits == 2);
+    assert_true(counts.force_limit_ticks == 2);
     CHECK_CLOSE(counts.force_max, 3.3, TOL);
     knurl_scene_destroy(scene);
 }
@@ -149,7 +149,7 @@ TEST(numbers_that_are_not_finite_let_go_and_are_survived) {
         assert_int_equal(next.tick, out.tick + 1);
     }
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    assert_true(counts.not_finite == 18 && counts.ticks == 18 * 5);
+    assert_true(counts.non_finite_ticks == 18 && counts.ticks == 18 * 5);
     knurl_scene_destroy(scene);
 }
 
@@ -202,10 +202,10 @@ TEST(numbers_that_overflow_give_no_force) {
 TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    const knurl_surface floor_id = add_surface(scene, &parts);
+    const knurl_surface_id floor_id = add_surface(scene, &parts);
     parts.desc.rotation[0] = parts.desc.rotation[3] = sqrt(0.5);
     parts.material.stiffness = 100.0;
-    const knurl_surface wall_id = add_surface(scene, &parts); /* at y = 0, looking to -y */
+    const knurl_surface_id wall_id = add_surface(scene, &parts); /* at y = 0, looking to -y */
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)tick_at(scene, 0.0, -0.001, 0.001);
@@ -240,9 +240,9 @@ TEST(more_surfaces_than_slots_are_flagged) {
         knurl_scene *scene = stack_of_planes(count, 0);
         (void)tick_at(scene, 0.0, 0.0, 0.001);
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.002);
-        const int touched = count < KNURL_MAX_CONTACTS ? count : KNURL_MAX_CONTACTS;
+        const int touched = count < KNURL_CONTACTS_MAX ? count : KNURL_CONTACTS_MAX;
         assert_int_equal(out.contacts, touched);
-        assert_int_equal((out.flags & KNURL_TICK_CONTACTS_FULL) != 0, count > KNURL_MAX_CONTACTS);
+        assert_int_equal((out.flags & KNURL_TICK_CONTACTS_FULL) != 0, count > KNURL_CONTACTS_MAX);
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.001).flags, 0);
         knurl_scene_destroy(scene);
     }
@@ -270,7 +270,7 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
 }
 
 TEST(surfaces_left_in_the_same_tick_are_all_left) {
-    for (int count = 1; count <= KNURL_MAX_CONTACTS; count++) {
+    for (int count = 1; count <= KNURL_CONTACTS_MAX; count++) {
         knurl_scene *scene = stack_of_planes(count, 1);
         (void)tick_at(scene, 0.0, 0.0, 0.001);
         assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, count);

@@ -29,7 +29,7 @@ static const runaway runaways[] = {
     {"preset=touch&coulomb=0", "loose", KNURL_LOCKED, 1020.0, 0.0002, 0.1},
 };
 
-static inline lab_case runaway_case(const runaway *r, uint32_t unguarded) {
+static inline lab_case runaway_case(const runaway *r, uint32_t without) {
     lab_case c;
     lab_case_init(&c);
     c.device = r->device;
@@ -39,7 +39,7 @@ static inline lab_case runaway_case(const runaway *r, uint32_t unguarded) {
     c.amplitude = r->amplitude;
     c.speed = r->speed;
     c.settle = 2.25; /* S2 has ended its first event */
-    c.unguarded = unguarded;
+    c.without = without;
     return c;
 }
 

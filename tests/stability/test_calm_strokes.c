@@ -17,8 +17,8 @@ typedef struct stroke_case {
     int moves;        /* 1: a game shakes the surface, 2 mm along its ridges' direction and 0.5 mm up, at 2 Hz */
 } stroke_case;
 
-static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device, uint32_t unguarded,
-                               knurl_surface *surface) {
+static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device, uint32_t without,
+                               knurl_surface_id *surface) {
     knurl_scene *scene = NULL;
     knurl_plane_desc plane;
     knurl_surface_desc desc;
@@ -50,7 +50,7 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
     hip.viscous = info.viscous;
     hip.delay = info.delay;
     hip.max_stiffness = info.max_stiffness;
-    hip.unguarded = unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~without;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     assert_int_equal(knurl_scene_add_surface(scene, &desc, surface), KNURL_OK);
@@ -59,9 +59,9 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
 }
 
 /* The forces of a stroke. Returns the ticks with contact. */
-static int stroke(const stroke_case *c, uint32_t unguarded, double (*forces)[3]) {
+static int stroke(const stroke_case *c, uint32_t without, double (*forces)[3]) {
     static const double turned[4] = {-0.70710678118654752, 0.0, 0.0, 0.70710678118654752};
-    knurl_surface surface;
+    knurl_surface_id surface;
     knurl_device *device = NULL;
     knurl_stroke_desc hand;
     int touching = 0;
@@ -70,7 +70,7 @@ static int stroke(const stroke_case *c, uint32_t unguarded, double (*forces)[3])
     hand.reach[0] = 0.01;
     hand.depth = 0.002;
     assert_int_equal(knurl_device_open(c->device, &device), KNURL_OK);
-    knurl_scene *scene = make_scene(c, device, unguarded, &surface);
+    knurl_scene *scene = make_scene(c, device, without, &surface);
     assert_int_equal(knurl_fake_set_stroke(device, &hand), KNURL_OK);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
     for (int k = 0; k < TICKS; k++) {
@@ -109,7 +109,7 @@ static void check_strokes(int moves) {
         const stroke_case c = {devices[device].device, methods[i / COUNT_OF(devices) % COUNT_OF(methods)],
                                devices[device].stiffness, speeds[i / (COUNT_OF(devices) * COUNT_OF(methods))], moves};
         assert_true(stroke(&c, 0, with) > TICKS / 2);
-        (void)stroke(&c, KNURL_UNGUARDED_PASSIVITY, without);
+        (void)stroke(&c, KNURL_PROTECT_PASSIVITY, without);
         int same = 1;
         for (int k = 0; k < TICKS; k++) {
             same &= with[k][0] == without[k][0] && with[k][1] == without[k][1] && with[k][2] == without[k][2];

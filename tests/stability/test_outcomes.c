@@ -210,7 +210,7 @@ TEST(a_device_or_method_that_is_none_is_refused_with_the_librarys_message) {
 
 TEST(what_runs_away_raw_within_the_devices_own_limits_does_so) {
     for (size_t i = 0; i < COUNT_OF(runaways); i++) {
-        const lab_case c = runaway_case(&runaways[i], KNURL_UNGUARDED_ALL);
+        const lab_case c = runaway_case(&runaways[i], KNURL_PROTECT_ALL);
         const lab_result r = run(&c);
         if (r.outcome != LAB_UNSTABLE) {
             fail_msg("row %u: %s", (unsigned)i, lab_outcome_name(r.outcome));

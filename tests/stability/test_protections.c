@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#define PASSIVITY_ONLY (KNURL_UNGUARDED_ALL & ~(uint32_t)KNURL_UNGUARDED_PASSIVITY)
+#define PASSIVITY_ONLY (KNURL_PROTECT_ALL & ~(uint32_t)KNURL_PROTECT_PASSIVITY)
 
 /* Near the limit a swing takes seconds to grow, and a stroke turns after a metre: judged is the end of five seconds or
  * of 0.98 m. */
@@ -63,7 +63,7 @@ static double time_to_act(const lab_signals *s) {
  * the same times. Returns the time to act. */
 static double check_stopped(const lab_case *raw) {
     lab_case c = *raw;
-    c.unguarded = 0;
+    c.without = 0;
     const lab_result r = run(&c, &signals);
     const double acts = time_to_act(&signals);
     const double force = late_swing(&signals, signals.written);
@@ -79,7 +79,7 @@ static double check_stopped(const lab_case *raw) {
 /* Bounces of millimetres are over within a second; what takes longer to grow is smaller, and may. */
 TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL, drop_signals) {
     for (size_t i = 0; i < COUNT_OF(runaways); i++) {
-        lab_case c = runaway_case(&runaways[i], KNURL_UNGUARDED_ALL);
+        lab_case c = runaway_case(&runaways[i], KNURL_PROTECT_ALL);
         judge_late(&c);
         const lab_result raw = run(&c, &others);
         assert_int_equal(raw.outcome, LAB_UNSTABLE);
@@ -118,7 +118,7 @@ TEST_WITH(a_finer_grid_has_no_runaway_left_and_no_calm_cell_touched, NULL, drop_
             (void)check_stopped(&c);
             stopped++;
         } else if (raw.outcome <= LAB_VIBRATION && raw.swing < raw.reference_swing + 0.0005) {
-            c.unguarded = PASSIVITY_ONLY;
+            c.without = PASSIVITY_ONLY;
             (void)run(&c, &signals);
             if (memcmp(signals.written, others.written, signals.count * sizeof *signals.written) != 0) {
                 fail_msg("%s, method %d, %g N/m, %g m/s: not the same forces; swings by %g m, the reference by %g m",
@@ -151,7 +151,7 @@ static int compare(size_t device, const char *grip, int32_t method, double speed
     if (run(&c, &others).outcome > LAB_VIBRATION) {
         return 0;
     }
-    c.unguarded = PASSIVITY_ONLY;
+    c.without = PASSIVITY_ONLY;
     (void)run(&c, &signals);
     if (memcmp(signals.written, others.written, signals.count * sizeof *signals.written) != 0) {
         fail_msg("%s, %s, method %d, %g m/s, %g N/m: not the same forces", devices[device], grip, (int)method, speed,
@@ -179,7 +179,7 @@ TEST_WITH(calm_walls_and_textures_are_left_alone_to_the_bit, NULL, drop_signals)
 /* Runs raw and with the controller: the same forces. */
 static void check_untouched(lab_case *c) {
     (void)run(c, &others);
-    c->unguarded = PASSIVITY_ONLY;
+    c->without = PASSIVITY_ONLY;
     (void)run(c, &signals);
     if (memcmp(signals.written, others.written, signals.count * sizeof *signals.written) != 0) {
         fail_msg("%s, %s, %g N/m, %g N, %g m/s: not the same forces; acts after %g s", c->device, c->grip->name,
@@ -235,7 +235,7 @@ static void see(const knurl_tick_output *output, void *user) {
 }
 
 /* A plate with its front up that is as stiff as the Touch's maker promises. */
-static knurl_scene *hard_plate(uint32_t unguarded) {
+static knurl_scene *hard_plate(uint32_t without) {
     knurl_scene *scene = NULL;
     knurl_plane_desc plane;
     knurl_material_desc material;
@@ -254,7 +254,7 @@ static knurl_scene *hard_plate(uint32_t unguarded) {
     surface.rotation[0] = -0.70710678118654752;
     surface.rotation[3] = 0.70710678118654752;
     hip.workspace = &workspace;
-    hip.unguarded = unguarded;
+    hip.protections = KNURL_PROTECT_ALL & ~without;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     assert_int_equal(knurl_scene_add_surface(scene, &surface, NULL), KNURL_OK);
@@ -264,9 +264,9 @@ static knurl_scene *hard_plate(uint32_t unguarded) {
 
 /* Three seconds of a Touch without dry friction in a loose hand that presses with 1 N. Returns the late force's swing,
  * N; passivities: ticks. */
-static double press_through_a_loop(uint32_t unguarded, uint64_t *passivities) {
+static double press_through_a_loop(uint32_t without, uint64_t *passivities) {
     seen s = {HUGE_VAL, -HUGE_VAL, 2750};
-    knurl_scene *scene = hard_plate(unguarded);
+    knurl_scene *scene = hard_plate(without);
     knurl_device *device = NULL;
     knurl_loop *loop = NULL;
     knurl_loop_desc desc;
@@ -288,7 +288,7 @@ static double press_through_a_loop(uint32_t unguarded, uint64_t *passivities) {
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(knurl_loop_step(loop, 3000), KNURL_OK);
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    *passivities = counts.passivities;
+    *passivities = counts.passivity_ticks;
     knurl_loop_destroy(loop);
     knurl_device_close(device);
     knurl_scene_destroy(scene);
@@ -297,7 +297,7 @@ static double press_through_a_loop(uint32_t unguarded, uint64_t *passivities) {
 
 TEST(a_runaway_through_the_loop_is_stopped_and_counted) {
     uint64_t passivities;
-    assert_true(press_through_a_loop(KNURL_UNGUARDED_PASSIVITY, &passivities) > 1.0);
+    assert_true(press_through_a_loop(KNURL_PROTECT_PASSIVITY, &passivities) > 1.0);
     assert_true(passivities == 0);
     assert_true(press_through_a_loop(0, &passivities) < 0.2);
     assert_true(passivities > 1000);

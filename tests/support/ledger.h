@@ -51,7 +51,7 @@ static inline knurl_scene *scene_with(ledger *books) {
     desc.hip_count = 2;
     desc.allocator = &allocator;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
-    assert_true(knurl_scene_bytes(scene) == books->bytes);
+    assert_true(knurl_scene_get_bytes(scene) == books->bytes);
     return scene;
 }
 

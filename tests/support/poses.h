@@ -65,7 +65,7 @@ static inline void place(surface_parts *parts, const pose *p) {
 }
 
 /** Moves a surface, which must work. */
-static inline void move_to(knurl_scene *scene, knurl_surface surface, const pose *p, double seconds) {
+static inline void move_to(knurl_scene *scene, knurl_surface_id surface, const pose *p, double seconds) {
     assert_int_equal(knurl_scene_set_transform(scene, surface, p->position, p->quaternion, seconds), KNURL_OK);
 }
 

@@ -49,8 +49,8 @@ static inline void set_grating(surface_parts *parts, int32_t method, double fsx,
     parts->material.amplitude = amplitude;
 }
 
-static inline knurl_surface add_surface(knurl_scene *scene, surface_parts *parts) {
-    knurl_surface id = 0;
+static inline knurl_surface_id add_surface(knurl_scene *scene, surface_parts *parts) {
+    knurl_surface_id id = 0;
     assert_int_equal(knurl_scene_add_surface(scene, surface_ready(parts), &id), KNURL_OK);
     assert_true(id != 0);
     return id;
@@ -75,7 +75,7 @@ static inline void configure_plainly(knurl_scene *scene, uint32_t hip) {
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.resolution = 0.0;
     desc.max_force = 1e6;
-    desc.unguarded = KNURL_UNGUARDED_ALL;
+    desc.protections = 0;
     desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, hip, &desc), KNURL_OK);
 }

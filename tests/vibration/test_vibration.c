@@ -13,14 +13,14 @@ static knurl_wave make_wave(int32_t method, double ticks, double amplitude, doub
     return wave;
 }
 
-static knurl_event make_event(double ticks, double amplitude) {
-    knurl_event event;
-    assert_int_equal(knurl_event_init(ticks, amplitude, &event), KNURL_OK);
+static knurl_vibration_event make_event(double ticks, double amplitude) {
+    knurl_vibration_event event;
+    assert_int_equal(knurl_vibration_event_init(ticks, amplitude, &event), KNURL_OK);
     return event;
 }
 
 /* The T3 event of a period that is given in seconds. */
-static knurl_event event_of(double period_s, double rate) {
+static knurl_vibration_event event_of(double period_s, double rate) {
     knurl_wave wave;
     assert_int_equal(knurl_wave_init(KNURL_T3, period_s, 1.0, rate, &wave), KNURL_OK);
     assert_int_equal(wave.part_count, 1);
@@ -101,11 +101,11 @@ TEST(t3_at_2_5_ticks_is_the_six_tick_mix_of_eq_8) {
     const long double expected[] = {(2 + 3 * r) / s,  (-2 + 3 * r) / s, (2 - 6 * r) / s,
                                     (-2 + 3 * r) / s, (2 + 3 * r) / s,  (-2 - 6 * r) / s};
     const knurl_wave wave = make_wave(KNURL_T3, 2.5, 0.7, 1000.0);
-    const knurl_event event = make_event(2.5, 0.7);
+    const knurl_vibration_event event = make_event(2.5, 0.7);
     assert_int_equal(event.length, 6);
     for (uint64_t k = 0; k < 24; k++) {
         CHECK_CLOSE(knurl_wave_value(&wave, k), 0.7 * expected[k % 6], 1e-15L);
-        CHECK_CLOSE(knurl_event_height(&event, (int32_t)(k % 6)), 0.7 * expected[k % 6], 1e-15L);
+        CHECK_CLOSE(knurl_vibration_event_height(&event, (int32_t)(k % 6)), 0.7 * expected[k % 6], 1e-15L);
     }
 }
 
@@ -225,7 +225,7 @@ TEST(t2_weights_satisfy_eqs_1_and_2) {
 
 TEST(t3_odd_period_is_balanced_and_keeps_rms) {
     for (int32_t n = 3; n <= 41; n += 2) {
-        const knurl_event event = make_event((double)n, 1.3); /* Eqs. 5 and 6 */
+        const knurl_vibration_event event = make_event((double)n, 1.3); /* Eqs. 5 and 6 */
         const long double tp = event.positive_ticks;
         const long double tn = (long double)event.length - tp;
         const long double ap = event.positive;
@@ -308,11 +308,11 @@ TEST(the_same_number_of_ticks_is_the_same_sequence_at_every_rate) {
 TEST(an_event_has_no_height_outside_its_ticks) {
     static const double ticks[] = {2.5, 3.0, 4.0};
     for (size_t i = 0; i < COUNT_OF(ticks); i++) {
-        const knurl_event event = make_event(ticks[i], 1.0);
-        CHECK_SAME(knurl_event_height(&event, -1), 0.0);
-        CHECK_SAME(knurl_event_height(&event, event.length), 0.0);
-        CHECK_SAME(knurl_event_height(&event, INT32_MIN), 0.0);
-        CHECK_SAME(knurl_event_height(&event, INT32_MAX), 0.0);
+        const knurl_vibration_event event = make_event(ticks[i], 1.0);
+        CHECK_SAME(knurl_vibration_event_height(&event, -1), 0.0);
+        CHECK_SAME(knurl_vibration_event_height(&event, event.length), 0.0);
+        CHECK_SAME(knurl_vibration_event_height(&event, INT32_MIN), 0.0);
+        CHECK_SAME(knurl_vibration_event_height(&event, INT32_MAX), 0.0);
     }
 }
 
@@ -360,9 +360,9 @@ TEST(bad_waves_are_refused_and_nothing_is_written) {
 TEST(bad_events_are_refused_and_nothing_is_written) {
     static const double bad[][2] = {{0.0, 1.0}, {-3.0, 1.0}, {(double)NAN, 1.0}, {(double)INFINITY, 1.0},
                                     {1e7, 1.0}, {3.0, -1.0}, {3.0, (double)NAN}, {3.0, (double)INFINITY}};
-    knurl_event event;
+    knurl_vibration_event event;
     memset(&event, 0xA5, sizeof(event));
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        CHECK_REFUSED(knurl_event_init(bad[i][0], bad[i][1], &event), KNURL_ERROR_ARGUMENT, event);
+        CHECK_REFUSED(knurl_vibration_event_init(bad[i][0], bad[i][1], &event), KNURL_ERROR_ARGUMENT, event);
     }
 }

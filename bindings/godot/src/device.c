@@ -113,7 +113,7 @@ void device_release(device *d) {
         d->slot = -1;
     }
     if (d->session) { /* what is left are files' surfaces */
-        knurl_scene_collect(knurl_session_scene(d->session));
+        knurl_scene_collect(knurl_session_get_scene(d->session));
     }
 }
 

@@ -125,7 +125,7 @@ static void get_device_name(void *self, void *value) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     if (d->runs) {
-        (void)knurl_device_get_info(knurl_session_device(d->session), &info);
+        (void)knurl_device_get_info(knurl_session_get_device(d->session), &info);
     }
     gd_string_set(value, info.name);
 }
@@ -194,7 +194,7 @@ static void load_gltf(void *self, const void *const *arguments, void *result) {
     char *path = globalise(arguments[0]);
     knurl_gltf_report_init(&report, sizeof report);
     knurl_result failed = path ? device_make_session(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
-    failed = failed ? failed : knurl_gltf_load_file(knurl_session_scene(d->session), path, &report);
+    failed = failed ? failed : knurl_gltf_load_file(knurl_session_get_scene(d->session), path, &report);
     if (failed) {
         (void)device_fail("KnurlDevice.load_gltf", failed);
     } else {

@@ -44,7 +44,8 @@ static void complain(const surface *s) {
     gd_error("KnurlSurface", "KnurlSurface '%s': %s", name, knurl_error_message());
 }
 
-static knurl_result add(device *d, surface *s, const mesh_data *data, const knurl_session_pose *at, knurl_surface *id) {
+static knurl_result add(device *d, surface *s, const mesh_data *data, const knurl_session_pose *at,
+                        knurl_surface_id *id) {
     char name[128];
     knurl_surface_desc desc;
     knurl_mesh_desc mesh;
@@ -67,7 +68,7 @@ static knurl_result add(device *d, surface *s, const mesh_data *data, const knur
         }
         desc.axis[i] = (double)axis[i];
     }
-    return knurl_scene_add_surface(knurl_session_scene(d->session), &desc, id);
+    return knurl_scene_add_surface(knurl_session_get_scene(d->session), &desc, id);
 }
 
 void follow_add(device *d, surface *s) {
@@ -81,7 +82,7 @@ void follow_add(device *d, surface *s) {
     const GDExtensionObjectPtr mesh = mesh_of(s, &held);
     s->flat = (uint8_t)(follow_pose(s->base.object, &at) ? s->flat & others : s->flat | (1u << d->slot));
     if (mesh && s->enabled && s->grating && !(s->flat & ~others)) {
-        knurl_surface id = 0;
+        knurl_surface_id id = 0;
         const int fits = mesh_read(mesh, at.rest, &data);
         const knurl_result result = !fits ? knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with")
                                     : data.index_count == 0
@@ -100,11 +101,11 @@ void follow_add(device *d, surface *s) {
 }
 
 void follow_remove(device *d, surface *s) {
-    const knurl_surface id = s->ids[d->slot];
+    const knurl_surface_id id = s->ids[d->slot];
     if (id) {
         s->ids[d->slot] = 0;
         /* what that ends is told by signals.c */
-        (void)knurl_scene_remove_surface(knurl_session_scene(d->session), id);
+        (void)knurl_scene_remove_surface(knurl_session_get_scene(d->session), id);
     }
 }
 
@@ -129,7 +130,7 @@ static void move(device *d, surface *s) {
 static void feel(device *d, surface *s) {
     knurl_material_desc material;
     grating_describe(s->grating, &material);
-    if (knurl_scene_set_material(knurl_session_scene(d->session), s->ids[d->slot], &material)) {
+    if (knurl_scene_set_material(knurl_session_get_scene(d->session), s->ids[d->slot], &material)) {
         complain(s);
     }
 }

@@ -1,7 +1,7 @@
 /* Signals of a KnurlDevice: what happened since the last frame. SPDX-License-Identifier: MIT */
 #include "signals.h"
 
-static GDExtensionObjectPtr node_of(const device *d, knurl_surface id) {
+static GDExtensionObjectPtr node_of(const device *d, knurl_surface_id id) {
     for (const surface *s = surfaces; s; s = s->next) {
         if (s->ids[d->slot] == id) {
             return s->base.object;
@@ -30,7 +30,7 @@ void signals_end_contact(device *d) {
     }
 }
 
-static void start_contact(device *d, knurl_surface id) {
+static void start_contact(device *d, knurl_surface_id id) {
     d->touched = id;
     d->touched_node = node_of(d, id);
     emit_contact(d, "contact_started", d->touched_node);

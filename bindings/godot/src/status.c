@@ -20,7 +20,7 @@ static void truth(void *dictionary, const char *key, int value) {
 static void tell_loop(const knurl_loop_stats *stats, void *to) {
     whole(to, "ticks", stats->ticks);
     whole(to, "overruns", stats->overruns);
-    whole(to, "watchdogs", stats->watchdogs);
+    whole(to, "watchdogs", stats->watchdog_trips);
     whole(to, "absences", stats->absences);
     truth(to, "absent", stats->absent != 0);
     truth(to, "realtime", stats->realtime != 0);
@@ -54,17 +54,17 @@ static void tell_hip(const knurl_scene *scene, void *to) {
     whole(to, "events", counts.events);
     number(to, "half_cycles_crossed", counts.half_cycles_crossed);
     whole(to, "half_cycles_played", counts.half_cycles_played);
-    whole(to, "force_limits", counts.force_limits);
-    whole(to, "frequency_saturations", counts.frequency_saturations);
-    whole(to, "not_finite", counts.not_finite);
-    whole(to, "entries", counts.entries);
-    whole(to, "slews", counts.slews);
-    whole(to, "heats", counts.heats);
-    whole(to, "passivities", counts.passivities);
+    whole(to, "force_limit_ticks", counts.force_limit_ticks);
+    whole(to, "saturation_ticks", counts.saturation_ticks);
+    whole(to, "not_finite", counts.non_finite_ticks);
+    whole(to, "entries", counts.entry_ticks);
+    whole(to, "slews", counts.slew_ticks);
+    whole(to, "heats", counts.heat_ticks);
+    whole(to, "passivities", counts.passivity_ticks);
     number(to, "force_max", counts.force_max);
     number(to, "heat", counts.heat);
-    whole(to, "surfaces", knurl_scene_surface_count(scene));
-    whole(to, "scene_bytes", knurl_scene_bytes(scene));
+    whole(to, "surfaces", knurl_scene_get_surface_count(scene));
+    whole(to, "scene_bytes", knurl_scene_get_bytes(scene));
 }
 
 void status_tell(void *self, const void *const *arguments, void *result) {
@@ -74,9 +74,9 @@ void status_tell(void *self, const void *const *arguments, void *result) {
     truth(result, "running", d->runs);
     if (d->runs) {
         knurl_loop_stats_init(&stats, sizeof stats);
-        (void)knurl_loop_get_stats(knurl_session_loop(d->session), &stats);
+        (void)knurl_loop_get_stats(knurl_session_get_loop(d->session), &stats);
         tell_loop(&stats, result);
-        tell_device(knurl_session_device(d->session), result);
-        tell_hip(knurl_session_scene(d->session), result);
+        tell_device(knurl_session_get_device(d->session), result);
+        tell_hip(knurl_session_get_scene(d->session), result);
     }
 }

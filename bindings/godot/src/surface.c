@@ -66,7 +66,7 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
     knurl_surface_info_init(&info, sizeof info);
     for (int i = 0; i < DEVICE_SLOTS && count == 0; i++) {
         if (devices[i] && s->ids[i] &&
-            !knurl_scene_surface_info(knurl_session_scene(devices[i]->session), s->ids[i], &info)) {
+            !knurl_scene_get_surface_info(knurl_session_get_scene(devices[i]->session), s->ids[i], &info)) {
             count = (int64_t)info.triangle_count;
         }
     }

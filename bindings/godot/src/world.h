@@ -17,10 +17,10 @@ typedef struct surface {
     float axis[3];
     struct surface *next_marked;
     uint8_t is_marked;
-    struct surface *next, *previous;   /* of those in a tree */
-    uint8_t moved, changed, made_anew; /* masks: which running device has yet to be told */
-    uint8_t flat;                      /* mask: scaled to nothing, so not in that device's scene */
-    knurl_surface ids[DEVICE_SLOTS];   /* in each running device's scene, or 0 */
+    struct surface *next, *previous;    /* of those in a tree */
+    uint8_t moved, changed, made_anew;  /* masks: which running device has yet to be told */
+    uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
+    knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */
     knurl_session_way ways[DEVICE_SLOTS];
     double rest[DEVICE_SLOTS][9]; /* scale that is baked in */
 } surface;
@@ -36,7 +36,7 @@ typedef struct device {
     int slot;                    /* -1: does not run */
     knurl_session *session;      /* or null: never started yet, and no file loaded */
     knurl_workspace workspace;
-    knurl_surface touched;
+    knurl_surface_id touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
     uint64_t gratings_seen;
 } device;

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "88d94d694c1e02f6"
+#define KNURL_UNITY_INTERFACE "b7d5ac99c6864dd8"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -92,13 +92,13 @@
     FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
     FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
     FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
-    STRUCT(knurl_event, 32) \
-    FIELD(knurl_event, positive, "positive", 0, 8) \
-    FIELD(knurl_event, negative, "negative", 8, 8) \
-    FIELD(knurl_event, length, "length", 16, 4) \
-    FIELD(knurl_event, positive_ticks, "positive_ticks", 20, 4) \
-    FIELD(knurl_event, kind, "kind", 24, 4) \
-    FIELD(knurl_event, saturated, "saturated", 28, 4) \
+    STRUCT(knurl_vibration_event, 32) \
+    FIELD(knurl_vibration_event, positive, "positive", 0, 8) \
+    FIELD(knurl_vibration_event, negative, "negative", 8, 8) \
+    FIELD(knurl_vibration_event, length, "length", 16, 4) \
+    FIELD(knurl_vibration_event, positive_ticks, "positive_ticks", 20, 4) \
+    FIELD(knurl_vibration_event, kind, "kind", 24, 4) \
+    FIELD(knurl_vibration_event, saturated, "saturated", 28, 4) \
     STRUCT(knurl_wave, 96) \
     FIELD(knurl_wave, period_ticks, "period_ticks", 0, 8) \
     FIELD(knurl_wave, amplitude, "amplitude", 8, 8) \
@@ -187,7 +187,7 @@
     FIELD(knurl_hip_desc, delay, "delay", 64, 8) \
     FIELD(knurl_hip_desc, max_stiffness, "max_stiffness", 72, 8) \
     FIELD(knurl_hip_desc, slew_rate, "slew_rate", 80, 8) \
-    FIELD(knurl_hip_desc, unguarded, "unguarded", 88, 4) \
+    FIELD(knurl_hip_desc, protections, "protections", 88, 4) \
     FIELD(knurl_hip_desc, clamp, "clamp", 92, 4) \
     STRUCT(knurl_scene_desc, 24) \
     FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
@@ -247,13 +247,13 @@
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
-    FIELD(knurl_hip_counts, force_limits, "force_limits", 24, 8) \
-    FIELD(knurl_hip_counts, frequency_saturations, "frequency_saturations", 32, 8) \
-    FIELD(knurl_hip_counts, not_finite, "not_finite", 40, 8) \
-    FIELD(knurl_hip_counts, entries, "entries", 48, 8) \
-    FIELD(knurl_hip_counts, slews, "slews", 56, 8) \
-    FIELD(knurl_hip_counts, heats, "heats", 64, 8) \
-    FIELD(knurl_hip_counts, passivities, "passivities", 72, 8) \
+    FIELD(knurl_hip_counts, force_limit_ticks, "force_limit_ticks", 24, 8) \
+    FIELD(knurl_hip_counts, saturation_ticks, "saturation_ticks", 32, 8) \
+    FIELD(knurl_hip_counts, non_finite_ticks, "non_finite_ticks", 40, 8) \
+    FIELD(knurl_hip_counts, entry_ticks, "entry_ticks", 48, 8) \
+    FIELD(knurl_hip_counts, slew_ticks, "slew_ticks", 56, 8) \
+    FIELD(knurl_hip_counts, heat_ticks, "heat_ticks", 64, 8) \
+    FIELD(knurl_hip_counts, passivity_ticks, "passivity_ticks", 72, 8) \
     FIELD(knurl_hip_counts, force_max, "force_max", 80, 8) \
     FIELD(knurl_hip_counts, heat, "heat", 88, 8) \
     FIELD(knurl_hip_counts, half_cycles_crossed, "half_cycles_crossed", 96, 8) \
@@ -290,7 +290,7 @@
     FIELD(knurl_loop_desc, ramp_s, "ramp_s", 64, 8) \
     FIELD(knurl_loop_desc, watchdog_s, "watchdog_s", 72, 8) \
     FIELD(knurl_loop_desc, clock, "clock", 80, 8) \
-    FIELD(knurl_loop_desc, unguarded, "unguarded", 88, 4) \
+    FIELD(knurl_loop_desc, protections, "protections", 88, 4) \
     FIELD(knurl_loop_desc, reconnect, "reconnect", 92, 4) \
     FIELD(knurl_loop_desc, heartbeat_s, "heartbeat_s", 96, 8) \
     STRUCT(knurl_percentiles, 24) \
@@ -302,12 +302,12 @@
     FIELD(knurl_loop_stats, state, "state", 4, 4) \
     FIELD(knurl_loop_stats, ticks, "ticks", 8, 8) \
     FIELD(knurl_loop_stats, overruns, "overruns", 16, 8) \
-    FIELD(knurl_loop_stats, watchdogs, "watchdogs", 24, 8) \
+    FIELD(knurl_loop_stats, watchdog_trips, "watchdog_trips", 24, 8) \
     FIELD(knurl_loop_stats, realtime, "realtime", 32, 4) \
     FIELD(knurl_loop_stats, memory_locked, "memory_locked", 36, 4) \
     FIELD(knurl_loop_stats, tick_ns, "tick_ns", 40, 24) \
     FIELD(knurl_loop_stats, jitter_ns, "jitter_ns", 64, 24) \
-    FIELD(knurl_loop_stats, heats, "heats", 88, 8) \
+    FIELD(knurl_loop_stats, heat_ticks, "heat_ticks", 88, 8) \
     FIELD(knurl_loop_stats, heat, "heat", 96, 8) \
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \

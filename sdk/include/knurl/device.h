@@ -83,7 +83,7 @@ typedef struct knurl_device_event {
 typedef struct knurl_device_status {
     uint32_t struct_size;
     uint32_t lost;          /**< 1: gone, until it is opened again */
-    uint32_t halted;        /**< 1: the motors were let go and nothing has taken them up again */
+    uint32_t halted;        /**< 1: the force was zeroed and nothing has taken the device up again */
     uint32_t buttons;       /**< of the latest reading; bit 0: first button */
     uint64_t exchanges;     /**< positions that an I/O thread brought; 0 where there is no such thread */
     uint64_t bad_bytes;     /**< thrown away because they made no message; Touch, whose library hands out no bytes:
@@ -98,7 +98,7 @@ typedef struct knurl_device_functions {
     uint32_t struct_size; /**< set by knurl_device_functions_init() */
     uint32_t blocking; /**< 1: read and write may wait; they are called in turn on a thread of their own, and the haptic
                             thread gets the newest position and leaves the newest force. 0 (default): they are called
-                            on the haptic thread, and while that one stands still nobody lets go of the motors */
+                            on the haptic thread, and while that one stands still nobody zeroes the force */
     void *user;
     /** What the device is; `info` comes with defaults that promise nothing. Required: max_force > 0. [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
@@ -221,7 +221,7 @@ KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_ra
 
 /** Reads the newest sample; the fake device's simulated time moves on by one period. The Touch's own scheduler calls
  * the loop, and only there can it be read and written. Errors: KNURL_ERROR_DEVICE_LOST; KNURL_ERROR_DEVICE_NOT_READY:
- * there is no position to be trusted now, and the motors are let go (halted); why is an event; KNURL_ERROR_STATE. No
+ * there is no position to be trusted now, and the force is zeroed (halted); why is an event; KNURL_ERROR_STATE. No
  * heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample);
 
@@ -230,7 +230,7 @@ KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_samp
  * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 
-/** Lets go of the motors at once, whatever the haptic thread does; what it writes afterwards counts again only after
+/** Zeroes the force at once, whatever the haptic thread does; what it writes afterwards counts again only after
  * knurl_device_release_halt(). [any thread] */
 KNURL_API void knurl_device_halt(knurl_device *device);
 

@@ -43,17 +43,17 @@ typedef struct knurl_grating {
 
 /** Where one HIP is on one grating. Zero it to start anew. */
 typedef struct knurl_grating_state {
-    knurl_event event;   /**< S2, LOCKED: the event that plays; its amplitude and kind are held to its end */
-    int64_t event_count; /**< events started since the state was zeroed */
-    int32_t next_tick;   /**< S2, LOCKED: index into the event of the next tick */
-    int32_t playing;     /**< S2, LOCKED: 1 while an event has ticks left */
-    double phase;        /**< LOCKED: cycles crossed in the direction of motion, from a ridge's rising edge */
-    double played;       /**< LOCKED: cycles played to the end of the event, on the same count */
-    double held;         /**< LOCKED: the position behind its hysteresis, m */
-    int32_t direction;   /**< LOCKED: +1 or -1; 0 before the first tick */
-    int32_t moving;      /**< S2: an event was played, so the deadband is halved; LOCKED: events follow one another */
-    int32_t sign;        /**< of the latest height that was not 0: +1 or -1; 0: there was none */
-    uint32_t reserved;   /**< 0 */
+    knurl_vibration_event event; /**< S2, LOCKED: the event that plays; its amplitude and kind are held to its end */
+    int64_t event_count;         /**< events started since the state was zeroed */
+    int32_t next_tick;           /**< S2, LOCKED: index into the event of the next tick */
+    int32_t playing;             /**< S2, LOCKED: 1 while an event has ticks left */
+    double phase;                /**< LOCKED: cycles crossed in the direction of motion, from a ridge's rising edge */
+    double played;               /**< LOCKED: cycles played to the end of the event, on the same count */
+    double held;                 /**< LOCKED: the position behind its hysteresis, m */
+    int32_t direction;           /**< LOCKED: +1 or -1; 0 before the first tick */
+    int32_t moving;    /**< S2: an event was played, so the deadband is halved; LOCKED: events follow one another */
+    int32_t sign;      /**< of the latest height that was not 0: +1 or -1; 0: there was none */
+    uint32_t reserved; /**< 0 */
 } knurl_grating_state;
 
 /** What a grating does in one tick. */

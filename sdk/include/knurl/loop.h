@@ -41,10 +41,10 @@ typedef struct knurl_loop_desc {
     double update_rate_hz;               /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
     uint64_t tick_limit;                 /**< ends by itself after so many ticks; 0 (default): never */
     double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
-    double watchdog_s;        /**< s without a tick after which the motors are let go; default 0.05; 0: never */
+    double watchdog_s;        /**< s without a tick after which the force is zeroed; default 0.05; 0: never */
     const knurl_clock *clock; /**< copied; null: the system's */
-    uint32_t unguarded; /**< with a force callback: KNURL_UNGUARDED_HEAT leaves the device's continuous_force out of
-                             account; default 0 */
+    uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default) or 0, which leaves the device's
+                                   continuous_force out of account; a scene's HIP has its own */
     uint32_t reconnect; /**< 1: a lost device is looked for again, four times a second; default 0: the loop ends */
     double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force goes to zero by the ramp, until the
                              next one; 0 (default): nobody has to call it */
@@ -70,17 +70,17 @@ typedef struct knurl_loop_stats {
     uint64_t ticks;            /**< not counting the ramp at the end */
     uint64_t overruns;         /**< ticks whose deadline had passed by more than half a period; they are not made up for
                                     by a burst: the rhythm goes on from the next whole period */
-    uint64_t watchdogs;        /**< times the watchdog let go of the motors */
+    uint64_t watchdog_trips;   /**< times the watchdog zeroed the force */
     uint32_t realtime;         /**< 1: SCHED_FIFO was had */
     uint32_t memory_locked;    /**< 1: the scene and the loop's stack are locked into RAM */
     knurl_percentiles tick_ns; /**< the scene's tick or the force callback alone; within 3 % */
     knurl_percentiles jitter_ns; /**< wake-up after the deadline; within 3 % */
-    uint64_t heats;              /**< force callback: ticks shortened to what warm motors can hold (a scene's HIP has
-                                      counts of its own) */
+    uint64_t heat_ticks;         /**< force callback: ticks shortened to what warm motors can hold (a scene's HIP has
+                                 counts of its own) */
     double heat;                 /**< the device's motors: 0 cold to 1: as warm as its continuous_force makes them for
-                                      ever; above 1 only with KNURL_UNGUARDED_HEAT */
-    uint64_t absences; /**< beats without a tick, because the device was lost or gave no position to be trusted */
-    uint32_t absent;   /**< 1: such was the latest beat */
+                                      ever; above 1 only without KNURL_PROTECT_HEAT */
+    uint64_t absences; /**< cycles without a tick, because the device was lost or gave no position to be trusted */
+    uint32_t absent;   /**< 1: such was the latest cycle */
     uint32_t paused;   /**< 1: knurl_loop_pause() was called, and knurl_loop_resume() was not since */
 } knurl_loop_stats;
 
@@ -158,7 +158,7 @@ KNURL_API void knurl_stroke_report_init(knurl_stroke_report *report, uint32_t si
  * KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_ARGUMENT (hip, stroke), KNURL_ERROR_STATE (the workspace is
  * chosen at the commit, and the scene is not committed), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip,
-                                             knurl_surface surface, int32_t stroke, knurl_stroke_report *report);
+                                             knurl_surface_id surface, int32_t stroke, knurl_stroke_report *report);
 
 #ifdef __cplusplus
 }

@@ -20,10 +20,10 @@ typedef struct knurl_scene knurl_scene;
 /** Names a surface of one scene: its place there, which surface at that place, and which of the process's scenes. 0
  * names none; an id outlives its surface as a stale one, and is stale in every other scene (KNURL_ERROR_STALE_ID). That
  * holds for 2^23 surfaces at one place and 2^20 scenes one after another; then numbers are used again. */
-typedef uint64_t knurl_surface;
+typedef uint64_t knurl_surface_id;
 
 /** Surfaces that one HIP can touch at once. */
-#define KNURL_MAX_CONTACTS 4
+#define KNURL_CONTACTS_MAX 4
 
 /** Update rates that a HIP can tick at, Hz. */
 #define KNURL_UPDATE_RATE_MIN 100.0
@@ -57,17 +57,17 @@ typedef struct knurl_surface_desc {
                                               metres from the surface's origin along it */
 } knurl_surface_desc;
 
-/** The protections of a HIP; a bit leaves one out, to study what it does. All are on by default. */
+/** The protections of a HIP, all on by default; one may be left out, to study what it does. */
 enum {
-    KNURL_UNGUARDED_ENTRY = 1,     /**< the depth that is felt may jump, not only grow at KNURL_ENTRY_SPEED */
-    KNURL_UNGUARDED_SLEW = 2,      /**< the force may jump by more than the texture's step and slew_rate */
-    KNURL_UNGUARDED_HEAT = 4,      /**< continuous_force is not respected */
-    KNURL_UNGUARDED_PASSIVITY = 8, /**< walls may give out more energy than was put into them, and run away */
-    KNURL_UNGUARDED_ALL = 15
+    KNURL_PROTECT_ENTRY = 1,     /**< the depth that is felt grows at KNURL_ENTRY_SPEED_MAX, and does not jump */
+    KNURL_PROTECT_SLEW = 2,      /**< the force jumps by no more than the texture's step and slew_rate */
+    KNURL_PROTECT_HEAT = 4,      /**< the force comes down to continuous_force as the motors warm up */
+    KNURL_PROTECT_PASSIVITY = 8, /**< a wall that shakes the hand by itself is felt softer */
+    KNURL_PROTECT_ALL = 15
 };
 
 /** m/s: the felt depth grows no faster, so that a wall that is suddenly there comes in as a ramp. */
-#define KNURL_ENTRY_SPEED 0.5
+#define KNURL_ENTRY_SPEED_MAX 0.5
 
 /** One haptic interaction point: how fast it ticks, where its device's workspace lies, what its device can do. */
 typedef struct knurl_hip_desc {
@@ -93,7 +93,7 @@ typedef struct knurl_hip_desc {
                                   device says, without one the Touch's */
     double slew_rate;        /**< N/s: the force grows or turns no faster, but for the texture's own steps; 0
                                   (default): max_force within 5 ms */
-    uint32_t unguarded;      /**< KNURL_UNGUARDED_ bits; default 0 */
+    uint32_t protections;    /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
     uint32_t clamp;          /**< 1: walls and textures beyond what knurl_scene_check_surface() allows are felt at
                                   what it allows; default 0: they are felt as asked for */
 } knurl_hip_desc;
@@ -149,23 +149,23 @@ typedef struct knurl_tick_input {
     double position[3];    /**< device frame, m */
     double velocity[3];    /**< device frame, m/s; used where has_velocity is 1 */
     uint32_t has_velocity; /**< 0: the HIP's own estimator gives the velocity */
-    uint32_t absent; /**< 1: there is no position: nothing is felt, contacts are let go, the next tick is a first one */
-    double attenuation; /**< how much of the force is not sent: 0 (as in a zeroed struct): none, 1: all of it; beyond
-                             that or NaN: all of it. It is taken off what the device can play, before the slew limit,
-                           and the output, the counts and the heat are of what is left. While it is 1 the felt depth is
-                           0, so that walls come back as after an entry */
-    uint32_t paused;    /**< 1: the HIP is told, but nothing is touched: contacts end, no force, the next tick is a
-                             first one */
-    uint32_t reserved;  /**< 0 */
+    uint32_t absent;       /**< 1: there is no position: nothing is felt, contacts end, the next tick is a first one */
+    double attenuation;    /**< how much of the force is not sent: 0 (as in a zeroed struct): none, 1: all of it; beyond
+                                that or NaN: all of it. It is taken off what the device can play, before the slew limit,
+                              and the output, the counts and the heat are of what is left. While it is 1 the felt depth is
+                              0, so that walls come back as after an entry */
+    uint32_t paused;       /**< 1: the HIP is told, but nothing is touched: contacts end, no force, the next tick is a
+                                first one */
+    uint32_t reserved;     /**< 0 */
 } knurl_tick_input;
 
 /** Bits of knurl_tick_output.flags. */
 enum {
-    KNURL_TICK_CONTACT = 1,     /**< some surface is in reach of its grating's crests */
-    KNURL_TICK_FORCE_LIMIT = 2, /**< the force was shortened to max_force */
-    KNURL_TICK_FREQUENCY = 4,   /**< f_t above f_h/2: the grating is finer than the update rate can render */
-    KNURL_TICK_NOT_FINITE = 8,  /**< a NaN or infinity came in or arose: the force is 0 and all contacts are let go */
-    KNURL_TICK_CONTACTS_FULL = 16, /**< a further surface was in reach, beyond KNURL_MAX_CONTACTS */
+    KNURL_TICK_CONTACT = 1,        /**< some surface is in reach of its grating's crests */
+    KNURL_TICK_FORCE_LIMIT = 2,    /**< the force was shortened to max_force */
+    KNURL_TICK_FREQUENCY = 4,      /**< f_t above f_h/2: the grating is finer than the update rate can render */
+    KNURL_TICK_NOT_FINITE = 8,     /**< a NaN or infinity came in or arose: the force is 0 and all contacts end */
+    KNURL_TICK_CONTACTS_FULL = 16, /**< a further surface was in reach, beyond KNURL_CONTACTS_MAX */
     KNURL_TICK_ENTRY = 32,         /**< a wall came in as a ramp */
     KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
     KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
@@ -187,27 +187,27 @@ typedef struct knurl_tick_output {
     double spatial_frequency;   /**< fs: cycles/m in the direction of motion */
     double temporal_frequency;  /**< f_t: Hz, as the motion asks for it */
     int64_t event;              /**< the event that plays, counted since contact, or KNURL_NO_EVENT */
-    knurl_surface surface;      /**< the surface felt, or 0 */
+    knurl_surface_id surface;   /**< the surface felt, or 0 */
     uint64_t tick;              /**< 0, 1, ... since the HIP was configured */
     uint32_t flags;             /**< KNURL_TICK_ bits */
-    uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_MAX_CONTACTS */
+    uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_CONTACTS_MAX */
 } knurl_tick_output;
 
 /** Sums over a HIP's ticks since it was configured. */
 typedef struct knurl_hip_counts {
     uint64_t ticks;
-    uint64_t contact_ticks;         /**< with KNURL_TICK_CONTACT */
-    uint64_t events;                /**< events started (S2, LOCKED) */
-    uint64_t force_limits;          /**< ticks with KNURL_TICK_FORCE_LIMIT */
-    uint64_t frequency_saturations; /**< ticks with KNURL_TICK_FREQUENCY */
-    uint64_t not_finite;            /**< ticks with KNURL_TICK_NOT_FINITE */
-    uint64_t entries;               /**< ticks with KNURL_TICK_ENTRY */
-    uint64_t slews;                 /**< ticks with KNURL_TICK_SLEW */
-    uint64_t heats;                 /**< ticks with KNURL_TICK_HEAT */
-    uint64_t passivities;           /**< ticks with KNURL_TICK_PASSIVITY */
-    double force_max;               /**< N, longest force played */
+    uint64_t contact_ticks;      /**< with KNURL_TICK_CONTACT */
+    uint64_t events;             /**< events started (S2, LOCKED) */
+    uint64_t force_limit_ticks;  /**< ticks with KNURL_TICK_FORCE_LIMIT */
+    uint64_t saturation_ticks;   /**< ticks with KNURL_TICK_FREQUENCY */
+    uint64_t non_finite_ticks;   /**< ticks with KNURL_TICK_NOT_FINITE */
+    uint64_t entry_ticks;        /**< ticks with KNURL_TICK_ENTRY */
+    uint64_t slew_ticks;         /**< ticks with KNURL_TICK_SLEW */
+    uint64_t heat_ticks;         /**< ticks with KNURL_TICK_HEAT */
+    uint64_t passivity_ticks;    /**< ticks with KNURL_TICK_PASSIVITY */
+    double force_max;            /**< N, longest force played */
     double heat;                 /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
-                                      1 only with KNURL_UNGUARDED_HEAT. A loop's HIP begins with its device's */
+                                      1 only without KNURL_PROTECT_HEAT. A loop's HIP begins with its device's */
     double half_cycles_crossed;  /**< ridges and grooves that the HIP passed, with every method and not rounded: the
                                       sum of 2 f_t / f_h over all touched surfaces' ticks (Eq. 12: a stroke of L
                                       metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
@@ -236,16 +236,16 @@ KNURL_API void knurl_scene_destroy(knurl_scene *scene);
  * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_FULL,
  * KNURL_ERROR_MEMORY. surface: gets its id; may be null. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
-                                               knurl_surface *surface);
+                                               knurl_surface_id *surface);
 
-/** Takes a surface out, before the commit or after: whoever touches it lets go at its next tick. Its id is stale from
+/** Takes a surface out, before the commit or after: contacts with it end at the next tick. Its id is stale from
  * then on; its memory is given back by a later edit, when no tick can see it any more.
  * Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface);
+KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface);
 
 /** Gives a surface another material, before the commit or after; an event that plays is played to its end.
  * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY, and those of a material. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface,
+KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
                                                 const knurl_material_desc *material);
 
 /** Moves a surface's origin to `position` (m) and turns it to `rotation` (unit quaternion x, y, z, w), both scene axes,
@@ -254,7 +254,7 @@ KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surfac
  * what it passed on the way is not touched (a HIP that it held is looked at anew, as at a first tick). Time is counted
  * by ticks: while none runs, the way waits to be made; before the commit it is made at once.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface, const double position[3],
+KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                                  const double rotation[4], double seconds);
 
 /** Opens the scene to ticks, having sorted its surfaces by where they are.
@@ -262,26 +262,27 @@ KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surfa
 KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
 
 /** Surfaces in the scene. [any thread] */
-KNURL_API uint32_t knurl_scene_surface_count(const knurl_scene *scene);
+KNURL_API uint32_t knurl_scene_get_surface_count(const knurl_scene *scene);
 
 /** The id of the surface at place `index`, 0 <= index < count, in the order of adding; 0 beyond. [any thread] */
-KNURL_API knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index);
+KNURL_API knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index);
 
 /** The first surface of that name, in the order of adding.
  * Errors: KNURL_ERROR_UNKNOWN, with the names that are there. [any thread] */
-KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface);
+KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface);
 
 /** A surface's name, the scene's, valid while the surface is. Errors: KNURL_ERROR_STALE_ID. [any thread] */
-KNURL_API knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name);
+KNURL_API knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
+                                                    const char **name);
 
 /** Tells what a surface came to be; looks for its anchor, so not for every frame. Errors: KNURL_ERROR_STALE_ID. [any
  * thread] */
-KNURL_API knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface,
-                                                knurl_surface_info *info);
+KNURL_API knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
+                                                    knurl_surface_info *info);
 
 /** Memory that the scene holds now, in bytes, all of it: with what edits have replaced and ticks may still see. [any
  * thread but the haptic] */
-KNURL_API uint64_t knurl_scene_bytes(const knurl_scene *scene);
+KNURL_API uint64_t knurl_scene_get_bytes(const knurl_scene *scene);
 
 /** Memory given back early: frees what edits have replaced and no tick can see any more, which else the next edit does.
  * [any thread but the haptic] */
@@ -328,7 +329,7 @@ KNURL_API void knurl_surface_check_init(knurl_surface_check *check, uint32_t siz
 /** Holds a surface's stiffness and amplitude against what the HIP's device can do: to be asked at load, before anybody
  * feels it. A game shows the message; knurl_hip_desc.clamp has the limits kept. Errors: KNURL_ERROR_ARGUMENT (hip),
  * KNURL_ERROR_STALE_ID. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface surface,
+KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface_id surface,
                                                  knurl_surface_check *check);
 
 /** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define BINS      16
-#define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_MAX_DEPTH */
+#define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_DEPTH_MAX */
 
 /* Four floats, the last unused: loops over four become one instruction. */
 typedef struct box {
@@ -167,7 +167,7 @@ static int grow(knurl_heap *heap, tree *t) {
 }
 
 static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_size, tree *t) {
-    range stack[KNURL_BVH_MAX_DEPTH + 1];
+    range stack[KNURL_BVH_DEPTH_MAX + 1];
     uint32_t top = 0;
     stack[top++] = (range){0, count, UINT32_MAX, 0};
     while (top > 0) {

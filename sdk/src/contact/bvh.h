@@ -6,7 +6,7 @@
 #include "base/heap.h"
 
 /* The build never makes a tree deeper than this, so a walk's stack has a fixed size. */
-#define KNURL_BVH_MAX_DEPTH 64
+#define KNURL_BVH_DEPTH_MAX 64
 
 /* 32 bytes. An inner node's left child stands right after it. */
 typedef struct knurl_bvh_node {

@@ -21,7 +21,7 @@ static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, con
 }
 
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest) {
-    uint32_t stack[KNURL_BVH_MAX_DEPTH];
+    uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
     double best2 = limit2;
@@ -75,7 +75,7 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
 
 int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
                      uint32_t *triangle) {
-    uint32_t stack[KNURL_BVH_MAX_DEPTH];
+    uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     double direction[3];
     double best = 1.5;

@@ -44,7 +44,7 @@ class Addition {
 
   private:
     knurl_scene *scene_;
-    std::vector<knurl_surface> added_;
+    std::vector<knurl_surface_id> added_;
 };
 
 knurl_material_desc material_of(const Tag &tag) {
@@ -194,7 +194,8 @@ void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
 }
 
 knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report) {
-    if (is_null(path, "path") || knurl_scene_bytes(scene) == 0) // which says what is wrong with a scene that has none
+    if (is_null(path, "path") ||
+        knurl_scene_get_bytes(scene) == 0) // which says what is wrong with a scene that has none
         return KNURL_ERROR_ARGUMENT;
     return knurl::gltf::guarded(path, report, [&](const knurl::gltf::Listener &listener) {
         const fs::path file = fs::u8path(path);
@@ -208,7 +209,7 @@ knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gl
 
 knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64_t size, const char *name,
                                     const char *folder, knurl_gltf_report *report) {
-    if ((size != 0 && is_null(data, "data")) || knurl_scene_bytes(scene) == 0)
+    if ((size != 0 && is_null(data, "data")) || knurl_scene_get_bytes(scene) == 0)
         return KNURL_ERROR_ARGUMENT;
     return knurl::gltf::guarded(name, report, [&](const knurl::gltf::Listener &listener) {
         if (size > knurl::gltf::bytes_max)

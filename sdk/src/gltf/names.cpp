@@ -4,10 +4,10 @@
 namespace knurl::gltf {
 
 Names::Names(const knurl_scene *scene) {
-    for (uint32_t i = 0; i < knurl_scene_surface_count(scene); ++i) {
+    for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); ++i) {
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
-        if (knurl_scene_surface_info(scene, knurl_scene_surface_at(scene, i), &info) == KNURL_OK)
+        if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK)
             taken_.emplace(info.name, 1);
     }
 }

@@ -108,7 +108,7 @@ static int begin_s2(const knurl_grating *grating, knurl_grating_state *state, do
     }
     state->moving = grating->resolution > 0.0;
     /* below a tick, however fast, it is played as 2 */
-    knurl_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
+    knurl_vibration_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
     state->playing = 1;
     state->next_tick = 0;
     state->event_count++;
@@ -137,7 +137,8 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     if (grating->method == KNURL_LOCKED) {
         output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
     } else if (state->playing || (grating->method == KNURL_S2 && begin_s2(grating, state, speed2, frequency))) {
-        output->height = knurl_event_value(&state->event, state->next_tick); /* also one that another method began */
+        output->height =
+            knurl_vibration_event_value(&state->event, state->next_tick); /* also one that another method began */
         output->event = state->event_count - 1;
         state->next_tick++;
         state->playing = state->next_tick < state->event.length;

@@ -108,7 +108,7 @@ double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *stat
     if (!state->playing && event_begins(grating, state, before, frequency)) {
         const double period = grating->update_rate_hz / frequency;
         const int32_t length = choose_length(period > 2.0 ? period : 2.0, state->phase - state->played);
-        knurl_event_set_length(length, grating->amplitude, &state->event);
+        knurl_vibration_event_set_length(length, grating->amplitude, &state->event);
         state->played += 1.0;
         state->playing = 1;
         state->next_tick = 0;
@@ -118,7 +118,7 @@ double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *stat
         return knurl_first_half(state->phase) ? grating->amplitude : -grating->amplitude;
     }
     output->event = state->event_count - 1;
-    const double height = knurl_event_value(&state->event, state->next_tick);
+    const double height = knurl_vibration_event_value(&state->event, state->next_tick);
     state->next_tick++;
     state->playing = state->next_tick < state->event.length;
     return height;

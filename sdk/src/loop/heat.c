@@ -13,7 +13,7 @@ void knurl_loop_init_heat(knurl_loop *loop, const knurl_hip_facts *facts) {
     knurl_heat_init(&loop->motors, &square);
     loop->motors.excess = 0.0;
     knurl_heat_init(&loop->heat, facts);
-    if (loop->desc.unguarded & KNURL_UNGUARDED_HEAT) {
+    if (!(loop->desc.protections & KNURL_PROTECT_HEAT)) {
         loop->heat.excess = 0.0;
     }
 }
@@ -51,9 +51,9 @@ void knurl_loop_add_heat(knurl_loop *loop, double share) {
 }
 
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
-    const double periods = 1e-9 * (double)(now - loop->beat_at) * loop->desc.update_rate_hz;
-    const double missed = loop->beat_at ? periods - 1.0 : 0.0;
-    loop->beat_at = now;
+    const double periods = 1e-9 * (double)(now - loop->cycle_at) * loop->desc.update_rate_hz;
+    const double missed = loop->cycle_at ? periods - 1.0 : 0.0;
+    loop->cycle_at = now;
     if (missed < 1.0) {
         return;
     }

@@ -340,7 +340,7 @@ static int lay_path(layer *l, knurl_stroke_desc *desc) {
     return found;
 }
 
-static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface id, int32_t stroke, knurl_device *device,
+static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface_id id, int32_t stroke, knurl_device *device,
                         knurl_stroke_report *report) {
     knurl_stroke_desc desc;
     knurl_stroke_desc_init(&desc, sizeof desc);
@@ -364,8 +364,8 @@ static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface id, in
     return knurl_fake_set_stroke(device, &desc);
 }
 
-knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip, knurl_surface surface,
-                                   int32_t stroke, knurl_stroke_report *report) {
+knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip,
+                                   knurl_surface_id surface, int32_t stroke, knurl_stroke_report *report) {
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -376,7 +376,7 @@ knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scen
     }
     knurl_surface_info_init(&l->info, sizeof l->info);
     knurl_device_info_init(&l->limits, sizeof l->limits);
-    knurl_result result = knurl_scene_surface_info(scene, surface, &l->info);
+    knurl_result result = knurl_scene_get_surface_info(scene, surface, &l->info);
     result = result ? result : knurl_device_get_info(device, &l->limits);
     result = result ? result : knurl_scene_get_workspace(scene, hip, &l->workspace);
     result = result ? result : lay(l, scene, surface, stroke, device, &made);

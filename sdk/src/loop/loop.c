@@ -1,5 +1,5 @@
 /* The loop from outside: create, start, step, stop, statistics, and what keeps watch beside the haptic thread. What
- * happens in a beat is in beat.c. SPDX-License-Identifier: MIT */
+ * happens in a cycle is in cycle.c. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"
@@ -33,37 +33,37 @@ static int is_running(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
 }
 
-/* Beside the haptic thread: lets go of the motors when no beat came for too long (a device may hold its last force for
+/* Beside the haptic thread: lets go of the motors when no cycle came for too long (a device may hold its last force for
  * ever), and looks for a device that got lost. */
-typedef struct keeper {
-    uint64_t seen;   /* beats */
+typedef struct watchdog {
+    uint64_t seen;   /* cycles */
     int64_t seen_at; /* ns, when there was a new one */
     int64_t tried_at;
-    uint64_t idle_beats;
-    double idle; /* s without a beat, in naps: a process that is stopped and goes on has not waited */
-} keeper;
+    uint64_t idle_cycles;
+    double idle; /* s without a cycle, in naps: a process that is stopped and goes on has not waited */
+} watchdog;
 
-static void watch(knurl_loop *loop, keeper *k, int64_t now) {
+static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
-    const uint64_t beats = knurl_load_relaxed(&loop->beats);
+    const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
     knurl_device *device = loop->desc.device;
-    if (beats != k->seen) {
-        k->seen = beats;
+    if (cycles != k->seen) {
+        k->seen = cycles;
         k->seen_at = now;
     } else if (limit > 0 && !knurl_load_acquire(&device->lost) && now - k->seen_at > limit && is_running(loop) &&
                !knurl_device_is_halted(device)) {
         knurl_device_halt(device);
         knurl_events_report(&device->events, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
-        knurl_count_up(&loop->watchdogs);
+        knurl_count_up(&loop->watchdog_trips);
     }
 }
 
 /* A device that owns the servo thread and has stopped calling is lost; nobody would notice in a tick. */
-static void look_for_stall(knurl_loop *loop, keeper *k, double nap) {
+static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     knurl_device *device = loop->desc.device;
-    const uint64_t beats = knurl_load_relaxed(&loop->beats);
-    k->idle = beats == k->idle_beats && !knurl_load_acquire(&device->lost) ? k->idle + nap : 0.0;
-    k->idle_beats = beats;
+    const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
+    k->idle = cycles == k->idle_cycles && !knurl_load_acquire(&device->lost) ? k->idle + nap : 0.0;
+    k->idle_cycles = cycles;
     if (k->idle < KNURL_SERVE_GIVE_UP || !device->driver->leave || !device->driver->leave(device)) {
         return;
     }
@@ -80,7 +80,7 @@ static void look_for_stall(knurl_loop *loop, keeper *k, double nap) {
     }
 }
 
-static void look_for_device(knurl_loop *loop, keeper *k, int64_t now) {
+static void look_for_device(knurl_loop *loop, watchdog *k, int64_t now) {
     if (!loop->desc.reconnect || !knurl_load_acquire(&loop->desc.device->lost)) {
         return;
     }
@@ -91,18 +91,18 @@ static void look_for_device(knurl_loop *loop, keeper *k, int64_t now) {
         }
     } else if (now - k->tried_at > RECONNECT_NS) {
         (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = k->seen_at = knurl_system_now_ns(); /* nobody could have beaten meanwhile */
+        k->tried_at = k->seen_at = knurl_system_now_ns(); /* nobody could have cycled meanwhile */
     }
 }
 
-static void keeper_thread(void *argument) {
+static void watchdog_thread(void *argument) {
     knurl_loop *loop = argument;
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
     const int64_t nap = limit > 80000000 || limit == 0 ? 20000000
                         : limit < 400000               ? 100000
                                                        : limit / 4; /* nobody waits long for it */
-    knurl_store_release(&loop->keeper_thread, knurl_system_thread_id());
-    keeper k = {0, knurl_system_now_ns(), 0, 0, 0.0};
+    knurl_store_release(&loop->watchdog_thread, knurl_system_thread_id());
+    watchdog k = {0, knurl_system_now_ns(), 0, 0, 0.0};
     while (is_running(loop)) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
         const int64_t now = knurl_system_now_ns();
@@ -135,11 +135,11 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "and %g",
                           d->ramp_s, d->watchdog_s);
     }
-    if (d->unguarded & ~(uint32_t)KNURL_UNGUARDED_HEAT) {
+    if (d->protections & ~(uint32_t)KNURL_PROTECT_HEAT) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_loop_desc.unguarded: expected 0 or KNURL_UNGUARDED_HEAT (a scene's HIP has its own), "
+                          "knurl_loop_desc.protections: expected 0 or KNURL_PROTECT_HEAT (a scene's HIP has its own), "
                           "found %#x",
-                          (unsigned)d->unguarded);
+                          (unsigned)d->protections);
     }
     if (!knurl_is_within(d->heartbeat_s, 0.0, 3600.0) || d->reconnect > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -153,7 +153,8 @@ static knurl_result check(const knurl_loop_desc *d) {
 }
 
 void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size) {
-    const knurl_loop_desc defaults = {.update_rate_hz = 1000.0, .ramp_s = 0.02, .watchdog_s = 0.05};
+    const knurl_loop_desc defaults = {
+        .update_rate_hz = 1000.0, .ramp_s = 0.02, .watchdog_s = 0.05, .protections = KNURL_PROTECT_HEAT};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -272,10 +273,10 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
         return result;
     }
-    const int needs_keeper = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || loop->desc.device->driver->serve;
-    if (needs_keeper && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
-        loop->keeper = knurl_system_start_thread(keeper_thread, loop, STACK_BYTES);
-        if (!loop->keeper) {
+    const int needs_watchdog = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || loop->desc.device->driver->serve;
+    if (needs_watchdog && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
+        loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
+        if (!loop->watchdog) {
             knurl_loop_stop(loop);
             return knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused a thread for the watchdog");
         }
@@ -287,7 +288,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
 static void finish_stepping(knurl_loop *loop) {
     knurl_store_relaxed(&loop->stepping, 1u);
     knurl_loop_request_stop(loop);
-    while (knurl_loop_beat(loop)) {}
+    while (knurl_loop_cycle(loop)) {}
     knurl_loop_end(loop, KNURL_LOOP_DONE);
 }
 
@@ -296,7 +297,7 @@ static int is_inside(const knurl_loop *loop) {
     const uintptr_t here = knurl_system_thread_id();
     const int runs = is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
     return (runs && knurl_load_acquire(&loop->haptic_thread) == here) ||
-           knurl_load_acquire(&loop->keeper_thread) == here;
+           knurl_load_acquire(&loop->watchdog_thread) == here;
 }
 
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
@@ -321,7 +322,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
         if (loop->desc.reconnect && device->lost) {
             (void)knurl_device_reopen(device);
         }
-        if (!knurl_loop_beat(loop)) {
+        if (!knurl_loop_cycle(loop)) {
             knurl_loop_end(loop, loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE);
         }
     }
@@ -400,8 +401,8 @@ void knurl_loop_destroy(knurl_loop *loop) {
     } else if (is_running(loop)) {
         finish_stepping(loop);
     }
-    if (loop->keeper) {
-        knurl_system_join_thread(loop->keeper);
+    if (loop->watchdog) {
+        knurl_system_join_thread(loop->watchdog);
     }
     knurl_system_unlock_memory(loop, sizeof *loop);
     release(&loop->desc);
@@ -425,12 +426,12 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.state = knurl_load_acquire(&loop->state);
     made.ticks = knurl_load_relaxed(&loop->ticks);
     made.overruns = knurl_load_relaxed(&loop->overruns);
-    made.watchdogs = knurl_load_relaxed(&loop->watchdogs);
+    made.watchdog_trips = knurl_load_relaxed(&loop->watchdog_trips);
     made.realtime = knurl_load_relaxed(&loop->realtime);
     made.memory_locked = knurl_load_relaxed(&loop->scene_locked) && knurl_load_relaxed(&loop->stack_locked);
     made.tick_ns = percentiles_of(&loop->tick_ns);
     made.jitter_ns = percentiles_of(&loop->jitter_ns);
-    made.heats = knurl_load_relaxed(&loop->heats);
+    made.heat_ticks = knurl_load_relaxed(&loop->heat_ticks);
     made.heat = knurl_load_double(&loop->theta);
     made.absences = knurl_load_relaxed(&loop->absences);
     made.absent = knurl_load_relaxed(&loop->absent);

@@ -15,7 +15,7 @@ typedef struct knurl_pace {
     knurl_clock clock;
     int64_t start_ns;
     double period_ns;
-    uint64_t beat;   /* whole periods since the start at the latest deadline */
+    uint64_t cycle;  /* whole periods since the start at the latest deadline */
     int64_t woke_at; /* ns */
 } knurl_pace;
 
@@ -30,7 +30,7 @@ struct knurl_loop {
     knurl_loop_desc desc;
     knurl_clock clock;
     knurl_thread *thread;
-    knurl_thread *keeper; /* the watchdog, and who looks for a lost device */
+    knurl_thread *watchdog; /* the watchdog, and who looks for a lost device */
     knurl_pace pace;
     double force[3];       /* the latest, as sent, device axes, N */
     double scene_force[3]; /* the same in scene axes; 0 without a scene */
@@ -38,7 +38,7 @@ struct knurl_loop {
     double max_force;      /* N: the device's */
     knurl_heat motors;     /* the device's, in N^2; never limited */
     knurl_heat heat;       /* the same, of its continuous force, and what a callback's force is limited by */
-    int64_t beat_at;       /* ns: the latest beat of a thread; 0: none */
+    int64_t cycle_at;      /* ns: the latest cycle of a thread; 0: none */
     uint64_t ramp_step;    /* done, of the ramp at the end */
     int was_overrun;
     int is_lost;       /* for good */
@@ -55,10 +55,10 @@ struct knurl_loop {
     uint32_t threaded;       /* 1: started, not stepped */
     uint32_t stepping;       /* 1: knurl_loop_step() runs */
     uint64_t ticks;
-    uint64_t beats; /* ticks and steps of the ramp: what the watchdog looks at */
+    uint64_t cycles; /* ticks and steps of the ramp: what the watchdog looks at */
     uint64_t overruns;
-    uint64_t watchdogs;
-    uint64_t heats;
+    uint64_t watchdog_trips;
+    uint64_t heat_ticks;
     double theta;   /* heat's */
     uint64_t signs; /* of life, from the game */
     uint64_t absences;
@@ -68,7 +68,7 @@ struct knurl_loop {
     uint32_t scene_locked; /* the scene's and the loop's own memory */
     uint32_t stack_locked;
     uintptr_t haptic_thread;
-    uintptr_t keeper_thread;
+    uintptr_t watchdog_thread;
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
 };
@@ -83,17 +83,17 @@ void knurl_loop_end_heat(knurl_loop *loop);
 /* loop->force was sent for a tick, or `share` (0 to 1) of it. */
 void knurl_loop_add_heat(knurl_loop *loop, double share);
 
-/* A thread's beat begins: periods that it missed went by for the motors as well. */
+/* A thread's cycle begins: periods that it missed went by for the motors as well. */
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 
-/* beat.c */
+/* cycle.c */
 int knurl_loop_at_end(const knurl_loop *loop);
 
 /* 1: its device was closed or its scene destroyed; both are kept until the loop is destroyed. */
 int knurl_loop_is_abandoned(const knurl_loop *loop);
 
-/* One beat: a tick, a beat without a position, or at the end a step of the ramp. Returns 0 after the last. */
-int knurl_loop_beat(knurl_loop *loop);
+/* One cycle: a tick, a cycle without a position, or at the end a step of the ramp. Returns 0 after the last. */
+int knurl_loop_cycle(knurl_loop *loop);
 
 /* Tells the scene that no force is sent any more. Where the haptic thread is, or while it cannot run. */
 void knurl_loop_tell_none(knurl_loop *loop);

@@ -275,7 +275,7 @@ static int node_meets(const knurl_bvh_node *node, const knurl_view *view) {
 
 static uint32_t find_still(const knurl_broad_index *index, const knurl_view *view, uint32_t room, uint32_t count,
                            uint32_t *places) {
-    uint32_t stack[KNURL_BVH_MAX_DEPTH];
+    uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     if (index->node_count > 0) {
         stack[top++] = 0;

@@ -50,7 +50,7 @@ static void insert(knurl_candidates *c, uint32_t place) {
     if (at < c->count && c->list[at].place == place) {
         return;
     }
-    if (c->count == KNURL_MAX_CANDIDATES) {
+    if (c->count == KNURL_CANDIDATES_MAX) {
         c->overflow = 1;
         return;
     }
@@ -70,10 +70,10 @@ static void load_box(const knurl_broad_index *index, knurl_candidate *candidate)
 static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                  const knurl_hip_path *path) {
     const uint64_t version = knurl_load_acquire(&phase->version); /* before the boxes are read */
-    uint32_t places[KNURL_MAX_CANDIDATES];
-    uint32_t found = KNURL_MAX_CANDIDATES + 1;
+    uint32_t places[KNURL_CANDIDATES_MAX];
+    uint32_t found = KNURL_CANDIDATES_MAX + 1;
     size_t v = 0;
-    for (; v < VIEWS && found > KNURL_MAX_CANDIDATES; v++) {
+    for (; v < VIEWS && found > KNURL_CANDIDATES_MAX; v++) {
         c->depth = path->depth + (v < NARROWS ? DEEPER : 1e-4);
         const double reach = 1e-9 + fmax(c->depth, path->is_first ? views[v].capture : 0.0);
         double low[3];
@@ -85,11 +85,11 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
             high[i] = c->high[i] + reach;
         }
         const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
-        found = knurl_broad_phase_find(index, &view, KNURL_MAX_CANDIDATES, places);
+        found = knurl_broad_phase_find(index, &view, KNURL_CANDIDATES_MAX, places);
     }
     c->version = v > NARROWS ? 0 : version; /* a look without margin serves for this tick */
-    c->overflow = found > KNURL_MAX_CANDIDATES;
-    found = c->overflow ? KNURL_MAX_CANDIDATES : found;
+    c->overflow = found > KNURL_CANDIDATES_MAX;
+    found = c->overflow ? KNURL_CANDIDATES_MAX : found;
     c->count = keep(c->list, c->count, places, found);
     for (uint32_t i = 0; i < found; i++) {
         insert(c, places[i]);

@@ -9,7 +9,7 @@
 #include "scene/wall.h"
 
 /* Surfaces near a HIP that are looked at in a tick, at most. */
-#define KNURL_MAX_CANDIDATES 32
+#define KNURL_CANDIDATES_MAX 32
 
 /* One surface near a HIP, and all that is kept of it from tick to tick. */
 typedef struct knurl_candidate {
@@ -43,7 +43,7 @@ typedef struct knurl_candidates {
     uint32_t count;
     uint32_t overflow; /* 1: there were more than fit */
     knurl_clearance clearance;
-    knurl_candidate list[KNURL_MAX_CANDIDATES];
+    knurl_candidate list[KNURL_CANDIDATES_MAX];
 } knurl_candidates;
 
 /* How a HIP goes in one tick. */

@@ -117,7 +117,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     }
 }
 
-knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface surface,
+knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface_id surface,
                                        knurl_surface_check *check) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(check)) {
         return KNURL_ERROR_ARGUMENT;

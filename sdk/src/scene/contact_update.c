@@ -92,7 +92,7 @@ static void slide_off(knurl_contacts *c, const knurl_candidate *candidate, const
 /* Returns 0 where there is no room for one more: it is looked at again in the next tick. */
 static int begin_contact(update *u, knurl_candidate *candidate) {
     const knurl_hand_over *over = &u->contacts->hand_over;
-    if (u->contacts->active_count == KNURL_MAX_CONTACTS) {
+    if (u->contacts->active_count == KNURL_CONTACTS_MAX) {
         *u->flags |= KNURL_TICK_CONTACTS_FULL;
         memset(&candidate->contact, 0, sizeof candidate->contact);
         return 0;
@@ -123,7 +123,7 @@ static const knurl_surface_data *find_surface(const update *u, knurl_candidate *
 static void update_candidate(update *u, knurl_candidate *candidate) {
     knurl_active_contact spare; /* there may be no room */
     knurl_contacts *c = u->contacts;
-    knurl_active_contact *a = c->active_count < KNURL_MAX_CONTACTS ? &c->active[c->active_count] : &spare;
+    knurl_active_contact *a = c->active_count < KNURL_CONTACTS_MAX ? &c->active[c->active_count] : &spare;
     const knurl_hand_over *over = &c->hand_over;
     knurl_contact_query query;
     a->surface = find_surface(u, candidate);

@@ -50,7 +50,7 @@ typedef struct knurl_contacts {
     int32_t has_previous;
     int32_t everything; /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */
     knurl_hand_over hand_over;
-    knurl_active_contact active[KNURL_MAX_CONTACTS]; /* in this tick; what they point to is gone after it */
+    knurl_active_contact active[KNURL_CONTACTS_MAX]; /* in this tick; what they point to is gone after it */
     uint32_t active_count;
     knurl_candidates candidates;
 } knurl_contacts;

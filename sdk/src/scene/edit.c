@@ -13,7 +13,7 @@ static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     return result;
 }
 
-knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface *surface) {
+knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *surface) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -25,7 +25,7 @@ knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_des
     }
     knurl_scene_lock(scene);
     result = add(scene, made);
-    const knurl_surface id = result ? 0 : made->id;
+    const knurl_surface_id id = result ? 0 : made->id;
     knurl_scene_unlock(scene);
     if (result) {
         made->retired.release(&scene->heap, &made->retired);
@@ -35,7 +35,7 @@ knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_des
     return result;
 }
 
-knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surface) {
+knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -49,7 +49,7 @@ knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface surfac
     return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
 }
 
-static knurl_result set_material(knurl_scene *scene, knurl_surface surface, const knurl_material_desc *material) {
+static knurl_result set_material(knurl_scene *scene, knurl_surface_id surface, const knurl_material_desc *material) {
     knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (!data) {
         return KNURL_ERROR_STALE_ID;
@@ -68,7 +68,8 @@ static knurl_result set_material(knurl_scene *scene, knurl_surface surface, cons
     return KNURL_OK;
 }
 
-knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface, const knurl_material_desc *material) {
+knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
+                                      const knurl_material_desc *material) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(material)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -78,7 +79,8 @@ knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface surface,
     return result;
 }
 
-static knurl_result set_transform(knurl_scene *scene, knurl_surface surface, const knurl_pose *pose, double seconds) {
+static knurl_result set_transform(knurl_scene *scene, knurl_surface_id surface, const knurl_pose *pose,
+                                  double seconds) {
     knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (!data) {
         return KNURL_ERROR_STALE_ID;
@@ -98,7 +100,7 @@ static knurl_result set_transform(knurl_scene *scene, knurl_surface surface, con
     return KNURL_OK;
 }
 
-knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface surface, const double position[3],
+knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                        const double rotation[4], double seconds) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
         return KNURL_ERROR_ARGUMENT;

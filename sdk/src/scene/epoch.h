@@ -6,7 +6,7 @@
 #include "base/heap.h"
 
 /* Threads that pin epochs: one a HIP. */
-#define KNURL_MAX_PINS 8
+#define KNURL_PINS_MAX 8
 
 /* The first member of everything that an edit can replace. */
 typedef struct knurl_retired {
@@ -19,7 +19,7 @@ typedef struct knurl_epoch {
     uint64_t now; /* atomic; from 1 */
     knurl_heap *heap;
     knurl_retired *retired;               /* waits for its release; for edits, under their lock */
-    const uint64_t *pins[KNURL_MAX_PINS]; /* atomics: the epoch in which the tick that runs began; 0: none runs */
+    const uint64_t *pins[KNURL_PINS_MAX]; /* atomics: the epoch in which the tick that runs began; 0: none runs */
     uint32_t pin_count;
 } knurl_epoch;
 

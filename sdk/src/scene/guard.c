@@ -11,15 +11,15 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
     const double heat = knurl_heat_get(&guard->heat);
     memset(guard, 0, sizeof *guard);
     knurl_heat_init(&guard->heat, facts);
-    if (desc->unguarded & KNURL_UNGUARDED_HEAT) {
+    if (!(desc->protections & KNURL_PROTECT_HEAT)) {
         guard->heat.excess = 0.0;
     }
     knurl_heat_set(&guard->heat, heat);
-    knurl_passivity_init(&guard->passivity, !(desc->unguarded & KNURL_UNGUARDED_PASSIVITY), facts, scale);
+    knurl_passivity_init(&guard->passivity, (desc->protections & KNURL_PROTECT_PASSIVITY) != 0, facts, scale);
     knurl_bounds_init(&guard->bounds, facts, scale);
     const double slew = desc->slew_rate > 0.0 ? desc->slew_rate : facts->max_force / SLEW_TIME;
-    guard->entry = desc->unguarded & KNURL_UNGUARDED_ENTRY ? HUGE_VAL : KNURL_ENTRY_SPEED * scale * period;
-    guard->slew = desc->unguarded & KNURL_UNGUARDED_SLEW ? HUGE_VAL : slew * period;
+    guard->entry = desc->protections & KNURL_PROTECT_ENTRY ? KNURL_ENTRY_SPEED_MAX * scale * period : HUGE_VAL;
+    guard->slew = desc->protections & KNURL_PROTECT_SLEW ? slew * period : HUGE_VAL;
     guard->clamp = (int32_t)desc->clamp;
 }
 

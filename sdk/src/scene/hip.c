@@ -8,7 +8,8 @@
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
-    const knurl_hip_desc defaults = {.resolution = -1.0, .viscous = -1.0, .delay = -1.0};
+    const knurl_hip_desc defaults = {
+        .resolution = -1.0, .viscous = -1.0, .delay = -1.0, .protections = KNURL_PROTECT_ALL};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -52,10 +53,10 @@ static knurl_result check_protections(const knurl_hip_desc *d) {
                               numbers[i].name, numbers[i].least, numbers[i].most, numbers[i].unit, numbers[i].value);
         }
     }
-    if (d->unguarded > KNURL_UNGUARDED_ALL || d->clamp > 1) {
+    if (d->protections > KNURL_PROTECT_ALL || d->clamp > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_hip_desc: expected unguarded of KNURL_UNGUARDED_ bits and clamp 0 or 1, found %#x, %u",
-                          (unsigned)d->unguarded, (unsigned)d->clamp);
+                          "knurl_hip_desc: expected protections of KNURL_PROTECT_ bits and clamp 0 or 1, found %#x, %u",
+                          (unsigned)d->protections, (unsigned)d->clamp);
     }
     return KNURL_OK;
 }

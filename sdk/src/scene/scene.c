@@ -201,7 +201,7 @@ knurl_result knurl_scene_commit(knurl_scene *scene) {
     return result;
 }
 
-uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
+uint32_t knurl_scene_get_surface_count(const knurl_scene *scene) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
@@ -211,12 +211,12 @@ uint32_t knurl_scene_surface_count(const knurl_scene *scene) {
     return count;
 }
 
-knurl_surface knurl_scene_surface_at(const knurl_scene *scene, uint32_t index) {
+knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
     knurl_scene_lock(scene);
-    const knurl_surface id = index < scene->surfaces.count ? knurl_surfaces_at(&scene->surfaces, index)->id : 0;
+    const knurl_surface_id id = index < scene->surfaces.count ? knurl_surfaces_at(&scene->surfaces, index)->id : 0;
     knurl_scene_unlock(scene);
     return id;
 }
@@ -236,14 +236,14 @@ static const knurl_surface_data *find(const knurl_scene *scene, const char *name
     return NULL;
 }
 
-knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface *surface) {
+knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name) || KNURL_IS_NULL(surface)) {
         return KNURL_ERROR_ARGUMENT;
     }
     char known[512] = "";
     knurl_scene_lock(scene);
     const knurl_surface_data *data = find(scene, name, known, sizeof known);
-    const knurl_surface id = data ? data->id : 0;
+    const knurl_surface_id id = data ? data->id : 0;
     knurl_scene_unlock(scene);
     if (!id) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "surface: expected one of %s, found '%s'",
@@ -253,7 +253,7 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
     return KNURL_OK;
 }
 
-knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface surface, const char **name) {
+knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface, const char **name) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -266,7 +266,7 @@ knurl_result knurl_scene_surface_name(const knurl_scene *scene, knurl_surface su
     return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
 }
 
-uint64_t knurl_scene_bytes(const knurl_scene *scene) {
+uint64_t knurl_scene_get_bytes(const knurl_scene *scene) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }

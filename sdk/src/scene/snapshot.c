@@ -2,13 +2,13 @@
 #include "scene/snapshot.h"
 
 void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
-    c->force_limits += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
-    c->frequency_saturations += (flags & KNURL_TICK_FREQUENCY) != 0;
-    c->not_finite += (flags & KNURL_TICK_NOT_FINITE) != 0;
-    c->entries += (flags & KNURL_TICK_ENTRY) != 0;
-    c->slews += (flags & KNURL_TICK_SLEW) != 0;
-    c->heats += (flags & KNURL_TICK_HEAT) != 0;
-    c->passivities += (flags & KNURL_TICK_PASSIVITY) != 0;
+    c->force_limit_ticks += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
+    c->saturation_ticks += (flags & KNURL_TICK_FREQUENCY) != 0;
+    c->non_finite_ticks += (flags & KNURL_TICK_NOT_FINITE) != 0;
+    c->entry_ticks += (flags & KNURL_TICK_ENTRY) != 0;
+    c->slew_ticks += (flags & KNURL_TICK_SLEW) != 0;
+    c->heat_ticks += (flags & KNURL_TICK_HEAT) != 0;
+    c->passivity_ticks += (flags & KNURL_TICK_PASSIVITY) != 0;
 }
 
 void knurl_snapshot_clear(knurl_published *published) {

@@ -40,6 +40,6 @@ static inline void knurl_snapshot_publish(knurl_published *published, const knur
 void knurl_snapshot_clear(knurl_published *published);
 
 /* [any thread] */
-void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot);
+void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot) KNURL_NONBLOCKING;
 
 #endif

@@ -15,7 +15,7 @@ typedef struct knurl_surface_data {
     uint32_t place;       /* among the scene's surfaces */
     uint32_t generation;
     uint32_t moved; /* edits: 1 once it was moved since the broad phase's index was built */
-    knurl_surface id;
+    knurl_surface_id id;
     knurl_pose local; /* the shape's frame in the surface's */
     double axis[3];   /* unit, surface's frame; 0: none was given */
     char *name;

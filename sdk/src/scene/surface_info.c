@@ -73,7 +73,8 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
     describe_anchor(surface, &pose, info);
 }
 
-knurl_result knurl_scene_surface_info(const knurl_scene *scene, knurl_surface surface, knurl_surface_info *info) {
+knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
+                                          knurl_surface_info *info) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(info)) {
         return KNURL_ERROR_ARGUMENT;
     }

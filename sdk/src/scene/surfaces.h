@@ -39,7 +39,7 @@ void knurl_surfaces_undo_add(knurl_surfaces *surfaces, knurl_surface_data *surfa
 void knurl_surfaces_remove(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
 /* The surface of an id, or null with an error. */
-knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *surfaces, knurl_surface id);
+knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *surfaces, knurl_surface_id id);
 
 /* Releases the surfaces and the arrays. */
 void knurl_surfaces_release(knurl_surfaces *surfaces);

@@ -84,7 +84,7 @@ static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, c
 static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
     const uint32_t count = hip->contacts.active_count;
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
-    knurl_wall walls[KNURL_MAX_CONTACTS];
+    knurl_wall walls[KNURL_CONTACTS_MAX];
     for (uint32_t i = 0; i < count; i++) {
         const knurl_active_contact *c = &hip->contacts.active[i];
         knurl_wall_init(&walls[i], &c->record->material, c->contact.z, &c->candidate->guard);

@@ -12,7 +12,7 @@
 #define DOWN (3.0 / 3.605551275463989 * 1.4142135623730951) /* 3/sqrt(13) sqrt(2) */
 const double knurl_mixed_heights[6] = {EVEN + UP, -EVEN + UP, EVEN - DOWN, -EVEN + UP, EVEN + UP, -EVEN - DOWN};
 
-static void init_even(int32_t length, double amplitude, knurl_event *event) {
+static void init_even(int32_t length, double amplitude, knurl_vibration_event *event) {
     event->kind = KNURL_EVENT_EVEN;
     event->length = length;
     event->positive_ticks = length / 2;
@@ -22,7 +22,7 @@ static void init_even(int32_t length, double amplitude, knurl_event *event) {
 
 /* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly: T = Tp + Tn leaves of
  * it Ap = A sqrt(Tn / Tp), and An is Ap Tp / Tn (Eq. 5). */
-static void init_odd(int32_t length, double amplitude, knurl_event *event) {
+static void init_odd(int32_t length, double amplitude, knurl_vibration_event *event) {
     const double ratio = (length - 1.0) / (length + 1.0);
     event->kind = KNURL_EVENT_ODD;
     event->length = length;
@@ -31,7 +31,7 @@ static void init_odd(int32_t length, double amplitude, knurl_event *event) {
     event->negative = event->positive / ratio;
 }
 
-void knurl_event_set_length(int32_t length, double amplitude, knurl_event *event) {
+void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) {
     event->saturated = 0;
     if (length % 2 == 0) {
         init_even(length, amplitude, event);
@@ -40,7 +40,7 @@ void knurl_event_set_length(int32_t length, double amplitude, knurl_event *event
     }
 }
 
-void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event) {
+void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
     const double ticks = knurl_snap_ticks(period_ticks);
     event->saturated = ticks < 2.0;
     if (ticks < 2.25) {
@@ -52,11 +52,12 @@ void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *eve
         event->positive = amplitude;
         event->negative = 0.0;
     } else {
-        knurl_event_set_length((int32_t)floor(ticks + 0.5), amplitude, event); /* half up, as the paper rounds */
+        knurl_vibration_event_set_length((int32_t)floor(ticks + 0.5), amplitude,
+                                         event); /* half up, as the paper rounds */
     }
 }
 
-knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event *event) {
+knurl_result knurl_vibration_event_init(double period_ticks, double amplitude, knurl_vibration_event *event) {
     if (KNURL_IS_NULL(event)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -67,10 +68,10 @@ knurl_result knurl_event_init(double period_ticks, double amplitude, knurl_event
     if (!(amplitude >= 0.0 && knurl_is_finite(amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
     }
-    knurl_event_prepare(period_ticks, amplitude, event);
+    knurl_vibration_event_prepare(period_ticks, amplitude, event);
     return KNURL_OK;
 }
 
-double knurl_event_height(const knurl_event *event, int32_t index) {
-    return event && index >= 0 && index < event->length ? knurl_event_value(event, index) : 0.0;
+double knurl_vibration_event_height(const knurl_vibration_event *event, int32_t index) {
+    return event && index >= 0 && index < event->length ? knurl_vibration_event_value(event, index) : 0.0;
 }

@@ -8,14 +8,16 @@
 /* Algorithm 5's six values in units of A (event.c). */
 extern const double knurl_mixed_heights[6];
 
-/* knurl_event_init() for what is in range: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >= 0. */
-void knurl_event_prepare(double period_ticks, double amplitude, knurl_event *event) KNURL_NONBLOCKING;
+/* knurl_vibration_event_init() for what is in range: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and
+ * >= 0. */
+void knurl_vibration_event_prepare(double period_ticks, double amplitude,
+                                   knurl_vibration_event *event) KNURL_NONBLOCKING;
 
 /* Algorithm 2 or 4: an event of `length` ticks, 2 or more. */
-void knurl_event_set_length(int32_t length, double amplitude, knurl_event *event) KNURL_NONBLOCKING;
+void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) KNURL_NONBLOCKING;
 
-/* knurl_event_height() for 0 <= index < event->length. */
-static inline double knurl_event_value(const knurl_event *event, int32_t index) {
+/* knurl_vibration_event_height() for 0 <= index < event->length. */
+static inline double knurl_vibration_event_value(const knurl_vibration_event *event, int32_t index) {
     if (event->kind == KNURL_EVENT_MIXED) {
         return event->positive * knurl_mixed_heights[index];
     }

@@ -13,14 +13,14 @@ static knurl_result init_mix(knurl_wave *wave) {
     const double lower = 2.0 * floor(0.5 * period);
     if (upper == lower) { /* an even multiple: Eqs. 3, 4 are 0/0, and one component is meant */
         wave->part_count = 1;
-        return knurl_event_init(upper, wave->amplitude, &wave->parts[0]);
+        return knurl_vibration_event_init(upper, wave->amplitude, &wave->parts[0]);
     }
     const double a = upper * fabs(period - lower);
     const double b = lower * fabs(upper - period);
     const double norm = sqrt(a * a + b * b);
     wave->part_count = 2;
-    const knurl_result result = knurl_event_init(upper, wave->amplitude * a / norm, &wave->parts[0]);
-    return result ? result : knurl_event_init(lower, wave->amplitude * b / norm, &wave->parts[1]);
+    const knurl_result result = knurl_vibration_event_init(upper, wave->amplitude * a / norm, &wave->parts[0]);
+    return result ? result : knurl_vibration_event_init(lower, wave->amplitude * b / norm, &wave->parts[1]);
 }
 
 knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
@@ -52,7 +52,7 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
         result = init_mix(&made);
     } else if (method == KNURL_T3) {
         made.part_count = 1;
-        result = knurl_event_init(made.period_ticks, amplitude, &made.parts[0]);
+        result = knurl_vibration_event_init(made.period_ticks, amplitude, &made.parts[0]);
     }
     if (!result) {
         *wave = made;
@@ -84,8 +84,8 @@ double knurl_wave_value(const knurl_wave *wave, uint64_t tick) {
     }
     double value = 0.0;
     for (int32_t i = 0; i < wave->part_count; i++) {
-        const knurl_event *part = &wave->parts[i];
-        value += knurl_event_height(part, (int32_t)(tick % (uint64_t)part->length));
+        const knurl_vibration_event *part = &wave->parts[i];
+        value += knurl_vibration_event_height(part, (int32_t)(tick % (uint64_t)part->length));
     }
     return value;
 }

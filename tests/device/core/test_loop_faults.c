@@ -500,7 +500,7 @@ TEST_WITH(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes,
     assert_int_equal(wait_for_event(&r.device, KNURL_FAULT_WATCHDOG, &event), 1);
     assert_true(event.value >= 0.05);
     assert_int_equal(wait_for_event(&r.device, KNURL_FAULT_RESUMED, &event), 1);
-    assert_true(rig_stats(&r).watchdogs >= 1);
+    assert_true(rig_stats(&r).watchdog_trips >= 1);
     knurl_loop_stop(r.loop);
     assert_int_equal(r.seen, 1);
 }

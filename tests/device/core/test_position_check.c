@@ -367,6 +367,6 @@ TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     assert_int_equal(out.tick, 301);
     knurl_hip_counts counts;
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    assert_int_equal(counts.not_finite, 0);
+    assert_int_equal(counts.non_finite_ticks, 0);
     knurl_scene_destroy(scene);
 }

@@ -99,7 +99,7 @@ typedef struct plugin {
     void (*knurl_session_desc_init)(knurl_session_desc *, uint32_t);
     knurl_result (*knurl_session_create)(knurl_session **);
     void (*knurl_session_destroy)(knurl_session *);
-    knurl_scene *(*knurl_session_scene)(knurl_session *);
+    knurl_scene *(*knurl_session_get_scene)(knurl_session *);
     knurl_result (*knurl_session_open)(knurl_session *, const knurl_session_desc *);
     knurl_result (*knurl_session_start)(knurl_session *, char *, uint32_t);
     void (*knurl_session_close)(knurl_session *);
@@ -127,7 +127,7 @@ static inline plugin plugin_open(void) {
     PLUGIN_FIND(knurl_session_desc_init);
     PLUGIN_FIND(knurl_session_create);
     PLUGIN_FIND(knurl_session_destroy);
-    PLUGIN_FIND(knurl_session_scene);
+    PLUGIN_FIND(knurl_session_get_scene);
     PLUGIN_FIND(knurl_session_open);
     PLUGIN_FIND(knurl_session_start);
     PLUGIN_FIND(knurl_session_close);

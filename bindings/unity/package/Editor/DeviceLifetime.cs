@@ -3,7 +3,7 @@ using UnityEditor;
 
 namespace Knurl.Editing
 {
-    /// <summary>Lets go of every device before the editor takes away what it is made of: at the end of play mode,
+    /// <summary>Stops every device before the editor takes away what it is made of: at the end of play mode,
     /// before scripts are loaded anew, and when the editor quits.</summary>
     [InitializeOnLoad]
     internal static class DeviceLifetime

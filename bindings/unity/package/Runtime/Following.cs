@@ -30,7 +30,7 @@ namespace Knurl
         internal Following(SessionHandle session)
         {
             this.session = session;
-            scene = NativeMethods.knurl_session_scene(session);
+            scene = NativeMethods.knurl_session_get_scene(session);
         }
 
         /// <summary>Adds all surfaces that are enabled, in the order of enabling. Errors go to the console.</summary>
@@ -59,7 +59,7 @@ namespace Knurl
             count++;
         }
 
-        /// <summary>A surface that is disabled, or gone: it is let go of at once.</summary>
+        /// <summary>A surface that is disabled, or gone: it is removed at once.</summary>
         internal void Drop(KnurlSurface surface)
         {
             int i = IndexOf(surface);
@@ -123,7 +123,7 @@ namespace Knurl
             knurl_surface_info info;
             NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
             return i < 0 || followers[i].id == 0
-                || NativeMethods.knurl_scene_surface_info(scene, followers[i].id, &info) != NativeMethods.KNURL_OK
+                || NativeMethods.knurl_scene_get_surface_info(scene, followers[i].id, &info) != NativeMethods.KNURL_OK
                 ? 0 : (int)info.triangle_count;
         }
 

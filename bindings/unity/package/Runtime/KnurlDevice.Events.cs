@@ -51,8 +51,8 @@ namespace Knurl
         {
             byte* ignored;
             KnurlSurface surface = following.Find(id);
-            if ((object)surface == null && NativeMethods.knurl_scene_surface_name(
-                NativeMethods.knurl_session_scene(session), id, &ignored) != NativeMethods.KNURL_OK)
+            if ((object)surface == null && NativeMethods.knurl_scene_get_surface_name(
+                NativeMethods.knurl_session_get_scene(session), id, &ignored) != NativeMethods.KNURL_OK)
             {
                 return;
             }

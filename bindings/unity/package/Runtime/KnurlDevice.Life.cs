@@ -40,7 +40,7 @@ namespace Knurl
             return isRunning;
         }
 
-        /// <summary>Lets go, by a ramp of the force, and closes the device. Twice is fine.</summary>
+        /// <summary>Ramps the force down and closes the device. Twice is fine.</summary>
         public void StopDevice()
         {
             isNew = false;
@@ -131,7 +131,7 @@ namespace Knurl
             isRunning = true;
             runs++;
             NativeMethods.knurl_device_info_init(&info, (uint)sizeof(knurl_device_info));
-            NativeMethods.knurl_device_get_info(NativeMethods.knurl_session_device(session), &info);
+            NativeMethods.knurl_device_get_info(NativeMethods.knurl_session_get_device(session), &info);
             deviceName = Utf8.Read(info.name);
             if (warning[0] != 0)
             {
@@ -190,7 +190,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>A game that gives no frame gives no sign of life, and the hand is let go of.</summary>
+        /// <summary>A game that gives no frame gives no sign of life, and the force is zeroed.</summary>
         void LateUpdate()
         {
             if (isRunning)

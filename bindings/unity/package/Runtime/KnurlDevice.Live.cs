@@ -120,7 +120,7 @@ namespace Knurl
                 NativeMethods.knurl_gltf_report_init(&report, (uint)sizeof(knurl_gltf_report));
                 fixed (byte* file = Utf8.Bytes(path, "path"))
                 {
-                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(NativeMethods.knurl_session_scene(session),
+                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(NativeMethods.knurl_session_get_scene(session),
                         file, &report));
                 }
                 hasFiles = true;

@@ -8,7 +8,7 @@ namespace Knurl
     /// in play mode only. Where the object stands and how it is turned when the device starts, there lies the device's
     /// workspace: x to the right, y up, the user looking along the object's z, origin at the object; the object's scale
     /// does not count. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or
-    /// disables the device lets go of the user's hand. All members: main thread.</summary>
+    /// disables the device zeroes the force. All members: main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Device")]
     [DefaultExecutionOrder(1000)] // last in a frame, so that what others have moved in it is followed
     [DisallowMultipleComponent]

@@ -14,7 +14,7 @@ namespace Knurl
         /// <summary>Ticks that came late, by more than half a period.</summary>
         public long Overruns;
 
-        /// <summary>Times the watchdog let go of the motors, because the haptic thread stood still.</summary>
+        /// <summary>Times the watchdog zeroed the force, because the haptic thread stood still.</summary>
         public long Watchdogs;
 
         /// <summary>Ticks left out because the device was lost or gave no position that can be trusted.</summary>
@@ -53,7 +53,7 @@ namespace Knurl
         /// <summary>Whether the device is gone.</summary>
         public bool Lost;
 
-        /// <summary>Whether the motors were let go and nothing has taken them up again.</summary>
+        /// <summary>Whether the force was zeroed and nothing has taken the device up again.</summary>
         public bool Halted;
 
         /// <summary>Faults reported, with the news that all is well again.</summary>
@@ -108,9 +108,9 @@ namespace Knurl
         internal static unsafe KnurlStatus Of(SessionHandle session)
         {
             var status = new KnurlStatus { Running = true };
-            status.TellLoop(NativeMethods.knurl_session_loop(session));
-            status.TellDevice(NativeMethods.knurl_session_device(session));
-            status.TellHip(NativeMethods.knurl_session_scene(session));
+            status.TellLoop(NativeMethods.knurl_session_get_loop(session));
+            status.TellDevice(NativeMethods.knurl_session_get_device(session));
+            status.TellHip(NativeMethods.knurl_session_get_scene(session));
             return status;
         }
 
@@ -121,7 +121,7 @@ namespace Knurl
             NativeMethods.knurl_loop_get_stats(loop, &stats);
             Ticks = (long)stats.ticks;
             Overruns = (long)stats.overruns;
-            Watchdogs = (long)stats.watchdogs;
+            Watchdogs = (long)stats.watchdog_trips;
             Absences = (long)stats.absences;
             Absent = stats.absent != 0;
             Realtime = stats.realtime != 0;
@@ -156,17 +156,17 @@ namespace Knurl
             Events = (long)counts.events;
             HalfCyclesCrossed = counts.half_cycles_crossed;
             HalfCyclesPlayed = (long)counts.half_cycles_played;
-            ForceLimits = (long)counts.force_limits;
-            FrequencySaturations = (long)counts.frequency_saturations;
-            NotFinite = (long)counts.not_finite;
-            Entries = (long)counts.entries;
-            Slews = (long)counts.slews;
-            Heats = (long)counts.heats;
-            Passivities = (long)counts.passivities;
+            ForceLimits = (long)counts.force_limit_ticks;
+            FrequencySaturations = (long)counts.saturation_ticks;
+            NotFinite = (long)counts.non_finite_ticks;
+            Entries = (long)counts.entry_ticks;
+            Slews = (long)counts.slew_ticks;
+            Heats = (long)counts.heat_ticks;
+            Passivities = (long)counts.passivity_ticks;
             ForceMax = counts.force_max;
             Heat = counts.heat;
-            Surfaces = NativeMethods.knurl_scene_surface_count(scene);
-            SceneBytes = (long)NativeMethods.knurl_scene_bytes(scene);
+            Surfaces = NativeMethods.knurl_scene_get_surface_count(scene);
+            SceneBytes = (long)NativeMethods.knurl_scene_get_bytes(scene);
         }
     }
 }

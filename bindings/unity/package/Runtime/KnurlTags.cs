@@ -34,13 +34,13 @@ namespace Knurl
 
         static unsafe KnurlTag[] ReadAll(knurl_scene* scene)
         {
-            var tags = new KnurlTag[NativeMethods.knurl_scene_surface_count(scene)];
+            var tags = new KnurlTag[NativeMethods.knurl_scene_get_surface_count(scene)];
             for (uint i = 0; i < tags.Length; i++)
             {
                 knurl_surface_info info;
                 NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
-                KnurlException.Check(NativeMethods.knurl_scene_surface_info(scene,
-                    NativeMethods.knurl_scene_surface_at(scene, i), &info));
+                KnurlException.Check(NativeMethods.knurl_scene_get_surface_info(scene,
+                    NativeMethods.knurl_scene_get_surface(scene, i), &info));
                 tags[i] = new KnurlTag(&info);
             }
             return tags;

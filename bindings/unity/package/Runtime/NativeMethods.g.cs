@@ -143,7 +143,7 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_event
+    internal unsafe struct knurl_vibration_event
     {
         public double positive;
         public double negative;
@@ -158,8 +158,8 @@ namespace Knurl
     {
         public double period_ticks;
         public double amplitude;
-        public knurl_event parts_0;
-        public knurl_event parts_1;
+        public knurl_vibration_event parts_0;
+        public knurl_vibration_event parts_1;
         public int method;
         public int part_count;
         public uint saturated;
@@ -181,7 +181,7 @@ namespace Knurl
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_grating_state
     {
-        public knurl_event @event;
+        public knurl_vibration_event @event;
         public long event_count;
         public int next_tick;
         public int playing;
@@ -275,7 +275,7 @@ namespace Knurl
         public double delay;
         public double max_stiffness;
         public double slew_rate;
-        public uint unguarded;
+        public uint protections;
         public uint clamp;
     }
 
@@ -355,13 +355,13 @@ namespace Knurl
         public ulong ticks;
         public ulong contact_ticks;
         public ulong events;
-        public ulong force_limits;
-        public ulong frequency_saturations;
-        public ulong not_finite;
-        public ulong entries;
-        public ulong slews;
-        public ulong heats;
-        public ulong passivities;
+        public ulong force_limit_ticks;
+        public ulong saturation_ticks;
+        public ulong non_finite_ticks;
+        public ulong entry_ticks;
+        public ulong slew_ticks;
+        public ulong heat_ticks;
+        public ulong passivity_ticks;
         public double force_max;
         public double heat;
         public double half_cycles_crossed;
@@ -414,7 +414,7 @@ namespace Knurl
         public double ramp_s;
         public double watchdog_s;
         public knurl_clock* clock;
-        public uint unguarded;
+        public uint protections;
         public uint reconnect;
         public double heartbeat_s;
     }
@@ -434,12 +434,12 @@ namespace Knurl
         public int state;
         public ulong ticks;
         public ulong overruns;
-        public ulong watchdogs;
+        public ulong watchdog_trips;
         public uint realtime;
         public uint memory_locked;
         public knurl_percentiles tick_ns;
         public knurl_percentiles jitter_ns;
-        public ulong heats;
+        public ulong heat_ticks;
         public double heat;
         public ulong absences;
         public uint absent;
@@ -566,7 +566,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "88d94d694c1e02f6";
+        internal const string Interface = "b7d5ac99c6864dd8";
 
         internal const string Version = "0.1.0";
 
@@ -580,10 +580,10 @@ namespace Knurl
         internal const int KNURL_FOAW_WINDOW = 15;
         internal const int KNURL_FOAW_STRIDE_MAX = 10;
         internal const double KNURL_VELOCITY_LOWPASS_HZ = 20.0;
-        internal const int KNURL_MAX_CONTACTS = 4;
+        internal const int KNURL_CONTACTS_MAX = 4;
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
-        internal const double KNURL_ENTRY_SPEED = 0.5;
+        internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_SESSION_HISTORY = 8192;
         internal const int KNURL_OK = 0;
@@ -632,11 +632,11 @@ namespace Knurl
         internal const int KNURL_VELOCITY_DIFFERENCE = 1;
         internal const int KNURL_VELOCITY_FOAW = 2;
         internal const int KNURL_VELOCITY_LOWPASS = 3;
-        internal const int KNURL_UNGUARDED_ENTRY = 1;
-        internal const int KNURL_UNGUARDED_SLEW = 2;
-        internal const int KNURL_UNGUARDED_HEAT = 4;
-        internal const int KNURL_UNGUARDED_PASSIVITY = 8;
-        internal const int KNURL_UNGUARDED_ALL = 15;
+        internal const int KNURL_PROTECT_ENTRY = 1;
+        internal const int KNURL_PROTECT_SLEW = 2;
+        internal const int KNURL_PROTECT_HEAT = 4;
+        internal const int KNURL_PROTECT_PASSIVITY = 8;
+        internal const int KNURL_PROTECT_ALL = 15;
         internal const int KNURL_FULL_MESHES = 1;
         internal const int KNURL_FULL_SEARCH = 2;
         internal const int KNURL_FULL_GRATING = 4;
@@ -762,10 +762,11 @@ namespace Knurl
         internal static extern int knurl_stroke_from_name(byte* name, int* stroke);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_event_init(double period_ticks, double amplitude, knurl_event* @event);
+        internal static extern int knurl_vibration_event_init(double period_ticks, double amplitude,
+            knurl_vibration_event* @event);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern double knurl_event_height(knurl_event* @event, int index);
+        internal static extern double knurl_vibration_event_height(knurl_vibration_event* @event, int index);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_wave_init(int method, double period_s, double amplitude, double update_rate_hz,
@@ -868,23 +869,23 @@ namespace Knurl
         internal static extern int knurl_scene_commit(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_scene_surface_count(knurl_scene* scene);
+        internal static extern uint knurl_scene_get_surface_count(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern ulong knurl_scene_surface_at(knurl_scene* scene, uint index);
+        internal static extern ulong knurl_scene_get_surface(knurl_scene* scene, uint index);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_surface_name(knurl_scene* scene, ulong surface, byte** name);
+        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_surface_info(knurl_scene* scene, ulong surface,
+        internal static extern int knurl_scene_get_surface_info(knurl_scene* scene, ulong surface,
             knurl_surface_info* info);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern ulong knurl_scene_bytes(knurl_scene* scene);
+        internal static extern ulong knurl_scene_get_bytes(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_scene_collect(knurl_scene* scene);
@@ -982,13 +983,13 @@ namespace Knurl
         internal static extern uint knurl_session_close_all();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern knurl_scene* knurl_session_scene(SessionHandle session);
+        internal static extern knurl_scene* knurl_session_get_scene(SessionHandle session);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern knurl_device* knurl_session_device(SessionHandle session);
+        internal static extern knurl_device* knurl_session_get_device(SessionHandle session);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern knurl_loop* knurl_session_loop(SessionHandle session);
+        internal static extern knurl_loop* knurl_session_get_loop(SessionHandle session);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_open(SessionHandle session, knurl_session_desc* desc);

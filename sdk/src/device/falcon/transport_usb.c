@@ -23,7 +23,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #else
 
 #include "base/system.h"
-#include "device/borrow.h"
+#include "device/dynlib.h"
 
 #include <libusb.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #define ROOM         16u  /* packets that have come and were not read yet; the oldest give way */
 #define CLOSE_MS     1000 /* for what is under way to end */
 
-/* What is borrowed of libusb. */
+/* What is loaded of libusb. */
 #define FUNCTIONS(X)                                                                                                   \
     X(alloc_transfer)                                                                                                  \
     X(cancel_transfer)                                                                                                 \
@@ -71,17 +71,17 @@ static struct {
 #undef FIELD
 } lib;
 
-static int borrow(char *why, size_t why_size) {
+static int load_functions(char *why, size_t why_size) {
 #if defined(_WIN32)
     static const char *const files[] = {"libusb-1.0.dll"};
 #else
     static const char *const files[] = {"libusb-1.0.so.0", "libusb-1.0.so"};
 #endif
 #define FUNCTION(name) {"libusb_" #name, &lib.name},
-    static const knurl_borrowed functions[] = {FUNCTIONS(FUNCTION)};
+    static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-    return lib.init || knurl_borrow(files, sizeof files / sizeof *files, functions,
-                                    sizeof functions / sizeof *functions, why, why_size);
+    return lib.init || knurl_dynlib_load(files, sizeof files / sizeof *files, functions,
+                                         sizeof functions / sizeof *functions, why, why_size);
 }
 
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
@@ -295,7 +295,7 @@ static void usb_list(void *user, knurl_listings *listings) {
     char why[512];
     libusb_context *context = NULL;
     const uint32_t before = listings->count;
-    if (!borrow(why, sizeof why)) {
+    if (!load_functions(why, sizeof why)) {
         knurl_listings_add(listings, "falcon", "Novint Falcon", NO_LIBRARY, why);
         return;
     }
@@ -380,7 +380,7 @@ static int usb_share(void *self, int32_t *endpoint) {
 static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     (void)user;
     char why[512];
-    if (!borrow(why, sizeof why)) {
+    if (!load_functions(why, sizeof why)) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'falcon': " NO_LIBRARY, why);
     }
     usb *u = calloc(1, sizeof *u);

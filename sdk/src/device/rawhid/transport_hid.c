@@ -14,7 +14,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
 #else
 
 #include "base/system.h"
-#include "device/borrow.h"
+#include "device/dynlib.h"
 
 #include <hidapi.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
 #include <unistd.h>
 #endif
 
-/* What is borrowed of hidapi. */
+/* What is loaded of hidapi. */
 #define FUNCTIONS(X)                                                                                                   \
     X(close)                                                                                                           \
     X(enumerate)                                                                                                       \
@@ -45,17 +45,17 @@ static struct {
 #undef FIELD
 } lib;
 
-static int borrow(char *why, size_t why_size) {
+static int load_functions(char *why, size_t why_size) {
 #if defined(_WIN32)
     static const char *const files[] = {"hidapi.dll"};
 #else
     static const char *const files[] = {"libhidapi-hidraw.so.0", "libhidapi-hidraw.so"};
 #endif
 #define FUNCTION(name) {"hid_" #name, &lib.name},
-    static const knurl_borrowed functions[] = {FUNCTIONS(FUNCTION)};
+    static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-    return lib.init || knurl_borrow(files, sizeof files / sizeof *files, functions,
-                                    sizeof functions / sizeof *functions, why, why_size);
+    return lib.init || knurl_dynlib_load(files, sizeof files / sizeof *files, functions,
+                                         sizeof functions / sizeof *functions, why, why_size);
 }
 
 /* hidapi's calls that are about no device share memory, and lib.exit() is for the whole process. */
@@ -236,7 +236,7 @@ static int hid_share(void *user, const knurl_rawhid_found *found) {
 
 const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
     char reason[384];
-    if (!borrow(reason, sizeof reason)) {
+    if (!load_functions(reason, sizeof reason)) {
         (void)snprintf(why, why_size, "hidapi cannot be loaded: %s; install it (Debian: libhidapi-hidraw0)", reason);
         return NULL;
     }

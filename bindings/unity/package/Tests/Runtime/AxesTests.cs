@@ -194,7 +194,7 @@ namespace Knurl.Tests
             Assert.That(device.StartDevice());
             knurl_workspace workspace;
             SessionHandle session = SessionOf(device);
-            Assert.AreEqual(0, NativeMethods.knurl_scene_get_workspace(NativeMethods.knurl_session_scene(session), 0,
+            Assert.AreEqual(0, NativeMethods.knurl_scene_get_workspace(NativeMethods.knurl_session_get_scene(session), 0,
                 &workspace));
             Assert.AreEqual(0, NativeMethods.knurl_workspace_check(&workspace));
             Transform t = device.transform;

@@ -286,7 +286,7 @@ namespace Knurl.Tests
                     KnurlException.Check(NativeMethods.knurl_scene_add_surface(scene, &desc, &surface));
                 }
                 byte* found = null;
-                KnurlException.Check(NativeMethods.knurl_scene_surface_name(scene, surface, &found));
+                KnurlException.Check(NativeMethods.knurl_scene_get_surface_name(scene, surface, &found));
                 Assert.AreEqual(text, Utf8.Read(found));
             }
             finally

@@ -1,19 +1,19 @@
-/* Libraries that a driver borrows from the system at run time, so that Knurl needs none of them to start: a missing one
+/* Libraries that a driver loads from the system at run time, so that Knurl needs none of them to start: a missing one
  * costs a sentence. SPDX-License-Identifier: MIT */
-#ifndef KNURL_SRC_BORROW_H
-#define KNURL_SRC_BORROW_H
+#ifndef KNURL_SRC_DYNLIB_H
+#define KNURL_SRC_DYNLIB_H
 
 #include <knurl/base.h>
 
 /* One function: its name, and where its address goes (a pointer to a function pointer). */
-typedef struct knurl_borrowed {
+typedef struct knurl_dynlib_function {
     const char *name;
     void *function;
-} knurl_borrowed;
+} knurl_dynlib_function;
 
 /* Loads the first of the named libraries that is there, for the rest of the process, and finds all functions or none.
  * 0: `why` says what is missing. Again is fine, and cheap where `functions` are set already. [game thread] */
-int knurl_borrow(const char *const *names, size_t name_count, const knurl_borrowed *functions, size_t function_count,
-                 char *why, size_t why_size);
+int knurl_dynlib_load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
+                      size_t function_count, char *why, size_t why_size);
 
 #endif

@@ -1,4 +1,4 @@
-/* A beat of the loop: device -> tick -> device. Read run_tick() first. SPDX-License-Identifier: MIT */
+/* A cycle of the loop: device -> tick -> device. Read run_tick() first. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"
@@ -59,7 +59,7 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     if (!(length <= most)) {
         const double share = knurl_is_finite(length) ? most / length : 0.0;
         if (most < loop->max_force && share > 0.0) {
-            knurl_count_up(&loop->heats);
+            knurl_count_up(&loop->heat_ticks);
         }
         for (int axis = 0; axis < 3; axis++) {
             loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
@@ -90,11 +90,11 @@ static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl
     return was_halted;
 }
 
-/* A beat without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
+/* A cycle without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
  */
 static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
-    knurl_count_up(&loop->beats);
+    knurl_count_up(&loop->cycles);
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
@@ -133,7 +133,7 @@ static int run_tick(knurl_loop *loop) {
     }
     knurl_store_relaxed(&loop->absent, 0u);
     knurl_count_up(&loop->ticks);
-    knurl_count_up(&loop->beats);
+    knurl_count_up(&loop->cycles);
     result = knurl_device_write(loop->desc.device, loop->force);
     if (was_halted && result == KNURL_OK) {
         knurl_device_release_halt(loop->desc.device);
@@ -187,11 +187,11 @@ static int ramp_down(knurl_loop *loop) {
     if (result || knurl_device_write(loop->desc.device, force)) {
         loop->ramp_step = steps; /* what does not answer cannot be ramped down */
     }
-    knurl_count_up(&loop->beats);
+    knurl_count_up(&loop->cycles);
     return loop->ramp_step < steps;
 }
 
-int knurl_loop_beat(knurl_loop *loop) {
+int knurl_loop_cycle(knurl_loop *loop) {
     if (knurl_loop_is_abandoned(loop)) {
         return 0; /* at once, without a ramp */
     }
@@ -210,7 +210,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_store_release(&loop->state, state);
 }
 
-/* A beat that came `late` ns after its deadline; the ramp at the end is not counted. */
+/* A cycle that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     if (overrun && !knurl_load_acquire(&loop->desc.device->lost)) { /* who looks for a lost one begins the check anew */
         loop->desc.device->check.gap += 1e-9 * (double)late;        /* the hand did not wait */
@@ -245,7 +245,7 @@ void knurl_loop_haptic_thread(void *argument) {
         const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
         knurl_loop_pass_time(loop, loop->pace.woke_at);
         note_lateness(loop, late, overrun);
-        if (!knurl_loop_beat(loop)) {
+        if (!knurl_loop_cycle(loop)) {
             break;
         }
     }
@@ -267,7 +267,7 @@ uint32_t knurl_loop_serve(void *argument) {
     }
     loop->served_at = now;
     knurl_loop_pass_time(loop, now);
-    if (knurl_loop_beat(loop)) {
+    if (knurl_loop_cycle(loop)) {
         knurl_store_release(&loop->is_served, 0u);
         return 1;
     }

@@ -1,13 +1,13 @@
 /* Borrowed libraries. SPDX-License-Identifier: MIT */
-#include "device/borrow.h"
+#include "device/dynlib.h"
 
 #include "base/system.h"
 
 #include <stdio.h>
 #include <string.h>
 
-int knurl_borrow(const char *const *names, size_t name_count, const knurl_borrowed *functions, size_t function_count,
-                 char *why, size_t why_size) {
+int knurl_dynlib_load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
+                      size_t function_count, char *why, size_t why_size) {
     knurl_library *library = NULL;
     why[0] = '\0';
     for (size_t i = 0; i < name_count && !library; i++) {
