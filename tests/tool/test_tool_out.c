@@ -207,11 +207,11 @@ TEST(a_study_that_is_ended_leaves_nothing) {
 
 /* --- pictures --- */
 
-#define PYTHON "/usr/bin/python3"
-#define PLOT   KNURL_TEST_ASSETS "/../samples/study/plot.py"
+static const char python[] = "/usr/bin/python3";
+static const char plotter[] = KNURL_TEST_ASSETS "/../samples/study/plot.py";
 
 static int can_plot(void) {
-    const char *const arguments[] = {PYTHON, "-c", "import matplotlib", NULL};
+    const char *const arguments[] = {python, "-c", "import matplotlib", NULL};
     process p = process_start(arguments, NULL);
     process_finish(&p);
     process_free(&p);
@@ -220,7 +220,7 @@ static int can_plot(void) {
 
 TEST(a_picture_does_not_replace_the_run_that_it_shows) {
     if (!can_plot()) {
-        print_message("skipped: no matplotlib for " PYTHON "\n");
+        print_message("skipped: no matplotlib for %s\n", python);
         skip();
     }
     const char *run = tool_path("run.csv");
@@ -231,7 +231,7 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
     const char *const outputs[] = {run, tool_path("run.png")};
     for (size_t i = 0; i < COUNT_OF(outputs); i++) {
         char *before = read_file(run);
-        const char *const arguments[] = {PYTHON, PLOT, run, "--out", outputs[i], NULL};
+        const char *const arguments[] = {python, plotter, run, "--out", outputs[i], NULL};
         p = process_start(arguments, NULL);
         process_finish(&p);
         assert_int_equal(p.exit_code, 1);
@@ -242,13 +242,13 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
         free(before);
         free(after);
     }
-    const char *const good[] = {PYTHON, PLOT, run, "--out", tool_path("good.png"), NULL};
+    const char *const good[] = {python, plotter, run, "--out", tool_path("good.png"), NULL};
     p = process_start(good, NULL);
     process_finish(&p);
     assert_int_equal(p.exit_code, 0);
     process_free(&p);
     assert_true(file_exists(tool_path("good.png")));
-    const char *const straight[] = {PYTHON, PLOT, run, "--out", "/dev/stdout", NULL};
+    const char *const straight[] = {python, plotter, run, "--out", "/dev/stdout", NULL};
     p = process_start(straight, NULL);
     process_finish(&p);
     assert_int_equal(p.exit_code, 0);
