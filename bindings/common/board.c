@@ -1,18 +1,9 @@
 /* From the haptic thread to the game thread. SPDX-License-Identifier: MIT */
 #include "board.h"
 
-#include <string.h>
+#include "base/seqlock.h"
 
-static void publish(knurl_board *b, const knurl_board_tick *tick) {
-    const uint64_t sequence = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
-    uint64_t words[KNURL_BOARD_WORDS];
-    memcpy(words, tick, sizeof words);
-    __atomic_store_n(&b->sequence, sequence + 1, __ATOMIC_RELAXED);
-    for (int i = 0; i < KNURL_BOARD_WORDS; i++) {
-        __atomic_store_n(&b->words[i], words[i], __ATOMIC_RELEASE);
-    }
-    __atomic_store_n(&b->sequence, sequence + 2, __ATOMIC_RELEASE);
-}
+#include <string.h>
 
 void knurl_board_take(const knurl_tick_output *output, void *user) {
     knurl_board *b = user;
@@ -26,7 +17,7 @@ void knurl_board_take(const knurl_tick_output *output, void *user) {
     tick.tick = output->tick + 1;
     const uint64_t written = __atomic_load_n(&b->written, __ATOMIC_RELAXED);
     tick.sent = written + 1;
-    publish(b, &tick);
+    knurl_seqlock_write(&b->sequence, b->words, &tick, sizeof tick);
     float row[2] = {(float)output->height, 0.0F};
     for (int i = 0; i < 3; i++) {
         row[1] += (float)(output->force[i] * output->normal[i]);
@@ -47,17 +38,7 @@ void knurl_board_take(const knurl_tick_output *output, void *user) {
 }
 
 void knurl_board_read(const knurl_board *b, knurl_board_tick *tick) {
-    uint64_t words[KNURL_BOARD_WORDS];
-    uint64_t before;
-    uint64_t after;
-    do { /* the writer is inside for some ten nanoseconds a tick */
-        before = __atomic_load_n(&b->sequence, __ATOMIC_ACQUIRE);
-        for (int i = 0; i < KNURL_BOARD_WORDS; i++) {
-            words[i] = __atomic_load_n(&b->words[i], __ATOMIC_ACQUIRE);
-        }
-        after = __atomic_load_n(&b->sequence, __ATOMIC_RELAXED);
-    } while (before != after || before % 2 != 0);
-    memcpy(tick, words, sizeof words);
+    knurl_seqlock_read(&b->sequence, b->words, tick, sizeof *tick);
 }
 
 /* What a ring got from `begin` on, at most as much as it holds. What was overwritten while it was copied is left out,
