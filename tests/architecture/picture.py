@@ -10,7 +10,7 @@ BOX = 40  # height of a box with a title and a line below it
 ROOMS = {
     "loop": (16, 72, 452, 146, "the 1 kHz thread: read, tick, write"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
-    "device": (16, 178, 146, 386, "any device"),
+    "device": (16, 178, 146, 408, "any device"),
     "scene": (172, 178, 928, 508, "surfaces, edits from other threads, and the tick"),
     "motion": (16, 424, 146, 508, "positions to speeds"),
     "contact": (172, 550, 752, 866, "where a HIP touches"),

@@ -1,5 +1,6 @@
 /* One interface for all devices: guards positions and forces. SPDX-License-Identifier: MIT */
 #include "device/link.h"
+#include "device/port.h"
 
 #include "base/atomic.h"
 #include "base/base.h"

@@ -4,6 +4,7 @@
 
 #include "base/handle.h"
 #include "device/events.h"
+#include "device/motors.h"
 
 #include <stdlib.h>
 
@@ -53,14 +54,6 @@ typedef struct knurl_position_check {
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
 
-/* What a device's latest loop left: how warm the motors were, when, and by which clock. */
-typedef struct knurl_motor_heat {
-    double square;              /* N^2: as a force of this square makes them in the long run */
-    int64_t at;                 /* ns */
-    int64_t (*now)(void *user); /* null: no loop has run */
-    void *user;
-} knurl_motor_heat;
-
 /* Bits of knurl_device.use: a loop has it; that loop has started its haptic thread; its owner has closed it, and it is
  * kept for that loop. */
 #define KNURL_DEVICE_LOOP   1u
@@ -102,36 +95,14 @@ static inline void knurl_device_free(knurl_device *device) {
     free(device);
 }
 
-/* s without a tick after which a device that owns the servo thread counts as lost. */
-#define KNURL_SERVE_GIVE_UP 1.0
-
 /* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
 #define KNURL_HAND_SPEED 10.0
 
 /* How long positions must be believable again after one was not, s. */
 #define KNURL_SETTLE_TIME 0.02
 
-/* A loop takes the device, which from then on is the loop's alone, and keeps it in being. Errors: KNURL_ERROR_STATE
- * (another loop's, or it was closed). [any thread] */
-knurl_result knurl_device_claim(knurl_device *device);
-
-/* The loop is done with it; closes what its owner closed meanwhile. [not the haptic thread] */
-void knurl_device_release(knurl_device *device);
-
-/* The loop is about to start its haptic thread. */
-void knurl_device_claim_thread(knurl_device *device);
-
 /* KNURL_OK where `use`, of KNURL_DEVICE_ bits, is not made of it; else KNURL_ERROR_STATE with a sentence. */
 knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use);
-
-/* 1: its owner has closed it. [any thread] */
-int knurl_device_is_closed(const knurl_device *device);
-
-/* knurl_device_start() for the loop that has claimed it. */
-knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz);
-
-/* Looks for a lost device again. KNURL_OK: it is there. [not the haptic thread, while nobody reads or writes] */
-knurl_result knurl_device_reopen(knurl_device *device);
 
 /* 1: the process is about to end or to stop, and no force may go out (exit.c). [any thread] */
 uint32_t knurl_device_must_be_zero(void);
@@ -144,10 +115,5 @@ void knurl_device_after_force(knurl_device *device, const double force[3]);
 /* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);
 void knurl_device_unregister(knurl_device *device);
-
-/* Motors stay warm while their device is closed: kept in the process by kind of device (motor_heat.c). Keep: before it
- * is closed. Recall: before its first loop. [any thread but the haptic] */
-void knurl_motor_heat_keep(const knurl_device *device);
-void knurl_motor_heat_recall(knurl_device *device);
 
 #endif

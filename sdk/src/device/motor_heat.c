@@ -1,5 +1,6 @@
 /* How warm the motors of closed devices are. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
+#include "device/port.h"
 
 #include "base/atomic.h"
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static void report(knurl_loop *loop, int32_t code, double value) {
-    knurl_events_report(&loop->desc.device->events, code, value);
+    knurl_port_report(loop->desc.device, code, value);
 }
 
 /* 1 while the game gives signs of life, or need not; paused, it need not, and counts as alive. */
@@ -204,7 +204,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_device_halt(device);
     knurl_loop_tell_none(loop);
     knurl_loop_end_heat(loop);
-    if (device->link || !knurl_load_acquire(&device->quiet)) { /* else it may play its last force for ever */
+    if (knurl_port_may_hold_force(device)) { /* else it may play its last force for ever */
         (void)knurl_device_write(device, none);
     }
     knurl_store_release(&loop->state, state);
@@ -212,8 +212,8 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
 
 /* A cycle that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
-    if (overrun && !knurl_load_acquire(&loop->desc.device->lost)) { /* who looks for a lost one begins the check anew */
-        loop->desc.device->check.gap += 1e-9 * (double)late;        /* the hand did not wait */
+    if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* who looks for a lost one begins the check anew */
+        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand did not wait */
     }
     if (knurl_loop_at_end(loop)) {
         return;

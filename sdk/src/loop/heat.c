@@ -24,11 +24,11 @@ static void set_heat(knurl_loop *loop) {
 }
 
 void knurl_loop_begin_heat(knurl_loop *loop) {
-    knurl_device *device = loop->desc.device;
-    knurl_motor_heat_recall(device);
-    loop->motors.theta = device->motors.square;
-    if (device->motors.now == loop->clock.now_ns && device->motors.user == loop->clock.user) { /* else nobody knows */
-        const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - device->motors.at);
+    const knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
+    knurl_motor_heat_recall(loop->desc.device);
+    loop->motors.theta = motors->square;
+    if (motors->now == loop->clock.now_ns && motors->user == loop->clock.user) { /* else nobody knows */
+        const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - motors->at);
         knurl_heat_hold(&loop->motors, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
     }
     set_heat(loop);
@@ -38,11 +38,11 @@ void knurl_loop_begin_heat(knurl_loop *loop) {
 }
 
 void knurl_loop_end_heat(knurl_loop *loop) {
-    knurl_device *device = loop->desc.device;
-    device->motors.square = loop->motors.theta;
-    device->motors.at = loop->clock.now_ns(loop->clock.user);
-    device->motors.now = loop->clock.now_ns;
-    device->motors.user = loop->clock.user;
+    knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
+    motors->square = loop->motors.theta;
+    motors->at = loop->clock.now_ns(loop->clock.user);
+    motors->now = loop->clock.now_ns;
+    motors->user = loop->clock.user;
 }
 
 void knurl_loop_add_heat(knurl_loop *loop, double share) {

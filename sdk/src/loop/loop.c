@@ -50,10 +50,10 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     if (cycles != k->seen) {
         k->seen = cycles;
         k->seen_at = now;
-    } else if (limit > 0 && !knurl_load_acquire(&device->lost) && now - k->seen_at > limit && is_running(loop) &&
+    } else if (limit > 0 && !knurl_port_is_lost(device) && now - k->seen_at > limit && is_running(loop) &&
                !knurl_device_is_halted(device)) {
         knurl_device_halt(device);
-        knurl_events_report(&device->events, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
+        knurl_port_report(device, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
         knurl_count_up(&loop->watchdog_trips);
     }
 }
@@ -62,29 +62,28 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
 static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     knurl_device *device = loop->desc.device;
     const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
-    k->idle = cycles == k->idle_cycles && !knurl_load_acquire(&device->lost) ? k->idle + nap : 0.0;
+    k->idle = cycles == k->idle_cycles && !knurl_port_is_lost(device) ? k->idle + nap : 0.0;
     k->idle_cycles = cycles;
-    if (k->idle < KNURL_SERVE_GIVE_UP || !device->driver->leave || !device->driver->leave(device)) {
+    if (k->idle < KNURL_SERVE_GIVE_UP || !knurl_port_leave(device)) {
         return;
     }
     k->idle = 0.0;
-    if (!is_running(loop) || knurl_load_acquire(&device->lost)) {
+    if (!is_running(loop) || knurl_port_is_lost(device)) {
         return; /* its last call came just now */
     }
     knurl_device_halt(device);
     knurl_loop_tell_none(loop);
-    knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
-    knurl_store_release(&device->lost, 1u);
+    knurl_port_lose(device);
     if (!loop->desc.reconnect) {
         knurl_loop_end(loop, KNURL_LOOP_LOST);
     }
 }
 
 static void look_for_device(knurl_loop *loop, watchdog *k, int64_t now) {
-    if (!loop->desc.reconnect || !knurl_load_acquire(&loop->desc.device->lost)) {
+    if (!loop->desc.reconnect || !knurl_port_is_lost(loop->desc.device)) {
         return;
     }
-    if (knurl_loop_at_end(loop) && loop->desc.device->driver->serve) {
+    if (knurl_loop_at_end(loop) && knurl_port_owns_thread(loop->desc.device)) {
         /* nobody calls the tick of a device that is away; but it may be in its last call, and use the loop */
         if (!knurl_load_acquire(&loop->is_served) && now - k->seen_at > LAST_CALL_NS) {
             knurl_loop_end(loop, KNURL_LOOP_DONE);
@@ -244,8 +243,8 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
 /* The haptic thread: the device's own, or one of ours. */
 static knurl_result start_haptics(knurl_loop *loop) {
     knurl_device *device = loop->desc.device;
-    if (device->driver->serve) {
-        return device->driver->serve(device, knurl_loop_serve, loop);
+    if (knurl_port_owns_thread(device)) {
+        return knurl_port_serve(device, knurl_loop_serve, loop);
     }
     loop->thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, STACK_BYTES);
     return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
@@ -273,7 +272,8 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
         return result;
     }
-    const int needs_watchdog = loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || loop->desc.device->driver->serve;
+    const int needs_watchdog =
+        loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
     if (needs_watchdog && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
         loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
         if (!loop->watchdog) {
@@ -308,9 +308,9 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
     if (knurl_load_acquire(&loop->threaded)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: it has a haptic thread and cannot be stepped");
     }
-    if (device->driver->serve || device->link) {
+    if (!knurl_port_can_step(device)) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "loop: device '%s' runs in real time only and cannot be stepped",
-                          device->driver->uri);
+                          knurl_port_uri(device));
     }
     if (loop->state == KNURL_LOOP_IDLE) {
         knurl_loop_begin_heat(loop);
@@ -319,7 +319,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
     }
     knurl_store_relaxed(&loop->stepping, 1u);
     for (uint64_t i = 0; i < ticks && is_running(loop) && !knurl_loop_at_end(loop); i++) {
-        if (loop->desc.reconnect && device->lost) {
+        if (loop->desc.reconnect && knurl_port_is_lost(device)) {
             (void)knurl_device_reopen(device);
         }
         if (!knurl_loop_cycle(loop)) {

@@ -5,7 +5,7 @@
 #include "base/handle.h"
 #include "base/histogram.h"
 #include "base/system.h"
-#include "device/driver.h"
+#include "device/port.h"
 #include "scene/heat.h"
 
 #include <knurl/loop.h>

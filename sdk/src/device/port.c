@@ -1,0 +1,51 @@
+/* What a loop sees of a device. SPDX-License-Identifier: MIT */
+#include "device/port.h"
+#include "device/driver.h"
+
+#include "base/atomic.h"
+
+int knurl_port_is_lost(const knurl_device *device) {
+    return knurl_load_acquire(&device->lost) != 0;
+}
+
+void knurl_port_lose(knurl_device *device) {
+    knurl_device_halt(device);
+    knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
+    knurl_store_release(&device->lost, 1u);
+}
+
+void knurl_port_report(knurl_device *device, int32_t code, double value) {
+    knurl_events_report(&device->events, code, value);
+}
+
+int knurl_port_owns_thread(const knurl_device *device) {
+    return device->driver->serve != NULL;
+}
+
+int knurl_port_can_step(const knurl_device *device) {
+    return !device->driver->serve && !device->link;
+}
+
+knurl_result knurl_port_serve(knurl_device *device, uint32_t (*tick)(void *argument), void *argument) {
+    return device->driver->serve(device, tick, argument);
+}
+
+int knurl_port_leave(knurl_device *device) {
+    return device->driver->leave && device->driver->leave(device);
+}
+
+void knurl_port_add_gap(knurl_device *device, double seconds) {
+    device->check.gap += seconds;
+}
+
+int knurl_port_may_hold_force(const knurl_device *device) {
+    return device->link || !knurl_load_acquire(&device->quiet);
+}
+
+const char *knurl_port_uri(const knurl_device *device) {
+    return device->driver->uri;
+}
+
+knurl_motor_heat *knurl_port_motors(knurl_device *device) {
+    return &device->motors;
+}
