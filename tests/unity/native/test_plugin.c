@@ -243,7 +243,8 @@ TEST_WITH(without_a_log_what_runs_is_closed_all_the_same, open_plugin, close_plu
 #define ROUNDS 100
 
 /* What a load may leave. Windows: MinGW's runtime, in the library, does not give back its thread-local storage and
- * locks (3131 bytes, the thread's error message and which one it is among them). Elsewhere: less than the smallest block. */
+ * locks (3131 bytes, the thread's error message and which one it is among them). Elsewhere: less than the smallest
+ * block. */
 #if defined(_WIN32)
 enum { BYTES_LEFT = 3584 };
 #else
