@@ -3,6 +3,7 @@
 #include "home.h"
 
 #include "device/driver.h"
+#include "device/port.h"
 
 #include <knurl/loop.h>
 

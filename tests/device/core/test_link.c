@@ -4,6 +4,7 @@
 #include "home.h"
 
 #include "device/link.h"
+#include "device/port.h"
 
 #include <knurl/loop.h>
 

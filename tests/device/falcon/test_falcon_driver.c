@@ -3,6 +3,7 @@
 #include "support/close.h"
 
 #include "device/driver.h"
+#include "device/port.h"
 #include "falcon_fake.h"
 
 #include <stdio.h>

@@ -5,6 +5,7 @@
 
 #include "base/system.h"
 #include "device/falcon/transport.h"
+#include "device/port.h"
 
 #include <signal.h>
 #include <sys/stat.h>

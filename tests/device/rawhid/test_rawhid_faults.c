@@ -1,5 +1,6 @@
 /* What goes wrong with a raw HID device, in real time: what must come in the end, and what must never be.
  * SPDX-License-Identifier: MIT */
+#include "device/port.h"
 #include "device/rawhid/driver_rig.h"
 
 /* --- faults --- */

@@ -4,6 +4,7 @@
 
 #include "base/vec3.h"
 #include "device/drivers.h"
+#include "device/port.h"
 #include "device/rawhid/emulated_hid.h"
 
 #include <stdio.h>

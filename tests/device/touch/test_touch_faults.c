@@ -4,6 +4,7 @@
 #include "device/touch/touch_double.h"
 
 #include "device/driver.h"
+#include "device/port.h"
 
 typedef struct bench {
     knurl_device *device;
