@@ -10,7 +10,7 @@
 
 /* period: ms of the medium, in experiment 3 mm of the grating; amplitude: N, in experiment 3 mm. */
 const char exp_csv_header[] = "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,"
-                              "preferred,rt_s,ticks,saturations,saturation_ticks,overruns,restarts,"
+                              "preferred,rt_s,ticks,saturations,frequency_saturations,overruns,restarts,"
                               "contact_first_s,contact_second_s";
 
 const char *const exp_answer_names[] = {"keyboard", "buttons", "SIMULATED"};

@@ -311,7 +311,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "watchdogs", (double)stats->watchdog_trips);
     json_number(&json, "absences", (double)stats->absences);
     json_number(&json, "saturations", (double)counts.force_limit_ticks);
-    json_number(&json, "saturation_ticks", (double)counts.saturation_ticks);
+    json_number(&json, "frequency_saturations", (double)counts.saturation_ticks);
     json_number(&json, "not_finite", (double)counts.non_finite_ticks);
     json_number(&json, "entries", (double)counts.entry_ticks);
     json_number(&json, "slews", (double)counts.slew_ticks);

@@ -7,7 +7,7 @@
 
 #define HEADER                                                                                                         \
     "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,preferred,rt_s,ticks,"     \
-    "saturations,saturation_ticks,overruns,restarts,contact_first_s,contact_second_s\n"
+    "saturations,frequency_saturations,overruns,restarts,contact_first_s,contact_second_s\n"
 #define REST  ",1.5,10001,0,0,0,0,0,0\n"
 #define GOOD  "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST
 #define GOOD2 "1,s1,keyboard,touch,1,yes,2,1,21,1.05,T3,T1,T1" REST

@@ -54,8 +54,8 @@ static void tell_hip(const knurl_scene *scene, void *to) {
     whole(to, "events", counts.events);
     number(to, "half_cycles_crossed", counts.half_cycles_crossed);
     whole(to, "half_cycles_played", counts.half_cycles_played);
-    whole(to, "force_limit_ticks", counts.force_limit_ticks);
-    whole(to, "saturation_ticks", counts.saturation_ticks);
+    whole(to, "force_limits", counts.force_limit_ticks);
+    whole(to, "frequency_saturations", counts.saturation_ticks);
     whole(to, "not_finite", counts.non_finite_ticks);
     whole(to, "entries", counts.entry_ticks);
     whole(to, "slews", counts.slew_ticks);
