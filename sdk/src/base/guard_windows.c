@@ -1,4 +1,4 @@
-/* Where there is no guard process. SPDX-License-Identifier: MIT */
+/* Windows: there is no guard process so far. SPDX-License-Identifier: MIT */
 #include "base/guard_process.h"
 
 #include <stdio.h>
