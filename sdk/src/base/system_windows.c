@@ -264,7 +264,9 @@ intptr_t knurl_system_take_node(const char *path) {
 
 void knurl_system_give_back_node(intptr_t node) {
     if (node > 0) {
-        (void)CloseHandle((HANDLE)node);
+        HANDLE mutex;
+        memcpy(&mutex, &node, sizeof mutex);
+        (void)CloseHandle(mutex);
     }
 }
 
