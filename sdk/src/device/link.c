@@ -12,7 +12,7 @@ static int64_t patience_ns(void) {
     return (int64_t)(KNURL_LINK_PATIENCE * 1e9);
 }
 
-/* The force to be sent now: the newest, unless the motors are to be let go or it is too old. */
+/* The force to be sent now: the newest, unless the device is halted or it is too old. */
 static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = link->device;

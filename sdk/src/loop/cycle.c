@@ -31,9 +31,9 @@ static int game_lives(knurl_loop *loop, int paused) {
     return lives;
 }
 
-/* How much of this tick's force is sent: after the motors were let go of it climbs back over the ramp; paused, or
- * without a sign of life, it goes down by it. *was_halted: 1 where they were let go of, which lasts until this force is
- * written: what an I/O thread has until then is from before. */
+/* How much of this tick's force is sent: after a halt it climbs back over the ramp; paused, or without a sign of life,
+ * it goes down by it. *was_halted: 1 where the device was halted, which lasts until this force is written: what an I/O
+ * thread has until then is from before. */
 static double next_gain(knurl_loop *loop, int paused, int *was_halted) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
     *was_halted = knurl_device_is_halted(loop->desc.device) != 0;
@@ -67,8 +67,7 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     }
 }
 
-/* The force of this tick as it is sent, from the scene or from the caller. Returns 1 where the motors had been let go
- * of. */
+/* The force of this tick as it is sent, from the scene or from the caller. Returns 1 where the device was halted. */
 static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
     const int paused = knurl_load_acquire(&loop->paused) != 0;
     int was_halted;
@@ -107,7 +106,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
         (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, &output);
     }
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
-        (void)knurl_device_write(loop->desc.device, loop->force); /* let go of by now; this is for drivers without a
+        (void)knurl_device_write(loop->desc.device, loop->force); /* zero by now; this is for drivers without a
                                                                       thread that would see to it */
         return 1;
     }

@@ -33,7 +33,7 @@ static int is_running(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
 }
 
-/* Beside the haptic thread: lets go of the motors when no cycle came for too long (a device may hold its last force for
+/* Beside the haptic thread: zeroes the force when no cycle came for too long (a device may hold its last force for
  * ever), and looks for a device that got lost. */
 typedef struct watchdog {
     uint64_t seen;   /* cycles */
