@@ -130,12 +130,12 @@ static knurl_result measure(bench_stage *stage) {
 
 static knurl_result build(bench_stage *stage, const bench_case *c) {
     knurl_scene_desc d;
-    study_sheet sheet;
+    wavy_sheet sheet;
     memset(&sheet, 0, sizeof sheet);
-    if (c->shape == BENCH_MESH && study_sheet_make(c->triangles, &sheet)) {
+    if (c->shape == BENCH_MESH && wavy_sheet_make(c->triangles, &sheet)) {
         return knurl_fail(KNURL_ERROR_MEMORY, "a sheet of %u triangles: no memory", (unsigned)c->triangles);
     }
-    const knurl_mesh_desc mesh = study_sheet_desc(&sheet);
+    const knurl_mesh_desc mesh = wavy_sheet_desc(&sheet);
     knurl_scene_desc_init(&d, sizeof d);
     d.max_surfaces = TILES * TILES;
     d.hip_count = c->hips;
@@ -145,7 +145,7 @@ static knurl_result build(bench_stage *stage, const bench_case *c) {
     result = result ? result : add_surfaces(stage->scene, c, &mesh);
     result = result ? result : knurl_scene_commit(stage->scene);
     stage->build_ms = 1e-6 * (double)(bench_now() - before);
-    study_sheet_free(&sheet);
+    wavy_sheet_free(&sheet);
     return result ? result : measure(stage);
 }
 

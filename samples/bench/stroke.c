@@ -16,7 +16,7 @@ static void place(const bench_case *c, uint32_t hip, double seconds, double out[
     out[1] = y;
     out[2] = 0.0;
     if (c->shape == BENCH_MESH) {
-        study_sheet_point(x, y, out, normal);
+        wavy_sheet_point(x, y, out, normal);
     }
     for (int axis = 0; axis < 3; axis++) {
         out[axis] -= BENCH_DEPTH * normal[axis];

@@ -1,6 +1,6 @@
 /* knurl bench: what a tick takes, on this machine. SPDX-License-Identifier: MIT */
 #include "bench.h"
-#include "cost.h"
+#include "machine.h"
 #include "tool.h"
 
 #include <math.h>
@@ -176,7 +176,7 @@ int cmd_bench(int argc, char **argv) {
         free(out);
         return tool_error(TOOL_FAILURE, "bench: no memory for the times of %g ticks", fmax(b.ticks, BENCH_TICKS));
     }
-    study_machine(out->machine, sizeof out->machine);
+    machine_name(out->machine, sizeof out->machine);
     out->timer_ns = b.timer_ns;
     int code = measure(&b, only, out);
     if (as_json) {

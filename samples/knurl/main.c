@@ -1,9 +1,12 @@
 /* knurl: the command-line tool. SPDX-License-Identifier: MIT */
+#include "machine.h"
 #include "tool.h"
 
 #include <knurl/knurl.h>
 
+#include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char help[] =
     "knurl: feel the gratings of a glTF scene, with or without a device\n"
@@ -42,11 +45,23 @@ static const char help[] =
     "touched nothing or hardly moved (its output is written all the same), 128 + N ended early by signal N\n"
     "(nothing is written then).\n";
 
+/* The studies, and what analyses signals as they do, are a program of their own: it links a Fourier transform. */
+static int run_study_program(int argc, char **argv) {
+    char path[4096];
+    (void)argc;
+    if (machine_program("knurl_study", path, sizeof path) == 0) {
+        (void)execv(path, argv - 1); /* as main() was called */
+    }
+    return tool_error(TOOL_FAILURE, "%s: the program knurl_study, which does this, cannot be run: %s: %s", argv[0],
+                      path, strerror(errno));
+}
+
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"inspect", cmd_inspect}, {"run", cmd_run},     {"signal", cmd_signal}, {"metrics", cmd_metrics},
-                {"scan", cmd_scan},       {"study", cmd_study}, {"bench", cmd_bench},   {"devices", cmd_devices}};
+} commands[] = {{"inspect", cmd_inspect},       {"run", cmd_run},        {"signal", cmd_signal},
+                {"metrics", run_study_program}, {"scan", cmd_scan},      {"study", run_study_program},
+                {"bench", cmd_bench},           {"devices", cmd_devices}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -75,9 +90,5 @@ static int run_command(int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-    const int code = run_command(argc, argv);
-    if (fflush(stdout) != 0 && code == TOOL_OK) { /* a full disk must not look like success */
-        return tool_error(TOOL_FAILURE, "standard output cannot be written");
-    }
-    return code;
+    return tool_end(run_command(argc, argv));
 }

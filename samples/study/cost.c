@@ -1,12 +1,13 @@
 /* Timing and counting. SPDX-License-Identifier: MIT */
 #include "cost.h"
 
+#include "machine.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #define BATCH   1000 /* ticks: a hundred times the clock's own cost */
 #define BATCHES 301
@@ -90,40 +91,10 @@ static double count_run(const char *program, size_t index, unsigned long ticks) 
 
 double study_count_instructions(size_t contender_index) {
     char program[1024];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 32);
-    char *slash = NULL;
-    if (length > 0) {
-        program[length] = 0;
-        slash = strrchr(program, '/');
-    }
-    if (!slash || strchr(program, '\'')) {
-        return NAN;
-    }
-    memcpy(slash + 1, "knurl_tick_row", sizeof "knurl_tick_row");
-    if (access(program, X_OK) != 0) {
+    if (machine_program("knurl_tick_row", program, sizeof program) || strchr(program, '\'')) {
         return NAN;
     }
     const double once = count_run(program, contender_index, 10000);
     const double twice = once > 0.0 ? count_run(program, contender_index, 20000) : -1.0;
     return twice > 0.0 ? (twice - once) / 10000.0 : NAN;
-}
-
-void study_machine(char *name, size_t size) {
-    char line[256];
-    FILE *stream = fopen("/proc/cpuinfo", "r");
-    (void)snprintf(name, size, "unknown");
-    while (stream && fgets(line, sizeof line, stream)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) == 0 && colon) {
-            (void)snprintf(name, size, "%.*s, %ld cores", (int)strcspn(colon, "\n") - 2, colon + 2,
-                           sysconf(_SC_NPROCESSORS_ONLN));
-            break;
-        }
-    }
-    if (stream) {
-        (void)fclose(stream);
-    }
-    for (char *c = name; *c; c++) {
-        *c = *c == '"' || *c == '\\' || (unsigned char)*c < 0x20 ? ' ' : *c;
-    }
 }

@@ -22,7 +22,4 @@ double study_empty_tick_ns(void);
  * knurl_tick_row, which stands beside the running program. NaN where valgrind is not installed. */
 double study_count_instructions(size_t contender_index);
 
-/** The processor's name, without characters that JSON would have to escape. */
-void study_machine(char *name, size_t size);
-
 #endif

@@ -11,7 +11,7 @@
 /* A scan that goes on: what is summed of the event that plays, and all that have ended. */
 typedef struct scan {
     knurl_scene *scene;
-    const study_sheet *sheet;
+    const wavy_sheet *sheet;
     int surface;
     double period, speed;
     double forces[512]; /* of the running event's ticks, less the wall's K d: N */
@@ -23,7 +23,7 @@ typedef struct scan {
     half_cycles *out;
 } scan;
 
-static knurl_result add_surface(knurl_scene *scene, const study_sheet *sheet, double period) {
+static knurl_result add_surface(knurl_scene *scene, const wavy_sheet *sheet, double period) {
     knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_material_desc m;
@@ -35,7 +35,7 @@ static knurl_result add_surface(knurl_scene *scene, const study_sheet *sheet, do
     plane.half_extents[0] = SHEET_HALF_X;
     plane.half_extents[1] = SHEET_HALF_Y;
     if (sheet) {
-        mesh = study_sheet_desc(sheet);
+        mesh = wavy_sheet_desc(sheet);
         d.mesh = &mesh;
     } else {
         d.plane = &plane;
@@ -68,13 +68,13 @@ static void place(const scan *s, double x, double out[3]) {
     out[1] = LINE;
     out[2] = 0.0;
     if (s->surface != HALF_CYCLES_PLANE) {
-        study_sheet_point(x, LINE, out, normal);
+        wavy_sheet_point(x, LINE, out, normal);
     }
     for (int axis = 0; axis < 3; axis++) {
         out[axis] -= HALF_CYCLES_DEPTH * normal[axis];
     }
     for (int i = 0; i < 6 && s->surface == HALF_CYCLES_FACETS; i++) { /* slopes are small: each step leaves a 1/100 */
-        out[2] -= HALF_CYCLES_DEPTH - study_sheet_distance(s->sheet, out, 0.25 * HALF_CYCLES_DEPTH);
+        out[2] -= HALF_CYCLES_DEPTH - wavy_sheet_distance(s->sheet, out, 0.25 * HALF_CYCLES_DEPTH);
     }
 }
 
@@ -189,7 +189,7 @@ static knurl_result perform(scan *s) {
     return result;
 }
 
-int half_cycles_measure(int surface, const study_sheet *sheet, double period, double speed, half_cycles *out) {
+int half_cycles_measure(int surface, const wavy_sheet *sheet, double period, double speed, half_cycles *out) {
     scan *s = calloc(1, sizeof *s);
     double *room = calloc(2 * MAX_EVENTS, sizeof *room);
     half_cycles found = {.ticks_min = INFINITY};

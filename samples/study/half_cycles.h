@@ -42,6 +42,6 @@ typedef struct half_cycles {
 
 /** Scans along x at `speed` (m/s) over a grating of `period` (m). sheet: null for HALF_CYCLES_PLANE. 0, or 1 with the
  * library's message. */
-int half_cycles_measure(int surface, const study_sheet *sheet, double period, double speed, half_cycles *out);
+int half_cycles_measure(int surface, const wavy_sheet *sheet, double period, double speed, half_cycles *out);
 
 #endif

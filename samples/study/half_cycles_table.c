@@ -30,9 +30,9 @@ static int measure(table *t) {
     const size_t surface_count = SURFACES;
     const double count = (double)surface_count;
     for (size_t i = 0; i < SURFACES; i++) {
-        study_sheet sheet;
+        wavy_sheet sheet;
         memset(&sheet, 0, sizeof sheet);
-        if (surfaces[i].triangles > 0 && study_sheet_make(surfaces[i].triangles, &sheet)) {
+        if (surfaces[i].triangles > 0 && wavy_sheet_make(surfaces[i].triangles, &sheet)) {
             fprintf(stderr, "knurl: study: half_cycles: no memory\n");
             return 1;
         }
@@ -44,7 +44,7 @@ static int measure(table *t) {
             failed = half_cycles_measure(surfaces[i].surface, sheet.indices ? &sheet : NULL, periods[p], speeds[v],
                                          &t->cells[i][p][v]);
         }
-        study_sheet_free(&sheet);
+        wavy_sheet_free(&sheet);
         if (failed) {
             fprintf(stderr, "knurl: study: half_cycles: %s\n", knurl_error_message());
             return 1;

@@ -4,6 +4,7 @@
 
 #include "cost.h"
 #include "json_out.h"
+#include "machine.h"
 #include "study.h"
 
 #include <math.h>
@@ -113,7 +114,7 @@ static void write_row(FILE *csv, int c, size_t q, size_t r, size_t v, const velo
 static int write_table(FILE *csv, FILE *json, void *user) {
     const table *t = user;
     char machine[128];
-    study_machine(machine, sizeof machine);
+    machine_name(machine, sizeof machine);
     fputs(
         "estimator,resolution_mm,rate_hz,speed_mm_s,bias_mm_s,rms_mm_s,delay_ms,period_mean,period_worst,drift,events\n",
         csv);

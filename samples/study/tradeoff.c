@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include "contender.h"
 #include "cost.h"
+#include "machine.h"
 #include "study.h"
 
 #include <math.h>
@@ -185,7 +186,7 @@ static int print_about(const char *folder) {
     if (study_open(&file, folder, "tradeoff.json")) {
         return 1;
     }
-    study_machine(machine, sizeof machine);
+    machine_name(machine, sizeof machine);
     fprintf(file.stream, "{\"study\": \"tradeoff\", \"machine\": \"%s\", \"empty_tick_ns\": ", machine);
     study_json_number(file.stream, study_empty_tick_ns());
     fprintf(

@@ -1,5 +1,5 @@
-/* The paper's experiments (section IV) as samples/experiment/ runs them: design, neighbours, order, Eq. 14 and its
- * thresholds. SPDX-License-Identifier: MIT */
+/* The paper's experiments (section IV) as samples/study/experiment/ runs them: design, neighbours, order, Eq. 14 and
+ * its thresholds. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "experiment.h"

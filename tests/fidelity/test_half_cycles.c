@@ -9,7 +9,7 @@ static const double speeds[] = {0.049, 0.099, 0.247};
 
 #define CELLS (COUNT_OF(periods) * COUNT_OF(speeds))
 
-static half_cycles measured(int surface, const study_sheet *sheet, size_t cell) {
+static half_cycles measured(int surface, const wavy_sheet *sheet, size_t cell) {
     half_cycles h;
     const int failed =
         half_cycles_measure(surface, sheet, periods[cell / COUNT_OF(speeds)], speeds[cell % COUNT_OF(speeds)], &h);
@@ -51,8 +51,8 @@ TEST(on_a_plane_every_half_cycle_is_the_same) {
  * next one's edge begins, at most d (1/cos(b) - 1) too deep across a bend b; b is the curvature times a cell's
  * diagonal. */
 static void check_facets(uint32_t triangles) {
-    study_sheet sheet;
-    assert_int_equal(study_sheet_make(triangles, &sheet), 0);
+    wavy_sheet sheet;
+    assert_int_equal(wavy_sheet_make(triangles, &sheet), 0);
     const double k = 2.0 * acos(-1.0) / SHEET_WAVE;
     const double diagonal = hypot(2.0 * SHEET_HALF_X / sheet.columns, 2.0 * SHEET_HALF_Y / sheet.rows);
     const double bend = SHEET_AMPLITUDE * k * k * diagonal;
@@ -67,7 +67,7 @@ static void check_facets(uint32_t triangles) {
         assert_true(h.ticks_min >= floor(ticks_of(cell) / steepest / (1.0 + bend) + 0.5));
         assert_true(h.ticks_max <= floor(ticks_of(cell) * (1.0 + bend) + 0.5));
     }
-    study_sheet_free(&sheet);
+    wavy_sheet_free(&sheet);
 }
 
 TEST(on_a_sheet_of_1k_triangles_no_half_cycle_is_lost) {
@@ -87,8 +87,8 @@ TEST(on_a_sheet_of_100k_triangles_no_half_cycle_is_lost) {
 TEST(facets_are_felt_as_deep_as_they_are_and_lose_no_half_cycle) {
     static const uint32_t triangles[] = {1000, 10000, 100000};
     for (size_t i = 0; i < COUNT_OF(triangles); i++) {
-        study_sheet sheet;
-        assert_int_equal(study_sheet_make(triangles[i], &sheet), 0);
+        wavy_sheet sheet;
+        assert_int_equal(wavy_sheet_make(triangles[i], &sheet), 0);
         const double k = 2.0 * acos(-1.0) / SHEET_WAVE;
         const double diagonal = hypot(2.0 * SHEET_HALF_X / sheet.columns, 2.0 * SHEET_HALF_Y / sheet.rows);
         const double sagitta = SHEET_AMPLITUDE * k * k * diagonal * diagonal / 8.0;
@@ -97,23 +97,23 @@ TEST(facets_are_felt_as_deep_as_they_are_and_lose_no_half_cycle) {
             check_whole(&h, cell, "curve");
             assert_true(h.worst_half <= sagitta / HALF_CYCLES_AMPLITUDE + 1e-4);
         }
-        study_sheet_free(&sheet);
+        wavy_sheet_free(&sheet);
     }
 }
 
 /* The measure's own geometry, against the smooth sheet: a fine sheet is as far away as the curve is. */
 TEST(the_distance_to_a_sheet_is_that_to_its_curve) {
-    study_sheet sheet;
+    wavy_sheet sheet;
     uint64_t seed = 7;
-    assert_int_equal(study_sheet_make(100000, &sheet), 0);
+    assert_int_equal(wavy_sheet_make(100000, &sheet), 0);
     for (int i = 0; i < 1000; i++) {
         double point[3];
         double normal[3];
-        study_sheet_point(random_between(&seed, -0.05, 0.05), random_between(&seed, -0.03, 0.03), point, normal);
+        wavy_sheet_point(random_between(&seed, -0.05, 0.05), random_between(&seed, -0.03, 0.03), point, normal);
         for (int axis = 0; axis < 3; axis++) {
             point[axis] -= HALF_CYCLES_DEPTH * normal[axis];
         }
-        CHECK_CLOSE(study_sheet_distance(&sheet, point, 0.25 * HALF_CYCLES_DEPTH), HALF_CYCLES_DEPTH, 0.6e-6L);
+        CHECK_CLOSE(wavy_sheet_distance(&sheet, point, 0.25 * HALF_CYCLES_DEPTH), HALF_CYCLES_DEPTH, 0.6e-6L);
     }
-    study_sheet_free(&sheet);
+    wavy_sheet_free(&sheet);
 }

@@ -276,4 +276,20 @@ TEST(without_a_command_the_usage_is_told) {
     process_free(&p);
 }
 
+/* The tool by itself in a folder, as it is where the library that the studies need is not installed. */
+TEST(without_the_studies_the_tool_runs_and_tells_what_they_need) {
+    char tool[1024];
+    (void)snprintf(tool, sizeof tool, "%s", tool_path("knurl"));
+    assert_int_equal(link(KNURL_TEST_TOOL, tool), 0);
+    process p = run_tool((const char *const[]){tool, "inspect", plate, NULL});
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    p = run_tool((const char *const[]){tool, "study", "signals", "--out", tool_folder, NULL});
+    check_refused(&p, 1, "study|knurl_study|No such file", "a study");
+    p = run_tool(
+        (const char *const[]){tool, "metrics", "--method", "T1", "--period-ms", "5", "--amplitude", "1", NULL});
+    check_refused(&p, 1, "metrics|knurl_study|No such file", "metrics");
+    assert_false(file_exists(tool_path("signals.csv")));
+}
+
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -1,10 +1,11 @@
 /* Command-line options. SPDX-License-Identifier: MIT */
-#include "tool.h"
+#include "options.h"
 
 #include <knurl/knurl.h>
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +25,11 @@ int tool_error(int code, const char *format, ...) {
 int tool_library_error(int code, const char *what) {
     return what ? tool_error(code, "%s: %s", what, knurl_error_message())
                 : tool_error(code, "%s", knurl_error_message());
+}
+
+int tool_end(int code) {
+    return fflush(stdout) != 0 && code == TOOL_OK ? tool_error(TOOL_FAILURE, "standard output cannot be written")
+                                                  : code;
 }
 
 static int set_value(const tool_option *option, const char *text) {

@@ -2,8 +2,8 @@
  * z = a sin(kx) cos(ky) with a = 1 mm (2 mm from trough to crest) and waves of 60 mm: slopes up to 0.105, principal
  * curvatures up to a k^2 = 11.0 /m (a radius of 91 mm). 0.12 x 0.08 m round the origin, front towards +z, uvs that grow
  * with x and y. SPDX-License-Identifier: MIT */
-#ifndef KNURL_STUDY_SHEET_H
-#define KNURL_STUDY_SHEET_H
+#ifndef KNURL_SAMPLES_SHEET_H
+#define KNURL_SAMPLES_SHEET_H
 
 #include <knurl/contact.h>
 
@@ -12,29 +12,29 @@
 #define SHEET_AMPLITUDE 0.001 /* m: half of trough to crest */
 #define SHEET_WAVE      0.06  /* m */
 
-typedef struct study_sheet {
+typedef struct wavy_sheet {
     float *positions;
     float *uvs;
     uint32_t *indices;
     uint32_t columns, rows; /**< quads along x and y, two triangles each */
-} study_sheet;
+} wavy_sheet;
 
 /** Makes a sheet of about so many triangles (8 to 2^26), on cells that are nearly square. 0, or 1 where memory is not
  * to be had. */
-int study_sheet_make(uint32_t triangles, study_sheet *sheet);
+int wavy_sheet_make(uint32_t triangles, wavy_sheet *sheet);
 
 /** Gives it back; a zeroed one is allowed. */
-void study_sheet_free(study_sheet *sheet);
+void wavy_sheet_free(wavy_sheet *sheet);
 
 /** What a surface is made of; the arrays stay the sheet's. */
-knurl_mesh_desc study_sheet_desc(const study_sheet *sheet);
+knurl_mesh_desc wavy_sheet_desc(const wavy_sheet *sheet);
 
 /** The smooth sheet's point at x, y and its unit normal. */
-void study_sheet_point(double x, double y, double point[3], double normal[3]);
+void wavy_sheet_point(double x, double y, double point[3], double normal[3]);
 
 /** The distance (m) from a point to the sheet as it is tessellated, over the cells within `reach` (m) of it along x and
  * y: by brute force, apart from the library. At most a slope of 0.11 away from above its nearest point, a quarter of
  * the distance is reach enough. */
-double study_sheet_distance(const study_sheet *sheet, const double point[3], double reach);
+double wavy_sheet_distance(const wavy_sheet *sheet, const double point[3], double reach);
 
 #endif

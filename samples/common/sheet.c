@@ -9,7 +9,7 @@ static double wave_number(void) {
     return 2.0 * acos(-1.0) / SHEET_WAVE;
 }
 
-void study_sheet_point(double x, double y, double point[3], double normal[3]) {
+void wavy_sheet_point(double x, double y, double point[3], double normal[3]) {
     const double k = wave_number();
     const double slope_x = SHEET_AMPLITUDE * k * cos(k * x) * cos(k * y);
     const double slope_y = -SHEET_AMPLITUDE * k * sin(k * x) * sin(k * y);
@@ -22,7 +22,7 @@ void study_sheet_point(double x, double y, double point[3], double normal[3]) {
     normal[2] = 1.0 / length;
 }
 
-static void fill(study_sheet *s) {
+static void fill(wavy_sheet *s) {
     const uint32_t across = s->columns + 1;
     size_t corner = 0;
     for (uint32_t j = 0; j <= s->rows; j++) {
@@ -32,7 +32,7 @@ static void fill(study_sheet *s) {
             const double w = (double)j / s->rows;
             double point[3];
             double normal[3];
-            study_sheet_point(SHEET_HALF_X * (2.0 * u - 1.0), SHEET_HALF_Y * (2.0 * w - 1.0), point, normal);
+            wavy_sheet_point(SHEET_HALF_X * (2.0 * u - 1.0), SHEET_HALF_Y * (2.0 * w - 1.0), point, normal);
             for (size_t axis = 0; axis < 3; axis++) {
                 s->positions[3 * (size_t)v + axis] = (float)point[axis];
             }
@@ -47,7 +47,7 @@ static void fill(study_sheet *s) {
     }
 }
 
-int study_sheet_make(uint32_t triangles, study_sheet *sheet) {
+int wavy_sheet_make(uint32_t triangles, wavy_sheet *sheet) {
     memset(sheet, 0, sizeof *sheet);
     sheet->rows = (uint32_t)sqrt(0.5 * triangles * SHEET_HALF_Y / SHEET_HALF_X);
     sheet->columns = (uint32_t)(0.5 * triangles / sheet->rows + 0.5);
@@ -56,21 +56,21 @@ int study_sheet_make(uint32_t triangles, study_sheet *sheet) {
     sheet->uvs = calloc(vertices, 2 * sizeof *sheet->uvs);
     sheet->indices = calloc((size_t)sheet->rows * sheet->columns, 6 * sizeof *sheet->indices);
     if (!sheet->positions || !sheet->uvs || !sheet->indices) {
-        study_sheet_free(sheet);
+        wavy_sheet_free(sheet);
         return 1;
     }
     fill(sheet);
     return 0;
 }
 
-void study_sheet_free(study_sheet *sheet) {
+void wavy_sheet_free(wavy_sheet *sheet) {
     free(sheet->positions);
     free(sheet->uvs);
     free(sheet->indices);
     memset(sheet, 0, sizeof *sheet);
 }
 
-knurl_mesh_desc study_sheet_desc(const study_sheet *sheet) {
+knurl_mesh_desc wavy_sheet_desc(const wavy_sheet *sheet) {
     knurl_mesh_desc desc;
     knurl_mesh_desc_init(&desc, sizeof desc);
     desc.vertex_count = (sheet->columns + 1) * (sheet->rows + 1);
@@ -136,7 +136,7 @@ static void cells_within(double low, double high, double half, uint32_t count, u
     *last = (uint32_t)fmin(count - 1.0, fmax(0.0, floor((high + half) * scale)));
 }
 
-double study_sheet_distance(const study_sheet *sheet, const double point[3], double reach) {
+double wavy_sheet_distance(const wavy_sheet *sheet, const double point[3], double reach) {
     uint32_t columns[2];
     uint32_t rows[2];
     double nearest2 = INFINITY;

@@ -1,6 +1,8 @@
 /* knurl study: the figures and charts, as numbers. SPDX-License-Identifier: MIT */
+#include "programs.h"
+
+#include "options.h"
 #include "study.h"
-#include "tool.h"
 
 #include <string.h>
 

@@ -1,6 +1,9 @@
 /* knurl metrics: what a temporal vibration is worth. SPDX-License-Identifier: MIT */
 #include "metrics.h"
-#include "tool.h"
+
+#include "json.h"
+#include "programs.h"
+#include "wave_options.h"
 
 #include <knurl/knurl.h>
 

@@ -1,0 +1,40 @@
+/* Which machine this is, and what stands beside the program. SPDX-License-Identifier: MIT */
+#include "machine.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+void machine_name(char *name, size_t size) {
+    char line[256];
+    FILE *stream = fopen("/proc/cpuinfo", "r");
+    (void)snprintf(name, size, "unknown");
+    while (stream && fgets(line, sizeof line, stream)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon) {
+            (void)snprintf(name, size, "%.*s, %ld cores", (int)strcspn(colon, "\n") - 2, colon + 2,
+                           sysconf(_SC_NPROCESSORS_ONLN));
+            break;
+        }
+    }
+    if (stream) {
+        (void)fclose(stream);
+    }
+    for (char *c = name; *c; c++) {
+        *c = *c == '"' || *c == '\\' || (unsigned char)*c < 0x20 ? ' ' : *c;
+    }
+}
+
+int machine_program(const char *name, char *path, size_t size) {
+    const ssize_t length = readlink("/proc/self/exe", path, size);
+    size_t end = length > 0 && (size_t)length < size ? (size_t)length : 0; /* of the folder, with its slash */
+    while (end > 0 && path[end - 1] != '/') {
+        end--;
+    }
+    if (end == 0 || end + strlen(name) >= size) {
+        path[0] = 0;
+        return 1;
+    }
+    memcpy(path + end, name, strlen(name) + 1);
+    return access(path, X_OK) != 0;
+}

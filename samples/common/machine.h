@@ -1,0 +1,14 @@
+/* Which machine this is, and what stands beside the running program. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SAMPLES_MACHINE_H
+#define KNURL_SAMPLES_MACHINE_H
+
+#include <stddef.h>
+
+/** The processor's name, without characters that JSON would have to escape. */
+void machine_name(char *name, size_t size);
+
+/** The path of a program in the running program's folder. 0, or 1 where there is none that can be run; the path is then
+ * still told, empty where it does not fit. */
+int machine_program(const char *name, char *path, size_t size);
+
+#endif

@@ -1,0 +1,36 @@
+/* Command-line options and errors, for the tool and the studies. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SAMPLES_OPTIONS_H
+#define KNURL_SAMPLES_OPTIONS_H
+
+#include <stddef.h>
+
+/* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
+enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NOTHING_FELT = 4, TOOL_INTERRUPTED = 128 };
+
+/* Prints "knurl: ..." as one line on stderr; returns `code`. */
+int tool_error(int code, const char *format, ...);
+
+/* The same with the library's own message. */
+int tool_library_error(int code, const char *what);
+
+/* What main() returns: `code`, or TOOL_FAILURE where that is TOOL_OK and standard output cannot be written: a full disk
+ * must not look like success. */
+int tool_end(int code);
+
+enum { TOOL_FLAG, TOOL_TEXT, TOOL_NUMBER };
+
+typedef struct tool_option {
+    const char *name; /* "--rate" */
+    int kind;         /* TOOL_ */
+    void *value;      /* int *, const char **, double * */
+    double least, greatest;
+    const char *unit; /* for messages */
+} tool_option;
+
+/* Reads options and at most one positional argument. Returns TOOL_OK or TOOL_USAGE, having said why. */
+int tool_parse(int argc, char **argv, const tool_option *options, size_t count, const char **positional);
+
+/* One or two numbers with a comma between; 0 unless the whole text is that. */
+int tool_parse_pair(const char *text, double out[2]);
+
+#endif

@@ -1,0 +1,17 @@
+/* A temporal signal as the options of `knurl signal` and `knurl metrics` name it. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SAMPLES_WAVE_OPTIONS_H
+#define KNURL_SAMPLES_WAVE_OPTIONS_H
+
+#include "options.h"
+
+#include <knurl/vibration.h>
+
+typedef struct tool_wave {
+    knurl_wave wave;
+    double period_s, amplitude, rate;
+} tool_wave;
+
+/* Reads --method, --period-ms, --amplitude, --rate and one option more. TOOL_OK or TOOL_USAGE. */
+int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *out);
+
+#endif

@@ -1,0 +1,16 @@
+/* knurl_study: what `knurl study` and `knurl metrics` run. SPDX-License-Identifier: MIT */
+#include "options.h"
+#include "programs.h"
+
+#include <string.h>
+
+int main(int argc, char **argv) {
+    const char *name = argc > 1 ? argv[1] : "none";
+    if (strcmp(name, "study") == 0) {
+        return tool_end(cmd_study(argc - 1, argv + 1));
+    }
+    if (strcmp(name, "metrics") == 0) {
+        return tool_end(cmd_metrics(argc - 1, argv + 1));
+    }
+    return tool_error(TOOL_USAGE, "knurl_study: expected study or metrics, found '%s'; see 'knurl --help'", name);
+}
