@@ -1,4 +1,4 @@
-/* JSON. SPDX-License-Identifier: MIT */
+/* JSON on stdout. SPDX-License-Identifier: MIT */
 #include "json.h"
 
 #include "out.h"
@@ -6,93 +6,74 @@
 #include <math.h>
 #include <stdio.h>
 
-static void print_text(FILE *stream, const char *text) {
-    fputc('"', stream);
+static void print_json_text(const char *text) {
+    putchar('"');
     for (const char *c = text; *c; c++) {
         if (*c == '"' || *c == '\\') {
-            fprintf(stream, "\\%c", *c);
+            printf("\\%c", *c);
         } else if ((unsigned char)*c < 0x20) {
-            fprintf(stream, "\\u%04x", (unsigned)(unsigned char)*c);
+            printf("\\u%04x", (unsigned)(unsigned char)*c);
         } else {
-            fputc(*c, stream);
+            putchar(*c);
         }
     }
-    fputc('"', stream);
+    putchar('"');
 }
 
-static void next_line(const json_writer *json) {
+static void next_line(const tool_json *json) {
     if (json->pretty && json->depth > 0) {
-        fprintf(json->stream, "\n%*s", 2 * json->depth, "");
+        printf("\n%*s", 2 * json->depth, "");
     }
 }
 
-static void begin_value(json_writer *json, const char *key) {
+static void begin_value(tool_json *json, const char *key) {
     if (!json->first && json->depth > 0) {
-        fputs(json->pretty ? "," : ", ", json->stream);
+        fputs(json->pretty ? "," : ", ", stdout);
     }
     json->first = 0;
     next_line(json);
     if (key) {
-        print_text(json->stream, key);
-        fputs(": ", json->stream);
+        print_json_text(key);
+        fputs(": ", stdout);
     }
 }
 
-void json_start(json_writer *json, FILE *stream, int pretty) {
-    json->stream = stream;
-    json->pretty = pretty;
-    json->depth = 0;
-    json->first = 1;
-}
-
-void json_open(json_writer *json, const char *key, char bracket) {
+void json_open(tool_json *json, const char *key, char bracket) {
     begin_value(json, key);
-    fputc(bracket, json->stream);
+    putchar(bracket);
     json->depth++;
     json->first = 1;
 }
 
-void json_close(json_writer *json, char bracket) {
+void json_close(tool_json *json, char bracket) {
     json->depth--;
     if (!json->first && json->pretty) {
-        fprintf(json->stream, "\n%*s", 2 * json->depth, "");
+        printf("\n%*s", 2 * json->depth, "");
     }
-    fputc(bracket, json->stream);
-    if (json->depth == 0) {
-        fputc('\n', json->stream);
-    }
+    putchar(bracket);
     json->first = 0;
 }
 
-static void print_number(const json_writer *json, double value) {
+void json_number(tool_json *json, const char *key, double value) {
+    begin_value(json, key);
     if (isfinite(value)) {
-        out_number(json->stream, value);
+        out_number(stdout, value);
     } else {
-        fputs("null", json->stream);
+        fputs("null", stdout);
     }
 }
 
-void json_number(json_writer *json, const char *key, double value) {
+void json_flag(tool_json *json, const char *key, int value) {
     begin_value(json, key);
-    print_number(json, value);
+    fputs(value ? "true" : "false", stdout);
 }
 
-void json_numbers(json_writer *json, const char *key, const double *values, size_t count, size_t stride) {
+void json_string(tool_json *json, const char *key, const char *value) {
     begin_value(json, key);
-    fputc('[', json->stream);
-    for (size_t i = 0; i < count; i++) {
-        fputs(i > 0 ? ", " : "", json->stream);
-        print_number(json, values[i * stride]);
-    }
-    fputc(']', json->stream);
+    print_json_text(value);
 }
 
-void json_flag(json_writer *json, const char *key, int value) {
-    begin_value(json, key);
-    fputs(value ? "true" : "false", json->stream);
-}
-
-void json_string(json_writer *json, const char *key, const char *value) {
-    begin_value(json, key);
-    print_text(json->stream, value);
+void json_end(tool_json *json) {
+    (void)json;
+    putchar('\n');
 }

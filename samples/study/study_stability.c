@@ -1,6 +1,7 @@
 /* knurl study stability: the checks, the maps, their files. SPDX-License-Identifier: MIT */
 #include "stability.h"
 
+#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static void write_cell(FILE *csv, const stability_map *map, const stability_cell
     fputs("\n", csv);
 }
 
-static int write_chart(FILE *csv, json_writer *json, void *user) {
+static int write_chart(FILE *csv, FILE *json, void *user) {
     const chart *c = user;
     fputs("map,label,grip,method,protections,outcome,x,y,energy_j,unauthorised_j,activity_n,activity_m,"
           "activity_thresholds,felt_thresholds,asked_thresholds,bangs,swing_m,force_max_n,guarded_ticks\n",
@@ -50,27 +51,21 @@ static int write_chart(FILE *csv, json_writer *json, void *user) {
             write_cell(csv, &c->map[m], &c->cell[m][i]);
         }
     }
-    char table[64];
-    (void)snprintf(table, sizeof table, "%s.csv", c->figure);
-    json_string(json, "table", table);
-    json_open(json, "grips", '{');
+    fputs("{", json);
+    fprintf(json, "\"table\": \"%s.csv\",\n\"grips\": {", c->figure);
     for (const lab_grip *g = lab_grips; g->name; g++) {
-        const double grip[] = {g->stiffness, g->damping, g->mass};
-        json_numbers(json, g->name, grip, 3, 1);
+        fprintf(json, "%s\"%s\": [%g, %g, %g]", g == lab_grips ? "" : ", ", g->name, g->stiffness, g->damping, g->mass);
     }
-    json_close(json, '}');
-    json_open(json, "checks", '[');
+    fputs("},\n\"checks\": [", json);
     for (size_t i = 0; i < c->check_count; i++) {
         const stability_check *k = &c->checks[i];
-        json_open(json, NULL, '{');
-        json_string(json, "what", k->what);
-        json_string(json, "unit", k->unit);
-        json_number(json, "expected", k->expected);
-        json_number(json, "found", k->found);
-        json_number(json, "holds", stability_holds(k));
-        json_close(json, '}');
+        fprintf(json, "%s\n{\"what\": \"%s\", \"unit\": \"%s\", \"expected\": ", i > 0 ? "," : "", k->what, k->unit);
+        study_json_number(json, k->expected);
+        fputs(", \"found\": ", json);
+        study_json_number(json, k->found);
+        fprintf(json, ", \"holds\": %d}", stability_holds(k));
     }
-    json_close(json, ']');
+    fputs("]}\n", json);
     return 0;
 }
 

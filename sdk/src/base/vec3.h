@@ -67,6 +67,11 @@ static inline int vec3_finite(const double a[3]) {
     return knurl_is_finite(fabs(a[0]) + fabs(a[1]) + fabs(a[2]));
 }
 
+/* The same of two vectors. */
+static inline int vec3_finite_both(const double a[3], const double b[3]) {
+    return knurl_is_finite(fabs(a[0]) + fabs(a[1]) + fabs(a[2]) + fabs(b[0]) + fabs(b[1]) + fabs(b[2]));
+}
+
 /* Any unit vector at right angles to the unit vector n. */
 static inline void vec3_any_tangent(const double n[3], double out[3]) {
     const double ax[3] = {fabs(n[0]) < 0.9 ? 1.0 : 0.0, fabs(n[0]) < 0.9 ? 0.0 : 1.0, 0.0};

@@ -117,19 +117,6 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     return 1;
 }
 
-void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
-                       double coordinates[2]) {
-    const double *p = contact->proxy;
-    x[0] = plane->x[0];
-    x[1] = plane->x[1];
-    x[2] = 0.0;
-    vec3_cross(contact->normal, x, y);
-    for (int i = 0; i < 2; i++) {
-        coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
-    }
-    coordinates[1] *= contact->normal[2]; /* y = n x x: from behind it runs the other way */
-}
-
 int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
                       double *steepest) {
     double most = 0.0;

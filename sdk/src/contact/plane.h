@@ -4,6 +4,7 @@
 #define KNURL_SRC_PLANE_H
 
 #include "base/heap.h"
+#include "base/vec3.h"
 #include "contact/contact.h"
 
 /* Edges that an outline may have. A tick looks at those in its HIP's band: a few of a disc's, but all of a comb's, and
@@ -67,8 +68,20 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
 
 /* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
  * not turned by the material's orientation). Allowed in a tick. */
-void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
-                       double coordinates[2]) KNURL_NONBLOCKING;
+static inline void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
+                                     double coordinates[2]) {
+    const double *p = contact->proxy;
+    const double side = contact->normal[2];
+    const double normal[3] = {0.0, 0.0, side};
+    x[0] = plane->x[0];
+    x[1] = plane->x[1];
+    x[2] = 0.0;
+    vec3_cross(normal, x, y);
+    for (int i = 0; i < 2; i++) {
+        coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
+    }
+    coordinates[1] *= side; /* from behind y runs the other way */
+}
 
 /* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
  * 0: the plane has no coordinates. Allowed in a tick. */

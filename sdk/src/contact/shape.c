@@ -5,7 +5,6 @@
 #include "base/vec3.h"
 #include "contact/mesh_build.h"
 #include "contact/mesh_contact.h"
-#include "contact/mesh_frame.h"
 #include "contact/mesh_query.h"
 #include "contact/plane_from_mesh.h"
 
@@ -26,11 +25,6 @@ void knurl_mesh_desc_init(knurl_mesh_desc *desc, uint32_t size) {
 static int plane_contact(const void *plane, const knurl_contact_query *query, knurl_contact_state *state,
                          knurl_contact *contact) KNURL_NONBLOCKING {
     return knurl_plane_contact(plane, query, state, contact);
-}
-
-static void plane_frame(const void *plane, const knurl_contact *contact, double x[3], double y[3],
-                        double coordinates[2]) KNURL_NONBLOCKING {
-    knurl_plane_frame(plane, contact, x, y, coordinates);
 }
 
 static int plane_rates(const void *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
@@ -63,19 +57,14 @@ static void plane_destroy(knurl_heap *heap, void *plane) {
     knurl_plane_destroy(heap, plane);
 }
 
-static const knurl_shape_functions plane_functions = {plane_contact, plane_frame, plane_rates,
-                                                      plane_anchor,  plane_facts, plane_destroy};
+static const knurl_shape_functions plane_functions = {plane_contact, plane_rates, plane_anchor, plane_facts,
+                                                      plane_destroy};
 
 /* --- the mesh's --- */
 
 static int mesh_contact(const void *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) KNURL_NONBLOCKING {
     return knurl_mesh_contact(mesh, query, state, contact);
-}
-
-static void mesh_frame(const void *mesh, const knurl_contact *contact, double x[3], double y[3],
-                       double coordinates[2]) KNURL_NONBLOCKING {
-    knurl_mesh_frame(mesh, contact, x, y, coordinates);
 }
 
 static int mesh_rates(const void *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
@@ -103,14 +92,14 @@ static void mesh_destroy(knurl_heap *heap, void *mesh) {
     knurl_mesh_destroy(heap, mesh);
 }
 
-static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_frame, mesh_rates,
-                                                     mesh_anchor,  mesh_facts, mesh_destroy};
+static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_rates, mesh_anchor, mesh_facts, mesh_destroy};
 
 /* --- creation --- */
 
 static void set_plane(knurl_shape *shape, knurl_plane *plane) {
     shape->functions = &plane_functions;
     shape->geometry = plane;
+    shape->plane = plane;
     for (int axis = 0; axis < 2; axis++) {
         shape->low[axis] = -plane->half_extents[axis];
         shape->high[axis] = plane->half_extents[axis];

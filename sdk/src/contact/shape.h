@@ -1,11 +1,12 @@
 /* A shape that can be touched, in its own frame: a bounded plane or a triangle mesh. Which of the two is asked once,
- * when it is created; from then on a table of functions answers. Immutable once created.
+ * when it is created; from then on a table of functions answers, and this header. Immutable once created.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHAPE_H
 #define KNURL_SRC_SHAPE_H
 
 #include "base/heap.h"
-#include "contact/contact.h"
+#include "contact/mesh_frame.h"
+#include "contact/plane.h"
 
 #include <knurl/contact.h>
 
@@ -25,8 +26,6 @@ typedef struct knurl_shape_facts {
 typedef struct knurl_shape_functions {
     int (*contact)(const void *geometry, const knurl_contact_query *query, knurl_contact_state *state,
                    knurl_contact *contact) KNURL_NONBLOCKING;
-    void (*frame)(const void *geometry, const knurl_contact *contact, double x[3], double y[3],
-                  double coordinates[2]) KNURL_NONBLOCKING;
     int (*rates)(const void *geometry, const knurl_contact *contact, const double velocity[3], double rates[2],
                  double *steepest) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
@@ -36,8 +35,9 @@ typedef struct knurl_shape_functions {
 
 typedef struct knurl_shape {
     const knurl_shape_functions *functions;
-    void *geometry; /* what the functions are given */
-    double low[3];  /* bounds, m */
+    void *geometry;           /* what the functions are given */
+    const knurl_plane *plane; /* the same where it is a plane, else null: its frame is shorter than a call */
+    double low[3];            /* bounds, m */
     double high[3];
     int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres say where on a grating a point is */
     int32_t double_sided;    /* 1: it was given with both sides of every triangle */
@@ -75,7 +75,11 @@ static inline int knurl_shape_contact(const knurl_shape *shape, const knurl_cont
  * grating it is (m). Allowed in a tick. */
 static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_contact *contact, double x[3], double y[3],
                                      double coordinates[2]) KNURL_NONBLOCKING {
-    shape->functions->frame(shape->geometry, contact, x, y, coordinates);
+    if (shape->plane) {
+        knurl_plane_frame(shape->plane, contact, x, y, coordinates);
+    } else {
+        knurl_mesh_frame(shape->geometry, contact, x, y, coordinates);
+    }
 }
 
 /* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre

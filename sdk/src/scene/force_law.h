@@ -4,6 +4,7 @@
 #define KNURL_SRC_FORCE_LAW_H
 
 #include "scene/contact_update.h"
+#include "scene/surface_frame.h"
 
 /* How the HIP moves. */
 typedef struct knurl_hip_motion {
@@ -20,8 +21,95 @@ typedef struct knurl_contact_force {
     knurl_grating_output grating;
 } knurl_contact_force;
 
+/* The velocity of the HIP over the surface, in the shape's frame. */
+static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_active_contact *c, double local[3]) {
+    const knurl_motion *motion = &c->record->motion;
+    if (!knurl_motion_is_over(motion, hip->clock->previous_time)) {
+        double surface[3];
+        double over[3];
+        knurl_motion_velocity(motion, hip->clock->time, hip->clock->period, c->candidate->proxy, surface);
+        vec3_sub(hip->velocity, surface, over);
+        knurl_pose_turn_to_own(c->pose, over, local);
+    } else {
+        knurl_pose_turn_to_own(c->pose, hip->velocity, local);
+    }
+}
+
+/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. */
+static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
+                                const double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
+    const knurl_material_desc *m = &c->record->material;
+    knurl_grating_state *state = &c->candidate->grating;
+    if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
+        const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+        out->grating = none;
+        return;
+    }
+    double velocity[2] = {out->velocity[0], out->velocity[1]};
+    double steepest = 1.0;
+    if (m->method == KNURL_LOCKED &&
+        !knurl_surface_rates(c->surface, c->record, &c->contact, over, velocity, &steepest)) {
+        coordinates = NULL; /* it counts the way */
+    }
+    const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
+                                   c->record->is_smooth ? 0.0 : wall->amplitude,
+                                   hip->rate,
+                                   m->method,
+                                   0,
+                                   hip->quantum * steepest,
+                                   0.0};
+    knurl_grating_step(&grating, state, coordinates, velocity, &out->grating);
+}
+
+/* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
+static inline double normal_force(const knurl_wall *wall, double outwards) {
+    if (wall->felt >= wall->height) {
+        return 0.0;
+    }
+    const double size = wall->stiffness * (wall->height - wall->felt) - wall->damping * outwards;
+    return size > 0.0 ? size : 0.0;
+}
+
+/* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
+ * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
+static inline void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
+    const double friction = c->record->material.friction;
+    const double hold = wall->felt < 0.0 ? -friction * wall->felt : 0.0; /* m: the spring's length that it can hold */
+    double *anchor = c->candidate->anchor;
+    double stretch[3] = {0.0, 0.0, 0.0};
+    if (!c->begins && hold > 0.0) {
+        vec3_sub(anchor, c->contact.proxy, stretch);
+        vec3_make_tangent(c->contact.normal, stretch);
+        const double length = vec3_length(stretch);
+        if (length > hold) {
+            vec3_scale(hold / length, stretch, stretch);
+        }
+    }
+    vec3_madd(c->contact.proxy, 1.0, stretch, anchor);
+    vec3_scale(wall->stiffness, stretch, tangential);
+}
+
 /* The force of one contact. wall: as it is to be felt; gets its height. */
-void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *contact, knurl_wall *wall,
-                     knurl_contact_force *out) KNURL_NONBLOCKING;
+static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
+                                   knurl_contact_force *out) {
+    double over[3];
+    double x[3];
+    double y[3];
+    double coordinates[2];
+    relative_velocity(hip, c, over);
+    knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
+    out->velocity[0] = vec3_dot(over, x);
+    out->velocity[1] = vec3_dot(over, y);
+    play_grating(hip, c, over, coordinates, wall, out);
+    wall->height = out->grating.height;
+    vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
+    if (c->record->material.friction > 0.0) {
+        double tangential[3];
+        double turned[3];
+        friction_force(c, wall, tangential);
+        knurl_pose_turn_to_parent(c->pose, tangential, turned);
+        vec3_madd(out->force, 1.0, turned, out->force);
+    }
+}
 
 #endif

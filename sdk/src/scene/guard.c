@@ -32,14 +32,9 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
 }
 
 /* What falls is free: measured is from the nearest point on the way from no force to the latest one. */
-static void limit_slew(const knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
-    const double most = guard->slew + steps;
+void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
-    vec3_sub(force, guard->force, change);
-    if (vec3_dot(change, change) <= most * most) {
-        return;
-    }
     const double latest2 = vec3_dot(guard->force, guard->force);
     const double along = vec3_dot(force, guard->force);
     vec3_scale(along <= 0.0 ? 0.0 : along < latest2 ? along / latest2 : 1.0, guard->force, from);
@@ -51,49 +46,11 @@ static void limit_slew(const knurl_guard *guard, double steps, double force[3], 
     }
 }
 
-/* N: the steps of this tick's textures, which are let through. What they move of a hand is no shaking. */
-static double add_textures(knurl_guard *guard, const knurl_wall *walls, uint32_t count) {
-    double steps = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        const knurl_wall *wall = &walls[i];
-        const double step = fabs(wall->height - wall->contact->height);
-        steps += wall->stiffness * step;
-        if (wall->watched) {
-            guard->passivity.moved += step;
-            guard->passivity.crossings += (wall->height > 0.0) != (wall->contact->height > 0.0);
-        }
-        wall->contact->height = wall->height;
-    }
-    return steps;
-}
-
 /* Of a force that the motors could play: ramps go from and to that. */
-static void attenuate(const knurl_guard *guard, double force[3]) {
+void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) {
     const double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
     vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
-}
-
-double knurl_guard_after(knurl_guard *guard, const knurl_wall *walls, uint32_t count, double force[3],
-                         uint32_t *flags) {
-    double steps = add_textures(guard, walls, count);
-    if (guard->gain < 1.0) {
-        attenuate(guard, force);
-        steps *= guard->gain;
-    }
-    limit_slew(guard, steps, force, flags);
-    double length = vec3_length(force);
-    const double most = knurl_heat_limit(&guard->heat);
-    if (length > most) {
-        vec3_scale(most / length, force, force);
-        *flags |= most < guard->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
-        length = vec3_length(force);
-    }
-    if (knurl_is_finite(length)) {
-        vec3_copy(force, guard->force);
-        knurl_heat_add(&guard->heat, length * length);
-    }
-    return length;
 }
 
 void knurl_guard_sent(knurl_guard *guard, const double force[3]) {

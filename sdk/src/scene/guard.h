@@ -1,6 +1,6 @@
-/* The protections of a HIP: what keeps a hand, and a device's motors, from what a scene may ask for; one call before
- * the forces and one after. Pure computation, a few words of state. Units are the scene's, so that a tick need not
- * convert. SPDX-License-Identifier: MIT */
+/* The protections of a HIP: what keeps a hand, and a device's motors, from what a scene may ask for. In a tick: begin;
+ * before and after each contact's force; then limit their sum. Pure computation, a few words of state. Units are the
+ * scene's, so that a tick need not convert. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_GUARD_H
 #define KNURL_SRC_GUARD_H
 
@@ -56,25 +56,59 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
     wall->contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
 }
 
-/* Before the forces: each wall as it is to be felt. Bounded where that was asked for; its depth grows as a ramp; and it
- * is softer where it has shaken the hand by itself. */
-static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *walls, uint32_t count, uint32_t *flags) {
-    for (uint32_t i = 0; i < count; i++) {
-        knurl_wall *wall = &walls[i];
-        knurl_guard_clamp(guard, wall);
-        knurl_guard_enter(guard, wall, flags);
-        if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
-            knurl_passivity_watch(&guard->passivity, wall, flags);
-        }
-        wall->watched = guard->passivity.busy;
+/* Before a contact's force: its wall as it is to be felt. Bounded where that was asked for; its depth grows as a ramp;
+ * and it is softer where it has shaken the hand by itself. */
+static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
+    knurl_guard_clamp(guard, wall);
+    knurl_guard_enter(guard, wall, flags);
+    if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
+        knurl_passivity_watch(&guard->passivity, wall, flags);
     }
 }
 
-/* After the forces: their sum as it is sent, in place: what the attenuation leaves of it, within slew_rate of the
- * latest but for the textures' own steps and what falls, within what the motors can do now. Returns its length, N; NaN
- * or infinite where the force was. */
-double knurl_guard_after(knurl_guard *guard, const knurl_wall *walls, uint32_t count, double force[3],
-                         uint32_t *flags) KNURL_NONBLOCKING;
+/* After it: N, the step of this tick's texture, which is let through. What it moves of a hand is no shaking. */
+static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wall) {
+    knurl_wall_state *contact = wall->contact;
+    const double step = fabs(wall->height - contact->height);
+    if (guard->passivity.busy) {
+        guard->passivity.moved += step;
+        guard->passivity.crossings += (wall->height > 0.0) != (contact->height > 0.0);
+    }
+    contact->height = wall->height;
+    return wall->stiffness * step;
+}
+
+/* What is rare: called by knurl_guard_limit(). most: N that the force may grow or turn by. */
+void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) KNURL_NONBLOCKING;
+void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
+
+/* The sum of all forces as it is sent, in place: what the attenuation leaves of it, within slew_rate of the latest but
+ * for the textures' own steps (N) and what falls, within what the motors can do now. Returns its length, N; NaN or
+ * infinite where the force was. */
+static inline double knurl_guard_limit(knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
+    double change[3];
+    double free = guard->slew + steps;
+    if (guard->gain < 1.0) {
+        knurl_guard_attenuate(guard, force);
+        free = guard->slew + guard->gain * steps;
+    }
+    vec3_sub(force, guard->force, change);
+    if (!(vec3_dot(change, change) <= free * free)) {
+        knurl_guard_limit_slew(guard, free, force, flags);
+    }
+    double length = vec3_length(force);
+    const double most = knurl_heat_limit(&guard->heat);
+    if (length > most) {
+        vec3_scale(most / length, force, force);
+        *flags |= most < guard->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
+        length = vec3_length(force);
+    }
+    if (knurl_is_finite(length)) {
+        vec3_copy(force, guard->force);
+        knurl_heat_add(&guard->heat, length * length);
+    }
+    return length;
+}
 
 /* A force was sent without a tick, for as long as a tick. */
 void knurl_guard_sent(knurl_guard *guard, const double force[3]) KNURL_NONBLOCKING;

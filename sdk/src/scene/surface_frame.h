@@ -7,12 +7,35 @@
 
 /* A surface's tangent frame at a contact, in the shape's frame. x, y: unit, tangent to the contact's normal.
  * coordinates: m, what S1 looks up. */
-void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
-                         double x[3], double y[3], double coordinates[2]) KNURL_NONBLOCKING;
+static inline void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record,
+                                       const knurl_contact *contact, double x[3], double y[3], double coordinates[2]) {
+    knurl_shape_frame(&surface->shape, contact, x, y, coordinates);
+    const double c = record->turn[0];
+    const double s = record->turn[1];
+    if (s != 0.0 || c != 1.0) { /* the orientation turns the frame, so the coordinates turn back */
+        const double place[2] = {coordinates[0], coordinates[1]};
+        for (int i = 0; i < 3; i++) {
+            const double unturned = x[i];
+            x[i] = c * unturned + s * y[i];
+            y[i] = c * y[i] - s * unturned;
+        }
+        coordinates[0] = c * place[0] + s * place[1];
+        coordinates[1] = c * place[1] - s * place[0];
+    }
+}
 
 /* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame), and
  * by how much at most in a metre along the surface. 0, and untouched, where there are no coordinates. */
-int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record, const knurl_contact *contact,
-                        const double velocity[3], double rates[2], double *steepest) KNURL_NONBLOCKING;
+static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
+                                      const knurl_contact *contact, const double velocity[3], double rates[2],
+                                      double *steepest) {
+    double straight[2];
+    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
+        return 0;
+    }
+    rates[0] = record->turn[0] * straight[0] + record->turn[1] * straight[1];
+    rates[1] = record->turn[0] * straight[1] - record->turn[1] * straight[0];
+    return 1;
+}
 
 #endif

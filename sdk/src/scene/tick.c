@@ -10,33 +10,39 @@
 
 #include <string.h>
 
-/* What is told without contact, beside the HIP: all the rest of an output, field by field, because clearing it as a
- * block takes twice as long (rep stos) as everything else that is done with it. */
-static void clear_output(knurl_tick_output *out) {
+/* What contacts add to. */
+static void begin_output(knurl_tick_output *out) {
+    out->force[0] = out->force[1] = out->force[2] = 0.0;
+    out->flags = out->contacts = 0;
+}
+
+/* What is told without contact, beside the HIP and what contacts add to: all the rest of an output, field by field,
+ * because clearing it as a block takes twice as long (rep stos) as everything else that is done with it. */
+static void tell_no_contact(knurl_tick_output *out) {
     vec3_copy(out->hip, out->proxy);
-    for (int i = 0; i < 3; i++) {
-        out->force[i] = out->normal[i] = 0.0;
-    }
+    out->normal[0] = out->normal[1] = out->normal[2] = 0.0;
     out->surface_velocity[0] = out->surface_velocity[1] = 0.0;
     out->depth = out->height = 0.0;
     out->spatial_frequency = out->temporal_frequency = 0.0;
     out->event = KNURL_NO_EVENT;
     out->surface = 0;
-    out->flags = out->contacts = 0;
 }
 
 /* Device to scene; the velocity as given, else estimated in device axes, where the quantisation is. Returns 0 where
  * there is no position to be trusted. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
-    double velocity[3];
-    if (input->absent || !vec3_finite(input->position)) { /* never into the estimator */
+    const double *velocity = input->velocity;
+    double estimate[3];
+    if (input->absent) {
         return 0;
     }
-    if (input->has_velocity) {
-        vec3_copy(input->velocity, velocity);
-    } else {
-        knurl_velocity_update(&hip->velocity, input->position, velocity);
+    if (!input->has_velocity) {
+        if (!vec3_finite(input->position)) { /* never into the estimator */
+            return 0;
+        }
+        knurl_velocity_update(&hip->velocity, input->position, estimate);
+        velocity = estimate;
     }
     if (hip->is_turned) {
         knurl_workspace_to_scene(w, input->position, out->hip);
@@ -45,8 +51,8 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         vec3_madd(w->origin, w->scale, input->position, out->hip);
         vec3_scale(w->scale, velocity, out->hip_velocity);
     }
-    clear_output(out);
-    return vec3_finite(out->hip) && vec3_finite(out->hip_velocity);
+    begin_output(out);
+    return vec3_finite_both(out->hip, out->hip_velocity);
 }
 
 /* Adds one contact's share; of several the deepest is told. */
@@ -82,23 +88,21 @@ static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, c
 
 /* From contacts to their force as it is sent, N, scene; returns its length. */
 static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
-    const uint32_t count = hip->contacts.active_count;
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
-    knurl_wall walls[KNURL_CONTACTS_MAX];
-    for (uint32_t i = 0; i < count; i++) {
-        const knurl_active_contact *c = &hip->contacts.active[i];
-        knurl_wall_init(&walls[i], &c->record->material, c->contact.z, &c->candidate->guard);
-    }
-    knurl_guard_before(&hip->guard, walls, count, &out->flags);
-    for (uint32_t i = 0; i < count; i++) {
+    double steps = 0.0;
+    for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
         const knurl_active_contact *c = &hip->contacts.active[i];
         const int64_t events = c->candidate->grating.event_count;
+        knurl_wall wall;
         knurl_contact_force share;
-        knurl_force_law(&motion, c, &walls[i], &share);
+        knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
+        knurl_guard_before(&hip->guard, &wall, &out->flags);
+        knurl_force_law(&motion, c, &wall, &share);
+        steps += knurl_guard_after(&hip->guard, &wall);
         count_grating(hip, c, &share, events);
         add_contact(c, &share, out);
     }
-    return knurl_guard_after(&hip->guard, walls, count, out->force, &out->flags);
+    return knurl_guard_limit(&hip->guard, steps, out->force, &out->flags);
 }
 
 /* No force, no contact, a first tick next. */
@@ -124,6 +128,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     knurl_guard_begin(&hip->guard, input->attenuation);
     if (input->paused) {
         end_contacts(hip);
+        tell_no_contact(out);
         vec3_copy(out->force, out->device_force);
         return 0.0;
     }
@@ -133,7 +138,11 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         reset(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;
     }
-    out->flags |= out->contacts > 0 ? KNURL_TICK_CONTACT : 0;
+    if (out->contacts > 0) {
+        out->flags |= KNURL_TICK_CONTACT;
+    } else {
+        tell_no_contact(out);
+    }
     if (hip->is_turned) {
         knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
     } else {

@@ -18,8 +18,7 @@ typedef struct knurl_wall {
     double stiffness; /* N/m, as felt */
     double amplitude; /* m, as felt */
     double damping;   /* N s/m */
-    double height;    /* m: H, by the grating: known after the forces */
-    int32_t watched;  /* 1: the passivity controller was at work before the forces */
+    double height;    /* m: H, by the grating: known after the force */
 } knurl_wall;
 
 /* A material's wall at z (m, scene): what the forces begin with. */
@@ -31,7 +30,6 @@ static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *
     wall->stiffness = material->stiffness;
     wall->amplitude = material->amplitude;
     wall->damping = material->damping;
-    wall->height = 0.0;
 }
 
 /* A contact begins. felt: m, the depth that was felt on the surface that it is handed over from; else 0. */
