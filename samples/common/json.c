@@ -1,4 +1,4 @@
-/* JSON on stdout. SPDX-License-Identifier: MIT */
+/* JSON. SPDX-License-Identifier: MIT */
 #include "json.h"
 
 #include "out.h"
@@ -6,74 +6,93 @@
 #include <math.h>
 #include <stdio.h>
 
-static void print_json_text(const char *text) {
-    putchar('"');
+static void print_text(FILE *stream, const char *text) {
+    fputc('"', stream);
     for (const char *c = text; *c; c++) {
         if (*c == '"' || *c == '\\') {
-            printf("\\%c", *c);
+            fprintf(stream, "\\%c", *c);
         } else if ((unsigned char)*c < 0x20) {
-            printf("\\u%04x", (unsigned)(unsigned char)*c);
+            fprintf(stream, "\\u%04x", (unsigned)(unsigned char)*c);
         } else {
-            putchar(*c);
+            fputc(*c, stream);
         }
     }
-    putchar('"');
+    fputc('"', stream);
 }
 
-static void next_line(const tool_json *json) {
+static void next_line(const json_writer *json) {
     if (json->pretty && json->depth > 0) {
-        printf("\n%*s", 2 * json->depth, "");
+        fprintf(json->stream, "\n%*s", 2 * json->depth, "");
     }
 }
 
-static void begin_value(tool_json *json, const char *key) {
+static void begin_value(json_writer *json, const char *key) {
     if (!json->first && json->depth > 0) {
-        fputs(json->pretty ? "," : ", ", stdout);
+        fputs(json->pretty ? "," : ", ", json->stream);
     }
     json->first = 0;
     next_line(json);
     if (key) {
-        print_json_text(key);
-        fputs(": ", stdout);
+        print_text(json->stream, key);
+        fputs(": ", json->stream);
     }
 }
 
-void json_open(tool_json *json, const char *key, char bracket) {
+void json_start(json_writer *json, FILE *stream, int pretty) {
+    json->stream = stream;
+    json->pretty = pretty;
+    json->depth = 0;
+    json->first = 1;
+}
+
+void json_open(json_writer *json, const char *key, char bracket) {
     begin_value(json, key);
-    putchar(bracket);
+    fputc(bracket, json->stream);
     json->depth++;
     json->first = 1;
 }
 
-void json_close(tool_json *json, char bracket) {
+void json_close(json_writer *json, char bracket) {
     json->depth--;
     if (!json->first && json->pretty) {
-        printf("\n%*s", 2 * json->depth, "");
+        fprintf(json->stream, "\n%*s", 2 * json->depth, "");
     }
-    putchar(bracket);
+    fputc(bracket, json->stream);
+    if (json->depth == 0) {
+        fputc('\n', json->stream);
+    }
     json->first = 0;
 }
 
-void json_number(tool_json *json, const char *key, double value) {
-    begin_value(json, key);
+static void print_number(const json_writer *json, double value) {
     if (isfinite(value)) {
-        out_number(stdout, value);
+        out_number(json->stream, value);
     } else {
-        fputs("null", stdout);
+        fputs("null", json->stream);
     }
 }
 
-void json_flag(tool_json *json, const char *key, int value) {
+void json_number(json_writer *json, const char *key, double value) {
     begin_value(json, key);
-    fputs(value ? "true" : "false", stdout);
+    print_number(json, value);
 }
 
-void json_string(tool_json *json, const char *key, const char *value) {
+void json_numbers(json_writer *json, const char *key, const double *values, size_t count, size_t stride) {
     begin_value(json, key);
-    print_json_text(value);
+    fputc('[', json->stream);
+    for (size_t i = 0; i < count; i++) {
+        fputs(i > 0 ? ", " : "", json->stream);
+        print_number(json, values[i * stride]);
+    }
+    fputc(']', json->stream);
 }
 
-void json_end(tool_json *json) {
-    (void)json;
-    putchar('\n');
+void json_flag(json_writer *json, const char *key, int value) {
+    begin_value(json, key);
+    fputs(value ? "true" : "false", json->stream);
+}
+
+void json_string(json_writer *json, const char *key, const char *value) {
+    begin_value(json, key);
+    print_text(json->stream, value);
 }

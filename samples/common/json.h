@@ -1,19 +1,28 @@
-/* JSON on stdout, for the tool and the studies. SPDX-License-Identifier: MIT */
+/* JSON, for the tool and the studies. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_JSON_H
 #define KNURL_SAMPLES_JSON_H
 
-/* JSON to stdout, on one line unless pretty. */
-typedef struct tool_json {
-    int pretty;
-    int depth;
-    int first;
-} tool_json;
+#include <stddef.h>
+#include <stdio.h>
 
-void json_open(tool_json *json, const char *key, char bracket); /* '{' or '[' */
-void json_close(tool_json *json, char bracket);                 /* '}' or ']' */
-void json_number(tool_json *json, const char *key, double value);
-void json_flag(tool_json *json, const char *key, int value);
-void json_string(tool_json *json, const char *key, const char *value);
-void json_end(tool_json *json); /* the last newline */
+/* A JSON text as it is written; commas and line breaks are the writer's. */
+typedef struct json_writer {
+    FILE *stream;
+    int pretty; /* 0: on one line */
+    int depth;
+    int first; /* nothing stands before the next value in its object or array */
+} json_writer;
+
+void json_start(json_writer *json, FILE *stream, int pretty);
+
+/* Values: `key` is null in an array. What is not finite is null. */
+void json_open(json_writer *json, const char *key, char bracket); /* '{' or '[' */
+void json_close(json_writer *json, char bracket);                 /* '}' or ']'; a line's end after the last */
+void json_number(json_writer *json, const char *key, double value);
+void json_flag(json_writer *json, const char *key, int value);
+void json_string(json_writer *json, const char *key, const char *value);
+
+/* An array on one line: every `stride`-th of the numbers from the first on. */
+void json_numbers(json_writer *json, const char *key, const double *values, size_t count, size_t stride);
 
 #endif

@@ -26,15 +26,14 @@ void machine_name(char *name, size_t size) {
 }
 
 int machine_program(const char *name, char *path, size_t size) {
-    const ssize_t length = readlink("/proc/self/exe", path, size);
-    size_t end = length > 0 && (size_t)length < size ? (size_t)length : 0; /* of the folder, with its slash */
-    while (end > 0 && path[end - 1] != '/') {
-        end--;
-    }
-    if (end == 0 || end + strlen(name) >= size) {
+    char self[4096]; /* PATH_MAX on Linux */
+    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[length > 0 ? length : 0] = 0;
+    const char *slash = strrchr(self, '/');
+    const int written = slash ? snprintf(path, size, "%.*s%s", (int)(slash + 1 - self), self, name) : -1;
+    if (written < 0 || (size_t)written >= size) {
         path[0] = 0;
         return 1;
     }
-    memcpy(path + end, name, strlen(name) + 1);
     return access(path, X_OK) != 0;
 }

@@ -5,9 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *wave_method_name(int32_t method) {
+    return method == KNURL_T1 ? "T1" : method == KNURL_T2 ? "T2" : "T3";
+}
+
 int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *out) {
-    static const char *const names[] = {"T1", "T2", "T3"};
-    static const int32_t methods[] = {KNURL_T1, KNURL_T2, KNURL_T3};
     const char *method = NULL;
     double period_ms = NAN;
     int32_t id = 0;
@@ -25,8 +27,8 @@ int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *ou
         return tool_error(TOOL_USAGE, "%s: expected --method and --period-ms, found %s", argv[0],
                           method ? "no --period-ms" : "no --method");
     }
-    for (int i = 0; i < 3; i++) {
-        id = strcmp(names[i], method) == 0 ? methods[i] : id;
+    for (int32_t i = KNURL_T1; i <= KNURL_T3; i++) {
+        id = strcmp(wave_method_name(i), method) == 0 ? i : id;
     }
     if (!id) {
         return tool_error(TOOL_USAGE, "%s: --method: expected T1, T2 or T3, found '%s'", argv[0], method);

@@ -81,7 +81,7 @@ static int measure(bench *b, const bench_case *only, report *out) {
     return TOOL_OK;
 }
 
-static void print_result(tool_json *json, const row *r) {
+static void print_result(json_writer *json, const row *r) {
     json_open(json, NULL, '{');
     json_string(json, "case", r->timed->name);
     json_number(json, "p50_ns", r->result.p50_ns);
@@ -97,7 +97,8 @@ static void print_result(tool_json *json, const row *r) {
 }
 
 static void print_json(const report *out) {
-    tool_json json = {0, 0, 1};
+    json_writer json;
+    json_start(&json, stdout, 0);
     json_open(&json, NULL, '{');
     json_number(&json, "timer_ns", out->timer_ns);
     json_string(&json, "machine", out->machine);
@@ -119,7 +120,6 @@ static void print_json(const report *out) {
     }
     json_close(&json, ']');
     json_close(&json, '}');
-    json_end(&json);
 }
 
 static void print_table(const report *out) {

@@ -16,7 +16,8 @@ static void print_for_people(const knurl_device_listing *listings, uint32_t coun
 }
 
 static void print_json(const knurl_device_listing *listings, uint32_t count, int pretty) {
-    tool_json out = {pretty, 0, 1};
+    json_writer out;
+    json_start(&out, stdout, pretty);
     json_open(&out, NULL, '[');
     for (uint32_t i = 0; i < count; i++) {
         json_open(&out, NULL, '{');
@@ -26,7 +27,6 @@ static void print_json(const knurl_device_listing *listings, uint32_t count, int
         json_close(&out, '}');
     }
     json_close(&out, ']');
-    json_end(&out);
 }
 
 int cmd_devices(int argc, char **argv) {

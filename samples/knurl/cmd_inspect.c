@@ -7,7 +7,7 @@ static const char hint[] = "nothing in this file is tagged: give a material the 
                            "knurl_spatial_frequency (cycles/m), knurl_amplitude (m) and knurl_stiffness (N/m), "
                            "and export them as glTF extras";
 
-static void print_material(tool_json *json, const knurl_material_desc *m) {
+static void print_material(json_writer *json, const knurl_material_desc *m) {
     json_open(json, "material", '{');
     json_open(json, "spatial_frequency", '[');
     json_number(json, NULL, m->spatial_frequency[0]);
@@ -38,7 +38,7 @@ static int in_reach(const knurl_scene *scene, const knurl_device_info *device, c
     return 1;
 }
 
-static void print_stretch(tool_json *json, const char *key, const double stretch[3]) {
+static void print_stretch(json_writer *json, const char *key, const double stretch[3]) {
     json_open(json, key, '{');
     json_number(json, "min", stretch[0]);
     json_number(json, "mean", stretch[1]);
@@ -46,7 +46,7 @@ static void print_stretch(tool_json *json, const char *key, const double stretch
     json_close(json, '}');
 }
 
-static void print_surface(tool_json *json, const knurl_surface_info *info, int reachable) {
+static void print_surface(json_writer *json, const knurl_surface_info *info, int reachable) {
     json_open(json, NULL, '{');
     json_string(json, "name", info->name);
     json_string(json, "shape", info->shape);
@@ -65,7 +65,8 @@ static void print_surface(tool_json *json, const knurl_surface_info *info, int r
     json_close(json, '}');
 }
 
-static void print_scene(tool_json *json, const knurl_scene *scene, const knurl_device_info *device, uint32_t skipped) {
+static void print_scene(json_writer *json, const knurl_scene *scene, const knurl_device_info *device,
+                        uint32_t skipped) {
     const uint32_t count = knurl_scene_get_surface_count(scene);
     json_open(json, NULL, '{');
     json_open(json, "surfaces", '[');
@@ -83,7 +84,6 @@ static void print_scene(tool_json *json, const knurl_scene *scene, const knurl_d
         json_string(json, "hint", hint);
     }
     json_close(json, '}');
-    json_end(json);
 }
 
 /* The Touch, as the fake device has it. */
@@ -120,7 +120,8 @@ int cmd_inspect(int argc, char **argv) {
         knurl_scene_destroy(scene);
         return tool_library_error(TOOL_FAILURE, NULL);
     }
-    tool_json json = {pretty, 0, 1};
+    json_writer json;
+    json_start(&json, stdout, pretty);
     print_scene(&json, scene, &device, report.skipped);
     tool_warn(scene);
     if (knurl_scene_get_surface_count(scene) == 0) {

@@ -282,7 +282,7 @@ static void play(run *r) {
     }
 }
 
-static void print_percentiles(tool_json *json, const char *key, const knurl_percentiles *p, double unit) {
+static void print_percentiles(json_writer *json, const char *key, const knurl_percentiles *p, double unit) {
     json_open(json, key, '{');
     json_number(json, "p50", p->p50 / unit);
     json_number(json, "p99", p->p99 / unit);
@@ -293,7 +293,8 @@ static void print_percentiles(tool_json *json, const char *key, const knurl_perc
 static void print_summary(const run *r, const knurl_loop_stats *stats) {
     knurl_hip_counts counts;
     knurl_device_info device;
-    tool_json json = {r->options.pretty, 0, 1};
+    json_writer json;
+    json_start(&json, stdout, r->options.pretty);
     knurl_device_info_init(&device, sizeof device);
     memset(&counts, 0, sizeof counts);
     (void)knurl_scene_get_tick(r->scene, 0, NULL, &counts);
@@ -323,7 +324,6 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     print_percentiles(&json, "tick_ns", &stats->tick_ns, 1.0);
     print_percentiles(&json, "jitter_us", &stats->jitter_ns, 1000.0);
     json_close(&json, '}');
-    json_end(&json);
 }
 
 static int perform(run *r) {

@@ -28,7 +28,7 @@ void faults_show(faults *f, knurl_device *device) {
     }
 }
 
-void faults_print(const faults *f, tool_json *json) {
+void faults_print(const faults *f, json_writer *json) {
     json_open(json, "faults", '{');
     for (int32_t code = 0; code < FAULT_CODES; code++) {
         if (f->counts[code] > 0) {

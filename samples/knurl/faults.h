@@ -19,6 +19,6 @@ void faults_start(faults *f);
 void faults_show(faults *f, knurl_device *device);
 
 /* "faults": {"lost": 1, ...}: those that came. */
-void faults_print(const faults *f, tool_json *json);
+void faults_print(const faults *f, json_writer *json);
 
 #endif

@@ -74,49 +74,60 @@ static void write_rows(FILE *csv, double rate, int set, double weber) {
     }
 }
 
-static void write_gaps(FILE *json, const char *key, const study_reach *reach, size_t count, double weber, int rule) {
+static void write_gaps(json_writer *json, const char *key, const study_reach *reach, size_t count, double weber,
+                       int rule) {
     study_gap gaps[STUDY_MAX_REACH];
     const size_t found = study_gaps(reach, count, weber, rule, gaps);
-    fprintf(json, ", \"%s\": [", key);
+    json_open(json, key, '[');
     for (size_t i = 0; i < found; i++) {
-        fprintf(json, "%s[%.12g, %.12g]", i ? ", " : "", gaps[i].low, gaps[i].high);
+        const double gap[] = {gaps[i].low, gaps[i].high};
+        json_numbers(json, NULL, gap, 2, 1);
     }
-    fputc(']', json);
+    json_close(json, ']');
 }
 
 /* One set at one Weber fraction: how far it goes, and its gaps by both rules. */
-static void write_weber(FILE *json, const study_reach *reach, size_t count, double weber) {
-    fprintf(json, "{\"weber\": %g, \"no_gap_up_to_hz\": %.12g", weber, study_no_gap_up_to(reach, count, weber));
+static void write_weber(json_writer *json, const study_reach *reach, size_t count, double weber) {
+    json_open(json, NULL, '{');
+    json_number(json, "weber", weber);
+    json_number(json, "no_gap_up_to_hz", study_no_gap_up_to(reach, count, weber));
     write_gaps(json, "gaps_hz", reach, count, weber, STUDY_GAP_NEIGHBOUR);
     write_gaps(json, "unreached_hz", reach, count, weber, STUDY_GAP_UNREACHED);
-    fputc('}', json);
+    json_close(json, '}');
 }
 
-static void write_rate(FILE *json, double rate) {
+static void write_rate(json_writer *json, double rate) {
     const double top = 0.5 * rate;
-    fprintf(json, "    {\"update_rate_hz\": %g, \"lowest_hz\": %g, \"highest_hz\": %g, \"mixed_hz\": %g,\n", rate,
-            LOWEST_HZ, top, rate / 2.5);
-    fprintf(json,
-            "     \"reach_with_jnd_hz\": %.12g, \"smallest_period_mm\": %.12g, "
-            "\"smallest_period_without_jnd_mm\": %.12g,\n     \"sets\": [\n",
-            top * (1.0 + PAPERS_WEBER), SPEED_MM_S / (top * (1.0 + PAPERS_WEBER)), SPEED_MM_S / top);
+    json_open(json, NULL, '{');
+    json_number(json, "update_rate_hz", rate);
+    json_number(json, "lowest_hz", LOWEST_HZ);
+    json_number(json, "highest_hz", top);
+    json_number(json, "mixed_hz", rate / 2.5);
+    json_number(json, "reach_with_jnd_hz", top * (1.0 + PAPERS_WEBER));
+    json_number(json, "smallest_period_mm", SPEED_MM_S / (top * (1.0 + PAPERS_WEBER)));
+    json_number(json, "smallest_period_without_jnd_mm", SPEED_MM_S / top);
+    json_open(json, "sets", '[');
     for (int set = 0; set < STUDY_SETS; set++) {
         study_reach reach[STUDY_MAX_REACH];
         const size_t count = study_reachable(rate, LOWEST_HZ, set, reach);
-        fprintf(json, "      {\"set\": \"%s\", \"frequencies\": %zu, \"haptic\": [\n        ", set_names[set], count);
+        json_open(json, NULL, '{');
+        json_string(json, "set", set_names[set]);
+        json_number(json, "frequencies", (double)count);
+        json_open(json, "haptic", '[');
         for (size_t w = 0; w < sizeof webers / sizeof *webers; w++) {
-            fputs(w ? ",\n        " : "", json);
             write_weber(json, reach, count, webers[w]);
         }
-        fprintf(json, "]}%s\n", set + 1 < STUDY_SETS ? "," : "");
+        json_close(json, ']');
+        json_close(json, '}');
     }
-    fputs("     ]}", json);
+    json_close(json, ']');
+    json_close(json, '}');
 }
 
 /* The paper prints where steps begin to be heard, but no audible Weber fraction. Around its limit: the neighbours that
  * can be reached; the fractions (from, below) for which this step is the first to be heard; and the fraction if the
  * limit is f(1 + WF), as 230 and 461 Hz are: with that one, steps far lower would be heard, so that is not its rule. */
-static void write_audible(FILE *json, int set, double printed) {
+static void write_audible(json_writer *json, int set, double printed) {
     study_reach reach[STUDY_MAX_REACH];
     const size_t count = study_reachable(1000.0, LOWEST_HZ, set, reach);
     size_t i = 1;
@@ -125,35 +136,40 @@ static void write_audible(FILE *json, int set, double printed) {
     }
     const double below = reach[i].frequency;
     const double above = reach[i + 1].frequency;
-    fprintf(json,
-            "    {\"set\": \"%s\", \"printed_hz\": %g, \"below_hz\": %.12g, \"above_hz\": %.12g,\n"
-            "     \"weber_from\": %.12g, \"weber_below\": %.12g, \"weber_if_limit_is_f_1_plus_wf\": %.12g}",
-            set_names[set], printed, below, above, below / reach[i - 1].frequency - 1.0, above / below - 1.0,
-            printed / below - 1.0);
+    json_open(json, NULL, '{');
+    json_string(json, "set", set_names[set]);
+    json_number(json, "printed_hz", printed);
+    json_number(json, "below_hz", below);
+    json_number(json, "above_hz", above);
+    json_number(json, "weber_from", below / reach[i - 1].frequency - 1.0);
+    json_number(json, "weber_below", above / below - 1.0);
+    json_number(json, "weber_if_limit_is_f_1_plus_wf", printed / below - 1.0);
+    json_close(json, '}');
 }
 
-static void write_json(FILE *json) {
+static void write_json(json_writer *json) {
     static const double checks[] = {0.18, 0.20, 0.225, PRINTED_WEBER};
     study_reach reach[STUDY_MAX_REACH];
     const size_t count = study_reachable(1000.0, LOWEST_HZ, STUDY_SET_ODD, reach);
-    fputs("{\"study\": \"coverage\", \"figure\": 3,\n  \"rule\": \"a gap is a neighbour above f(1 + WF)\",\n"
-          "  \"unreached_rule\": \"further than WF from every frequency played, above or below\",\n",
-          json);
-    fprintf(json, "  \"speed_mm_s\": %g,\n  \"rates\": [\n", SPEED_MM_S);
+    json_string(json, "study", "coverage");
+    json_number(json, "figure", 3);
+    json_string(json, "rule", "a gap is a neighbour above f(1 + WF)");
+    json_string(json, "unreached_rule", "further than WF from every frequency played, above or below");
+    json_number(json, "speed_mm_s", SPEED_MM_S);
+    json_open(json, "rates", '[');
     for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
         write_rate(json, rates[r]);
-        fputs(r + 1 < sizeof rates / sizeof *rates ? ",\n" : "],\n", json);
     }
-    fputs("  \"audible\": [\n", json);
+    json_close(json, ']');
+    json_open(json, "audible", '[');
     write_audible(json, STUDY_SET_EVEN, 28.8);
-    fputs(",\n", json);
     write_audible(json, STUDY_SET_ODD, 43.1);
-    fputs("],\n  \"whole_periods_at_1_khz\": [\n", json);
+    json_close(json, ']');
+    json_open(json, "whole_periods_at_1_khz", '[');
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++) {
-        fputs("    ", json);
         write_weber(json, reach, count, checks[i]);
-        fputs(i + 1 < sizeof checks / sizeof *checks ? ",\n" : "]}\n", json);
     }
+    json_close(json, ']');
 }
 
 static void print_summary(double rate) {
@@ -173,7 +189,7 @@ static void print_summary(double rate) {
            SPEED_MM_S, SPEED_MM_S / reach_hz, reach_hz, 0.5 * rate, SPEED_MM_S / (0.5 * rate));
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     fputs("update_rate_hz,set,weber,kind,period_ticks,frequency_hz,band_low_hz,band_high_hz,neighbour_hz,gap\n", csv);
     for (size_t i = 0; i < 2 * (size_t)STUDY_SETS * 2; i++) {

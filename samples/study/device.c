@@ -2,8 +2,8 @@
  * reading is the force in the spring and damper that hold the plant, from its position at 40 kHz.
  * SPDX-License-Identifier: MIT */
 #include "device_bench.h"
-#include "json_out.h"
 #include "study.h"
+#include "wave_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -76,7 +76,6 @@ static int measure_row(const bench_fixture *fixture, device_row *row) {
 }
 
 static void write_csv(FILE *csv, const bench_fixture *fixture, const device_row *row) {
-    static const char *const names[] = {"T1", "T2", "T3"};
     for (int m = 0; m < 3; m++) {
         const double cells[] = {row->commanded[m], row->dominant[m], row->frequency[m],
                                 row->net_asked[m], row->net[m],      row->net_raw[m]};
@@ -85,7 +84,7 @@ static void write_csv(FILE *csv, const bench_fixture *fixture, const device_row 
         out_number(csv, fixture->viscous);
         fputc(',', csv);
         out_number(csv, row->period);
-        fprintf(csv, ",%s", names[m]);
+        fprintf(csv, ",%s", wave_method_name(KNURL_T1 + m));
         for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
             fputc(',', csv);
             out_number(csv, cells[i]);
@@ -127,44 +126,44 @@ static device_claims judge(const device_row *rows) {
     return c;
 }
 
-static void write_curves(FILE *json, const device_row *rows) {
-    static const char *const names[] = {"T1", "T2", "T3"};
+static void write_curves(json_writer *json, const device_row *rows) {
     static const char *const pairs[] = {"pcc_T1_T2", "pcc_T1_T3", "pcc_T2_T3"};
     const size_t stride = sizeof *rows / sizeof(double);
     for (int m = 0; m < 3; m++) {
-        fprintf(json, "\"%s\": {\n", names[m]);
-        study_json_array(json, "commanded", &rows[0].commanded[m], PERIODS, stride, ",");
-        study_json_array(json, "dominant", &rows[0].dominant[m], PERIODS, stride, ",");
-        study_json_array(json, "dominant_hz", &rows[0].frequency[m], PERIODS, stride, ",");
-        study_json_array(json, "net_commanded", &rows[0].net_asked[m], PERIODS, stride, ",");
-        study_json_array(json, "net", &rows[0].net[m], PERIODS, stride, ",");
-        study_json_array(json, "net_without_bias_correction", &rows[0].net_raw[m], PERIODS, stride, "");
-        fputs("},\n", json);
+        json_open(json, wave_method_name(KNURL_T1 + m), '{');
+        json_numbers(json, "commanded", &rows[0].commanded[m], PERIODS, stride);
+        json_numbers(json, "dominant", &rows[0].dominant[m], PERIODS, stride);
+        json_numbers(json, "dominant_hz", &rows[0].frequency[m], PERIODS, stride);
+        json_numbers(json, "net_commanded", &rows[0].net_asked[m], PERIODS, stride);
+        json_numbers(json, "net", &rows[0].net[m], PERIODS, stride);
+        json_numbers(json, "net_without_bias_correction", &rows[0].net_raw[m], PERIODS, stride);
+        json_close(json, '}');
     }
     for (int m = 0; m < 3; m++) {
-        study_json_array(json, pairs[m], &rows[0].pcc[m], PERIODS, stride, ",");
+        json_numbers(json, pairs[m], &rows[0].pcc[m], PERIODS, stride);
     }
 }
 
-static void write_fixture(FILE *json, const bench_fixture *fixture, const device_row *rows) {
+static void write_fixture(json_writer *json, const bench_fixture *fixture, const device_row *rows) {
     const device_claims c = judge(rows);
-    fputs("{\n", json);
-    study_json_member(json, "stiffness_n_per_m", fixture->stiffness, ",");
-    study_json_member(json, "damping_n_s_per_m", fixture->damping, ",");
-    study_json_member(json, "viscous_n_s_per_m", fixture->viscous, ",");
-    study_json_member(json, "resonance_hz", bench_resonance(fixture), ",");
-    study_json_array(json, "period_ticks", &rows[0].period, PERIODS, sizeof *rows / sizeof(double), ",");
+    json_open(json, NULL, '{');
+    json_number(json, "stiffness_n_per_m", fixture->stiffness);
+    json_number(json, "damping_n_s_per_m", fixture->damping);
+    json_number(json, "viscous_n_s_per_m", fixture->viscous);
+    json_number(json, "resonance_hz", bench_resonance(fixture));
+    json_numbers(json, "period_ticks", &rows[0].period, PERIODS, sizeof *rows / sizeof(double));
     write_curves(json, rows);
-    fputs("\"claims\": {\n", json);
-    study_json_member(json, "t1_t3_least_ratio", c.t1_t3, ",");
-    study_json_member(json, "t2_over_t3_transmission_odd_periods", c.t2_gain, ",");
-    study_json_member(json, "net_t1_3_ticks", c.net_t1_3, ",");
-    study_json_member(json, "net_t2_t3_greatest", c.net_others, ",");
-    study_json_member(json, "net_t2_t3_greatest_bias_subtracted", c.net_corrected, ",");
-    study_json_member(json, "share_of_periods_below_0_9", c.below, ",");
-    study_json_array(json, "pcc_t1_t3_2_and_3_ticks", c.pcc, 2, 1, ",");
-    study_json_member(json, "pcc_t1_t3_least_above_3_ticks", c.pcc_above_3, "");
-    fputs("}\n}", json);
+    json_open(json, "claims", '{');
+    json_number(json, "t1_t3_least_ratio", c.t1_t3);
+    json_number(json, "t2_over_t3_transmission_odd_periods", c.t2_gain);
+    json_number(json, "net_t1_3_ticks", c.net_t1_3);
+    json_number(json, "net_t2_t3_greatest", c.net_others);
+    json_number(json, "net_t2_t3_greatest_bias_subtracted", c.net_corrected);
+    json_number(json, "share_of_periods_below_0_9", c.below);
+    json_numbers(json, "pcc_t1_t3_2_and_3_ticks", c.pcc, 2, 1);
+    json_number(json, "pcc_t1_t3_least_above_3_ticks", c.pcc_above_3);
+    json_close(json, '}');
+    json_close(json, '}');
     printf(
         "  %.0f N/mm (%.0f Hz), %g N s/m lost:\n"
         "    T3 is below 0.9 of its command at %.0f %% of the periods; T2 at odd periods comes through %.2f times as well;\n"
@@ -174,34 +173,38 @@ static void write_fixture(FILE *json, const bench_fixture *fixture, const device
         c.net_others, c.net_corrected, c.pcc[0], c.pcc[1], c.pcc_above_3);
 }
 
-static void write_settings(FILE *json) {
-    fputs("{\n\"study\": \"device\",\n", json);
-    study_json_member(json, "update_rate_hz", BENCH_UPDATE_RATE, ",");
-    study_json_member(json, "sampling_rate_hz", BENCH_SAMPLING_RATE, ",");
-    study_json_member(json, "amplitude_n", 1.0, ",");
-    study_json_member(json, "mass_kg", BENCH_MASS, ",");
-    study_json_member(json, "coulomb_n", BENCH_COULOMB, ",");
-    study_json_member(json, "fixture_damping_ratio", BENCH_DAMPING_RATIO, ",");
-    study_json_member(json, "resolution_m", 0.0, ",");
-    fputs(
-        "\"differs_from_the_paper\": [\n"
-        "\"The paper fixed the HIP of a Phantom Omni to a 6-axis force sensor (40 kHz, four runs of 10 s). Here it is a"
-        " simulation: one mass with viscous and dry friction in a spring and damper; the sensor reads their force.\",\n"
-        "\"Mass (45 g) and friction (0.26 N) are the data sheet's, which is unverified; the stiffness of fixture and drive"
-        " and what they lose are assumed, hence four settings. The first is fitted to the paper's words.\",\n"
-        "\"Subtracting the force at rest before and after a run, as the paper does, subtracts what dry friction holds"
-        " in the spring at rest; that alone looks like a net force in every method.\",\n"
-        "\"The force sensor does not see the encoders, so their 0.055 mm are left out: resolution 0.\",\n"
-        "\"No noise, no clock drift between command and sampling, no configuration-dependent inertia: one run, no"
-        " confidence interval. T1 and T3 command the same numbers at 2 ms, so their PCC is 1 there.\"\n],\n\"fixtures\": [\n",
-        json);
+static void write_settings(json_writer *json) {
+    static const char *const differences[] = {
+        "The paper fixed the HIP of a Phantom Omni to a 6-axis force sensor (40 kHz, four runs of 10 s). Here it is a"
+        " simulation: one mass with viscous and dry friction in a spring and damper; the sensor reads their force.",
+        "Mass (45 g) and friction (0.26 N) are the data sheet's, which is unverified; the stiffness of fixture and drive"
+        " and what they lose are assumed, hence four settings. The first is fitted to the paper's words.",
+        "Subtracting the force at rest before and after a run, as the paper does, subtracts what dry friction holds"
+        " in the spring at rest; that alone looks like a net force in every method.",
+        "The force sensor does not see the encoders, so their 0.055 mm are left out: resolution 0.",
+        "No noise, no clock drift between command and sampling, no configuration-dependent inertia: one run, no"
+        " confidence interval. T1 and T3 command the same numbers at 2 ms, so their PCC is 1 there."};
+    json_string(json, "study", "device");
+    json_number(json, "update_rate_hz", BENCH_UPDATE_RATE);
+    json_number(json, "sampling_rate_hz", BENCH_SAMPLING_RATE);
+    json_number(json, "amplitude_n", 1.0);
+    json_number(json, "mass_kg", BENCH_MASS);
+    json_number(json, "coulomb_n", BENCH_COULOMB);
+    json_number(json, "fixture_damping_ratio", BENCH_DAMPING_RATIO);
+    json_number(json, "resolution_m", 0.0);
+    json_open(json, "differs_from_the_paper", '[');
+    for (size_t i = 0; i < sizeof differences / sizeof *differences; i++) {
+        json_string(json, NULL, differences[i]);
+    }
+    json_close(json, ']');
 }
 
 /* 0: no memory, or the simulated device refused */
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     fputs("stiffness,viscous,period_ticks,method,commanded,dominant,dominant_hz,net_commanded,net,net_raw\n", csv);
     write_settings(json);
+    json_open(json, "fixtures", '[');
     for (int f = 0; f < FIXTURES; f++) {
         const bench_fixture fixture = bench_make_fixture(fixtures[f][0], fixtures[f][1]);
         device_row rows[PERIODS];
@@ -215,9 +218,8 @@ static int write_all(FILE *csv, FILE *json, void *user) {
             study_progress("device", (f + (i + 1.0) / PERIODS) / FIXTURES);
         }
         write_fixture(json, &fixture, rows);
-        fputs(f + 1 < FIXTURES ? ",\n" : "\n", json);
     }
-    fputs("]\n}\n", json);
+    json_close(json, ']');
     return 0;
 }
 

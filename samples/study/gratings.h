@@ -1,9 +1,10 @@
-/* The parts of the study `gratings`: each writes one member of its JSON object (and rows of CSV), without a comma after
- * it, and puts its facts into the summary. 1 done, 0: no memory. SPDX-License-Identifier: MIT */
+/* The parts of the study `gratings`: each writes one member of its JSON object (and rows of CSV), and puts its facts
+ * into the summary. 1 done, 0: no memory. SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_GRATINGS_H
 #define KNURL_STUDY_GRATINGS_H
 
 #include "grating_metrics.h"
+#include "json.h"
 
 #include <stdio.h>
 
@@ -31,10 +32,11 @@ knurl_grating gratings_make(int32_t method, double fsx, double fsy);
 int gratings_scan_line(const knurl_grating *grating, const double start[2], const double velocity[2], size_t ticks,
                        study_scan *scan);
 
-int gratings_directions(FILE *json, gratings_summary *summary); /* Eq. 11, Eq. 12 and what S1 plays, over direction */
-int gratings_map(FILE *csv, FILE *json);                        /* S1's dropout and S2's drift, direction x speed */
-int gratings_speeds(FILE *json, gratings_summary *summary);     /* the same over speed, straight across */
-int gratings_strokes(FILE *json, gratings_summary *summary);    /* from rest: S2 freezes; strokes twice a second */
-int gratings_depths(FILE *json, gratings_summary *summary);     /* net force against penetration */
+int gratings_directions(json_writer *json,
+                        gratings_summary *summary); /* Eq. 11, Eq. 12 and what S1 plays, over direction */
+int gratings_map(FILE *csv, json_writer *json);     /* S1's dropout and S2's drift, direction x speed */
+int gratings_speeds(json_writer *json, gratings_summary *summary);  /* the same over speed, straight across */
+int gratings_strokes(json_writer *json, gratings_summary *summary); /* from rest: S2 freezes; strokes twice a second */
+int gratings_depths(json_writer *json, gratings_summary *summary);  /* net force against penetration */
 
 #endif

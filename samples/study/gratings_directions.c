@@ -1,6 +1,5 @@
 /* Gratings over scan direction and speed. SPDX-License-Identifier: MIT */
 #include "gratings.h"
-#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -68,8 +67,8 @@ static void summarise(const direction_row *row, gratings_summary *summary) {
     }
 }
 
-int gratings_directions(FILE *json, gratings_summary *summary) {
-    fputs("\"directions\": [\n", json);
+int gratings_directions(json_writer *json, gratings_summary *summary) {
+    json_open(json, "directions", '[');
     for (int g = 0; g < 2; g++) {
         direction_row rows[ANGLES];
         const size_t stride = sizeof *rows / sizeof(double);
@@ -79,17 +78,17 @@ int gratings_directions(FILE *json, gratings_summary *summary) {
         for (int i = 0; g == 1 && i < ANGLES; i++) {
             summarise(&rows[i], summary);
         }
-        fputs("{\n", json);
-        study_json_array(json, "spatial_frequency", gratings[g], 2, 1, ",");
-        study_json_member(json, "diagonal_deg", atan2(gratings[g][0], gratings[g][1]) / DEGREE, ",");
-        study_json_array(json, "angle_deg", &rows[0].angle, ANGLES, stride, ",");
-        study_json_array(json, "eq11", &rows[0].map, ANGLES, stride, ",");
-        study_json_array(json, "eq12", &rows[0].path, ANGLES, stride, ",");
-        study_json_array(json, "s1_played", &rows[0].played, ANGLES, stride, ",");
-        study_json_array(json, "s1_played_through_centres", &rows[0].played_centre, ANGLES, stride, "");
-        fputs(g == 0 ? "},\n" : "}\n", json);
+        json_open(json, NULL, '{');
+        json_numbers(json, "spatial_frequency", gratings[g], 2, 1);
+        json_number(json, "diagonal_deg", atan2(gratings[g][0], gratings[g][1]) / DEGREE);
+        json_numbers(json, "angle_deg", &rows[0].angle, ANGLES, stride);
+        json_numbers(json, "eq11", &rows[0].map, ANGLES, stride);
+        json_numbers(json, "eq12", &rows[0].path, ANGLES, stride);
+        json_numbers(json, "s1_played", &rows[0].played, ANGLES, stride);
+        json_numbers(json, "s1_played_through_centres", &rows[0].played_centre, ANGLES, stride);
+        json_close(json, '}');
     }
-    fputs("]", json);
+    json_close(json, ']');
     return 1;
 }
 
@@ -127,13 +126,13 @@ static int map_row(FILE *csv, const double fs[2], double angle, double speed) {
     return 1;
 }
 
-int gratings_map(FILE *csv, FILE *json) {
+int gratings_map(FILE *csv, json_writer *json) {
     const double *fs = gratings[0];
-    fputs("\"map\": {\n", json);
-    study_json_text(json, "rows",
-                    "gratings.csv: 1 s at a steady speed; S1 from four starts, against Eq. 11; S2 against Eq. 12", ",");
-    study_json_array(json, "spatial_frequency", fs, 2, 1, "");
-    fputs("}", json);
+    json_open(json, "map", '{');
+    json_string(json, "rows",
+                "gratings.csv: 1 s at a steady speed; S1 from four starts, against Eq. 11; S2 against Eq. 12");
+    json_numbers(json, "spatial_frequency", fs, 2, 1);
+    json_close(json, '}');
     fputs("angle_deg,speed,eq11_hz,ft,s1_dropout,s2_drift,s2_dropout\n", csv);
     for (int a = 0; a <= 90; a += 2) {
         for (int v = 1; v <= 120; v++) {

@@ -1,6 +1,5 @@
 /* One-dimensional gratings over speed, in strokes, and over penetration depth. SPDX-License-Identifier: MIT */
 #include "gratings.h"
-#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -48,15 +47,15 @@ static double drift_at(double period_ticks) {
     return drift;
 }
 
-static void write_sweep(FILE *json, const char *name, double (*rows)[3], size_t count, const char *end) {
-    fprintf(json, "\"%s\": {\n", name);
-    study_json_array(json, "ft", &rows[0][0], count, 3, ",");
-    study_json_array(json, "dropout", &rows[0][1], count, 3, ",");
-    study_json_array(json, "drift", &rows[0][2], count, 3, "");
-    fprintf(json, "}%s\n", end);
+static void write_sweep(json_writer *json, const char *name, double (*rows)[3], size_t count) {
+    json_open(json, name, '{');
+    json_numbers(json, "ft", &rows[0][0], count, 3);
+    json_numbers(json, "dropout", &rows[0][1], count, 3);
+    json_numbers(json, "drift", &rows[0][2], count, 3);
+    json_close(json, '}');
 }
 
-int gratings_speeds(FILE *json, gratings_summary *summary) {
+int gratings_speeds(json_writer *json, gratings_summary *summary) {
     static double s1[SPEEDS][3];
     static double s2[DRIFTS][3];
     if (!sweep(KNURL_S1, 2.0, 2.0, SPEEDS, s1) || !sweep(KNURL_S2, 20.0, 0.5, DRIFTS, s2)) {
@@ -71,15 +70,15 @@ int gratings_speeds(FILE *json, gratings_summary *summary) {
         summary->drift_worst[0] = fmin(summary->drift_worst[0], s2[i][2]);
         summary->drift_worst[1] = fmax(summary->drift_worst[1], s2[i][2]);
     }
-    fputs("\"speeds\": {\n", json);
-    study_json_member(json, "spatial_frequency", LINE_FS, ",");
-    write_sweep(json, "s1", s1, SPEEDS, ",");
-    write_sweep(json, "s2", s2, DRIFTS, ",");
-    study_json_member(json, "s1_dropout_at_update_rate", summary->s1_silent, ",");
-    study_json_member(json, "s2_drift_below_3_5_ticks", summary->drift_before, ",");
-    study_json_member(json, "s2_drift_at_3_5_ticks", summary->drift_at, ",");
-    study_json_array(json, "s2_drift_range", summary->drift_worst, 2, 1, "");
-    fputs("}", json);
+    json_open(json, "speeds", '{');
+    json_number(json, "spatial_frequency", LINE_FS);
+    write_sweep(json, "s1", s1, SPEEDS);
+    write_sweep(json, "s2", s2, DRIFTS);
+    json_number(json, "s1_dropout_at_update_rate", summary->s1_silent);
+    json_number(json, "s2_drift_below_3_5_ticks", summary->drift_before);
+    json_number(json, "s2_drift_at_3_5_ticks", summary->drift_at);
+    json_numbers(json, "s2_drift_range", summary->drift_worst, 2, 1);
+    json_close(json, '}');
     return summary->drift_before < 2.0 && summary->drift_at < 2.0;
 }
 
@@ -104,18 +103,19 @@ static double twice_a_second(double t) {
 }
 
 /* From rest on 2 mm: the curves. */
-static int freeze(FILE *json, study_motion *motion, gratings_summary *summary) {
+static int freeze(json_writer *json, study_motion *motion, gratings_summary *summary) {
     static const int32_t methods[] = {KNURL_S1, KNURL_S2};
     move(from_rest, motion, STROKE_TICKS);
-    fputs("\"from_rest\": {\n\"spatial_frequency\": 500,\n", json);
-    study_json_text(json, "motion", "from rest to 250 mm/s in 0.5 s, then steady; every 10th tick", ",");
+    json_open(json, "from_rest", '{');
+    json_number(json, "spatial_frequency", 500);
+    json_string(json, "motion", "from rest to 250 mm/s in 0.5 s, then steady; every 10th tick");
     for (int i = 0; i < 2; i++) {
         const knurl_grating grating = gratings_make(methods[i], 500.0, 0.0);
         study_scan scan;
         if (!study_scan_run(&grating, motion, STROKE_TICKS, STUDY_CROSSED_PATH, &scan)) {
             return 0;
         }
-        study_json_array(json, i == 0 ? "s1_played" : "s2_played", scan.played, STROKE_TICKS / 10, 10, ",");
+        json_numbers(json, i == 0 ? "s1_played" : "s2_played", scan.played, STROKE_TICKS / 10, 10);
         if (i == 1) {
             size_t k = 2; /* the first event begins here, at 1 mm/s: once a whole cycle is played it is over */
             while (k < STROKE_TICKS && scan.played[k] < 1.0 - 1e-9) {
@@ -123,56 +123,57 @@ static int freeze(FILE *json, study_motion *motion, gratings_summary *summary) {
             }
             summary->frozen_seconds = (double)(k - 2) / GRATINGS_RATE;
             summary->frozen_cycles = scan.crossed[k];
-            study_json_array(json, "crossed", scan.crossed, STROKE_TICKS / 10, 10, ",");
+            json_numbers(json, "crossed", scan.crossed, STROKE_TICKS / 10, 10);
         }
         study_scan_free(&scan);
     }
-    study_json_member(json, "step_s", 10.0 / GRATINGS_RATE, ",");
-    study_json_member(json, "first_event_s", summary->frozen_seconds, ",");
-    study_json_member(json, "crossed_by_then", summary->frozen_cycles, "");
-    fputs("},\n", json);
+    json_number(json, "step_s", 10.0 / GRATINGS_RATE);
+    json_number(json, "first_event_s", summary->frozen_seconds);
+    json_number(json, "crossed_by_then", summary->frozen_cycles);
+    json_close(json, '}');
     return 1;
 }
 
-int gratings_strokes(FILE *json, gratings_summary *summary) {
+int gratings_strokes(json_writer *json, gratings_summary *summary) {
     static study_motion motion[10000];
     static const double periods_mm[] = {0.5, 1.0, 2.0};
-    fputs("\"strokes\": {\n", json);
+    json_open(json, "strokes", '{');
     if (!freeze(json, motion, summary)) {
         return 0;
     }
     move(twice_a_second, motion, 10000);
-    fputs("\"twice_a_second\": [\n", json);
+    json_open(json, "twice_a_second", '[');
     for (int i = 0; i < 6; i++) {
         const knurl_grating grating = gratings_make(i % 2 ? KNURL_S2 : KNURL_S1, 1000.0 / periods_mm[i / 2], 0.0);
         study_scan scan;
         if (!study_scan_run(&grating, motion, 10000, STUDY_CROSSED_PATH, &scan)) {
             return 0;
         }
-        fputs("{\n", json);
-        study_json_member(json, "period_mm", periods_mm[i / 2], ",");
-        study_json_text(json, "method", knurl_method_name(grating.method), ",");
-        study_json_member(json, "drift", study_scan_drift(&scan), ",");
-        study_json_member(json, "phase_error_cycles", study_scan_phase_error(&scan), ",");
-        study_json_member(json, "dropout", study_scan_dropout(&scan), "");
-        fputs(i < 5 ? "},\n" : "}\n", json);
+        json_open(json, NULL, '{');
+        json_number(json, "period_mm", periods_mm[i / 2]);
+        json_string(json, "method", knurl_method_name(grating.method));
+        json_number(json, "drift", study_scan_drift(&scan));
+        json_number(json, "phase_error_cycles", study_scan_phase_error(&scan));
+        json_number(json, "dropout", study_scan_dropout(&scan));
+        json_close(json, '}');
         study_scan_free(&scan);
     }
-    fputs("]\n}", json);
+    json_close(json, ']');
+    json_close(json, '}');
     return 1;
 }
 
-int gratings_depths(FILE *json, gratings_summary *summary) {
+int gratings_depths(json_writer *json, gratings_summary *summary) {
     static const double periods[] = {4.0, 3.0, 5.0, 2.5};
     double depths[DEPTHS];
     double net[DEPTHS];
     for (size_t i = 0; i < DEPTHS; i++) {
         depths[i] = 0.02 * (double)i;
     }
-    fputs("\"depths\": {\n", json);
-    study_json_text(json, "unit", "depth in A; net force in K A beyond the smooth wall", ",");
-    study_json_array(json, "depth", depths, DEPTHS, 1, ",");
-    fputs("\"events\": [\n", json);
+    json_open(json, "depths", '{');
+    json_string(json, "unit", "depth in A; net force in K A beyond the smooth wall");
+    json_numbers(json, "depth", depths, DEPTHS, 1);
+    json_open(json, "events", '[');
     for (int i = 0; i < 4; i++) {
         study_scan scan;
         double trough = 0.0;
@@ -185,15 +186,16 @@ int gratings_depths(FILE *json, gratings_summary *summary) {
         for (size_t k = 0; k < scan.whole; k++) {
             trough = fmax(trough, -scan.height[k]);
         }
-        fputs("{\n", json);
-        study_json_member(json, "period_ticks", periods[i], ",");
-        study_json_member(json, "depth_needed", trough, ",");
-        study_json_array(json, "net", net, DEPTHS, 1, "");
-        fputs(i < 3 ? "},\n" : "}\n", json);
+        json_open(json, NULL, '{');
+        json_number(json, "period_ticks", periods[i]);
+        json_number(json, "depth_needed", trough);
+        json_numbers(json, "net", net, DEPTHS, 1);
+        json_close(json, '}');
         summary->depth_needed[0] = i == 1 ? trough : summary->depth_needed[0];
         summary->depth_needed[1] = i == 3 ? trough : summary->depth_needed[1];
         study_scan_free(&scan);
     }
-    fputs("]\n}", json);
+    json_close(json, ']');
+    json_close(json, '}');
     return 1;
 }

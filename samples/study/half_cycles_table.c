@@ -1,6 +1,5 @@
 /* The half cycles of every surface, period and speed: the study, and its table. SPDX-License-Identifier: MIT */
 #include "half_cycles.h"
-#include "json_out.h"
 #include "study.h"
 
 #include <string.h>
@@ -74,7 +73,7 @@ static void write_row(FILE *csv, size_t i, size_t p, size_t v, const half_cycles
     fputc('\n', csv);
 }
 
-static int write_table(FILE *csv, FILE *json, void *user) {
+static int write_table(FILE *csv, json_writer *json, void *user) {
     const table *t = user;
     fputs("surface,triangles,period_mm,speed_mm_s,events,ticks_min,ticks_max,lost,cv,raw_cv,worst_half,"
           "played_per_crossed\n",
@@ -83,14 +82,13 @@ static int write_table(FILE *csv, FILE *json, void *user) {
         const size_t p = i / SPEEDS % PERIODS;
         write_row(csv, i / (PERIODS * SPEEDS), p, i % SPEEDS, &t->cells[i / (PERIODS * SPEEDS)][p][i % SPEEDS]);
     }
-    fputs("{", json);
-    study_json_text(json, "table", "half_cycles.csv", ",");
-    study_json_member(json, "update_rate_hz", HALF_CYCLES_RATE, ",");
-    study_json_member(json, "stiffness", HALF_CYCLES_STIFFNESS, ",");
-    study_json_member(json, "amplitude", HALF_CYCLES_AMPLITUDE, ",");
-    study_json_member(json, "depth", HALF_CYCLES_DEPTH, ",");
-    study_json_member(json, "start_phases", HALF_CYCLES_PHASES, ",");
-    study_json_member(json, "stroke_m", HALF_CYCLES_STROKE, "}");
+    json_string(json, "table", "half_cycles.csv");
+    json_number(json, "update_rate_hz", HALF_CYCLES_RATE);
+    json_number(json, "stiffness", HALF_CYCLES_STIFFNESS);
+    json_number(json, "amplitude", HALF_CYCLES_AMPLITUDE);
+    json_number(json, "depth", HALF_CYCLES_DEPTH);
+    json_number(json, "start_phases", HALF_CYCLES_PHASES);
+    json_number(json, "stroke_m", HALF_CYCLES_STROKE);
     return 0;
 }
 

@@ -1,5 +1,4 @@
 /* The method LOCKED beside S1 and S2: the study, and its table. SPDX-License-Identifier: MIT */
-#include "json_out.h"
 #include "locked.h"
 #include "study.h"
 
@@ -196,12 +195,11 @@ static void write_csv(FILE *csv, const table *t) {
     }
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     write_csv(csv, user);
-    fputs("{", json);
-    study_json_text(json, "study", "locked", ",");
-    study_json_text(json, "table", "locked.csv", ",");
-    study_json_member(json, "crossover_hz", KNURL_LOCKED_CROSSOVER_HZ, "}");
+    json_string(json, "study", "locked");
+    json_string(json, "table", "locked.csv");
+    json_number(json, "crossover_hz", KNURL_LOCKED_CROSSOVER_HZ);
     return 0;
 }
 

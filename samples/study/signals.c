@@ -1,6 +1,7 @@
 /* Figure 2: what T1, T2 and T3 play at even, odd, 400 Hz and other periods, and the two parts of a mix.
  * SPDX-License-Identifier: MIT */
 #include "study.h"
+#include "wave_options.h"
 
 #include <math.h>
 
@@ -51,25 +52,26 @@ static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
     }
 }
 
-static void write_parts(FILE *json, const knurl_wave *wave) {
+static void write_parts(json_writer *json, const knurl_wave *wave) {
     knurl_vibration_event parts[2];
     const int count = parts_of(wave, parts);
-    fputs("[", json);
+    json_open(json, "parts", '[');
     for (int i = 0; i < count && count == 2; i++) {
         const double ap = parts[i].positive;
         const double an = parts[i].negative;
         const double rms = sqrt((ap * ap * parts[i].positive_ticks + /* half peak to peak asked for: Eq. 6 backwards */
                                  an * an * (parts[i].length - parts[i].positive_ticks)) /
                                 parts[i].length);
-        fprintf(json, "%s{\"period_ms\": %g, \"amplitude\": ", i ? ", " : "", 1e3 * parts[i].length / RATE_HZ);
-        study_json_number(json, rms);
-        fputc('}', json);
+        json_open(json, NULL, '{');
+        json_number(json, "period_ms", 1e3 * parts[i].length / RATE_HZ);
+        json_number(json, "amplitude", rms);
+        json_close(json, '}');
     }
-    fputs("]", json);
+    json_close(json, ']');
 }
 
 /* 0, or 1 where memory is not to be had. */
-static int write_cell(FILE *json, const knurl_wave *wave, size_t index) {
+static int write_cell(json_writer *json, const knurl_wave *wave, size_t index) {
     static const char *const keys[] = {"net", "rms", "dominant_amplitude", "dominant_hz", "actual_period_ms", "peak"};
     study_signal signal;
     study_line line;
@@ -87,15 +89,15 @@ static int write_cell(FILE *json, const knurl_wave *wave, size_t index) {
                             line.frequency,
                             1e3 * (double)signal.length / RATE_HZ,
                             peak};
-    fprintf(json, "    {\"method\": \"T%d\", \"period_ms\": %g, \"kind\": \"%s\"", (int)wave->method, periods_ms[index],
-            period_kinds[index]);
+    json_open(json, NULL, '{');
+    json_string(json, "method", wave_method_name(wave->method));
+    json_number(json, "period_ms", periods_ms[index]);
+    json_string(json, "kind", period_kinds[index]);
     for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
-        fprintf(json, ", \"%s\": ", keys[c]);
-        study_json_number(json, cells[c]);
+        json_number(json, keys[c], cells[c]);
     }
-    fputs(", \"parts\": ", json);
     write_parts(json, wave);
-    fputc('}', json);
+    json_close(json, '}');
     if (wave->method != KNURL_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
         printf("T%d at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
                (int)wave->method, periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak, line.amplitude,
@@ -105,12 +107,14 @@ static int write_cell(FILE *json, const knurl_wave *wave, size_t index) {
     return 0;
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     fputs("method,period_ms,tick,value,part1,part2\n", csv);
-    fprintf(json,
-            "{\"study\": \"signals\", \"figure\": 2, \"update_rate_hz\": %g, \"amplitude\": %g,\n  \"cells\": [\n",
-            RATE_HZ, AMPLITUDE);
+    json_string(json, "study", "signals");
+    json_number(json, "figure", 2);
+    json_number(json, "update_rate_hz", RATE_HZ);
+    json_number(json, "amplitude", AMPLITUDE);
+    json_open(json, "cells", '[');
     for (size_t p = 0; p < PERIODS; p++) {
         for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
             knurl_wave wave;
@@ -120,9 +124,9 @@ static int write_all(FILE *csv, FILE *json, void *user) {
                 return 1;
             }
             write_rows(csv, &wave, periods_ms[p]);
-            fputs(p + 1 == PERIODS && method == KNURL_T3 ? "]}\n" : ",\n", json);
         }
     }
+    json_close(json, ']');
     return 0;
 }
 

@@ -1,7 +1,6 @@
 /* The catalogue's rows, its traces and its page. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
-#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -91,26 +90,28 @@ static void write_page_row(FILE *page, const failure *f, double number) {
             f->id);
 }
 
-static void write_json_row(FILE *json, const failure *f, double number) {
+static void write_json_row(json_writer *json, const failure *f, double number) {
     char text[160];
     (void)snprintf(text, sizeof text, f->format, number); /* NOLINT(clang-diagnostic-format-nonliteral): the table's */
-    fputs("{\n", json);
-    study_json_text(json, "id", f->id, ",");
-    study_json_text(json, "group", f->group, ",");
-    study_json_text(json, "name", f->name, ",");
-    study_json_text(json, "text", text, ",");
-    study_json_text(json, "axis", f->axis, ",");
-    study_json_member(json, "number", number, "");
-    fputs(f[1].id ? "},\n" : "}\n", json);
+    json_open(json, NULL, '{');
+    json_string(json, "id", f->id);
+    json_string(json, "group", f->group);
+    json_string(json, "name", f->name);
+    json_string(json, "text", text);
+    json_string(json, "axis", f->axis);
+    json_number(json, "number", number);
+    json_close(json, '}');
 }
 
-static int write_all(FILE *csv, FILE *json, FILE *page) {
+static int write_all(FILE *csv, json_writer *json, FILE *page) {
     size_t count = 0;
     while (failures[count].id) {
         count++;
     }
     fputs("id,series,t,value\n", csv);
-    fputs("{\"study\": \"failures\", \"table\": \"failures.csv\", \"failures\": [\n", json);
+    json_string(json, "study", "failures");
+    json_string(json, "table", "failures.csv");
+    json_open(json, "failures", '[');
     fputs(
         "# Where methods fail\n\n"
         "Written by `knurl study failures`; each number is measured by this code, and pinned against the closed form or "
@@ -129,21 +130,27 @@ static int write_all(FILE *csv, FILE *json, FILE *page) {
         write_page_row(page, &failures[i], number);
         study_progress("failures", (double)(i + 1) / (double)count);
     }
-    fputs("]}\n", json);
+    json_close(json, ']');
     return 0;
 }
 
 int study_failures(const char *folder) {
     out_file files[3];
+    json_writer json;
     static const char *const names[3] = {"failures.csv", "failures.json", "failures.md"};
     int failed = 0;
     memset(files, 0, sizeof files);
     for (int i = 0; i < 3 && !failed; i++) {
         failed = study_open(&files[i], folder, names[i]);
     }
-    if (!failed && write_all(files[0].stream, files[1].stream, files[2].stream)) {
-        fprintf(stderr, "knurl: study: failures: no memory, or %s\n", knurl_error_message());
-        failed = 1;
+    if (!failed) {
+        json_start(&json, files[1].stream, 1);
+        json_open(&json, NULL, '{');
+        failed = write_all(files[0].stream, &json, files[2].stream);
+        json_close(&json, '}');
+        if (failed) {
+            fprintf(stderr, "knurl: study: failures: no memory, or %s\n", knurl_error_message());
+        }
     }
     for (int i = 0; i < 3; i++) {
         failed = failed || out_keep(&files[i]);

@@ -1,7 +1,6 @@
 /* knurl study gratings: figure 6 and section III. SPDX-License-Identifier: MIT */
 #include "gratings.h"
 
-#include "json_out.h"
 #include "study.h"
 
 #include <string.h>
@@ -26,20 +25,15 @@ static void print_summary(const gratings_summary *s) {
 }
 
 /* All parts into two open files. */
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     gratings_summary *summary = user;
-    fputs("{\n\"study\": \"gratings\",\n", json);
-    study_json_member(json, "update_rate_hz", GRATINGS_RATE, ",");
+    json_string(json, "study", "gratings");
+    json_number(json, "update_rate_hz", GRATINGS_RATE);
     int done = gratings_directions(json, summary);
-    fputs(",\n", json);
     done = done && gratings_map(csv, json);
-    fputs(",\n", json);
     done = done && gratings_speeds(json, summary);
-    fputs(",\n", json);
     done = done && gratings_strokes(json, summary);
-    fputs(",\n", json);
     done = done && gratings_depths(json, summary);
-    fputs("}\n", json);
     return !done;
 }
 

@@ -2,7 +2,6 @@
 #include "study_out.h"
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,33 +21,32 @@ int study_open(out_file *file, const char *folder, const char *name) {
     return out_open(file, path);
 }
 
-int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user) {
+int study_write(const char *folder, const char *name, int (*write)(FILE *csv, json_writer *json, void *user),
+                void *user) {
     char csv_name[64];
     char json_name[64];
     out_file csv;
     out_file json;
+    json_writer object;
     (void)snprintf(csv_name, sizeof csv_name, "%s.csv", name);
     (void)snprintf(json_name, sizeof json_name, "%s.json", name);
     if (study_open(&csv, folder, csv_name)) {
         return 1;
     }
     int failed = study_open(&json, folder, json_name);
-    if (!failed && write(csv.stream, json.stream, user)) {
-        fprintf(stderr, "knurl: study: %s: no memory\n", name);
-        failed = 1;
+    if (!failed) {
+        json_start(&object, json.stream, 1);
+        json_open(&object, NULL, '{');
+        failed = write(csv.stream, &object, user);
+        json_close(&object, '}');
+        if (failed) {
+            fprintf(stderr, "knurl: study: %s: no memory\n", name);
+        }
     }
     failed = failed || out_keep(&csv) || out_keep(&json);
     out_discard(&csv);
     out_discard(&json);
     return failed;
-}
-
-void study_json_number(FILE *stream, double value) {
-    if (isfinite(value)) {
-        out_number(stream, value);
-    } else {
-        fputs("null", stream);
-    }
 }
 
 void study_progress(const char *name, double share) {

@@ -2,18 +2,17 @@
 #ifndef KNURL_STUDY_OUT_H
 #define KNURL_STUDY_OUT_H
 
+#include "json.h"
 #include "out.h"
 
 /** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
  * why. */
 int study_open(out_file *file, const char *folder, const char *name);
 
-/** Writes FOLDER/NAME.csv and FOLDER/NAME.json by one function, which returns 0, or 1 where memory is not to be had
- * (that is then said). Both files are there whole, or neither. 0, or 1 having said why. */
-int study_write(const char *folder, const char *name, int (*write)(FILE *csv, FILE *json, void *user), void *user);
-
-/** A number into JSON (out_number(), with null for what is not finite). */
-void study_json_number(FILE *stream, double value);
+/** Writes FOLDER/NAME.csv and FOLDER/NAME.json, one object, by one function, which returns 0, or 1 where memory is not
+ * to be had (that is then said). Both files are there whole, or neither. 0, or 1 having said why. */
+int study_write(const char *folder, const char *name, int (*write)(FILE *csv, json_writer *json, void *user),
+                void *user);
 
 /** "  name: 40 %" on a terminal; nothing in a pipe. share: 0..1; 1 ends the line. */
 void study_progress(const char *name, double share);

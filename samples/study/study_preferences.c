@@ -1,9 +1,9 @@
 /* knurl study preferences: figure 8 and Experiment 3 beside this code's metrics. SPDX-License-Identifier: MIT */
 #include "preferences.h"
 
-#include "json_out.h"
 #include "rank.h"
 #include "study.h"
+#include "wave_options.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,16 +48,16 @@ static ranks correlate(const preference_cell *cells, int metric, int first, int 
 }
 
 /* The correlations of one part. */
-static void write_part(FILE *json, const preference_cell *cells, int part) {
-    fprintf(json, "\"%s\": {\n", parts[part].name);
+static void write_part(json_writer *json, const preference_cell *cells, int part) {
+    json_open(json, parts[part].name, '{');
     printf("    %-14s", parts[part].name);
     for (int k = 0; k < PREFERENCE_METRICS; k++) {
         const ranks r = correlate(cells, k, parts[part].first, parts[part].step);
-        fprintf(json, "\"%s\": {\n", preference_metric_names[k]);
-        study_json_member(json, "spearman", r.spearman, ",");
-        study_json_member(json, "kendall_tau_b", r.kendall, ",");
-        study_json_member(json, "separation", r.separation, "");
-        fputs(k + 1 < PREFERENCE_METRICS ? "},\n" : "}\n", json);
+        json_open(json, preference_metric_names[k], '{');
+        json_number(json, "spearman", r.spearman);
+        json_number(json, "kendall_tau_b", r.kendall);
+        json_number(json, "separation", r.separation);
+        json_close(json, '}');
         if (isfinite(r.spearman)) {
             printf("  %+6.3f (%.3f)", r.spearman, r.separation);
         } else {
@@ -65,10 +65,10 @@ static void write_part(FILE *json, const preference_cell *cells, int part) {
         }
     }
     putchar('\n');
-    fputs("}", json);
+    json_close(json, '}');
 }
 
-static void write_experiment(FILE *json, int experiment, const preference_cell *cells) {
+static void write_experiment(json_writer *json, int experiment, const preference_cell *cells) {
     const size_t stride = sizeof *cells / sizeof(double);
     int preferred = 0;
     for (int i = 0; i < PREFERENCE_CELLS; i++) {
@@ -76,44 +76,47 @@ static void write_experiment(FILE *json, int experiment, const preference_cell *
     }
     printf("  Experiment %d, T%d against T3: T3 preferred in %d of %d cells\n", experiment, experiment, preferred,
            PREFERENCE_CELLS);
-    fprintf(json, "{\n\"experiment\": %d,\n\"other\": \"T%d\",\n\"preferred_cells\": %d,\n\"cells\": {\n", experiment,
-            experiment, preferred);
-    study_json_array(json, "period_ticks", &cells[0].period_ticks, PREFERENCE_CELLS, stride, ",");
-    study_json_array(json, "amplitude", &cells[0].amplitude, PREFERENCE_CELLS, stride, ",");
-    study_json_array(json, "sound", &cells[0].sound, PREFERENCE_CELLS, stride, ",");
-    study_json_array(json, "preferred", &cells[0].preferred, PREFERENCE_CELLS, stride, ",");
+    json_open(json, NULL, '{');
+    json_number(json, "experiment", experiment);
+    json_string(json, "other", wave_method_name(KNURL_T1 + experiment - 1));
+    json_number(json, "preferred_cells", preferred);
+    json_open(json, "cells", '{');
+    json_numbers(json, "period_ticks", &cells[0].period_ticks, PREFERENCE_CELLS, stride);
+    json_numbers(json, "amplitude", &cells[0].amplitude, PREFERENCE_CELLS, stride);
+    json_numbers(json, "sound", &cells[0].sound, PREFERENCE_CELLS, stride);
+    json_numbers(json, "preferred", &cells[0].preferred, PREFERENCE_CELLS, stride);
     for (int k = 0; k < PREFERENCE_METRICS; k++) {
-        study_json_array(json, preference_metric_names[k], &cells[0].metric[k], PREFERENCE_CELLS, stride,
-                         k + 1 < PREFERENCE_METRICS ? "," : "");
+        json_numbers(json, preference_metric_names[k], &cells[0].metric[k], PREFERENCE_CELLS, stride);
     }
-    fputs("},\n\"correlation_with_preferred\": {\n", json);
+    json_close(json, '}');
+    json_open(json, "correlation_with_preferred", '{');
     for (int part = 0; part < 3; part++) {
         write_part(json, cells, part);
-        fputs(part < 2 ? ",\n" : "\n", json);
     }
-    fputs("}\n}", json);
+    json_close(json, '}');
+    json_close(json, '}');
 }
 
-static void write_gratings(FILE *json, const preference_grating *g) {
+static void write_gratings(json_writer *json, const preference_grating *g) {
     const size_t stride = sizeof *g / sizeof(double);
     double advantage[3];
     double counts[3];
-    fputs("\"experiment_3\": {\n", json);
-    study_json_text(
+    json_open(json, "experiment_3", '{');
+    json_string(
         json, "scans",
-        "steady speeds of 5 to 250 mm/s, equally often (an assumption: subjects scanned freely), ideal positions", ",");
-    study_json_array(json, "period_mm", &g->period_mm, 3, stride, ",");
-    study_json_array(json, "preferred_s2_of_12", &g->preferred_s2, 3, stride, ",");
+        "steady speeds of 5 to 250 mm/s, equally often (an assumption: subjects scanned freely), ideal positions");
+    json_numbers(json, "period_mm", &g->period_mm, 3, stride);
+    json_numbers(json, "preferred_s2_of_12", &g->preferred_s2, 3, stride);
     for (int m = 0; m < 2; m++) {
-        fprintf(json, "\"S%d\": {\n", m + 1);
-        study_json_array(json, "push", &g->push[m], 3, stride, ",");
-        study_json_array(json, "spurious_share", &g->spurious[m], 3, stride, ",");
-        study_json_array(json, "dropout_share", &g->dropout[m], 3, stride, ",");
-        study_json_array(json, "drift", &g->drift[m], 3, stride, "");
-        fputs("},\n", json);
+        json_open(json, knurl_method_name(KNURL_S1 + m), '{');
+        json_numbers(json, "push", &g->push[m], 3, stride);
+        json_numbers(json, "spurious_share", &g->spurious[m], 3, stride);
+        json_numbers(json, "dropout_share", &g->dropout[m], 3, stride);
+        json_numbers(json, "drift", &g->drift[m], 3, stride);
+        json_close(json, '}');
     }
     printf("  Experiment 3, S1 against S2 (preferred by 12, 11, 7 of 12 at 0.5, 1, 2 mm), S1 - S2:\n");
-    fputs("\"spearman_with_preferred\": {\n", json);
+    json_open(json, "spearman_with_preferred", '{');
     for (int k = 0; k < 3; k++) {
         static const char *const names[] = {"push", "spurious_share", "dropout_share"};
         for (int i = 0; i < 3; i++) {
@@ -122,14 +125,15 @@ static void write_gratings(FILE *json, const preference_grating *g) {
             counts[i] = g[i].preferred_s2;
         }
         const double rho = rank_spearman(advantage, counts, 3);
-        study_json_member(json, names[k], rho, k < 2 ? "," : "");
+        json_number(json, names[k], rho);
         printf("    %-14s  %+.4f %+.4f %+.4f, Spearman %+.1f (of three cells)\n", names[k], advantage[0], advantage[1],
                advantage[2], rho);
     }
-    fputs("}\n}\n", json);
+    json_close(json, '}');
+    json_close(json, '}');
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     preference_cell cells[PREFERENCE_CELLS];
     preference_grating gratings[3];
@@ -143,26 +147,24 @@ static int write_all(FILE *csv, FILE *json, void *user) {
     }
     fputc('\n', csv);
     putchar('\n');
-    fputs("{\n\"study\": \"preferences\",\n", json);
-    study_json_text(
+    json_string(json, "study", "preferences");
+    json_string(
         json, "unknown",
         "The paper prints verdicts (28 of 36 or more), not counts: preferred is 1 or 0. The metrics do not know of"
-        " sound, so cells with and without it have the same values. Metrics are of the medium vibration alone.",
-        ",");
-    fputs("\"experiments\": [\n", json);
+        " sound, so cells with and without it have the same values. Metrics are of the medium vibration alone.");
+    json_open(json, "experiments", '[');
     for (int experiment = 1; experiment <= 2; experiment++) {
         if (!preference_cells(experiment, cells)) {
             return 1;
         }
         write_csv(csv, experiment, cells);
         write_experiment(json, experiment, cells);
-        fputs(experiment == 1 ? ",\n" : "\n],\n", json);
     }
+    json_close(json, ']');
     if (!preference_gratings(gratings)) {
         return 1;
     }
     write_gratings(json, gratings);
-    fputs("}\n", json);
     return 0;
 }
 

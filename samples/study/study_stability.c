@@ -1,7 +1,6 @@
 /* knurl study stability: the checks, the maps, their files. SPDX-License-Identifier: MIT */
 #include "stability.h"
 
-#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -41,7 +40,7 @@ static void write_cell(FILE *csv, const stability_map *map, const stability_cell
     fputs("\n", csv);
 }
 
-static int write_chart(FILE *csv, FILE *json, void *user) {
+static int write_chart(FILE *csv, json_writer *json, void *user) {
     const chart *c = user;
     fputs("map,label,grip,method,protections,outcome,x,y,energy_j,unauthorised_j,activity_n,activity_m,"
           "activity_thresholds,felt_thresholds,asked_thresholds,bangs,swing_m,force_max_n,guarded_ticks\n",
@@ -51,21 +50,27 @@ static int write_chart(FILE *csv, FILE *json, void *user) {
             write_cell(csv, &c->map[m], &c->cell[m][i]);
         }
     }
-    fputs("{", json);
-    fprintf(json, "\"table\": \"%s.csv\",\n\"grips\": {", c->figure);
+    char table[64];
+    (void)snprintf(table, sizeof table, "%s.csv", c->figure);
+    json_string(json, "table", table);
+    json_open(json, "grips", '{');
     for (const lab_grip *g = lab_grips; g->name; g++) {
-        fprintf(json, "%s\"%s\": [%g, %g, %g]", g == lab_grips ? "" : ", ", g->name, g->stiffness, g->damping, g->mass);
+        const double grip[] = {g->stiffness, g->damping, g->mass};
+        json_numbers(json, g->name, grip, 3, 1);
     }
-    fputs("},\n\"checks\": [", json);
+    json_close(json, '}');
+    json_open(json, "checks", '[');
     for (size_t i = 0; i < c->check_count; i++) {
         const stability_check *k = &c->checks[i];
-        fprintf(json, "%s\n{\"what\": \"%s\", \"unit\": \"%s\", \"expected\": ", i > 0 ? "," : "", k->what, k->unit);
-        study_json_number(json, k->expected);
-        fputs(", \"found\": ", json);
-        study_json_number(json, k->found);
-        fprintf(json, ", \"holds\": %d}", stability_holds(k));
+        json_open(json, NULL, '{');
+        json_string(json, "what", k->what);
+        json_string(json, "unit", k->unit);
+        json_number(json, "expected", k->expected);
+        json_number(json, "found", k->found);
+        json_number(json, "holds", stability_holds(k));
+        json_close(json, '}');
     }
-    fputs("]}\n", json);
+    json_close(json, ']');
     return 0;
 }
 

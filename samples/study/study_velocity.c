@@ -3,7 +3,6 @@
 #include "velocity.h"
 
 #include "cost.h"
-#include "json_out.h"
 #include "machine.h"
 #include "study.h"
 
@@ -111,24 +110,23 @@ static void write_row(FILE *csv, int c, size_t q, size_t r, size_t v, const velo
     fputc('\n', csv);
 }
 
-static int write_table(FILE *csv, FILE *json, void *user) {
+static int write_table(FILE *csv, json_writer *json, void *user) {
     const table *t = user;
     char machine[128];
     machine_name(machine, sizeof machine);
     fputs(
         "estimator,resolution_mm,rate_hz,speed_mm_s,bias_mm_s,rms_mm_s,delay_ms,period_mean,period_worst,drift,events\n",
         csv);
-    fputs("{", json);
-    study_json_text(json, "study", "velocity", ",");
-    study_json_text(json, "table", "velocity.csv", ",");
-    study_json_text(json, "machine", machine, ",");
-    study_json_member(json, "period_m", VELOCITY_PERIOD, ",");
-    study_json_member(json, "runs", VELOCITY_PHASES, ",");
-    study_json_member(json, "wobble", VELOCITY_WOBBLE, ",");
-    study_json_member(json, "wobble_hz", VELOCITY_WOBBLE_HZ, ",");
-    study_json_member(json, "stroke_hz", VELOCITY_STROKE_HZ, ",");
-    study_json_array(json, "rates_hz", rates, RATES, 1, ",");
-    fputs("\"cost_ns\": {", json);
+    json_string(json, "study", "velocity");
+    json_string(json, "table", "velocity.csv");
+    json_string(json, "machine", machine);
+    json_number(json, "period_m", VELOCITY_PERIOD);
+    json_number(json, "runs", VELOCITY_PHASES);
+    json_number(json, "wobble", VELOCITY_WOBBLE);
+    json_number(json, "wobble_hz", VELOCITY_WOBBLE_HZ);
+    json_number(json, "stroke_hz", VELOCITY_STROKE_HZ);
+    json_numbers(json, "rates_hz", rates, RATES, 1);
+    json_open(json, "cost_ns", '{');
     for (int c = 0; velocity_contenders[c].name; c++) {
         for (size_t i = 0; i < RESOLUTIONS * RATES * SPEEDS; i++) {
             const size_t q = i / (RATES * SPEEDS);
@@ -136,11 +134,10 @@ static int write_table(FILE *csv, FILE *json, void *user) {
             write_row(csv, c, q, r, i % SPEEDS, &t->cells[c][q][r][i % SPEEDS]);
         }
         if (t->cost[c][0] >= 0.0) {
-            study_json_array(json, velocity_contenders[c].name, t->cost[c], RATES, 1,
-                             velocity_contenders[c + 1].name ? "," : "");
+            json_numbers(json, velocity_contenders[c].name, t->cost[c], RATES, 1);
         }
     }
-    fputs("}}\n", json);
+    json_close(json, '}');
     return 0;
 }
 

@@ -1,6 +1,7 @@
 /* Figure 4: dominant component, net force and correlation of T1, T2 and T3 from 2 to 35 ms, A = 1 N at 1 kHz; over
  * whole numbers of the actual period, and beside it over the paper's own window. SPDX-License-Identifier: MIT */
 #include "study.h"
+#include "wave_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -101,36 +102,38 @@ static void write_row(FILE *csv, int tenths, const measured m[3], int i) {
     fputc('\n', csv);
 }
 
-static void write_numbers(FILE *json, const char *const *keys, const double *values, size_t count) {
+static void write_numbers(json_writer *json, const char *const *keys, const double *values, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        fprintf(json, "%s\"%s\": ", i ? ", " : "", keys[i]);
-        study_json_number(json, values[i]);
+        json_number(json, keys[i], values[i]);
     }
 }
 
 /* A period of the paper's grid. */
-static void write_point(FILE *json, int tenths, const measured m[3]) {
+static void write_point(json_writer *json, int tenths, const measured m[3]) {
     static const char *const keys[] = {"dominant_amplitude", "dominant_period_ms", "net", "rms",
                                        "spurious",           "spurious_asked"};
     static const char *const window_keys[] = {"dominant_amplitude", "dominant_period_ms", "net"};
     static const char *const pcc_keys[] = {"T1_T2", "T1_T3", "T2_T3"};
     const double pcc[] = {study_pcc(&m[0].signal, &m[1].signal), study_pcc(&m[0].signal, &m[2].signal),
                           study_pcc(&m[1].signal, &m[2].signal)};
-    fprintf(json, "%s    {\"period_ms\": %g", tenths == FIRST ? "" : ",\n", tenths / 10.0);
+    json_open(json, NULL, '{');
+    json_number(json, "period_ms", tenths / 10.0);
     for (int i = 0; i < 3; i++) {
         const double values[] = {
             m[i].dominant.amplitude, 1e3 / m[i].dominant.frequency, m[i].net, m[i].rms, m[i].spurious,
             m[i].spurious_asked};
         const double window[] = {m[i].window_dominant.amplitude, 1e3 / m[i].window_dominant.frequency, m[i].window_net};
-        fprintf(json, ",\n     \"T%d\": {", i + 1);
+        json_open(json, wave_method_name(KNURL_T1 + i), '{');
         write_numbers(json, keys, values, 6);
-        fputs(", \"papers_window\": {", json);
+        json_open(json, "papers_window", '{');
         write_numbers(json, window_keys, window, 3);
-        fputs("}}", json);
+        json_close(json, '}');
+        json_close(json, '}');
     }
-    fputs(",\n     \"pcc\": {", json);
+    json_open(json, "pcc", '{');
     write_numbers(json, pcc_keys, pcc, 3);
-    fputs("}}", json);
+    json_close(json, '}');
+    json_close(json, '}');
 }
 
 static void keep_findings(int tenths, const measured m[3], findings *f) {
@@ -157,16 +160,16 @@ static void keep_findings(int tenths, const measured m[3], findings *f) {
     }
 }
 
-static void write_findings(FILE *json, const findings *f) {
+static void write_findings(json_writer *json, const findings *f) {
     static const char *const keys[] = {"largest_net",  "at_ms",          "window_largest_false_net",
                                        "window_at_ms", "least_dominant", "least_dominant_at_ms"};
-    fputs("],\n  \"findings\": {\n", json);
+    json_open(json, "findings", '{');
     for (int i = 0; i < 3; i++) {
         const double values[] = {f->worst_net[i],    f->worst_net_at[i],   f->false_net[i],
                                  f->false_net_at[i], f->least_dominant[i], f->least_dominant_at[i]};
-        fprintf(json, "    \"T%d\": {", i + 1);
+        json_open(json, wave_method_name(KNURL_T1 + i), '{');
         write_numbers(json, keys, values, 6);
-        fputs("},\n", json);
+        json_close(json, '}');
         printf("T%d: largest net %.4f N", i + 1, f->worst_net[i]);
         if (f->worst_net[i] > 1e-9) {
             printf(" (%g ms)", f->worst_net_at[i]);
@@ -174,26 +177,28 @@ static void write_findings(FILE *json, const findings *f) {
         printf(", least dominant %.4f N (%g ms); the paper's window adds up to %.4f N of net\n", f->least_dominant[i],
                f->least_dominant_at[i], f->false_net[i]);
     }
-    fputs("    \"largest_rms_error\": ", json);
-    study_json_number(json, f->rms_error);
-    fputs(", \"least_pcc_T1_T3_at_whole_periods\": ", json);
-    study_json_number(json, f->least_pcc_t1_t3);
-    fputs("}}\n", json);
+    json_number(json, "largest_rms_error", f->rms_error);
+    json_number(json, "least_pcc_T1_T3_at_whole_periods", f->least_pcc_t1_t3);
+    json_close(json, '}');
     printf("correlation of T1 and T3 at whole periods: at least %.4f\n", f->least_pcc_t1_t3);
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     findings f = {{0}, {0}, {0}, {0}, 0.0, 1.0, {INFINITY, INFINITY, INFINITY}, {0}};
     fputs("method,period_ms,papers_grid,actual_period_ms,dominant_amplitude,dominant_period_ms,net,rms,pcc_T1,pcc_T2,"
           "pcc_T3,spurious,spurious_asked,window_dominant_amplitude,window_dominant_period_ms,window_net\n",
           csv);
-    fprintf(json, "{\"study\": \"temporal\", \"figure\": 4, \"update_rate_hz\": %g, \"amplitude\": %g,\n", RATE_HZ,
-            AMPLITUDE);
-    fprintf(json,
-            "  \"rule\": \"whole numbers of the actual period, held signal\",\n  \"papers_window\": \"%d periods "
-            "of T, held, sampled at %g kHz\",\n  \"points\": [\n",
-            WINDOW, 1e-3 * RATE_HZ * OVERSAMPLED);
+    char window[64];
+    (void)snprintf(window, sizeof window, "%d periods of T, held, sampled at %g kHz", WINDOW,
+                   1e-3 * RATE_HZ * OVERSAMPLED);
+    json_string(json, "study", "temporal");
+    json_number(json, "figure", 4);
+    json_number(json, "update_rate_hz", RATE_HZ);
+    json_number(json, "amplitude", AMPLITUDE);
+    json_string(json, "rule", "whole numbers of the actual period, held signal");
+    json_string(json, "papers_window", window);
+    json_open(json, "points", '[');
     for (int tenths = FIRST; tenths <= LAST; tenths++) {
         measured m[3];
         int done = 1;
@@ -217,6 +222,7 @@ static int write_all(FILE *csv, FILE *json, void *user) {
         }
         study_progress("temporal", (double)(tenths - FIRST) / (LAST - FIRST));
     }
+    json_close(json, ']');
     write_findings(json, &f);
     return 0;
 }

@@ -182,17 +182,23 @@ static int print_rows(FILE *f) {
 
 static int print_about(const char *folder) {
     out_file file;
+    json_writer json;
     char machine[128];
     if (study_open(&file, folder, "tradeoff.json")) {
         return 1;
     }
     machine_name(machine, sizeof machine);
-    fprintf(file.stream, "{\"study\": \"tradeoff\", \"machine\": \"%s\", \"empty_tick_ns\": ", machine);
-    study_json_number(file.stream, study_empty_tick_ns());
-    fprintf(
-        file.stream,
-        ", \"frequencies\": %d, \"from_hz\": %g, \"to_hz\": %g, \"period_m\": 0.001, \"table\": \"tradeoff.csv\"}\n",
-        FREQUENCIES, frequency_at(0), frequency_at(WHOLE - 1));
+    json_start(&json, file.stream, 1);
+    json_open(&json, NULL, '{');
+    json_string(&json, "study", "tradeoff");
+    json_string(&json, "machine", machine);
+    json_number(&json, "empty_tick_ns", study_empty_tick_ns());
+    json_number(&json, "frequencies", FREQUENCIES);
+    json_number(&json, "from_hz", frequency_at(0));
+    json_number(&json, "to_hz", frequency_at(WHOLE - 1));
+    json_number(&json, "period_m", 0.001);
+    json_string(&json, "table", "tradeoff.csv");
+    json_close(&json, '}');
     return out_keep(&file);
 }
 

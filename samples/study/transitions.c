@@ -1,6 +1,5 @@
 /* What becomes of an event when the hand turns, stops or lifts, or when surface or material change under it: by whole
  * ticks of a scene, at 200 Hz, begun in each tick of an event. SPDX-License-Identifier: MIT */
-#include "json_out.h"
 #include "study.h"
 
 #include <math.h>
@@ -147,7 +146,7 @@ static knurl_result run(int32_t method, int transition, int phase, FILE *csv, ou
     return result;
 }
 
-static void print_row(FILE *json, int32_t method, int transition, const outcome *o, int last) {
+static void print_row(json_writer *json, int32_t method, int transition, const outcome *o) {
     const int rests = transition == STOP || transition == FLICKER;
     printf("| %s | %s |", names[transition], knurl_method_name(method));
     if (rests) {
@@ -158,21 +157,23 @@ static void print_row(FILE *json, int32_t method, int transition, const outcome 
         printf(" %g N", o->force);
     }
     printf(" |\n");
-    fputs("{\n", json);
-    study_json_text(json, "transition", names[transition], ",");
-    study_json_text(json, "method", knurl_method_name(method), ",");
-    study_json_member(json, "settled_ms", rests ? o->settled : NAN, ",");
-    study_json_member(json, "largest_step", o->step, ",");
-    study_json_member(json, "left", o->left, ",");
-    study_json_member(json, "force", transition == LIFT_OFF ? o->force : NAN, "");
-    fputs(last ? "}\n" : "},\n", json);
+    json_open(json, NULL, '{');
+    json_string(json, "transition", names[transition]);
+    json_string(json, "method", knurl_method_name(method));
+    json_number(json, "settled_ms", rests ? o->settled : NAN);
+    json_number(json, "largest_step", o->step);
+    json_number(json, "left", o->left);
+    json_number(json, "force", transition == LIFT_OFF ? o->force : NAN);
+    json_close(json, '}');
 }
 
-static int write_all(FILE *csv, FILE *json, void *user) {
+static int write_all(FILE *csv, json_writer *json, void *user) {
     static const int32_t methods[] = {KNURL_S2, KNURL_LOCKED};
     (void)user;
     fputs("method,transition,tick,height\n", csv);
-    fputs("{\"study\": \"transitions\", \"table\": \"transitions.csv\", \"rows\": [\n", json);
+    json_string(json, "study", "transitions");
+    json_string(json, "table", "transitions.csv");
+    json_open(json, "rows", '[');
     printf(
         "| what happens in an event | method | the height rests after | largest step | left of events played to their end (A ticks) | force after |\n"
         "|---|---|---|---|---|---|\n");
@@ -184,9 +185,9 @@ static int write_all(FILE *csv, FILE *json, void *user) {
                 return 1;
             }
         }
-        print_row(json, methods[i % 2], i / 2, &o, i + 1 == 2 * TRANSITIONS);
+        print_row(json, methods[i % 2], i / 2, &o);
     }
-    fputs("]}\n", json);
+    json_close(json, ']');
     return 0;
 }
 

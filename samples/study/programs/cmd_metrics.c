@@ -10,19 +10,17 @@
 #include <math.h>
 
 /* This signal beside the other methods' at the same period. */
-static void print_correlations(tool_json *json, const tool_wave *asked, const study_signal *signal) {
-    static const char *const names[] = {"T1", "T2", "T3"};
-    static const int32_t methods[] = {KNURL_T1, KNURL_T2, KNURL_T3};
+static void print_correlations(json_writer *json, const tool_wave *asked, const study_signal *signal) {
     json_open(json, "pcc", '{');
-    for (int i = 0; i < 3; i++) {
+    for (int32_t i = KNURL_T1; i <= KNURL_T3; i++) {
         knurl_wave wave;
         study_signal other;
-        if (knurl_wave_init(methods[i], asked->period_s, asked->amplitude, asked->rate, &wave) ||
+        if (knurl_wave_init(i, asked->period_s, asked->amplitude, asked->rate, &wave) ||
             !study_signal_of_wave(&wave, asked->rate, &other)) {
-            json_number(json, names[i], NAN); /* null: no whole period within reach */
+            json_number(json, wave_method_name(i), NAN); /* null: no whole period within reach */
             continue;
         }
-        json_number(json, names[i], study_pcc(signal, &other));
+        json_number(json, wave_method_name(i), study_pcc(signal, &other));
         study_signal_free(&other);
     }
     json_close(json, '}');
@@ -46,7 +44,8 @@ int cmd_metrics(int argc, char **argv) {
         study_signal_free(&signal);
         return tool_error(TOOL_FAILURE, "metrics: no memory");
     }
-    tool_json json = {pretty, 0, 1};
+    json_writer json;
+    json_start(&json, stdout, pretty);
     json_open(&json, NULL, '{');
     json_number(&json, "actual_period_ms", 1e3 * (double)signal.length / asked.rate);
     json_number(&json, "dominant_hz", dominant.frequency);
@@ -55,7 +54,6 @@ int cmd_metrics(int argc, char **argv) {
     json_number(&json, "rms", study_rms(&signal));
     print_correlations(&json, &asked, &signal);
     json_close(&json, '}');
-    json_end(&json);
     study_signal_free(&signal);
     return TOOL_OK;
 }
