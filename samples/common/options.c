@@ -9,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *tool_name = "knurl";
+
 int tool_error(int code, const char *format, ...) {
-    char text[2048];
+    char text[4608]; /* a path and a sentence */
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
@@ -18,7 +20,7 @@ int tool_error(int code, const char *format, ...) {
     for (char *c = text; *c; c++) { /* one line, whatever a name holds */
         *c = (unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c;
     }
-    fprintf(stderr, "knurl: %s\n", text);
+    fprintf(stderr, "%s: %s\n", tool_name, text);
     return code;
 }
 
@@ -60,14 +62,15 @@ int tool_parse(int argc, char **argv, const tool_option *options, size_t count, 
     for (int i = 1; i < argc; i++) {
         if (strncmp(argv[i], "--", 2) != 0) {
             if (!positional || *positional) {
-                return tool_error(TOOL_USAGE, "%s: unexpected argument '%s'; see 'knurl --help'", argv[0], argv[i]);
+                return tool_error(TOOL_USAGE, "%s: unexpected argument '%s'; see '%s --help'", argv[0], argv[i],
+                                  tool_name);
             }
             *positional = argv[i];
             continue;
         }
         const tool_option *option = find(options, count, argv[i]);
         if (!option) {
-            return tool_error(TOOL_USAGE, "%s: unknown option '%s'; see 'knurl --help'", argv[0], argv[i]);
+            return tool_error(TOOL_USAGE, "%s: unknown option '%s'; see '%s --help'", argv[0], argv[i], tool_name);
         }
         if (option->kind == TOOL_FLAG) {
             *(int *)option->value = 1;

@@ -2,13 +2,18 @@
 #ifndef KNURL_SAMPLES_OPTIONS_H
 #define KNURL_SAMPLES_OPTIONS_H
 
+#include <knurl/base.h>
+
 #include <stddef.h>
 
 /* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
 enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NOTHING_FELT = 4, TOOL_INTERRUPTED = 128 };
 
+/* Who says what is wrong, and whose --help is named: "knurl", unless main() sets another. */
+extern const char *tool_name;
+
 /* Prints "knurl: ..." as one line on stderr; returns `code`. */
-int tool_error(int code, const char *format, ...);
+int tool_error(int code, const char *format, ...) KNURL_PRINTF(2, 3);
 
 /* The same with the library's own message. */
 int tool_library_error(int code, const char *what);

@@ -1,6 +1,8 @@
 /* Files that are whole or not there and never replace an input, numbers that read back. SPDX-License-Identifier: MIT */
 #include "out.h"
 
+#include "options.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -32,8 +34,7 @@ static struct {
 } unfinished[8];
 
 static int fail(const char *path, const char *why) {
-    fprintf(stderr, "knurl: %s: %s\n", path, why);
-    return 1;
+    return tool_error(1, "%s: %s", path, why);
 }
 
 static void protect(const struct stat *found) {

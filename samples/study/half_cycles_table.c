@@ -32,8 +32,7 @@ static int measure(table *t) {
         wavy_sheet sheet;
         memset(&sheet, 0, sizeof sheet);
         if (surfaces[i].triangles > 0 && wavy_sheet_make(surfaces[i].triangles, &sheet)) {
-            fprintf(stderr, "knurl: study: half_cycles: no memory\n");
-            return 1;
+            return tool_error(1, "study: half_cycles: no memory");
         }
         int failed = 0;
         for (size_t cell = 0; cell < PERIODS * SPEEDS && !failed; cell++) {
@@ -45,8 +44,7 @@ static int measure(table *t) {
         }
         wavy_sheet_free(&sheet);
         if (failed) {
-            fprintf(stderr, "knurl: study: half_cycles: %s\n", knurl_error_message());
-            return 1;
+            return tool_error(1, "study: half_cycles: %s", knurl_error_message());
         }
     }
     study_progress("half_cycles", 1.0);

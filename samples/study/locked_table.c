@@ -261,8 +261,7 @@ int study_locked(const char *folder) {
     static table t;
     memset(&t, 0, sizeof t);
     if (!measure_speeds(&t) || !measure_strokes(&t) || !measure_crossovers(&t)) {
-        fprintf(stderr, "knurl: study: locked: no memory\n");
-        return 1;
+        return tool_error(1, "study: locked: no memory");
     }
     if (study_write(folder, "locked", write_all, &t)) {
         return 1;

@@ -120,8 +120,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
             knurl_wave wave;
             if (knurl_wave_init(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
                 write_cell(json, &wave, p)) {
-                fprintf(stderr, "knurl: study: signals: T%d at %g ms cannot be measured\n", (int)method, periods_ms[p]);
-                return 1;
+                return tool_error(2, "study: signals: T%d at %g ms cannot be measured", (int)method, periods_ms[p]);
             }
             write_rows(csv, &wave, periods_ms[p]);
         }

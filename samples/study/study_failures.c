@@ -149,7 +149,7 @@ int study_failures(const char *folder) {
         failed = write_all(files[0].stream, &json, files[2].stream);
         json_close(&json, '}');
         if (failed) {
-            fprintf(stderr, "knurl: study: failures: no memory, or %s\n", knurl_error_message());
+            (void)tool_error(1, "study: failures: no memory, or %s", knurl_error_message());
         }
     }
     for (int i = 0; i < 3; i++) {

@@ -11,12 +11,10 @@ int study_open(out_file *file, const char *folder, const char *name) {
     const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
     memset(file, 0, sizeof *file);
     if (length < 0 || (size_t)length >= sizeof path) {
-        fprintf(stderr, "knurl: %s: the path is too long\n", folder);
-        return 1;
+        return tool_error(1, "%s: the path is too long", folder);
     }
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "knurl: %s: the folder cannot be made: %s\n", folder, strerror(errno));
-        return 1;
+        return tool_error(1, "%s: the folder cannot be made: %s", folder, strerror(errno));
     }
     return out_open(file, path);
 }
@@ -39,14 +37,14 @@ int study_write(const char *folder, const char *name, int (*write)(FILE *csv, js
         json_open(&object, NULL, '{');
         failed = write(csv.stream, &object, user);
         json_close(&object, '}');
-        if (failed) {
-            fprintf(stderr, "knurl: study: %s: no memory\n", name);
+        if (failed == 1) {
+            (void)tool_error(1, "study: %s: no memory", name);
         }
     }
     failed = failed || out_keep(&csv) || out_keep(&json);
     out_discard(&csv);
     out_discard(&json);
-    return failed;
+    return failed != 0;
 }
 
 void study_progress(const char *name, double share) {

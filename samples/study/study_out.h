@@ -3,14 +3,15 @@
 #define KNURL_STUDY_OUT_H
 
 #include "json.h"
+#include "options.h"
 #include "out.h"
 
 /** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
  * why. */
 int study_open(out_file *file, const char *folder, const char *name);
 
-/** Writes FOLDER/NAME.csv and FOLDER/NAME.json, one object, by one function, which returns 0, or 1 where memory is not
- * to be had (that is then said). Both files are there whole, or neither. 0, or 1 having said why. */
+/** Writes FOLDER/NAME.csv and FOLDER/NAME.json, one object, by one function, which returns 0, 1 where memory is not to
+ * be had (that is then said), or 2 having said why. Both files are there whole, or neither. 0, or 1 having said why. */
 int study_write(const char *folder, const char *name, int (*write)(FILE *csv, json_writer *json, void *user),
                 void *user);
 

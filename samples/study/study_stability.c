@@ -155,7 +155,7 @@ int study_stability(const char *folder) {
         }
     }
     if (failed) {
-        fprintf(stderr, "knurl: study: stability: %s\n", c ? knurl_error_message() : "no memory");
+        (void)tool_error(1, "study: stability: %s", c ? knurl_error_message() : "no memory");
     }
     lab_signals_free(&signals);
     free(c);

@@ -87,8 +87,7 @@ static int measure(table *t) {
             const size_t v = cell % SPEEDS;
             study_progress("velocity", ((double)c + (double)cell / (RESOLUTIONS * RATES * SPEEDS)) / count);
             if (velocity_measure(&velocity_contenders[c], resolutions[q], rates[r], speeds[v], &t->cells[c][q][r][v])) {
-                fprintf(stderr, "knurl: study: velocity: %s\n", knurl_error_message());
-                return 1;
+                return tool_error(1, "study: velocity: %s", knurl_error_message());
             }
         }
     }

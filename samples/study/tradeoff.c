@@ -171,8 +171,7 @@ static int print_rows(FILE *f) {
         char name[96];
         study_contender_name(&c, name, sizeof name);
         if (!measure(&c, &mean) || !study_measure_cost(&c, &cost)) {
-            fprintf(stderr, "knurl: study tradeoff: %s could not be measured\n", name);
-            return 1;
+            return tool_error(1, "study: tradeoff: %s could not be measured", name);
         }
         print_row(f, &c, &cost, study_count_instructions(i), &mean);
         study_progress("tradeoff", (double)(i + 1) / (double)count);

@@ -181,8 +181,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
         outcome o = {0.0, 0.0, 0.0, 0.0};
         for (int phase = 0; phase < PHASES; phase++) {
             if (run(methods[i % 2], i / 2, phase, csv, &o)) {
-                fprintf(stderr, "knurl: study: transitions: %s\n", knurl_error_message());
-                return 1;
+                return tool_error(2, "study: transitions: %s", knurl_error_message());
             }
         }
         print_row(json, methods[i % 2], i / 2, &o);

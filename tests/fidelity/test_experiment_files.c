@@ -14,8 +14,8 @@
 
 /* It failed with `code` and one line on standard error that holds `word`. Frees. */
 static void check_failed(process *p, int code, const char *word) {
-    if (p->signal != 0 || p->exit_code != code || strncmp(p->err, "knurl", 5) != 0 || lines_in(p->err) != 1 ||
-        !strstr(p->err, word) || p->sizes[0] != 0) {
+    if (p->signal != 0 || p->exit_code != code || strncmp(p->err, "knurl_experiment: ", 18) != 0 ||
+        lines_in(p->err) != 1 || !strstr(p->err, word) || p->sizes[0] != 0) {
         fail_msg("exit %d instead of %d, wanted \"%s\": %s", p->exit_code, code, word, p->err);
     }
     process_free(p);

@@ -37,7 +37,7 @@ TEST(every_trial_s_force_is_the_paper_s_schedule) {
         (void)exp_plan(exp_design_of(e), 3, 0, trials);
         for (uint32_t i = 0; i < 24; i++) { /* one block: every cell */
             exp_stimulus stimulus;
-            assert_int_equal(exp_stimulus_init(&trials[i], &stimulus), EXP_OK);
+            assert_int_equal(exp_stimulus_init(&trials[i], &stimulus), TOOL_OK);
             for (uint64_t t = 0; t < 9100; t++) {
                 CHECK_CLOSE(exp_stimulus_force(&stimulus, t), scheduled(&trials[i], t), 1e-12L);
             }
@@ -115,7 +115,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     uint64_t beyond = 0;
-    assert_int_equal(exp_play_temporal(&s, &trial, &o), EXP_OK);
+    assert_int_equal(exp_play_temporal(&s, &trial, &o), TOOL_OK);
     for (uint64_t t = 0; t < device.writes; t++) {
         const long double wanted = t < 1000 ? 0.0L : scheduled(&trial, t - 1000); /* a second to get hold of it */
         beyond += fabsl(wanted) > 3.3L;
@@ -134,7 +134,7 @@ TEST(leaving_the_sphere_lets_go_and_begins_the_trial_anew) {
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     device.move_at = 1500;
-    assert_int_equal(exp_play_temporal(&s, &trial, &o), EXP_OK);
+    assert_int_equal(exp_play_temporal(&s, &trial, &o), TOOL_OK);
     assert_int_equal(o.restarts, 1);
     assert_int_equal(o.ticks, 10001); /* of the one that counts */
     assert_true(device.written[1499][1] != 0.0);
@@ -175,7 +175,7 @@ TEST(a_button_answers_when_it_goes_down_after_the_question) {
     device.held = 1; /* the first is held down all the time: no answer */
     device.pressed = 3;
     device.press_at = 120;
-    assert_int_equal(exp_drive(&s, &run, &o), EXP_OK);
+    assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
     assert_int_equal(o.chosen, 1);
     assert_true(o.rt_s >= 0.070 && o.rt_s < 2.0);
 }
@@ -194,10 +194,10 @@ TEST(keys_answer_and_the_input_s_end_is_an_error) {
     assert_int_equal(write(ends[1], "x\n2\n", 4), 4);
     assert_int_equal(close(ends[1]), 0);
     assert_int_equal(dup2(ends[0], STDIN_FILENO), STDIN_FILENO);
-    assert_int_equal(exp_drive(&s, &run, &o), EXP_OK);
+    assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
     assert_int_equal(o.chosen, 1);
     run = short_run();
-    assert_int_equal(exp_drive(&s, &run, &o), EXP_FAILURE);
+    assert_int_equal(exp_drive(&s, &run, &o), TOOL_FAILURE);
     assert_int_equal(dup2(kept, STDIN_FILENO), STDIN_FILENO);
     (void)close(kept);
     (void)close(ends[0]);

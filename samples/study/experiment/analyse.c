@@ -145,11 +145,11 @@ static void print_experiment(const exp_records *records, const exp_design *d) {
 
 int exp_analyse(int count, char *const *paths) {
     exp_records records = {NULL, 0, 0};
-    int code = EXP_OK;
-    for (int i = 0; i < count && code == EXP_OK; i++) {
+    int code = TOOL_OK;
+    for (int i = 0; i < count && code == TOOL_OK; i++) {
         code = exp_read_records(paths[i], &records);
     }
-    if (code == EXP_OK) {
+    if (code == TOOL_OK) {
         const int simulated = records.count > 0 && records.rows[0].simulated;
         if (simulated) {
             puts(EXP_SIMULATION);

@@ -97,7 +97,7 @@ static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *lo
     if (asked) {
         fputc('\n', stderr);
     }
-    return answer < 0 ? exp_error(EXP_FAILURE, "standard input ended before an answer") : EXP_OK;
+    return answer < 0 ? tool_error(TOOL_FAILURE, "standard input ended before an answer") : TOOL_OK;
 }
 
 static void step_to_end(const exp_run *run, knurl_loop *loop) {
@@ -128,10 +128,10 @@ static knurl_result make_loop(const exp_session *session, exp_run *run, knurl_lo
 int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome) {
     knurl_loop *loop = NULL;
     knurl_loop_stats stats;
-    int code = EXP_OK;
+    int code = TOOL_OK;
     knurl_loop_stats_init(&stats, sizeof stats);
     if (make_loop(session, run, &loop)) {
-        code = exp_error(EXP_FAILURE, "%s", knurl_error_message());
+        code = tool_error(TOOL_FAILURE, "%s", knurl_error_message());
     } else if (session->fast) {
         step_to_end(run, loop);
     } else {
@@ -143,9 +143,9 @@ int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome) {
     knurl_loop_destroy(loop);
     outcome->ticks = stats.ticks;
     outcome->overruns = stats.overruns;
-    if (code == EXP_OK && stats.state == KNURL_LOOP_LOST) {
-        code =
-            exp_error(EXP_FAILURE, "the device was lost after %llu ticks of a trial", (unsigned long long)stats.ticks);
+    if (code == TOOL_OK && stats.state == KNURL_LOOP_LOST) {
+        code = tool_error(TOOL_FAILURE, "the device was lost after %llu ticks of a trial",
+                          (unsigned long long)stats.ticks);
     }
-    return code == EXP_OK && exp_interrupted ? exp_error(EXP_FAILURE, "interrupted") : code;
+    return code == TOOL_OK && exp_interrupted ? tool_error(TOOL_FAILURE, "interrupted") : code;
 }

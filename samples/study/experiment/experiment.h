@@ -3,13 +3,12 @@
 #ifndef KNURL_EXPERIMENT_H
 #define KNURL_EXPERIMENT_H
 
+#include "options.h"
+
 #include <knurl/knurl.h>
 
 #include <signal.h>
 #include <stdio.h>
-
-/* Exit codes. */
-enum { EXP_OK = 0, EXP_FAILURE = 1, EXP_USAGE = 2 };
 
 /* Who answers. */
 enum { EXP_KEYBOARD = 0, EXP_BUTTONS = 1, EXP_SIMULATED = 2 };
@@ -69,7 +68,7 @@ typedef struct exp_stimulus {
     knurl_wave waves[2][3]; /* first and second progression: low, medium, high */
 } exp_stimulus;
 
-/* 0, or EXP_FAILURE having said why. */
+/* 0, or TOOL_FAILURE having said why. */
 int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus);
 
 /* N, upwards, at tick 0 to EXP_TRIAL_TICKS - 1; 0 in pauses and beyond. */
@@ -122,7 +121,7 @@ typedef struct exp_run {
     uint32_t buttons; /* the haptic thread's own: as last seen */
 } exp_run;
 
-/* Runs a loop to its end: an answer, the hand's leaving, or end_tick. EXP_FAILURE having said why: interrupted, lost
+/* Runs a loop to its end: an answer, the hand's leaving, or end_tick. TOOL_FAILURE having said why: interrupted, lost
  * device, end of input. */
 int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome);
 
@@ -159,7 +158,7 @@ extern const char *const exp_answer_names[]; /* by EXP_KEYBOARD, ... */
 void exp_write_record(FILE *stream, const exp_session *session, uint32_t number, const exp_trial *trial,
                       const exp_outcome *outcome);
 
-/* Adds a file's rows. 0, or EXP_FAILURE having said which line holds what. Free rows with free(). */
+/* Adds a file's rows. 0, or TOOL_FAILURE having said which line holds what. Free rows with free(). */
 int exp_read_records(const char *path, exp_records *records);
 
 /* The line without its end. */
@@ -183,10 +182,5 @@ uint32_t exp_threshold(int32_t rule, uint32_t n, double significance);
 
 /* Reads the files, prints the analysis. An exit code. */
 int exp_analyse(int count, char *const *paths);
-
-/* --- error.c --- */
-
-/* Prints "knurl_experiment: ..." as one line on stderr; returns `code`. */
-int exp_error(int code, const char *format, ...) KNURL_PRINTF(2, 3);
 
 #endif

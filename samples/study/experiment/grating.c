@@ -132,9 +132,9 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     run.user = &e;
     run.question_tick = SCAN_TICKS;
     run.end_tick = side < 0 ? SCAN_TICKS : SCAN_TICKS / 2;
-    int code = EXP_OK;
+    int code = TOOL_OK;
     if (build(session, trial, &e) || (side >= 0 && stroke(session, trial, side))) {
-        code = exp_error(EXP_FAILURE, "%s", knurl_error_message());
+        code = tool_error(TOOL_FAILURE, "%s", knurl_error_message());
     } else if (!session->fast) {
         (void)knurl_scene_lock_memory(e.scene); /* where it is not allowed, it works all the same */
     }
@@ -160,7 +160,7 @@ int exp_play_gratings(const exp_session *session, const exp_trial *trial, exp_ou
         return explore(session, trial, -1, outcome);
     }
     if (session->answers != EXP_SIMULATED) {
-        return exp_error(EXP_FAILURE, "experiment 3: nobody moves the fake device; it goes with --answers simulated");
+        return tool_error(TOOL_FAILURE, "experiment 3: nobody moves the fake device; it goes with --answers simulated");
     }
     const int code = explore(session, trial, 0, outcome);
     return code ? code : explore(session, trial, 1, outcome);

@@ -37,32 +37,19 @@ typedef struct options {
 } options;
 
 static int usage(const char *what, const char *expected, const char *found) {
-    return exp_error(EXP_USAGE, "%s: expected %s, found '%s'", what, expected, found);
+    return tool_error(TOOL_USAGE, "%s: expected %s, found '%s'", what, expected, found);
 }
 
 static int read_options(int argc, char **argv, options *o) {
-    const struct {
-        const char *name;
-        const char **value;
-    } known[] = {{"--device", &o->device}, {"--subject", &o->subject}, {"--amplitude", &o->amplitude},
-                 {"--sound", &o->sound},   {"--seed", &o->seed},       {"--answers", &o->answers},
-                 {"--out", &o->out}};
-    for (int i = 2; i < argc; i++) {
-        size_t which = 0;
-        while (which < sizeof known / sizeof *known && strcmp(argv[i], known[which].name) != 0) {
-            which++;
-        }
-        if (strcmp(argv[i], "--fast") == 0) {
-            o->fast = 1;
-        } else if (which == sizeof known / sizeof *known) {
-            return exp_error(EXP_USAGE, "unknown option '%s'; see 'knurl_experiment --help'", argv[i]);
-        } else if (i + 1 == argc) {
-            return exp_error(EXP_USAGE, "expected a value after %s, found none", argv[i]);
-        } else {
-            *known[which].value = argv[++i];
-        }
-    }
-    return EXP_OK;
+    const tool_option known[] = {{"--device", TOOL_TEXT, &o->device, 0, 0, ""},
+                                 {"--subject", TOOL_TEXT, &o->subject, 0, 0, ""},
+                                 {"--amplitude", TOOL_TEXT, &o->amplitude, 0, 0, ""},
+                                 {"--sound", TOOL_TEXT, &o->sound, 0, 0, ""},
+                                 {"--seed", TOOL_TEXT, &o->seed, 0, 0, ""},
+                                 {"--answers", TOOL_TEXT, &o->answers, 0, 0, ""},
+                                 {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
+                                 {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""}};
+    return tool_parse(argc, argv, known, sizeof known / sizeof *known, NULL);
 }
 
 /* 0 or 1 for the first or second word, -1 for neither. */
@@ -77,7 +64,7 @@ static int read_seed(const char *text, exp_session *s) {
         const unsigned long long value = strtoull(text, &end, 10);
         s->seed = value;
         return strspn(text, "0123456789") == strlen(text) && end != text && !errno && value <= 4294967295u
-                   ? EXP_OK
+                   ? TOOL_OK
                    : usage("--seed", "a whole number from 0 to 4294967295", text);
     }
     s->seed = 2166136261u; /* FNV-1a: another order for every subject, the same one every time */
@@ -85,7 +72,7 @@ static int read_seed(const char *text, exp_session *s) {
         s->seed = ((s->seed ^ (unsigned char)*c) * 16777619u) & 0xffffffffu;
     }
     s->seed = ((s->seed ^ (uint64_t)(2 * s->design->experiment + s->sound)) * 16777619u) & 0xffffffffu;
-    return EXP_OK;
+    return TOOL_OK;
 }
 
 static int read_words(const options *o, exp_session *s) {
@@ -107,7 +94,7 @@ static int read_words(const options *o, exp_session *s) {
         return usage("--amplitude", "as-printed or reduced", o->amplitude);
     }
     if (s->reduced && s->design->experiment != 3) {
-        return exp_error(EXP_USAGE, "--amplitude reduced: is experiment 3's; 1 and 2 are played as printed");
+        return tool_error(TOOL_USAGE, "--amplitude reduced: is experiment 3's; 1 and 2 are played as printed");
     }
     if (s->answers < 0) {
         return usage("--answers", "keyboard, buttons or simulated", answers);
@@ -125,15 +112,15 @@ static int check(const exp_session *s) {
         return usage("--fast", "the fake device", s->uri);
     }
     if (s->fast && s->answers != EXP_SIMULATED) {
-        return exp_error(EXP_USAGE, "--fast: people answer in real time; expected --answers simulated");
+        return tool_error(TOOL_USAGE, "--fast: people answer in real time; expected --answers simulated");
     }
     if (fake && s->answers == EXP_BUTTONS) {
-        return exp_error(EXP_USAGE, "--answers buttons: the fake device has none");
+        return tool_error(TOOL_USAGE, "--answers buttons: the fake device has none");
     }
     if (fake && s->design->experiment == 3 && s->answers != EXP_SIMULATED) {
-        return exp_error(EXP_USAGE, "3: nobody moves the fake device; expected --answers simulated");
+        return tool_error(TOOL_USAGE, "3: nobody moves the fake device; expected --answers simulated");
     }
-    return EXP_OK;
+    return TOOL_OK;
 }
 
 static void on_signal(int number) {
@@ -149,9 +136,10 @@ static int run(int argc, char **argv) {
     memset(&s, 0, sizeof s);
     s.design = strlen(argv[1]) == 1 ? exp_design_of(argv[1][0] - '0') : NULL;
     if (!s.design) {
-        return exp_error(EXP_USAGE, "expected 1, 2, 3 or analyse, found '%s'; see 'knurl_experiment --help'", argv[1]);
+        return tool_error(TOOL_USAGE, "expected 1, 2, 3 or analyse, found '%s'; see 'knurl_experiment --help'",
+                          argv[1]);
     }
-    int code = read_options(argc, argv, &o);
+    int code = read_options(argc - 1, argv + 1, &o);
     code = code ? code : read_words(&o, &s);
     code = code ? code : check(&s);
     if (code) {
@@ -162,8 +150,8 @@ static int run(int argc, char **argv) {
     s.out = o.out ? o.out : path;
     const knurl_result result = knurl_device_open(s.uri, &s.device);
     if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
-        return exp_error(result == KNURL_ERROR_UNSUPPORTED ? EXP_FAILURE : EXP_USAGE, "--device: %s",
-                         knurl_error_message());
+        return tool_error(result == KNURL_ERROR_UNSUPPORTED ? TOOL_FAILURE : TOOL_USAGE, "--device: %s",
+                          knurl_error_message());
     }
     struct sigaction action;
     (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a session by the ramp */
@@ -172,7 +160,7 @@ static int run(int argc, char **argv) {
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
     knurl_device_info_init(&s.info, sizeof s.info);
-    code = knurl_device_get_info(s.device, &s.info) ? exp_error(EXP_FAILURE, "%s", knurl_error_message())
+    code = knurl_device_get_info(s.device, &s.info) ? tool_error(TOOL_FAILURE, "%s", knurl_error_message())
                                                     : exp_run_session(&s);
     knurl_device_close(s.device);
     return code;
@@ -182,24 +170,21 @@ static int dispatch(int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
             fputs(help, stdout);
-            return EXP_OK;
+            return TOOL_OK;
         }
     }
     if (argc < 2) {
         fputs(help, stderr);
-        return EXP_USAGE;
+        return TOOL_USAGE;
     }
     if (strcmp(argv[1], "analyse") != 0) {
         return run(argc, argv);
     }
-    return argc < 3 ? exp_error(EXP_USAGE, "analyse: expected at least one CSV, found none")
+    return argc < 3 ? tool_error(TOOL_USAGE, "analyse: expected at least one CSV, found none")
                     : exp_analyse(argc - 2, argv + 2);
 }
 
 int main(int argc, char **argv) {
-    const int code = dispatch(argc, argv);
-    if (fflush(stdout) != 0 && code == EXP_OK) { /* a full disk must not look like success */
-        return exp_error(EXP_FAILURE, "standard output cannot be written");
-    }
-    return code;
+    tool_name = "knurl_experiment";
+    return tool_end(dispatch(argc, argv));
 }

@@ -39,8 +39,8 @@ typedef struct place {
 } place;
 
 static int refuse(const place *at, const char *column, const char *expected, const char *found) {
-    return exp_error(EXP_FAILURE, "%s: line %lu: %s: expected %s, found '%s'", at->path, at->line, column, expected,
-                     found);
+    return tool_error(TOOL_FAILURE, "%s: line %lu: %s: expected %s, found '%s'", at->path, at->line, column, expected,
+                      found);
 }
 
 /* The number that is the whole cell and one of `allowed`, or NaN. */
@@ -59,7 +59,7 @@ static int read_method(const place *at, const exp_design *d, const char *column,
     for (int i = 0; i < 2; i++) {
         if (strcmp(cell, d->names[i]) == 0) {
             *method = d->methods[i];
-            return EXP_OK;
+            return TOOL_OK;
         }
     }
     char expected[32];
@@ -86,7 +86,7 @@ static int read_trial(const place *at, char *const *cells, const exp_design *d, 
     int code = read_method(at, d, "first", cells[FIRST], &r->trial.methods[0]);
     code = code ? code : read_method(at, d, "second", cells[SECOND], &r->trial.methods[1]);
     code = code ? code : read_method(at, d, "preferred", cells[PREFERRED], &r->preferred);
-    if (code == EXP_OK && r->trial.methods[0] == r->trial.methods[1]) {
+    if (code == TOOL_OK && r->trial.methods[0] == r->trial.methods[1]) {
         return refuse(at, "second", "the other method than first", cells[SECOND]);
     }
     return code;
@@ -130,25 +130,25 @@ static int same_trial(const exp_record *a, const exp_record *b) {
 static int add_row(const place *at, exp_records *records, const exp_record *r) {
     for (size_t i = 0; i < records->count; i++) {
         if (records->rows[i].simulated != r->simulated) {
-            return exp_error(EXP_FAILURE, "%s: line %lu: people's answers and simulated ones do not go together",
-                             at->path, at->line);
+            return tool_error(TOOL_FAILURE, "%s: line %lu: people's answers and simulated ones do not go together",
+                              at->path, at->line);
         }
         if (same_trial(&records->rows[i], r)) {
-            return exp_error(EXP_FAILURE, "%s: line %lu: this trial of subject %s was there before", at->path, at->line,
-                             r->subject);
+            return tool_error(TOOL_FAILURE, "%s: line %lu: this trial of subject %s was there before", at->path,
+                              at->line, r->subject);
         }
     }
     if (records->count == records->capacity) {
         const size_t wanted = records->capacity ? 2 * records->capacity : 256;
         exp_record *more = realloc(records->rows, wanted * sizeof *more);
         if (!more) {
-            return exp_error(EXP_FAILURE, "no memory for %lu rows", (unsigned long)wanted);
+            return tool_error(TOOL_FAILURE, "no memory for %lu rows", (unsigned long)wanted);
         }
         records->rows = more;
         records->capacity = wanted;
     }
     records->rows[records->count++] = *r;
-    return EXP_OK;
+    return TOOL_OK;
 }
 
 /* Takes a line apart at its commas. */
@@ -172,14 +172,15 @@ static int read_line(const place *at, char *line, exp_records *records) {
     exp_record record;
     if (at->line == 1) {
         return strcmp(line, exp_csv_header) == 0
-                   ? EXP_OK
-                   : exp_error(EXP_FAILURE,
-                               "%s: line 1: expected the header that knurl_experiment writes, found '%.40s'", at->path,
-                               line);
+                   ? TOOL_OK
+                   : tool_error(TOOL_FAILURE,
+                                "%s: line 1: expected the header that knurl_experiment writes, found '%.40s'", at->path,
+                                line);
     }
     const int count = split(line, cells);
     if (count != COLUMNS) {
-        return exp_error(EXP_FAILURE, "%s: line %lu: expected %d cells, found %d", at->path, at->line, COLUMNS, count);
+        return tool_error(TOOL_FAILURE, "%s: line %lu: expected %d cells, found %d", at->path, at->line, COLUMNS,
+                          count);
     }
     const int code = read_row(at, cells, &record);
     return code ? code : add_row(at, records, &record);
@@ -189,18 +190,18 @@ int exp_read_records(const char *path, exp_records *records) {
     place at = {path, 0};
     char *line = NULL;
     size_t size = 0;
-    int code = EXP_OK;
+    int code = TOOL_OK;
     FILE *f = fopen(path, "r");
     if (!f) {
-        return exp_error(EXP_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
+        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
     }
-    while (code == EXP_OK && getline(&line, &size, f) != -1) {
+    while (code == TOOL_OK && getline(&line, &size, f) != -1) {
         at.line++;
         exp_chop(line);
         code = read_line(&at, line, records);
     }
-    if (code == EXP_OK && (ferror(f) || at.line < 2)) {
-        code = exp_error(EXP_FAILURE, "%s: expected a header and at least one row", path);
+    if (code == TOOL_OK && (ferror(f) || at.line < 2)) {
+        code = tool_error(TOOL_FAILURE, "%s: expected a header and at least one row", path);
     }
     free(line);
     (void)fclose(f);

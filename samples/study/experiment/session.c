@@ -32,13 +32,13 @@ static void show_trial(uint32_t number, uint32_t count, const exp_session *sessi
 
 static int play(const exp_session *session, const exp_trial *trials, uint32_t count, FILE *stream, totals *sum) {
     uint64_t noise = ~session->seed; /* not the row of numbers that the order came from */
-    int code = EXP_OK;
-    for (uint32_t i = 0; i < count && code == EXP_OK; i++) {
+    int code = TOOL_OK;
+    for (uint32_t i = 0; i < count && code == TOOL_OK; i++) {
         exp_outcome outcome;
         show_trial(i + 1, count, session);
         code = session->design->experiment == 3 ? exp_play_gratings(session, &trials[i], &outcome)
                                                 : exp_play_temporal(session, &trials[i], &outcome);
-        if (code == EXP_OK) {
+        if (code == TOOL_OK) {
             if (session->answers == EXP_SIMULATED) {
                 outcome.chosen = exp_simulated_answer(session->design, &trials[i], &noise);
                 outcome.rt_s = 0.0;
@@ -85,21 +85,21 @@ int exp_run_session(exp_session *session) {
     const uint32_t count = exp_plan(session->design, session->seed, session->reduced, trials);
     memset(&sum, 0, sizeof sum);
     if (!exp_may_replace(session->out)) {
-        return exp_error(EXP_FAILURE,
-                         "%s: is there already and not a file of simulated answers; choose another --out or --subject",
-                         session->out);
+        return tool_error(TOOL_FAILURE,
+                          "%s: is there already and not a file of simulated answers; choose another --out or --subject",
+                          session->out);
     }
     if (out_open(&file, session->out)) {
-        return EXP_FAILURE;
+        return TOOL_FAILURE;
     }
     fprintf(file.stream, "%s\n", exp_csv_header);
     int code = play(session, trials, count, file.stream, &sum);
-    if (code == EXP_OK) {
-        code = out_keep(&file) ? EXP_FAILURE : EXP_OK;
+    if (code == TOOL_OK) {
+        code = out_keep(&file) ? TOOL_FAILURE : TOOL_OK;
     } else {
         abandon(session, &file, &sum);
     }
-    if (code == EXP_OK) {
+    if (code == TOOL_OK) {
         report(session, &sum);
     }
     return code;

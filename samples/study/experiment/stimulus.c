@@ -9,11 +9,11 @@ int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus) {
         for (int i = 0; i < 3; i++) {
             if (knurl_wave_init(trial->methods[which], 1e-3 * periods[i], trial->amplitude, EXP_RATE,
                                 &stimulus->waves[which][i])) {
-                return exp_error(EXP_FAILURE, "%s", knurl_error_message());
+                return tool_error(TOOL_FAILURE, "%s", knurl_error_message());
             }
         }
     }
-    return EXP_OK;
+    return TOOL_OK;
 }
 
 double exp_stimulus_force(const exp_stimulus *stimulus, uint64_t tick) {

@@ -55,9 +55,9 @@ static int hold(const exp_session *session) {
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = KNURL_STROKE_REST;
     if (strncmp(session->uri, "fake", 4) == 0 && knurl_fake_set_stroke(session->device, &stroke)) {
-        return exp_error(EXP_FAILURE, "%s", knurl_error_message());
+        return tool_error(TOOL_FAILURE, "%s", knurl_error_message());
     }
-    return EXP_OK;
+    return TOOL_OK;
 }
 
 int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_outcome *outcome) {
@@ -81,14 +81,14 @@ int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_ou
         code = code ? code : exp_drive(session, &run, outcome);
         outcome->saturations = p.saturations;
         outcome->restarts = restarts;
-        if (code == EXP_OK && run.left && session->answers != EXP_SIMULATED) {
+        if (code == TOOL_OK && run.left && session->answers != EXP_SIMULATED) {
             fputs("The hand left the sphere: the trial begins anew.\n", stderr);
         }
-        restarts += code == EXP_OK && run.left;
+        restarts += code == TOOL_OK && run.left;
         if (session->answers == EXP_SIMULATED && restarts > FORGIVEN) {
-            return exp_error(EXP_FAILURE, "the simulated hand left the sphere %u times; it is too soft to hold still",
-                             (unsigned)restarts);
+            return tool_error(TOOL_FAILURE, "the simulated hand left the sphere %u times; it is too soft to hold still",
+                              (unsigned)restarts);
         }
-    } while (code == EXP_OK && run.left);
+    } while (code == TOOL_OK && run.left);
     return code;
 }
