@@ -35,22 +35,31 @@ knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id
         KNURL_IS_NULL(rotation)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_board_tick sent;
-    double length = 0.0;
-    double seconds = 0.0;
-    knurl_board_read(&session->board, &sent);
-    if (session->device) { /* by ticks: the game's clock may run slow */
-        seconds = (double)(sent.tick - way->tick) / session->desc.update_rate_hz;
+    if (way->clock >= KNURL_SESSION_CLOCKS) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "way.clock: expected 0 (frames) or 1 (steps), found %u",
+                          (unsigned)way->clock);
     }
-    seconds = seconds > LONGEST ? FIRST_MOVE : seconds;
+    knurl_board_tick sent;
+    knurl_session_pace pace = {0.0, 0.0, 0.0};
+    double length = 0.0;
+    knurl_board_read(&session->board, &sent);
+    const int is_paced = knurl_session_find_pace(session, way, &pace);
+    if (!is_paced && session->device) { /* by ticks: the game's clock may run slow */
+        pace.step = (double)(sent.tick - way->tick) / session->desc.update_rate_hz;
+        pace.seconds = pace.step > LONGEST ? FIRST_MOVE : pace.step;
+    }
     for (int i = 0; i < 3; i++) {
         length += (position[i] - way->position[i]) * (position[i] - way->position[i]);
     }
-    seconds = sqrt(length) > FASTEST * fmax(seconds, FIRST_MOVE) ? 0.0 : seconds;
+    const double step = pace.step > LONGEST ? FIRST_MOVE : fmax(pace.step, FIRST_MOVE);
+    const double seconds = sqrt(length) > FASTEST * step ? 0.0 : pace.seconds;
     const knurl_result result = knurl_scene_set_transform(session->scene, surface, position, rotation, seconds);
     if (!result) {
         way->tick = sent.tick;
         memcpy(way->position, position, sizeof way->position);
+        way->time = session->clocks[way->clock].time;
+        way->lag = pace.lag;
+        way->moved = (uint32_t)is_paced;
     }
     return result;
 }

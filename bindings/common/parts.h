@@ -11,6 +11,15 @@
 /* Touches that nobody has fetched yet; two updates' worth at the most that a board can tell. */
 enum { KNURL_SESSION_TOUCHES = 128 };
 
+/* An engine's clock against the ticks. */
+typedef struct knurl_session_clock {
+    double time;     /* s: as it was told last */
+    double lag;      /* s of ticks after it when what moves by it arrives */
+    double needs[2]; /* s: the longest lag that was needed in this window, and in the one before */
+    double window;   /* when this window began */
+    uint32_t is_told;
+} knurl_session_clock;
+
 struct knurl_session {
     uint32_t handle;                /* KNURL_HANDLE_SESSION, first */
     knurl_session *next, *previous; /* of the process's, see life.c */
@@ -32,6 +41,7 @@ struct knurl_session {
     uint32_t faults_due;           /* at most so many: who handles each slower than they come would never be done */
     uint32_t has_ended;            /* by itself, and it is to be told */
     uint64_t overruns, counted_at; /* and the tick when they were counted */
+    knurl_session_clock clocks[KNURL_SESSION_CLOCKS];
     knurl_board board;
     knurl_mouse *mouse; /* the device's; null where that is no mouse */
 };
@@ -39,6 +49,16 @@ struct knurl_session {
 /* hand.c: lays the fake device's stroke over the scene's first surface. *outside: that surface, where it lies outside
  * of the workspace, else untouched. */
 knurl_result knurl_session_lay_stroke(const knurl_session *session, knurl_surface_id *outside);
+
+/* How a move is played. */
+typedef struct knurl_session_pace {
+    double seconds; /* from now until it is over */
+    double step;    /* s: what it is the motion of */
+    double lag;     /* s: of the way from now on */
+} knurl_session_pace;
+
+/* clock.c: the pace of what moves now by the way's clock: 1, or 0 where nobody has told that clock in this run. */
+int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
 
 /* text.c: makes a caller's text empty; adds a sentence to it, on a line of its own. Both do nothing where there is no
  * text, and what does not fit is cut off after a whole character. */

@@ -190,6 +190,7 @@ void knurl_session_close(knurl_session *session) {
     session->device = NULL;
     session->runs = session->is_fake = 0;
     memset(&session->board, 0, sizeof session->board);
+    memset(session->clocks, 0, sizeof session->clocks);
     session->mouse = NULL;
     knurl_session_forget(session);
 }

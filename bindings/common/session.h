@@ -66,11 +66,18 @@ typedef struct knurl_session_event {
     knurl_surface_id surface; /**< it may be gone from the scene by now */
 } knurl_session_event;
 
+/** What moves an engine's objects: each frame, or each step of its physics. */
+enum { KNURL_SESSION_FRAMES = 0, KNURL_SESSION_STEPS = 1, KNURL_SESSION_CLOCKS = 2 };
+
 /** A surface that follows an engine's object. The binding's, one a surface and session; before its first move in a run:
- * the position that it was added with, tick 0. */
+ * the position that it was added with, zeros, and its clock. */
 typedef struct knurl_session_way {
     double position[3]; /**< m: where the scene last heard it is */
     uint64_t tick;      /**< when */
+    double time;        /**< s: that clock's, at the latest move; for the session */
+    double lag;         /**< s: that this surface's moves come late; for the session */
+    uint32_t clock;     /**< KNURL_SESSION_FRAMES (default) or _STEPS: what moves it, as of the next move */
+    uint32_t moved;     /**< 1: it has moved by that clock; for the session */
 } knurl_session_way;
 
 /** A matrix as Knurl wants it: matrix = translation(position) * rotation * rest. */
@@ -156,9 +163,17 @@ KNURL_API uint32_t knurl_session_get_history(const knurl_session *session, uint3
  * KNURL_ERROR_STATE (another device, or none), KNURL_ERROR_ARGUMENT (not finite). [game thread] */
 KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]);
 
-/** Moves a surface along with its object: felt as a motion that took the time since the last move, in ticks, or as a
- * leap where it is faster than 10 m/s. rotation: unit quaternion. Errors: those of knurl_scene_set_transform().
- * [game thread] */
+/** Tells how far one of the engine's clocks has come, once a frame, before surfaces are moved. clock:
+ * KNURL_SESSION_FRAMES: the sum of the frames' lengths, as objects that are moved in frames are given them; or _STEPS:
+ * the physics steps so far times their length. seconds: in real time, that is, divided by a time scale. Surfaces are
+ * then moved evenly by that clock, later by what its moves come late: frames and steps of any pair of rates come in no
+ * even rhythm. Errors: KNURL_ERROR_ARGUMENT. [game thread] */
+KNURL_API knurl_result knurl_session_tell_time(knurl_session *session, uint32_t clock, double seconds);
+
+/** Moves a surface along with its object: felt as a motion that is over when the next move is due by its way's clock;
+ * where nobody tells that clock, one that took the time since the last move, in ticks; or as a leap where it is faster
+ * than 10 m/s. rotation: unit quaternion. Errors: those of knurl_scene_set_transform(), KNURL_ERROR_ARGUMENT (the way's
+ * clock). [game thread] */
 KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface,
                                                   knurl_session_way *way, const double position[3],
                                                   const double rotation[4]);

@@ -59,6 +59,7 @@ VALUES = {
     "stroke int32_t *": "&f->number",
     "surface knurl_surface_id": "f->surface",
     "hip uint32_t": "0",
+    "clock uint32_t": "0",
     "index uint32_t": "0",
     "index int32_t": "0",
     "tick uint64_t": "0",

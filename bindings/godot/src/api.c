@@ -11,6 +11,7 @@ gd_methods gd_method;
 gd_builtins gd_builtin;
 gd_type gd_types[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
 GDExtensionClassLibraryPtr gd_library;
+GDExtensionObjectPtr gd_engine;
 
 int gd_load(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library) {
     static const struct {
@@ -114,6 +115,9 @@ static int is_single_precision(void) {
 
 int gd_load_classes(void) {
     load_types();
+    gd_name engine = gd_name_new("Engine");
+    gd_engine = gd.global_get_singleton(&engine);
+    gd_name_end(&engine);
     return is_single_precision() && load_methods() && load_builtins();
 }
 
@@ -203,9 +207,7 @@ GDExtensionObjectPtr gd_cast(GDExtensionObjectPtr object, const char *class_name
 
 int gd_is_in_editor(void) {
     uint8_t hint = 0;
-    gd_name name = gd_name_new("Engine");
-    gd_call(gd_method.Engine_is_editor_hint, gd.global_get_singleton(&name), NULL, &hint);
-    gd_name_end(&name);
+    gd_call(gd_method.Engine_is_editor_hint, gd_engine, NULL, &hint);
     return hint;
 }
 

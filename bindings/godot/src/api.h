@@ -69,7 +69,12 @@
     X(Mesh, get_surface_count, 3905245786)                                                                             \
     X(Mesh, surface_get_arrays, 663333327)                                                                             \
     X(ArrayMesh, surface_get_primitive_type, 4141943888)                                                               \
+    X(Node, get_process_delta_time, 1740695150)                                                                        \
     X(Engine, is_editor_hint, 36873697)                                                                                \
+    X(Engine, is_in_physics_frame, 36873697)                                                                           \
+    X(Engine, get_physics_frames, 3905245786)                                                                          \
+    X(Engine, get_physics_ticks_per_second, 3905245786)                                                                \
+    X(Engine, get_time_scale, 191475506)                                                                               \
     X(ProjectSettings, globalize_path, 3135753539)
 
 /* Methods of built-in types. */
@@ -144,6 +149,7 @@ extern gd_methods gd_method;
 extern gd_builtins gd_builtin;
 extern gd_type gd_types[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
 extern GDExtensionClassLibraryPtr gd_library;
+extern GDExtensionObjectPtr gd_engine; /* the singleton Engine */
 
 /* The engine's types do not say what is only read. */
 static inline void *gd_unconst(const void *pointer) {

@@ -153,11 +153,29 @@ void device_stop(device *d) {
     }
 }
 
+/* The engine's clocks. A time scale changes how much of the game's time a frame or a step is, not when it comes. */
+static void tell_time(device *d) {
+    double delta = 0.0;
+    double scale = 1.0;
+    int64_t steps = 0;
+    int64_t rate = 0;
+    gd_call(gd_method.Node_get_process_delta_time, d->base.object, NULL, &delta);
+    gd_call(gd_method.Engine_get_time_scale, gd_engine, NULL, &scale);
+    gd_call(gd_method.Engine_get_physics_frames, gd_engine, NULL, &steps);
+    gd_call(gd_method.Engine_get_physics_ticks_per_second, gd_engine, NULL, &rate);
+    d->frames_time += scale > 0.0 ? delta / scale : 0.0;
+    d->steps_time += (double)((uint64_t)steps - d->steps_seen) / (double)rate;
+    d->steps_seen = (uint64_t)steps;
+    (void)knurl_session_tell_time(d->session, KNURL_SESSION_FRAMES, d->frames_time);
+    (void)knurl_session_tell_time(d->session, KNURL_SESSION_STEPS, d->steps_time);
+}
+
 void device_process(device *d) {
     if (d->wants_start) {
         (void)device_start(d);
     }
     if (d->runs) {
+        tell_time(d);
         follow_all(d);
         knurl_session_update(d->session);
         while (signals_tell(d)) {

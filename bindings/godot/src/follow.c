@@ -93,8 +93,8 @@ void follow_add(device *d, surface *s) {
         }
         s->ids[d->slot] = id;
         memcpy(s->rest[d->slot], at.rest, sizeof at.rest);
+        memset(&s->ways[d->slot], 0, sizeof s->ways[d->slot]);
         memcpy(s->ways[d->slot].position, at.position, sizeof at.position);
-        s->ways[d->slot].tick = 0;
         mesh_end(&data);
     }
     gd.variant_destroy(&held);
@@ -122,6 +122,7 @@ static void move(device *d, surface *s) {
         follow_add(d, s);
         return;
     }
+    s->ways[slot].clock = s->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES;
     if (knurl_session_move_surface(d->session, s->ids[slot], &s->ways[slot], at.position, at.quaternion)) {
         complain(s);
     }

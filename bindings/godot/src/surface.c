@@ -154,6 +154,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_TRANSFORM_CHANGED:
         s->moved = ALL_SLOTS;
+        gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &s->by_physics);
         surface_mark(s);
         break;
     case GD_EXIT_TREE:

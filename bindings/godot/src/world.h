@@ -19,6 +19,7 @@ typedef struct surface {
     uint8_t is_marked;
     struct surface *next, *previous;    /* of those in a tree */
     uint8_t moved, changed, made_anew;  /* masks: which running device has yet to be told */
+    uint8_t by_physics;                 /* 1: a step of the physics moved it last */
     uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
     knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */
     knurl_session_way ways[DEVICE_SLOTS];
@@ -39,6 +40,8 @@ typedef struct device {
     knurl_surface_id touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
     uint64_t gratings_seen;
+    double frames_time, steps_time; /* s: frames and physics steps so far, in real time */
+    uint64_t steps_seen;
 } device;
 
 extern const gd_class surface_class;

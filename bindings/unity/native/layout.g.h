@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "b7d5ac99c6864dd8"
+#define KNURL_UNITY_INTERFACE "796c32da21777e0a"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -346,9 +346,13 @@
     FIELD(knurl_session_event, code, "code", 4, 4) \
     FIELD(knurl_session_event, value, "value", 8, 8) \
     FIELD(knurl_session_event, surface, "surface", 16, 8) \
-    STRUCT(knurl_session_way, 32) \
+    STRUCT(knurl_session_way, 56) \
     FIELD(knurl_session_way, position, "position", 0, 24) \
     FIELD(knurl_session_way, tick, "tick", 24, 8) \
+    FIELD(knurl_session_way, time, "time", 32, 8) \
+    FIELD(knurl_session_way, lag, "lag", 40, 8) \
+    FIELD(knurl_session_way, clock, "clock", 48, 4) \
+    FIELD(knurl_session_way, moved, "moved", 52, 4) \
     STRUCT(knurl_session_pose, 200) \
     FIELD(knurl_session_pose, position, "position", 0, 24) \
     FIELD(knurl_session_pose, rotation, "rotation", 24, 72) \

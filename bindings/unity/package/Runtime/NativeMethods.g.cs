@@ -501,6 +501,10 @@ namespace Knurl
     {
         public fixed double position[3];
         public ulong tick;
+        public double time;
+        public double lag;
+        public uint clock;
+        public uint moved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -566,7 +570,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "b7d5ac99c6864dd8";
+        internal const string Interface = "796c32da21777e0a";
 
         internal const string Version = "0.1.0";
 
@@ -666,6 +670,9 @@ namespace Knurl
         internal const int KNURL_SESSION_BUTTON = 3;
         internal const int KNURL_SESSION_FAULT = 4;
         internal const int KNURL_SESSION_ENDED = 5;
+        internal const int KNURL_SESSION_FRAMES = 0;
+        internal const int KNURL_SESSION_STEPS = 1;
+        internal const int KNURL_SESSION_CLOCKS = 2;
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* knurl_result_string(int result);
@@ -1024,6 +1031,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_move_hip(SessionHandle session, double* position);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_tell_time(SessionHandle session, uint clock, double seconds);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_move_surface(SessionHandle session, ulong surface,

@@ -1,0 +1,90 @@
+/* An engine's clocks against the haptic thread's ticks. An engine moves its objects in steps of its physics or in
+ * frames; a frame shows what the steps before it came to, so that moves arrive in no even rhythm although their steps
+ * are even. A move is therefore played until its step's time plus a lag by which the next one has always come: what
+ * moves at a constant speed is then felt at that speed, at any pair of rates. SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include <math.h>
+
+/* s: what comes no more often than this has no rhythm. */
+#define LONGEST 0.1
+
+/* s: the lag that a clock begins with, until its rhythm is known: a frame at 60 Hz. */
+#define FIRST_LAG (1.0 / 60.0)
+
+/* s: the lag goes by what was needed in this time, or in twice as much. */
+#define WINDOW 1.0
+
+/* The lag grows and shrinks by no more than these shares of the time: a speed that is off by as much is not felt (the
+ * just noticeable difference of a vibration's frequency is some 10 %). It grows sooner than it has to: by what is
+ * needed and this share of a step more. */
+#define GROWTH    0.05
+#define SHRINKING 0.02
+#define MARGIN    0.1
+
+static double now_of(const knurl_session *s) {
+    knurl_board_tick sent;
+    knurl_board_read(&s->board, &sent);
+    return (double)sent.tick / s->desc.update_rate_hz;
+}
+
+/* One more step, of `elapsed` (s), for which a lag of `needed` would have done. */
+static void learn(knurl_session_clock *c, double needed, double elapsed) {
+    if (c->time - c->window > WINDOW) {
+        c->window = c->time;
+        c->needs[1] = c->needs[0];
+        c->needs[0] = needed;
+    }
+    c->needs[0] = fmax(c->needs[0], needed);
+    const double wanted = fmax(c->needs[0], c->needs[1]) + MARGIN * elapsed;
+    const double change = fmin(fmax(wanted - c->lag, -SHRINKING * elapsed), GROWTH * elapsed);
+    c->lag = fmin(fmax(c->lag + change, needed), needed + LONGEST);
+}
+
+static void begin(knurl_session_clock *c, double time, double now) {
+    c->time = c->window = time;
+    c->lag = now - time + FIRST_LAG;
+    c->needs[0] = c->needs[1] = -HUGE_VAL;
+    c->is_told = 1;
+}
+
+knurl_result knurl_session_tell_time(knurl_session *session, uint32_t clock, double seconds) {
+    if (KNURL_BAD_HANDLE(session, SESSION)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    if (clock >= KNURL_SESSION_CLOCKS || !isfinite(seconds)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "session: expected a clock of 0 (frames) or 1 (steps) and finite seconds, found %u and %g",
+                          (unsigned)clock, seconds);
+    }
+    if (!session->runs) {
+        return KNURL_OK;
+    }
+    knurl_session_clock *c = &session->clocks[clock];
+    const double elapsed = seconds - c->time;
+    if (!c->is_told || elapsed < 0.0 || elapsed > LONGEST) {
+        begin(c, seconds, now_of(session));
+    } else if (elapsed > 0.0) { /* by now, what came before had to be still on its way */
+        const double needed = now_of(session) - c->time + 1.0 / session->desc.update_rate_hz;
+        c->time = seconds;
+        learn(c, needed, elapsed);
+    }
+    return KNURL_OK;
+}
+
+int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace) {
+    const knurl_session_clock *c = &session->clocks[way->clock];
+    if (!c->is_told) {
+        return 0;
+    }
+    const double now = now_of(session);
+    const double tick = 1.0 / session->desc.update_rate_hz;
+    pace->step = way->moved ? c->time - way->time : HUGE_VAL;
+    pace->lag = c->lag;
+    if (pace->step >= 0.0 && pace->step < LONGEST) { /* it may move more seldom than its clock */
+        const double needed = now - way->time + tick;
+        pace->lag = fmax(c->lag, fmax(way->lag - SHRINKING * pace->step, needed));
+    }
+    pace->seconds = fmax(c->time + pace->lag - now, tick);
+    return 1;
+}

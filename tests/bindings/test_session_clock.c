@@ -1,0 +1,217 @@
+/* Surfaces that an engine moves in steps and shows in frames. SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+#include <math.h>
+
+static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
+
+/* 100 mm/s over 1000 ridges/m: at 1 kHz a ridge lasts 10 ticks. */
+#define SPEED      0.1
+#define RIDGES     1000.0
+#define GAP        10.0
+#define WARM_UP_S  1.5 /* until the clocks' rhythm is known */
+#define MEASURED_S 1.5
+
+typedef struct rig {
+    knurl_session *s;
+    knurl_surface_id plate;
+    knurl_session_way way;
+    float heights[4000];
+    uint64_t ticks;
+} rig;
+
+/* A finger 1 mm deep in a long plate with ridges. */
+static void set_up(rig *r, int32_t method, uint32_t clock) {
+    const knurl_session_desc desc = describe("fake", "");
+    surface_parts parts = surface_plane();
+    memset(r, 0, sizeof *r);
+    r->s = make_session();
+    set_grating(&parts, method, RIDGES, 0.0, 1e-4);
+    parts.plane.half_extents[0] = 1.0;
+    r->plate = add_surface(knurl_session_get_scene(r->s), &parts);
+    r->way.clock = clock;
+    open_session(r->s, &desc);
+    begin(r->s);
+    press(r->s, 0.0, 0.0);
+}
+
+/* Goes on to a time, s, and keeps the heights that were felt. */
+static void go_to(rig *r, double time) {
+    float rows[2 * 256];
+    const uint64_t due = (uint64_t)(time * 1000.0 + 1e-9);
+    while (r->ticks < due) {
+        const uint32_t count = (uint32_t)(due - r->ticks < 256 ? due - r->ticks : 256);
+        step(r->s, count);
+        assert_int_equal(knurl_session_get_history(r->s, count, rows), count);
+        for (uint32_t i = 0; i < count; i++) {
+            r->heights[r->ticks++] = rows[2 * i];
+        }
+    }
+}
+
+static void move_to(rig *r, double time) {
+    const double position[3] = {SPEED * time, 0.0, 0.0};
+    assert_int_equal(knurl_session_move_surface(r->s, r->plate, &r->way, position, upright), KNURL_OK);
+}
+
+/* The shortest and the longest time between rises, in ticks, once the rhythm is known. */
+static void measure_gaps(const rig *r, double *shortest, double *longest) {
+    uint64_t last = 0;
+    *shortest = HUGE_VAL;
+    *longest = 0.0;
+    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r->ticks; i++) {
+        if (r->heights[i - 1] < 0.0F && r->heights[i] > 0.0F) {
+            if (last > 0) {
+                *shortest = fmin(*shortest, (double)(i - last));
+                *longest = fmax(*longest, (double)(i - last));
+            }
+            last = i;
+        }
+    }
+}
+
+static int check_gaps(rig *r, const char *what, double fps, double rate) {
+    double shortest;
+    double longest;
+    measure_gaps(r, &shortest, &longest);
+    knurl_session_destroy(r->s);
+    if (shortest >= GAP - 1.0 && longest <= GAP + 1.0) {
+        return 0;
+    }
+    print_error("%s: %g frames and %g steps a second: gaps of %g to %g ticks\n", what, fps, rate, shortest, longest);
+    return 1;
+}
+
+static const double frame_rates[] = {30, 45, 60, 72, 90, 120, 144, 165, 240};
+static const double step_rates[] = {30, 50, 60, 75, 100, 120, 144, 240};
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* An even pseudo-random number, -1 to 1. */
+static double noise(uint32_t *seed) {
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)(*seed >> 8) / (double)(1u << 23) - 1.0;
+}
+
+/* Physics at one rate, shown at another: a frame shows the steps that were due when it began. `unsteady`: share of a
+ * frame by which frames come late or early. */
+static int play_steps(int32_t method, double fps, double rate, double unsteady) {
+    rig r;
+    uint32_t seed = 1;
+    double steps = 0.0;
+    set_up(&r, method, KNURL_SESSION_STEPS);
+    for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
+        const double now = (frame + 0.5 * unsteady * noise(&seed)) / fps;
+        const double done = floor(now * rate + 1e-9);
+        go_to(&r, now);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / fps), KNURL_OK);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, done / rate), KNURL_OK);
+        if (done > steps) {
+            move_to(&r, done / rate);
+        }
+        steps = done;
+    }
+    return check_gaps(&r, unsteady > 0.0 ? "unsteady" : "steady", fps, rate);
+}
+
+TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
+        failed += play_steps(KNURL_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
+    }
+    assert_int_equal(failed, 0);
+}
+
+TEST(so_it_is_where_frames_come_unevenly) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
+        failed += play_steps(KNURL_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
+    }
+    assert_int_equal(failed, 0);
+}
+
+TEST(so_it_is_with_the_default_method) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates); i++) {
+        failed += play_steps(KNURL_METHOD_DEFAULT, frame_rates[i], 60.0, 0.0);
+    }
+    assert_int_equal(failed, 0);
+}
+
+/* What a script moves is moved by each frame's length, and frames are of uneven lengths. */
+TEST(what_frames_move_is_felt_evenly) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates); i++) {
+        rig r;
+        uint32_t seed = 1;
+        const double fps = frame_rates[i];
+        set_up(&r, KNURL_S1, KNURL_SESSION_FRAMES);
+        for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
+            const double now = (frame + 0.2 * noise(&seed)) / fps;
+            go_to(&r, now);
+            assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
+            move_to(&r, now);
+        }
+        failed += check_gaps(&r, "frames", fps, 0.0);
+    }
+    assert_int_equal(failed, 0);
+}
+
+/* A body that sleeps for two of three steps. */
+TEST(what_moves_more_seldom_than_its_clock_is_felt_evenly) {
+    rig r;
+    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
+        go_to(&r, (double)steps / 60.0);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, (double)steps / 60.0), KNURL_OK);
+        if (steps % 3 == 0) {
+            move_to(&r, (double)steps / 60.0);
+        }
+    }
+    assert_int_equal(check_gaps(&r, "seldom", 60.0, 20.0), 0);
+}
+
+/* Where the engine's clock begins does not matter, nor that it is told in a game that has run for days. */
+TEST(a_clock_may_begin_anywhere) {
+    rig r;
+    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
+        go_to(&r, (double)steps / 60.0);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, 1e6 + (double)steps / 60.0), KNURL_OK);
+        move_to(&r, (double)steps / 60.0);
+    }
+    assert_int_equal(check_gaps(&r, "late", 60.0, 60.0), 0);
+}
+
+/* After a frame of a second, and where the clock was set back, moves are late by no more than two frames again. */
+TEST(a_stall_does_not_last) {
+    rig r;
+    double time = 0.0;
+    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    for (int steps = 1; steps < 120; steps++) {
+        time += steps == 60 ? 1.0 : 1.0 / 60.0;
+        go_to(&r, time);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS,
+                                                 steps < 90 ? (double)steps / 60.0 : (double)(steps - 90) / 60.0),
+                         KNURL_OK);
+        move_to(&r, (double)steps / 60.0);
+    }
+    step(r.s, 40);
+    const knurl_session_clock *c = &r.s->clocks[KNURL_SESSION_STEPS];
+    const double late = c->time + c->lag - time;
+    assert_true(late > 0.0 && late < 2.5 / 60.0);
+    knurl_session_destroy(r.s);
+}
+
+TEST(bad_clocks_are_refused) {
+    rig r;
+    const double position[3] = {0.0, 0.0, 0.0};
+    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_CLOCKS, 0.0), KNURL_ERROR_ARGUMENT);
+    check_message("clock");
+    assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, NAN), KNURL_ERROR_ARGUMENT);
+    check_message("finite");
+    r.way.clock = KNURL_SESSION_CLOCKS;
+    CHECK_REFUSED(knurl_session_move_surface(r.s, r.plate, &r.way, position, upright), KNURL_ERROR_ARGUMENT, r.way);
+    check_message("clock");
+    knurl_session_destroy(r.s);
+}
