@@ -2,6 +2,7 @@
 #include "cost.h"
 
 #include "machine.h"
+#include "statistics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,12 +17,6 @@ static double now_ns(void) {
     struct timespec now;
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* What is left of a tick when nothing is rendered. Called through a pointer, as the real one is. */
@@ -47,9 +42,8 @@ void study_time_ticks(double (*tick)(void *), void *subject, study_cost *cost) {
         samples[batch] = (now_ns() - before) / BATCH;
     }
     (void)sink;
-    qsort(samples, BATCHES, sizeof *samples, by_value);
-    cost->ns_median = samples[BATCHES / 2];
-    cost->ns_p99 = samples[BATCHES * 99 / 100];
+    cost->ns_median = quantile(samples, BATCHES, 0.5);
+    cost->ns_p99 = quantile(samples, BATCHES, 0.99);
 }
 
 double study_empty_tick_ns(void) {

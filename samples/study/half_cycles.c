@@ -1,6 +1,8 @@
 /* Half cycles: the scan, the impulses, what they come to. SPDX-License-Identifier: MIT */
 #include "half_cycles.h"
 
+#include "statistics.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,17 +135,10 @@ static double stroke(scan *s, double start) {
     return s->speed * last_start / HALF_CYCLES_RATE / s->period;
 }
 
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median_half(const scan *s, double *room) {
     memcpy(room, s->halves[0], s->count * sizeof *room);
     memcpy(room + s->count, s->halves[1], s->count * sizeof *room);
-    qsort(room, 2 * s->count, sizeof *room, by_value);
-    return room[s->count];
+    return quantile(room, 2 * s->count, 0.5);
 }
 
 /* Standard deviation over mean, of what an event gives (the mean of its halves), over `unit` where that is given. */

@@ -1,7 +1,7 @@
 /* knurl study preferences: figure 8 and Experiment 3 beside this code's metrics. SPDX-License-Identifier: MIT */
 #include "preferences.h"
 
-#include "rank.h"
+#include "statistics.h"
 #include "study.h"
 #include "wave_options.h"
 

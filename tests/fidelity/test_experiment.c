@@ -3,6 +3,7 @@
 #include "support/close.h"
 
 #include "experiment.h"
+#include "statistics.h"
 
 #include <stdlib.h>
 
@@ -23,25 +24,25 @@ static void make_triangle(void) {
 
 /* How many of the 2^n equally likely outcomes the rule counts. */
 static uint64_t outcomes(int32_t rule, uint32_t n, uint32_t m) {
-    uint64_t sum = rule == EXP_POINT ? choose[n][m] : 0;
-    for (uint32_t i = m; rule != EXP_POINT && i <= n; i++) {
+    uint64_t sum = rule == BINOMIAL_POINT ? choose[n][m] : 0;
+    for (uint32_t i = m; rule != BINOMIAL_POINT && i <= n; i++) {
         sum += choose[n][i];
     }
-    return rule == EXP_TWO_SIDED ? 2 * sum : sum;
+    return rule == BINOMIAL_TWO_SIDED ? 2 * sum : sum;
 }
 
 TEST(eq14_and_its_tails_are_counts_of_outcomes) {
     make_triangle();
     for (uint32_t n = 1; n <= MOST; n++) {
         for (uint32_t m = 0; m <= n; m++) {
-            for (int32_t rule = EXP_POINT; rule <= EXP_TWO_SIDED; rule++) {
+            for (int32_t rule = BINOMIAL_POINT; rule <= BINOMIAL_TWO_SIDED; rule++) {
                 const long double exact =
                     fminl(1.0L, ldexpl((long double)outcomes(rule, n, m), -(int)n)); /* twice a half and more is 1 */
-                CHECK_CLOSE(exp_probability(rule, n, m), exact, 1e-13L * exact);
+                CHECK_CLOSE(binomial_probability(rule, n, m), exact, 1e-13L * exact);
             }
         }
     }
-    CHECK_CLOSE(exp_probability(EXP_POINT, 2000, 1000), 0.0178390111L, 1e-9L); /* Stirling: no overflow */
+    CHECK_CLOSE(binomial_probability(BINOMIAL_POINT, 2000, 1000), 0.0178390111L, 1e-9L); /* Stirling: no overflow */
 }
 
 TEST(thresholds_are_the_paper_s_and_those_of_the_tails) {
@@ -50,18 +51,18 @@ TEST(thresholds_are_the_paper_s_and_those_of_the_tails) {
     } known[] = {{36, 48, {28, 28, 29}}, {12, 3, {10, 11, 11}}, {3, 48, {4, 4, 4}}, {1, 3, {2, 2, 2}}};
     make_triangle();
     for (size_t i = 0; i < COUNT_OF(known); i++) {
-        for (int32_t rule = EXP_POINT; rule <= EXP_TWO_SIDED; rule++) {
-            assert_int_equal(exp_threshold(rule, known[i].n, 0.05 / known[i].family), known[i].by_rule[rule]);
+        for (int32_t rule = BINOMIAL_POINT; rule <= BINOMIAL_TWO_SIDED; rule++) {
+            assert_int_equal(binomial_threshold(rule, known[i].n, 0.05 / known[i].family), known[i].by_rule[rule]);
         }
     }
     for (uint32_t n = 1; n <= 50; n++) { /* 0.05/48 = 1/960 and 0.05/3 = 1/60, in integers */
-        for (int32_t rule = EXP_POINT; rule <= EXP_TWO_SIDED; rule++) {
+        for (int32_t rule = BINOMIAL_POINT; rule <= BINOMIAL_TWO_SIDED; rule++) {
             for (uint64_t inverse = 60; inverse <= 960; inverse += 900) {
                 uint32_t m = n / 2 + 1;
                 while (m <= n && outcomes(rule, n, m) * inverse > UINT64_C(1) << n) {
                     m++;
                 }
-                assert_int_equal(exp_threshold(rule, n, 1.0 / (double)inverse), m);
+                assert_int_equal(binomial_threshold(rule, n, 1.0 / (double)inverse), m);
             }
         }
     }

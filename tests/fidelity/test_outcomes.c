@@ -4,7 +4,7 @@
 
 #include "device_bench.h"
 #include "preferences.h"
-#include "rank.h"
+#include "statistics.h"
 
 #include <knurl/knurl.h>
 
@@ -25,6 +25,14 @@ TEST(published_cells_are_as_many_as_the_paper_says) {
         }
         assert_int_equal(preferred, expected[experiment - 1]);
     }
+}
+
+TEST(a_quantile_is_the_value_that_a_share_is_below) {
+    double values[] = {4, 1, 5, 2, 3, 10};
+    assert_true(quantile(values, 6, 0.5) == 4.0);
+    assert_true(quantile(values, 6, 0.99) == 10.0);
+    assert_true(quantile(values, 6, 0.0) == 1.0);
+    assert_true(quantile(values, 1, 0.5) == 1.0);
 }
 
 TEST(rank_correlations_with_ties) {

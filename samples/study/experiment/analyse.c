@@ -1,6 +1,8 @@
 /* What the answers come to: counts, Eq. 14, and verdicts under three rules. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "statistics.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,7 +33,7 @@ static cell count_cell(const exp_records *records, const exp_design *d, double p
 
 /* 1 ours, 0 the rival's, -1 neither. */
 static int verdict(const exp_design *d, const cell *c, int32_t rule) {
-    const uint32_t enough = exp_threshold(rule, c->n, SIGNIFICANCE / d->family);
+    const uint32_t enough = binomial_threshold(rule, c->n, SIGNIFICANCE / d->family);
     return c->m >= enough ? 1 : c->n - c->m >= enough ? 0 : -1;
 }
 
@@ -41,7 +43,7 @@ static void print_cell(const exp_design *d, double period, double amplitude, int
     const uint32_t more = c->m > c->n - c->m ? c->m : c->n - c->m;
     printf("%9g %9g %5s %6u %4u", period, amplitude, sound ? "yes" : "no", (unsigned)c->m, (unsigned)c->n);
     for (int32_t rule = 0; rule < 3; rule++) {
-        printf(" %10.3g", exp_probability(rule, c->n, more));
+        printf(" %10.3g", binomial_probability(rule, c->n, more));
     }
     for (int32_t rule = 0; rule < 3; rule++) {
         const int who = verdict(d, c, rule);
@@ -69,7 +71,7 @@ static void print_heading(const exp_design *d) {
 static void print_thresholds(const exp_design *d, uint32_t n) {
     printf("needed of %u trials at 0.05/%u:", (unsigned)n, (unsigned)d->family);
     for (int32_t rule = 0; rule < 3; rule++) {
-        const uint32_t m = exp_threshold(rule, n, SIGNIFICANCE / d->family);
+        const uint32_t m = binomial_threshold(rule, n, SIGNIFICANCE / d->family);
         if (m > n) {
             printf("%s %s none is enough", rule ? "," : "", rules[rule]);
         } else {

@@ -167,17 +167,6 @@ void exp_chop(char *line);
 /* 1 where nothing would be lost: no such file, none that is regular, or one whose answers are all simulated. */
 int exp_may_replace(const char *path);
 
-/* --- binomial.c: Eq. 14 and thresholds --- */
-
-enum { EXP_POINT = 0, EXP_ONE_SIDED = 1, EXP_TWO_SIDED = 2 };
-
-/* Under chance (p = 0.5): EXP_POINT P(m of n), Eq. 14; EXP_ONE_SIDED P(m or more); EXP_TWO_SIDED twice that, at most 1.
- */
-double exp_probability(int32_t rule, uint32_t n, uint32_t m);
-
-/* The least m above n/2 with a probability of at most `significance`; n + 1 where there is none. */
-uint32_t exp_threshold(int32_t rule, uint32_t n, double significance);
-
 /* --- analyse.c --- */
 
 /* Reads the files, prints the analysis. An exit code. */

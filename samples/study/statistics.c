@@ -1,7 +1,19 @@
-/* Rank correlations. SPDX-License-Identifier: MIT */
-#include "rank.h"
+/* Quantiles, rank correlations and the binomial distribution. SPDX-License-Identifier: MIT */
+#include "statistics.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double quantile(double *values, size_t count, double share) {
+    qsort(values, count, sizeof *values, by_value);
+    return values[(size_t)(share * (double)count)];
+}
 
 /* Two values a rounding apart are tied. */
 static int order(double a, double b) {
@@ -64,4 +76,40 @@ double rank_separation(const double *x, const double *y, size_t count) {
         }
     }
     return pairs > 0.0 ? above / pairs : NAN;
+}
+
+/* n! / (m! (n - m)!) / 2^n; the halvings are dealt out so that nothing overflows. */
+static double point(uint32_t n, uint32_t m) {
+    double p = 1.0;
+    uint32_t halvings = 0;
+    if (m > n) {
+        return 0.0;
+    }
+    for (uint32_t i = 1; i <= m; i++) {
+        p *= (double)(n - m + i) / (double)i;
+        while (p > 1.0 && halvings < n) {
+            p *= 0.5;
+            halvings++;
+        }
+    }
+    return ldexp(p, -(int)(n - halvings));
+}
+
+double binomial_probability(int32_t rule, uint32_t n, uint32_t m) {
+    double tail = 0.0;
+    if (rule == BINOMIAL_POINT) {
+        return point(n, m);
+    }
+    for (uint32_t i = n + 1; i-- > m;) { /* the smallest first */
+        tail += point(n, i);
+    }
+    return fmin(1.0, rule == BINOMIAL_TWO_SIDED ? 2.0 * tail : tail);
+}
+
+uint32_t binomial_threshold(int32_t rule, uint32_t n, double significance) {
+    uint32_t m = n + 1;
+    while (m - 1 > n / 2 && binomial_probability(rule, n, m - 1) <= significance) {
+        m--;
+    }
+    return m;
 }
