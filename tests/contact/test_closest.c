@@ -1,6 +1,6 @@
 /* The nearest point of a mesh against the oracle, a million times, and the oracle against brute force.
  * SPDX-License-Identifier: MIT */
-#include "contact/bodies.h"
+#include "contact/moon.h"
 #include "contact/oracle.h"
 #include "support/probe.h"
 

@@ -3,6 +3,8 @@
 #include "contact/bodies.h"
 #include "support/probe.h"
 
+#include <stdio.h>
+
 static const double speeds[] = {0.049, 0.099, 0.247, 1.37, 2.0}; /* m/s; 1.37: not a whole number of periods a tick */
 
 /* Grooves along y, half a period wide: 80 mm by 40 mm, the ridges' tops at z = 0. */

@@ -1,8 +1,7 @@
 /* The proxy on meshes: what is pressed is held, what has left is let go, and the normal and depth are the shape's.
  * SPDX-License-Identifier: MIT */
+#include "contact/bodies.h"
 #include "support/probe.h"
-
-#define PI 3.14159265358979323846
 
 /* How far the facets of a sphere lie below it, and how far their edges stand from the foot of their normals. */
 static void measure_facets(const shape *s, double radius, double *sagitta, double *half_width) {
@@ -205,27 +204,10 @@ TEST(distance_in_front_of_a_box_is_the_boxs) {
     probe_free(&p);
 }
 
-/* A ring round z: 30 mm to the middle of its tube of 8 mm. */
+/* body_torus() without its facets. */
 static double near_ring(const double p[3]) {
     const double across = sqrt(p[0] * p[0] + p[1] * p[1]) - 0.030;
     return sqrt(across * across + p[2] * p[2]) - 0.008;
-}
-
-static shape shape_ring(uint32_t around, uint32_t tube) {
-    shape s = shape_new(around * tube, 6 * around * tube, 0);
-    uint32_t at = 0;
-    for (uint32_t i = 0; i < around; i++) {
-        for (uint32_t j = 0; j < tube; j++) {
-            const double a = 2.0 * PI * i / around;
-            const double b = 2.0 * PI * j / tube;
-            const double r = 0.030 + 0.008 * cos(b);
-            const uint32_t i1 = (i + 1) % around * tube;
-            const uint32_t j1 = (j + 1) % tube;
-            shape_set(&s, i * tube + j, r * cos(a), r * sin(a), 0.008 * sin(b));
-            at = shape_quad(&s, at, i * tube + j, i1 + j, i1 + j1, i * tube + j1);
-        }
-    }
-    return s;
 }
 
 TEST(ring_holds_what_is_inside_but_for_its_facets) {
@@ -234,7 +216,7 @@ TEST(ring_holds_what_is_inside_but_for_its_facets) {
     const uint32_t around = 240;
     const uint32_t tube = 80;
     const double sagitta = 0.038 * (1.0 - cos(PI / around)) + 0.008 * (1.0 - cos(PI / tube)) + 1e-8;
-    shape ring = shape_ring(around, tube);
+    shape ring = body_torus(around, tube);
     probe p = probe_shape(&ring);
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near_ring, start, 0.003, 0.001, steps[i], sagitta, 100000, 41 + i);
@@ -292,8 +274,8 @@ static void compare_on_walk(probe *a, probe *b, double (*distance)(const double[
 
 TEST(seams_of_doubled_vertices_do_not_let_go) {
     const double start[3] = {0.030, 0.0, 0.0085};
-    shape welded = shape_ring(60, 20);
-    shape apart = shape_ring(60, 20);
+    shape welded = body_torus(60, 20);
+    shape apart = body_torus(60, 20);
     shape_unweld(&apart);
     assert_int_equal(apart.vertex_count, 6 * welded.vertex_count);
     probe a = probe_shape(&welded);

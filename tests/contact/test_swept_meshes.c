@@ -1,7 +1,7 @@
 /* `knurl run --stroke sweep` over every mesh of the demo's assets, the usual primitives and the moon: how far the hand
  * moves in contact, and how many half cycles it feels. What is expected is computed from the rows of the CSV and the
  * shapes' own formulas: 2 fs times the metres along x. SPDX-License-Identifier: MIT */
-#include "contact/bodies.h"
+#include "contact/moon.h"
 #include "support/tool.h"
 
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";

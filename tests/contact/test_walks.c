@@ -2,7 +2,7 @@
  * lies on the mesh and is the nearest point of its neighbourhood, and how much further it may be than the nearest of
  * all. A proxy is local on purpose: the nearest point of all jumps from the front of a thin wall to its back, and over
  * an edge to the face that is nearer, whichever the HIP came in by. SPDX-License-Identifier: MIT */
-#include "contact/bodies.h"
+#include "contact/moon.h"
 #include "contact/oracle.h"
 #include "support/probe.h"
 
