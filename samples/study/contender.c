@@ -8,9 +8,9 @@
 #define PERIOD_M   0.001
 #define RESOLUTION 0.055e-3 /* the Touch's */
 
-const study_method study_methods[] = {{"T1", KNURL_T1, 0, 0}, {"T2", KNURL_T2, 0, 0}, {"T3", KNURL_T3, 0, 0},
-                                      {"S1", KNURL_S1, 1, 0}, {"S2", KNURL_S2, 1, 1}, {"locked", KNURL_LOCKED, 1, 1},
-                                      {NULL, 0, 0, 0}};
+const study_method study_methods[] = {
+    {"T1", KNURL_T1, 0, 0}, {"T2", KNURL_T2, 0, 0},         {"T3", KNURL_T3, 0, 0},     {"S1", KNURL_S1, 1, 0},
+    {"S2", KNURL_S2, 1, 1}, {"locked", KNURL_LOCKED, 1, 1}, {"area", KNURL_AREA, 1, 1}, {NULL, 0, 0, 0}};
 
 static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
 

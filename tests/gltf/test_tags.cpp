@@ -42,7 +42,8 @@ TEST(method_is_locked_and_the_rest_0_unless_said) {
 }
 
 TEST(every_method_is_read_by_its_name) {
-    for (const auto &[name, method] : {std::pair("S1", KNURL_S1), {"S2", KNURL_S2}, {"locked", KNURL_LOCKED}}) {
+    for (const auto &[name, method] :
+         {std::pair("S1", KNURL_S1), {"S2", KNURL_S2}, {"locked", KNURL_LOCKED}, {"area", KNURL_AREA}}) {
         File file = quad();
         file.materials = "{" + tag(R"("method":")" + std::string(name) + '"') + "}";
         assert_int_equal(material_of(file).method, method);
@@ -121,7 +122,8 @@ TEST(wrong_values_name_key_expected_and_found) {
                          {bars, "knurl.spatial_frequency: expected a number >= 0 or an array of 2", "found "});
     for (const char *value : {"1", "[1,0]", "[0,0,0]", "[1,0,0,0]", "[1,0,\"z\"]"})
         assert_tag_fails(with(R"("axis":)" + std::string(value)), {bars, "knurl.axis: expected an array of 3 numbers"});
-    assert_tag_fails(with(R"("method":"S3")"), {bars, "knurl.method: expected 'S1', 'S2' or 'locked', found 'S3'"});
+    assert_tag_fails(with(R"("method":"S3")"),
+                     {bars, "knurl.method: expected 'S1', 'S2', 'locked' or 'area', found 'S3'"});
     assert_tag_fails(with(R"("method":2)"), {bars, "knurl.method: expected a string", "found 2"});
 }
 

@@ -345,7 +345,7 @@ TEST(default_method_is_resolved_to_locked) {
 }
 
 TEST(unknown_methods_are_refused_with_a_sentence) {
-    static const int32_t unknown[] = {-1, 4, 1000};
+    static const int32_t unknown[] = {-1, 5, 1000};
     knurl_grating grating = make_grating(KNURL_S2, 1000.0, 0.0, 1.0, 1000.0);
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         grating.method = unknown[i];
@@ -381,8 +381,8 @@ TEST(bad_gratings_are_refused_and_left_as_they_were) {
 }
 
 TEST(names_of_methods_go_both_ways) {
-    static const char *const names[] = {"S1", "S2", "locked"};
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+    static const char *const names[] = {"S1", "S2", "locked", "area"};
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
     int32_t method = 77;
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         assert_string_equal(knurl_method_name(methods[i]), names[i]);
@@ -391,7 +391,7 @@ TEST(names_of_methods_go_both_ways) {
     }
     assert_null(knurl_method_name(KNURL_METHOD_DEFAULT));
     assert_null(knurl_method_name(-1));
-    assert_null(knurl_method_name(4));
+    assert_null(knurl_method_name(5));
 }
 
 TEST(unknown_names_are_refused_with_the_known_ones) {

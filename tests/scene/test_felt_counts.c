@@ -25,10 +25,10 @@ static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, doubl
     return counts;
 }
 
-/* L metres over fs cycles/m cross 2 fs L half cycles. S1 and LOCKED play each of them, give or take one at either end;
- * S2 too where the period is a whole number of ticks (10 and 50). */
+/* L metres over fs cycles/m cross 2 fs L half cycles. S1, LOCKED and AREA play each of them, give or take one at either
+ * end; S2 too where the period is a whole number of ticks (10 and 50). */
 TEST(a_stroke_crosses_two_fs_times_its_metres_and_plays_them) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
     static const double speeds[] = {0.02, 0.1};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         for (size_t j = 0; j < COUNT_OF(speeds); j++) {

@@ -5,11 +5,11 @@
 
 /* The contract's cases, in its words. */
 static const char *const contract[] = {
-    "empty",           "motion_foaw",       "grating_S1",   "grating_S2",       "grating_locked",     "plane",
-    "plane_smooth",    "plane_friction",    "mesh_1k",      "mesh_1k_smooth",   "mesh_1k_friction",   "mesh_10k",
-    "mesh_10k_smooth", "mesh_10k_friction", "mesh_100k",    "mesh_100k_smooth", "mesh_100k_friction", "mesh_1m",
-    "mesh_1m_smooth",  "mesh_1m_friction",  "surfaces_10k", "moving",           "two_hips",           "paced_plane",
-    "paced_mesh_100k"};
+    "empty",       "motion_foaw",     "grating_S1",        "grating_S2",   "grating_locked",   "grating_area",
+    "plane",       "plane_smooth",    "plane_friction",    "mesh_1k",      "mesh_1k_smooth",   "mesh_1k_friction",
+    "mesh_10k",    "mesh_10k_smooth", "mesh_10k_friction", "mesh_100k",    "mesh_100k_smooth", "mesh_100k_friction",
+    "mesh_1m",     "mesh_1m_smooth",  "mesh_1m_friction",  "surfaces_10k", "moving",           "two_hips",
+    "paced_plane", "paced_mesh_100k"};
 
 /* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
 static const char *only_case(const char *json, const char *name) {
@@ -66,7 +66,8 @@ TEST(one_case_is_told_with_all_its_fields) {
 }
 
 TEST(each_kind_of_case_runs) {
-    static const char *const names[] = {"empty", "motion_foaw", "grating_S1", "grating_S2", "grating_locked"};
+    static const char *const names[] = {"empty",      "motion_foaw",    "grating_S1",
+                                        "grating_S2", "grating_locked", "grating_area"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         process p = RUN_TOOL("bench", "--json", "--ticks", "20", "--case", names[i]);
         check_done(&p);

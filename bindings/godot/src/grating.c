@@ -44,7 +44,7 @@ static const gd_property properties[] = {
     NUMBER(damping, 0.0, 10.0, 0.01, "or_greater,suffix:N s/m"),
     NUMBER(friction, 0.0, 2.0, 0.01, "or_greater"),
     NUMBER(orientation, -360.0, 360.0, 0.1, "radians_as_degrees"),
-    {"method", GDEXTENSION_VARIANT_TYPE_INT, offsetof(grating, method), 0.0, 3.0, 1.0, "Default,S1,S2,Locked",
+    {"method", GDEXTENSION_VARIANT_TYPE_INT, offsetof(grating, method), 0.0, 4.0, 1.0, "Default,S1,S2,Locked,Area",
      GD_HINT_ENUM, NULL, NULL, changed},
 };
 

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "796c32da21777e0a"
+#define KNURL_UNITY_INTERFACE "7162242785ea6711"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -116,7 +116,7 @@
     FIELD(knurl_grating, reserved, "reserved", 36, 4) \
     FIELD(knurl_grating, resolution, "resolution", 40, 8) \
     FIELD(knurl_grating, crossover_hz, "crossover_hz", 48, 8) \
-    STRUCT(knurl_grating_state, 88) \
+    STRUCT(knurl_grating_state, 96) \
     FIELD(knurl_grating_state, event, "event", 0, 32) \
     FIELD(knurl_grating_state, event_count, "event_count", 32, 8) \
     FIELD(knurl_grating_state, next_tick, "next_tick", 40, 4) \
@@ -127,7 +127,8 @@
     FIELD(knurl_grating_state, direction, "direction", 72, 4) \
     FIELD(knurl_grating_state, moving, "moving", 76, 4) \
     FIELD(knurl_grating_state, sign, "sign", 80, 4) \
-    FIELD(knurl_grating_state, reserved, "reserved", 84, 4) \
+    FIELD(knurl_grating_state, axis, "axis", 84, 4) \
+    FIELD(knurl_grating_state, across, "across", 88, 8) \
     STRUCT(knurl_grating_output, 40) \
     FIELD(knurl_grating_output, height, "height", 0, 8) \
     FIELD(knurl_grating_output, spatial_frequency, "spatial_frequency", 8, 8) \

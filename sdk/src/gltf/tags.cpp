@@ -95,11 +95,11 @@ void read_axis(Tag &tag, const Entry &entry) {
 
 void read_method(Tag &tag, const Entry &entry) {
     if (!entry.value.is_string())
-        entry.refuse("a string: 'S1', 'S2' or 'locked'");
+        entry.refuse("a string: 'S1', 'S2', 'locked' or 'area'");
     int32_t method = KNURL_METHOD_DEFAULT;
     const knurl_result result = knurl_method_from_name(entry.value.get_ref<const std::string &>().c_str(), &method);
     if (result != KNURL_OK)
-        entry.refuse("'S1', 'S2' or 'locked'");
+        entry.refuse("'S1', 'S2', 'locked' or 'area'");
     tag.method = method;
 }
 

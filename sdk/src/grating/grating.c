@@ -3,6 +3,7 @@
 #include <knurl/grating.h>
 
 #include "base/handle.h"
+#include "grating/area.h"
 #include "grating/locked.h"
 #include "grating/phase.h"
 #include "vibration/event.h"
@@ -14,7 +15,7 @@
 static const struct {
     int32_t method;
     const char *name;
-} methods[] = {{KNURL_S1, "S1"}, {KNURL_S2, "S2"}, {KNURL_LOCKED, "locked"}};
+} methods[] = {{KNURL_S1, "S1"}, {KNURL_S2, "S2"}, {KNURL_LOCKED, "locked"}, {KNURL_AREA, "area"}};
 
 const char *knurl_method_name(int32_t method) {
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -35,7 +36,7 @@ knurl_result knurl_method_from_name(const char *name, int32_t *method) {
             return KNURL_OK;
         }
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected S1, S2 or locked, found '%s'", name);
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected S1, S2, locked or area, found '%s'", name);
 }
 
 knurl_result knurl_grating_check(knurl_grating *grating) {
@@ -63,8 +64,9 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected 0 or a finite number >= 1 (Hz), found %g Hz",
                           grating->crossover_hz);
     }
-    if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_LOCKED) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_S1, KNURL_S2 or KNURL_LOCKED, found %d",
+    if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_AREA) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN,
+                          "method: expected KNURL_S1, KNURL_S2, KNURL_LOCKED or KNURL_AREA, found %d",
                           (int)grating->method);
     }
     grating->method = grating->method == KNURL_METHOD_DEFAULT ? KNURL_LOCKED : grating->method;
@@ -122,6 +124,12 @@ static void tell_turn(knurl_grating_state *state, knurl_grating_output *output) 
     state->sign = sign ? sign : state->sign;
 }
 
+/* The latest ridge to begin: AREA's events. One of LOCKED's, which begins on a ridge, has been counted. */
+static int64_t count_ridges(knurl_grating_state *state, double height) {
+    state->event_count += (height > 0.0) & (state->sign <= 0) & (state->next_tick == 0); /* no branch to mispredict */
+    return state->event_count - 1;
+}
+
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
     if (!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1)) {
@@ -136,6 +144,9 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
     if (grating->method == KNURL_LOCKED) {
         output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
+    } else if (grating->method == KNURL_AREA) {
+        output->height = knurl_area_step(grating, state, position, velocity, frequency, output);
+        output->event = count_ridges(state, output->height);
     } else if (state->playing || (grating->method == KNURL_S2 && begin_s2(grating, state, speed2, frequency))) {
         output->height =
             knurl_vibration_event_value(&state->event, state->next_tick); /* also one that another method began */

@@ -67,59 +67,70 @@ static int32_t choose_length(double period, double late) {
 
 /* An event follows another, whose end it was to be at. Whole cycles that were missed, or never were, are not made up
  * for; where f_t is above f_h/2, no more than half of one. */
-static void go_on(const knurl_grating *g, knurl_grating_state *s, double frequency) {
-    const double debt = s->phase - s->played;
+static void go_on(const knurl_grating *g, knurl_grating_state *s, double phase, double frequency) {
+    const double debt = phase - s->played;
     if (frequency > 0.5 * g->update_rate_hz || !(fabs(debt) < 1.0)) {
         s->played += knurl_whole_cycles(debt + 0.5);
     }
 }
 
 /* Whether a cycle begins at this tick, so that events may; then s->played is where. */
-static int is_boundary(knurl_grating_state *s, double before, double half_tick) {
-    const double whole = knurl_whole_cycles(s->phase);
-    const double into = s->phase - whole;
+static int is_boundary(knurl_grating_state *s, double phase, double before, double half_tick) {
+    const double whole = knurl_whole_cycles(phase);
+    const double into = phase - whole;
     s->played = into > 1.0 - half_tick ? whole + 1.0 : whole;
     return into > 1.0 - half_tick || into <= half_tick || (before < whole && into < 0.5);
 }
 
 /* Whether an event begins at this tick. */
-static int event_begins(const knurl_grating *g, knurl_grating_state *s, double before, double frequency) {
-    const double fastest = 0.25 * g->update_rate_hz;
-    const double usual = KNURL_LOCKED_CROSSOVER_HZ < fastest ? KNURL_LOCKED_CROSSOVER_HZ : fastest;
-    if (!(frequency >= (g->crossover_hz > 0.0 ? g->crossover_hz : usual))) {
+static int event_begins(const knurl_grating *g, knurl_grating_state *s, double phase, double before, double frequency,
+                        double lowest) {
+    if (!(frequency >= lowest)) {
         s->moving = 0;
     } else if (s->moving) {
-        go_on(g, s, frequency);
+        go_on(g, s, phase, frequency);
     } else {
-        s->moving = is_boundary(s, before, 0.5 * frequency / g->update_rate_hz);
+        s->moving = is_boundary(s, phase, before, 0.5 * frequency / g->update_rate_hz);
     }
     return s->moving;
 }
 
-double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
-                         const double velocity[2], double frequency, knurl_grating_output *output) {
-    const int32_t direction = state->direction;
-    double before = state->phase;
-    state->phase = find_phase(grating, state, position, velocity, frequency);
-    if (state->direction != direction) { /* back over the same ridges: the count begins anew, from here */
-        before = state->phase;
-        state->moving = 0;
-    }
-    if (!state->playing && event_begins(grating, state, before, frequency)) {
+int knurl_locked_play(const knurl_grating *grating, knurl_grating_state *state, double phase, double before,
+                      double frequency, double lowest, double *height) {
+    if (!state->playing) {
+        if (!event_begins(grating, state, phase, before, frequency, lowest)) {
+            return 0;
+        }
         const double period = grating->update_rate_hz / frequency;
-        const int32_t length = choose_length(period > 2.0 ? period : 2.0, state->phase - state->played);
+        const int32_t length = choose_length(period > 2.0 ? period : 2.0, phase - state->played);
         knurl_vibration_event_set_length(length, grating->amplitude, &state->event);
         state->played += 1.0;
         state->playing = 1;
         state->next_tick = 0;
         state->event_count++;
     }
-    if (!state->playing) {
+    *height = knurl_vibration_event_value(&state->event, state->next_tick);
+    state->next_tick++;
+    state->playing = state->next_tick < state->event.length;
+    return 1;
+}
+
+double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
+                         const double velocity[2], double frequency, knurl_grating_output *output) {
+    const double fastest = 0.25 * grating->update_rate_hz;
+    const double usual = KNURL_LOCKED_CROSSOVER_HZ < fastest ? KNURL_LOCKED_CROSSOVER_HZ : fastest;
+    const double lowest = grating->crossover_hz > 0.0 ? grating->crossover_hz : usual;
+    const int32_t direction = state->direction;
+    double before = state->phase;
+    double height;
+    state->phase = find_phase(grating, state, position, velocity, frequency);
+    if (state->direction != direction) { /* back over the same ridges: the count begins anew, from here */
+        before = state->phase;
+        state->moving = 0;
+    }
+    if (!knurl_locked_play(grating, state, state->phase, before, frequency, lowest, &height)) {
         return knurl_first_half(state->phase) ? grating->amplitude : -grating->amplitude;
     }
     output->event = state->event_count - 1;
-    const double height = knurl_vibration_event_value(&state->event, state->next_tick);
-    state->next_tick++;
-    state->playing = state->next_tick < state->event.length;
     return height;
 }

@@ -47,9 +47,9 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     }
     double velocity[2] = {out->velocity[0], out->velocity[1]};
     double steepest = 1.0;
-    if (m->method == KNURL_LOCKED &&
+    if (m->method >= KNURL_LOCKED && /* or AREA */
         !knurl_surface_rates(c->surface, c->record, &c->contact, over, velocity, &steepest)) {
-        coordinates = NULL; /* it counts the way */
+        coordinates = NULL; /* they count the way */
     }
     const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
                                    c->record->is_smooth ? 0.0 : wall->amplitude,

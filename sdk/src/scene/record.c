@@ -4,9 +4,10 @@
 #include "base/base.h"
 
 /* How far the crests of each method stand above the surface, in amplitudes: S1 and LOCKED (T3's events without the mix)
- * never leave A; S2's 400 Hz mix reaches (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"). */
-#define CREST    1.0
-#define CREST_S2 1.1431
+ * never leave A; S2's 400 Hz mix reaches (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"); AREA 1/sinc(1/2). */
+static double crest(int32_t method) {
+    return method == KNURL_S2 ? 1.1431 : method == KNURL_AREA ? 1.57079632679489662 : 1.0;
+}
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
     const knurl_material_desc defaults = {.stiffness = 400.0};
@@ -53,7 +54,7 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
     record->material = m;
     record->turn[0] = cos(m.orientation);
     record->turn[1] = sin(m.orientation);
-    record->reach = smooth ? 0.0 : m.amplitude * (m.method == KNURL_S2 ? CREST_S2 : CREST);
+    record->reach = smooth ? 0.0 : m.amplitude * crest(m.method);
     record->is_smooth = smooth;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;
     return KNURL_OK;

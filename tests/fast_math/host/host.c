@@ -223,7 +223,8 @@ int main(void) {
     give_bad_input();
     int failed = 0;
     for (int is_sheet = 0; is_sheet < 2; is_sheet++) {
-        failed |= stroke(KNURL_S1, is_sheet) | stroke(KNURL_S2, is_sheet) | stroke(KNURL_LOCKED, is_sheet);
+        failed |= stroke(KNURL_S1, is_sheet) | stroke(KNURL_S2, is_sheet) | stroke(KNURL_LOCKED, is_sheet) |
+                  stroke(KNURL_AREA, is_sheet);
     }
     return failed;
 }

@@ -16,6 +16,10 @@ namespace Knurl
         S2 = 2,
 
         /// <summary>Plays balanced events that keep step with the surface.</summary>
-        Locked = 3
+        Locked = 3,
+
+        /// <summary>Gives the mean of the ridges passed since the last tick. Steady at any speed, and the same ridges
+        /// backwards; half a tick late.</summary>
+        Area = 4
     }
 }

@@ -191,7 +191,8 @@ namespace Knurl
         public int direction;
         public int moving;
         public int sign;
-        public uint reserved;
+        public int axis;
+        public double across;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -570,7 +571,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "796c32da21777e0a";
+        internal const string Interface = "7162242785ea6711";
 
         internal const string Version = "0.1.0";
 
@@ -632,6 +633,7 @@ namespace Knurl
         internal const int KNURL_S1 = 1;
         internal const int KNURL_S2 = 2;
         internal const int KNURL_LOCKED = 3;
+        internal const int KNURL_AREA = 4;
         internal const int KNURL_VELOCITY_AUTO = 0;
         internal const int KNURL_VELOCITY_DIFFERENCE = 1;
         internal const int KNURL_VELOCITY_FOAW = 2;

@@ -47,6 +47,7 @@ namespace Knurl.Tests
             Assert.AreEqual(NativeMethods.KNURL_S1, (int)GratingMethod.S1);
             Assert.AreEqual(NativeMethods.KNURL_S2, (int)GratingMethod.S2);
             Assert.AreEqual(NativeMethods.KNURL_LOCKED, (int)GratingMethod.Locked);
+            Assert.AreEqual(NativeMethods.KNURL_AREA, (int)GratingMethod.Area);
             Assert.AreEqual(0, (int)GratingMethod.Default);
         }
 
