@@ -48,6 +48,12 @@ typedef struct knurl_loop_desc {
     uint32_t reconnect; /**< 1: a lost device is looked for again, four times a second; default 0: the loop ends */
     double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force goes to zero by the ramp, until the
                              next one; 0 (default): nobody has to call it */
+    uint32_t dry_ticks; /**< with a scene, in a haptic thread that runs by the system's clock: 1 (default): before each
+                             tick the device's latest position is ticked once for nobody, so that what the tick runs
+                             and reads is in the cache when the device is read. From position to force takes 0.3 us
+                             instead of 1.6, and the cycle 1 to 2 us more in all (stats.dry_tick_ns); left out in cycles
+                             that come late. 0: not so */
+    uint32_t reserved;  /**< 0 */
 } knurl_loop_desc;
 
 /** Nanoseconds, by percentile. */
@@ -82,6 +88,7 @@ typedef struct knurl_loop_stats {
     uint64_t absences; /**< cycles without a tick, because the device was lost or gave no position to be trusted */
     uint32_t absent;   /**< 1: such was the latest cycle */
     uint32_t paused;   /**< 1: knurl_loop_pause() was called, and knurl_loop_resume() was not since */
+    knurl_percentiles dry_tick_ns; /**< the dry ticks (knurl_loop_desc); within 3 %; 0 without any */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */

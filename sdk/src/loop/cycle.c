@@ -95,6 +95,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
     knurl_count_up(&loop->cycles);
     knurl_store_relaxed(&loop->absent, 1u);
+    loop->has_position = 0;
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
     knurl_loop_add_heat(loop, 0.0);
@@ -124,6 +125,8 @@ static int run_tick(knurl_loop *loop) {
         return be_absent(loop, result);
     }
     memset(&output, 0, sizeof output);
+    vec3_copy(sample.position, loop->position);
+    loop->has_position = 1;
     const int64_t before = loop->clock.now_ns(loop->clock.user);
     const int was_halted = make_force(loop, &sample, &output);
     knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
@@ -209,6 +212,17 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_store_release(&loop->state, state);
 }
 
+/* In a thread's cycle that is not late, before the device is read: the tick finds its code and data in the cache. */
+static void run_dry_tick(knurl_loop *loop) {
+    if (!loop->desc.dry_ticks || !loop->desc.scene || loop->desc.clock || !loop->has_position ||
+        knurl_load_relaxed(&loop->paused) || knurl_loop_at_end(loop)) {
+        return;
+    }
+    const int64_t before = loop->clock.now_ns(loop->clock.user);
+    knurl_hip_dry_tick(loop->desc.scene, loop->desc.hip, &loop->scratch, loop->position);
+    knurl_histogram_add(&loop->dry_tick_ns, loop->clock.now_ns(loop->clock.user) - before);
+}
+
 /* A cycle that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* who looks for a lost one begins the check anew */
@@ -244,6 +258,9 @@ void knurl_loop_haptic_thread(void *argument) {
         const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
         knurl_loop_pass_time(loop, loop->pace.woke_at);
         note_lateness(loop, late, overrun);
+        if (!overrun) {
+            run_dry_tick(loop);
+        }
         if (!knurl_loop_cycle(loop)) {
             break;
         }
@@ -263,6 +280,9 @@ uint32_t knurl_loop_serve(void *argument) {
     } else {
         const double late = fmax(0.0, (double)(now - loop->served_at) - period);
         note_lateness(loop, (int64_t)late, late > 0.5 * period);
+        if (late <= 0.5 * period) {
+            run_dry_tick(loop);
+        }
     }
     loop->served_at = now;
     knurl_loop_pass_time(loop, now);

@@ -145,6 +145,10 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "knurl_loop_desc: expected heartbeat_s 0 to 3600 s and reconnect 0 or 1, found %g and %u",
                           d->heartbeat_s, (unsigned)d->reconnect);
     }
+    if (d->dry_ticks > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.dry_ticks: expected 0 or 1, found %u",
+                          (unsigned)d->dry_ticks);
+    }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.clock: expected both functions, found null");
     }
@@ -152,8 +156,11 @@ static knurl_result check(const knurl_loop_desc *d) {
 }
 
 void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size) {
-    const knurl_loop_desc defaults = {
-        .update_rate_hz = 1000.0, .ramp_s = 0.02, .watchdog_s = 0.05, .protections = KNURL_PROTECT_HEAT};
+    const knurl_loop_desc defaults = {.update_rate_hz = 1000.0,
+                                      .ramp_s = 0.02,
+                                      .watchdog_s = 0.05,
+                                      .protections = KNURL_PROTECT_HEAT,
+                                      .dry_ticks = 1};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -234,6 +241,9 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->gain = 1.0;
     made->game_lives = made->wanted = 1;
     made->max_force = facts.max_force;
+    if (d.scene) {
+        made->scratch = d.scene->hips[d.hip];
+    }
     knurl_loop_init_heat(made, &facts);
     knurl_device_release_halt(d.device);
     *loop = made;
@@ -436,5 +446,6 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.absences = knurl_load_relaxed(&loop->absences);
     made.absent = knurl_load_relaxed(&loop->absent);
     made.paused = knurl_load_relaxed(&loop->paused);
+    made.dry_tick_ns = percentiles_of(&loop->dry_tick_ns);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

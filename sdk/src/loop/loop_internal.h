@@ -6,7 +6,7 @@
 #include "base/histogram.h"
 #include "base/system.h"
 #include "device/port.h"
-#include "scene/heat.h"
+#include "scene/hip.h"
 
 #include <knurl/loop.h>
 
@@ -47,6 +47,9 @@ struct knurl_loop {
     uint64_t since_sign; /* ticks */
     int game_lives;
     int wanted; /* 1: neither paused nor without a sign of life */
+    int has_position;
+    double position[3]; /* the latest cycle's, device, m */
+    knurl_hip scratch;  /* what dry ticks tick */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -70,6 +73,7 @@ struct knurl_loop {
     uintptr_t haptic_thread;
     uintptr_t watchdog_thread;
     knurl_histogram tick_ns;
+    knurl_histogram dry_tick_ns;
     knurl_histogram jitter_ns;
 };
 

@@ -51,6 +51,12 @@ int knurl_scene_is_destroyed(const knurl_scene *scene);
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                             knurl_tick_output *output) KNURL_NONBLOCKING;
 
+/* Brings what the claimed HIP's next tick will run and read into the cache: a tick at the latest position (device, m)
+ * that nobody feels, on a scratch HIP: a copy of the HIP, which this has to itself from then on. It takes what a tick
+ * takes that comes a millisecond after the latest one; the tick after it a fifth of that. */
+void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip, knurl_hip *scratch,
+                        const double position[3]) KNURL_NONBLOCKING;
+
 /* Fills in what a claimed HIP's description leaves open, as the loop and its device have it, and forgets what the HIP
  * did, but not how warm its motors are. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread]
  */

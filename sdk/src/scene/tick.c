@@ -8,6 +8,7 @@
 #include "base/atomic.h"
 #include "base/base.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* What contacts add to. */
@@ -161,6 +162,23 @@ static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_ou
     return knurl_fail_static(why, sentence);
 }
 
+/* The whole tick. */
+static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *output) {
+    double force = 0.0;
+    output->tick = hip->counts.ticks;
+    knurl_epoch_pin(&scene->epoch, &hip->pinned);
+    knurl_hip_clock_advance(&hip->contacts.clock);
+    if (read_hip(hip, input, output)) {
+        force = render(scene, hip, input, output);
+    } else {
+        reset(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
+    }
+    knurl_epoch_unpin(&hip->pinned);
+    hip->counts.heat = hip->guard.heat.theta;
+    knurl_counts_add(&hip->counts, output, force);
+    knurl_snapshot_publish(&hip->published, output, &hip->counts);
+}
+
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                               knurl_tick_output *output) {
     if (!KNURL_IS_HANDLE(scene, SCENE) || !input || !output) {
@@ -184,19 +202,36 @@ knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",
                       output);
     }
-    knurl_hip *hip = &scene->hips[hip_index];
-    double force = 0.0;
-    output->tick = hip->counts.ticks;
-    knurl_epoch_pin(&scene->epoch, &hip->pinned);
-    knurl_hip_clock_advance(&hip->contacts.clock);
-    if (read_hip(hip, input, output)) {
-        force = render(scene, hip, input, output);
-    } else {
-        reset(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
-    }
-    knurl_epoch_unpin(&hip->pinned);
-    hip->counts.heat = hip->guard.heat.theta;
-    knurl_counts_add(&hip->counts, output, force);
-    knurl_snapshot_publish(&hip->published, output, &hip->counts);
+    tick(scene, &scene->hips[hip_index], input, output);
     return KNURL_OK;
+}
+
+static void fetch(const void *from, size_t size) {
+    for (size_t at = 0; at < size; at += 64) { /* a cache's line */
+        __builtin_prefetch((const char *)from + at, 1);
+    }
+}
+
+/* The parts of a HIP that its next tick uses. */
+static void fetch_hip(const knurl_hip *hip) {
+    const knurl_velocity *v = &hip->velocity;
+    const uint32_t phase = v->phase + 1 < v->stride ? v->phase + 1 : 0;
+    fetch(hip, offsetof(knurl_hip, velocity));
+    fetch(v->history[phase], sizeof v->history[phase]);
+    fetch(v->held, offsetof(knurl_hip, given) - offsetof(knurl_hip, velocity) - offsetof(knurl_velocity, held));
+    fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, list) +
+                              hip->contacts.candidates.count * sizeof(knurl_candidate));
+}
+
+void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip_index, knurl_hip *scratch, const double position[3]) {
+    knurl_hip *hip = &scene->hips[hip_index];
+    knurl_tick_input input;
+    knurl_tick_output output;
+    memset(&input, 0, sizeof input);
+    vec3_copy(position, input.position);
+    knurl_epoch_pin(&scene->epoch, &hip->pinned); /* edits do not know the scratch HIP's */
+    fetch_hip(hip);
+    scratch->contacts.clock = hip->contacts.clock;
+    tick(scene, scratch, &input, &output);
+    knurl_epoch_unpin(&hip->pinned);
 }

@@ -418,6 +418,8 @@ namespace Knurl
         public uint protections;
         public uint reconnect;
         public double heartbeat_s;
+        public uint dry_ticks;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -445,6 +447,7 @@ namespace Knurl
         public ulong absences;
         public uint absent;
         public uint paused;
+        public knurl_percentiles dry_tick_ns;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -571,7 +574,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "7162242785ea6711";
+        internal const string Interface = "f2d7a2ef8f290b9a";
 
         internal const string Version = "0.1.0";
 
