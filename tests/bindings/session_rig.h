@@ -103,7 +103,7 @@ static inline void check_no_event(knurl_session *s) {
     assert_true(event.kind == -1 && event.surface == 7); /* untouched */
 }
 
-/** A condition that comes true by itself; a machine that stands still for a while does not matter. */
+/** A condition that comes true by itself. */
 #define PATIENCE_NS INT64_C(20000000000)
 
 #define CHECK_UNTIL(s, condition)                                                                                      \

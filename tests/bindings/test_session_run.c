@@ -1,4 +1,4 @@
-/* Sessions whose haptic thread runs. Nothing here depends on how fast: what is waited for comes, or never does.
+/* Sessions whose haptic thread runs, on virtual time: what is waited for comes, or never does.
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 

@@ -1,5 +1,4 @@
-/* The loop in real time and among threads: stops from anywhere, the watchdog, statistics while it runs, memory. Nothing
- * here depends on how promptly the machine runs a thread, only on what must never happen and what must come in the end.
+/* The loop among threads, on virtual time: stops from anywhere, the watchdog, statistics while it runs, memory.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/rig.h"
@@ -7,7 +6,6 @@
 #include "base/atomic.h"
 #include "base/system.h"
 
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -28,7 +26,7 @@ static void sleep_s(double seconds) {
     knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(seconds * 1e9));
 }
 
-/* A rig in real time, without a watchdog, which a machine under load might set off. */
+/* A rig with the system's clock and without a watchdog. */
 static void init_real(void) {
     rig_init(&r);
     r.desc.clock = NULL;
@@ -43,9 +41,14 @@ static void wait_for_ticks(uint64_t ticks) {
     assert_true(rig_stats(&r).ticks >= ticks);
 }
 
-static void *stop_from_thread(void *loop) {
+static void stop_from_thread(void *loop) {
     knurl_loop_stop(loop);
-    return NULL;
+}
+
+static knurl_thread *start_a_stop(void) {
+    knurl_thread *thread = knurl_system_start_thread(stop_from_thread, r.loop, 65536);
+    assert_non_null(thread);
+    return thread;
 }
 
 /* --- memory --- */
@@ -96,31 +99,24 @@ TEST_WITH(only_the_loops_own_memory_and_stack_are_locked, NULL, end_rig) {
     assert_int_equal(hosts[sizeof hosts - 1], 1);
 }
 
-/* --- real time --- */
+/* --- the system's clock --- */
 
-TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_no_sooner_over, NULL, end_rig) {
+TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_the_ramp, NULL, end_rig) {
     init_real();
     r.desc.watchdog_s = 1.0;
     r.desc.tick_limit = 500;
     rig_create(&r);
     const double start = seconds_now();
     rig_run(&r);
-    const double took = seconds_now() - start;
+    CHECK_CLOSE(seconds_now() - start, 0.52, 0.0005 + 1e-9); /* knurl_loop_wait() looks each half millisecond */
     const knurl_loop_stats stats = rig_stats(&r);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(stats.ticks, 500);
     assert_int_equal(r.calls, 500);
     assert_int_equal(r.out_of_order, 0);
-    assert_in_range(r.writes, 519, 521); /* and the ramp */
-    assert_true(took >= 0.5 && took < 8.0);
-    assert_true(stats.overruns <= 500);
-    assert_true(stats.tick_ns.p50 >= 0.0 && stats.tick_ns.p50 < 1e9);
-    assert_true(stats.jitter_ns.p50 >= 0.0 && stats.jitter_ns.max < 8e9);
-    assert_true(stats.jitter_ns.p50 <= stats.jitter_ns.p99);
-    assert_true(stats.jitter_ns.p99 <= 1.03 * stats.jitter_ns.max + 1.0);
-    assert_true(stats.tick_ns.p50 <= stats.tick_ns.p99);
-    assert_true(stats.tick_ns.p99 <= 1.03 * stats.tick_ns.max + 1.0);
-    assert_true(stats.realtime <= 1 && stats.memory_locked <= 1);
+    assert_int_equal(r.writes, 520); /* and the ramp's */
+    assert_int_equal(stats.overruns, 0);
+    CHECK_SAME(stats.jitter_ns.max, 0.0L);
     rig_destroy(&r);
 }
 
@@ -153,6 +149,7 @@ TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, NULL, end_rig) {
         assert_true(stats.state == KNURL_LOOP_RUNNING || stats.state == KNURL_LOOP_DONE);
         assert_true(stats.jitter_ns.p50 >= 0.0 && stats.tick_ns.max >= 0.0);
         last = stats.ticks;
+        sleep_s(0.00003);
     } while (stats.state == KNURL_LOOP_RUNNING && seconds_now() < give_up);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(rig_stats(&r).ticks, 3000);
@@ -162,13 +159,11 @@ TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, NULL, end_rig) {
 /* --- stops --- */
 
 TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
-    pthread_t thread;
     init_real();
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
     wait_for_ticks(20);
-    assert_int_equal(pthread_create(&thread, NULL, stop_from_thread, r.loop), 0);
-    assert_int_equal(pthread_join(thread, NULL), 0);
+    knurl_system_join_thread(start_a_stop());
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
     const uint64_t calls = r.calls;
     assert_int_equal(rig_stats(&r).ticks, calls);
@@ -182,17 +177,17 @@ TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
 
 TEST_WITH(stops_from_several_threads_at_once_all_return, NULL, end_rig) {
     for (int turn = 0; turn < 20; turn++) {
-        pthread_t threads[4];
+        knurl_thread *threads[4];
         init_real();
         r.desc.ramp_s = 0.002;
         rig_create(&r);
         assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
         for (size_t i = 0; i < COUNT_OF(threads); i++) {
-            assert_int_equal(pthread_create(&threads[i], NULL, stop_from_thread, r.loop), 0);
+            threads[i] = start_a_stop();
         }
         knurl_loop_request_stop(r.loop);
         for (size_t i = 0; i < COUNT_OF(threads); i++) {
-            assert_int_equal(pthread_join(threads[i], NULL), 0);
+            knurl_system_join_thread(threads[i]);
         }
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         rig_destroy(&r);
@@ -202,13 +197,12 @@ TEST_WITH(stops_from_several_threads_at_once_all_return, NULL, end_rig) {
 /* Whichever comes first, the loop ends. */
 TEST_WITH(a_stop_that_races_with_the_start_ends_it, NULL, end_rig) {
     for (int turn = 0; turn < 50; turn++) {
-        pthread_t thread;
         init_real();
         r.desc.ramp_s = 0.001;
         rig_create(&r);
-        assert_int_equal(pthread_create(&thread, NULL, stop_from_thread, r.loop), 0);
+        knurl_thread *thread = start_a_stop();
         assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
-        assert_int_equal(pthread_join(thread, NULL), 0);
+        knurl_system_join_thread(thread);
         assert_int_equal(knurl_loop_wait(r.loop, 10.0), 1);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         rig_destroy(&r);

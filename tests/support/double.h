@@ -1,5 +1,5 @@
 /* A driver over the double of its device, as the table of faults sees every one of them: real driver, simulated device,
- * simulated transport, real time. SPDX-License-Identifier: MIT */
+ * simulated transport. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_DOUBLE_H
 #define KNURL_TEST_DOUBLE_H
 

@@ -211,7 +211,8 @@ static const char python[] = "/usr/bin/python3";
 static const char plotter[] = KNURL_TEST_ASSETS "/../samples/study/plot.py";
 
 static int can_plot(void) {
-    const char *const arguments[] = {python, "-c", "import matplotlib", NULL};
+    const char *const arguments[] = {python, "-c",
+                                     "import sys, importlib.util as u; sys.exit(not u.find_spec('matplotlib'))", NULL};
     process p = process_start(arguments, NULL);
     process_finish(&p);
     process_free(&p);

@@ -1,6 +1,6 @@
 /* A loop at 1 kHz over a device whose exchanges take 0.3 ms, beside a core that is busy: how late ticks come, how many
  * exchanges there are, what the device's code costs. Printed, for nothing about time can be asserted here: that is the
- * machine's. KNURL_DEVICE_SECONDS: how long, default 2. SPDX-License-Identifier: MIT */
+ * machine's. KNURL_DEVICE_SECONDS: how long, default 0.5. SPDX-License-Identifier: MIT */
 #include "home.h"
 
 #include "base/histogram.h"
@@ -109,7 +109,7 @@ static void *spin(void *unused) {
 
 static double seconds(void) {
     const char *given = getenv("KNURL_DEVICE_SECONDS");
-    return given ? fmax(0.1, strtod(given, NULL)) : 2.0;
+    return given ? fmax(0.1, strtod(given, NULL)) : 0.5;
 }
 
 static void print_all(const knurl_loop_stats *stats, const knurl_device_status *status, double took) {

@@ -1,6 +1,5 @@
-/* The I/O thread: the newest force out, the newest position in, in real time. Times are upper bounds that a machine
- * which stands still now and then may miss: each is tried several times, and once is enough.
- * SPDX-License-Identifier: MIT */
+/* The I/O thread: the newest force out, the newest position in, on virtual time. Bounds are an exchange's period (1 ms)
+ * beyond what is promised. SPDX-License-Identifier: MIT */
 #include "home.h"
 
 #include "device/link.h"
@@ -10,7 +9,7 @@
 
 static home h; /* set up anew by each test */
 
-#define TRIES 5
+#define PERIOD_NS 1000000
 
 /* Reads and writes once a millisecond for `ms`, as a loop would without a loop's own care. */
 static void tick_for(knurl_device *device, int ms, double force) {
@@ -43,7 +42,6 @@ TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
     int64_t next = now_ns();
     for (int k = 1; k <= 300; k++) {
         const double f[3] = {0.0, 0.001 * k, 0.0};
-        knurl_device_release_halt(device); /* a machine that stood still has made the one before too old */
         assert_int_equal(knurl_device_write(device, f), KNURL_OK);
         next += 500000;
         knurl_system_sleep_until_ns(next);
@@ -62,52 +60,44 @@ TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
 }
 
 TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
-    int64_t best = INT64_MAX;
+    int64_t worst = 0;
     knurl_device *device = home_open(&h, 1);
     for (int k = 0; k < 40; k++) {
         const double f[3] = {0.0, 0.0, 1.0 + 0.01 * k};
         const int64_t written = now_ns();
-        knurl_device_release_halt(device); /* likewise */
         assert_int_equal(knurl_device_write(device, f), KNURL_OK);
-        const uint64_t writes = knurl_load_acquire(&h.writes);
-        while (knurl_load_double(&h.motor[2]) != f[2] && now_ns() - written < 20000000) {}
-        best = now_ns() - written < best ? now_ns() - written : best;
-        wait_for_count(&h.writes, writes + 1);
+        while (knurl_load_double(&h.motor[2]) != f[2] && now_ns() - written < 20000000) {
+            sleep_ns(10000);
+        }
+        worst = now_ns() - written > worst ? now_ns() - written : worst;
+        sleep_ns(370000); /* anywhere in a period */
     }
     knurl_device_close(device);
-    assert_true(best <= 5000000); /* a period, and what a busy machine makes of it */
+    assert_true(worst <= PERIOD_NS + 10000);
 }
 
 TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_let_go_of) {
-    int64_t played = INT64_MAX;
-    int64_t after_event = INT64_MAX;
-    for (int k = 0; k < TRIES; k++) {
-        const double f[3] = {1.0, 0.0, 0.0};
-        knurl_device_event event;
-        knurl_device *device = home_open(&h, 1);
-        wait_for_count(&h.reads, 3);
-        const int64_t written = now_ns();
-        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
-        assert_int_equal(wait_for_event(device, KNURL_FAULT_LATE, &event), 1);
-        sleep_ns(5000000);
-        assert_true(event.value >= 0.01);
-        assert_int_equal(knurl_device_is_halted(device), 1);
-        const int64_t limp = knurl_load_acquire(&h.limp_since);
-        assert_true(limp > 0);
-        assert_true(limp - written >= 10000000);
-        played = limp - written < played ? limp - written : played;
-        after_event = limp - event.time_ns < after_event ? limp - event.time_ns : after_event;
-        assert_int_equal(next_code(device, 0), 0); /* told once */
-        knurl_device_close(device);
-        uint64_t forces = 0;
-        for (uint64_t i = 0; i < h.writes; i++) {
-            assert_true(!(h.log[i].force[0] > 0.0) || h.log[i].at - written <= 10000000 + 2000000 * (int64_t)(k + 1));
-            forces += h.log[i].force[0] > 0.0;
-        }
-        assert_true(forces > 0);
+    const double f[3] = {1.0, 0.0, 0.0};
+    knurl_device_event event;
+    knurl_device *device = home_open(&h, 1);
+    wait_for_count(&h.reads, 3);
+    const int64_t written = now_ns();
+    assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_LATE, &event), 1);
+    sleep_ns(5000000);
+    assert_true(event.value >= 0.01);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    const int64_t limp = knurl_load_acquire(&h.limp_since);
+    assert_true(limp - written > 10000000 && limp - written <= 10000000 + PERIOD_NS);
+    assert_true(limp - event.time_ns <= PERIOD_NS);
+    assert_int_equal(next_code(device, 0), 0); /* told once */
+    knurl_device_close(device);
+    uint64_t forces = 0;
+    for (uint64_t i = 0; i < h.writes; i++) {
+        assert_true(!(h.log[i].force[0] > 0.0) || h.log[i].at - written <= 10000000);
+        forces += h.log[i].force[0] > 0.0;
     }
-    assert_true(played <= 15000000);
-    assert_true(after_event <= 5000000);
+    assert_in_range(forces, 10, 11);
 }
 
 TEST(no_force_is_no_force_however_old_it_is) {
@@ -121,21 +111,16 @@ TEST(no_force_is_no_force_however_old_it_is) {
 }
 
 TEST(a_halt_reaches_the_motors_with_the_next_exchange) {
-    int64_t best = INT64_MAX;
-    for (int k = 0; k < TRIES; k++) {
-        const double f[3] = {1.0, 0.0, 0.0};
-        knurl_device *device = home_open(&h, 1);
-        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
-        wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
-        knurl_device_halt(device);
-        const int64_t halted = now_ns();
-        wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
-        const int64_t limp = knurl_load_acquire(&h.limp_since);
-        assert_true(limp > 0);
-        best = limp - halted < best ? limp - halted : best;
-        knurl_device_close(device);
-    }
-    assert_true(best <= 5000000);
+    const double f[3] = {1.0, 0.0, 0.0};
+    knurl_device *device = home_open(&h, 1);
+    assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+    wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
+    knurl_device_halt(device);
+    const int64_t halted = now_ns();
+    wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
+    const int64_t limp = knurl_load_acquire(&h.limp_since);
+    assert_true(limp > 0 && limp - halted <= PERIOD_NS);
+    knurl_device_close(device);
 }
 
 /* --- pace --- */
@@ -157,7 +142,7 @@ TEST(exchanges_are_no_more_frequent_than_the_device_brings_positions) {
         knurl_device_close(device);
         const uint64_t writes = h.writes - 2; /* the last two come at once */
         for (uint64_t k = 9; k < writes; k++) {
-            assert_true(h.log[k].at - h.log[k - 9].at >= 8 * period); /* one may wake up late, and the next in time */
+            assert_true(h.log[k].at - h.log[k - 9].at >= 9 * period);
         }
         assert_true(writes >= 20);
     }
@@ -179,31 +164,21 @@ TEST(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst) {
 /* --- silence --- */
 
 TEST(a_mute_device_is_silent_after_10_ms_and_its_motors_are_let_go) {
-    int64_t limp = INT64_MAX;
-    int once = 0;
-    for (int k = 0; k < TRIES; k++) {
-        knurl_device *device = home_open(&h, 1);
-        tick_for(device, 20, 1.0);
-        (void)next_code(device, -1);
-        home_inject(&h, DOUBLE_MUTE);
-        const int64_t injected = now_ns();
-        tick_for(device, 30, 1.0);
-        knurl_device_event event = {0};
-        while (knurl_device_next_event(device, &event) && event.code != KNURL_FAULT_SILENT) {}
-        if (event.code != KNURL_FAULT_SILENT) {
-            knurl_device_close(device); /* the machine stood still: it has been silent before */
-            continue;
-        }
-        const int64_t since = knurl_load_acquire(&h.limp_since);
-        assert_true(since > 0 && event.value >= 0.01);
-        limp = since - injected < limp ? since - injected : limp;
-        knurl_device_sample sample;
-        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
-        once += count_events(device, KNURL_FAULT_SILENT) == 0;
-        knurl_device_close(device);
-    }
-    assert_true(once > 0);
-    assert_true(limp <= 20000000);
+    knurl_device_event event = {0};
+    knurl_device_sample sample;
+    knurl_device *device = home_open(&h, 1);
+    tick_for(device, 20, 1.0);
+    assert_int_equal(next_code(device, 0), 0);
+    home_inject(&h, DOUBLE_MUTE);
+    const int64_t injected = now_ns();
+    tick_for(device, 30, 1.0);
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
+    assert_true(event.value > 0.01);
+    const int64_t limp = knurl_load_acquire(&h.limp_since);
+    assert_true(limp > 0 && limp - injected <= 10000000 + h.mute_ns + PERIOD_NS); /* an exchange takes mute_ns */
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+    assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 0); /* told once */
+    knurl_device_close(device);
 }
 
 TEST(a_second_of_silence_is_a_loss) {
@@ -242,18 +217,14 @@ TEST(a_device_that_is_heard_again_is_read_again) {
 }
 
 TEST(an_unplugged_device_is_lost_at_once) {
-    int64_t best = INT64_MAX;
-    for (int k = 0; k < TRIES; k++) {
-        knurl_device_event event;
-        knurl_device *device = home_open(&h, 1);
-        tick_for(device, 5, 1.0);
-        home_inject(&h, DOUBLE_UNPLUG);
-        const int64_t injected = now_ns();
-        assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
-        best = event.time_ns - injected < best ? event.time_ns - injected : best;
-        knurl_device_close(device);
-    }
-    assert_true(best <= 10000000);
+    knurl_device_event event;
+    knurl_device *device = home_open(&h, 1);
+    tick_for(device, 5, 1.0);
+    home_inject(&h, DOUBLE_UNPLUG);
+    const int64_t injected = now_ns();
+    assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
+    assert_true(event.time_ns - injected <= PERIOD_NS);
+    knurl_device_close(device);
 }
 
 static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -265,8 +236,7 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
 
 /* As long as it is silent: the latest position still held when the motors had been let go, and the loop came back. */
 TEST(a_loop_does_not_resume_while_the_device_is_silent) {
-    int resumed = 0;
-    for (int k = 0; k < TRIES; k++) {
+    for (int phase = 0; phase < 5; phase++) {
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
         knurl_device_event event;
@@ -278,18 +248,17 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
         assert_int_equal(knurl_loop_start(loop), KNURL_OK);
         knurl_store_relaxed(&h.mute_ns, (int64_t)1000000); /* noticed as early as can be */
-        sleep_ns(30000000 + 300000 * k);
+        sleep_ns(30000000 + 300000 * phase);
         (void)next_code(device, -1);
         home_inject(&h, DOUBLE_MUTE);
         assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
         sleep_ns(20000000);
-        resumed += count_events(device, KNURL_FAULT_RESUMED) > 0;
+        assert_int_equal(count_events(device, KNURL_FAULT_RESUMED), 0);
         home_inject(&h, DOUBLE_WELL);
         assert_int_equal(wait_for_event(device, KNURL_FAULT_RESUMED, &event), 1);
         knurl_loop_destroy(loop);
         knurl_device_close(device);
     }
-    assert_true(resumed <= 1); /* a thread that is held up in between */
 }
 
 TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
@@ -309,52 +278,38 @@ TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
 /* --- an exchange that hangs --- */
 
 TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
-    int64_t slowest = INT64_MAX;
-    int once = 0;
-    for (int k = 0; k < TRIES; k++) {
-        const double f[3] = {1.0, 0.0, 0.0};
-        knurl_device_sample sample;
-        int64_t worst = 0;
-        int not_ready = 0;
-        knurl_device *device = home_open(&h, 1);
-        tick_for(device, 5, 1.0);
-        home_inject(&h, DOUBLE_HANG);
-        for (int ms = 0; ms < 100; ms++) {
-            const int64_t before = now_ns();
-            not_ready += knurl_device_read(device, &sample) == KNURL_ERROR_DEVICE_NOT_READY;
-            assert_int_equal(knurl_device_write(device, f), KNURL_OK);
-            const int64_t took = now_ns() - before;
-            worst = took > worst ? took : worst;
-            sleep_ns(1000000);
-        }
-        assert_true(not_ready >= 50); /* 100 ms but the 12 or so that the latest position holds; sleeps are longer */
-        once += count_events(device, KNURL_FAULT_SILENT) == 1;
-        assert_int_equal(knurl_device_is_halted(device), 1);
-        home_inject(&h, DOUBLE_WELL);
-        wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
-        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
-        knurl_device_close(device);
-        slowest = worst < slowest ? worst : slowest;
+    const double f[3] = {1.0, 0.0, 0.0};
+    knurl_device_sample sample;
+    int not_ready = 0;
+    knurl_device *device = home_open(&h, 1);
+    tick_for(device, 5, 1.0);
+    home_inject(&h, DOUBLE_HANG);
+    for (int ms = 0; ms < 100; ms++) {
+        const int64_t before = now_ns();
+        not_ready += knurl_device_read(device, &sample) == KNURL_ERROR_DEVICE_NOT_READY;
+        assert_int_equal(knurl_device_write(device, f), KNURL_OK);
+        assert_true(now_ns() == before); /* the exchange hangs for 300 ms */
+        sleep_ns(1000000);
     }
-    assert_true(once > 0);
-    assert_true(slowest < 1000000); /* ns; the exchange hung for 300 ms */
+    assert_in_range(not_ready, 88, 90); /* 100 reads but the 10 ms and two periods that the latest position holds */
+    assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 1);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    home_inject(&h, DOUBLE_WELL);
+    wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
+    assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
+    knurl_device_close(device);
 }
 
 /* Reader and I/O thread both notice it, the reader while it lasts. */
 TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
-    int once = 0;
-    for (int k = 0; k < TRIES; k++) {
-        knurl_device *device = home_open(&h, 1);
-        tick_for(device, 5, 1.0);
-        (void)next_code(device, -1);
-        knurl_store_relaxed(&h.hangs_for, (int64_t)60000000);
-        home_inject(&h, DOUBLE_HANG);
-        tick_for(device, 150, 1.0); /* it hangs two times and a half */
-        once += count_events(device, KNURL_FAULT_SILENT) == 1;
-        home_inject(&h, DOUBLE_WELL);
-        knurl_device_close(device);
-    }
-    assert_true(once > 0);
+    knurl_device *device = home_open(&h, 1);
+    tick_for(device, 5, 1.0);
+    knurl_store_relaxed(&h.hangs_for, (int64_t)60000000);
+    home_inject(&h, DOUBLE_HANG);
+    tick_for(device, 150, 1.0); /* it hangs two times and a half */
+    assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 1);
+    home_inject(&h, DOUBLE_WELL);
+    knurl_device_close(device);
 }
 
 /* A link without its thread, as the reader finds it when the exchange after the latest position was counted, and the
@@ -388,7 +343,7 @@ TEST(a_hang_is_seen_whatever_was_counted_before_it) {
 /* --- the end --- */
 
 TEST(the_last_exchange_carries_no_force) {
-    for (int k = 0; k < TRIES; k++) {
+    for (int k = 0; k < 5; k++) {
         knurl_device *device = home_open(&h, 1);
         tick_for(device, 5 + k, 2.0);
         knurl_device_close(device);

@@ -84,7 +84,7 @@ static void wait_until_absent(void) {
 }
 
 static int32_t next_event(void) {
-    return next_code(&r.device, KNURL_FAULT_OVERRUN); /* real time: the machine may be late */
+    return next_code(&r.device, KNURL_FAULT_OVERRUN);
 }
 
 /* The ramp from a write on that came after the motors had been let go: none, then a step more each. */

@@ -30,7 +30,7 @@ static void check_felt(process *p) {
     }
     assert_non_null(strstr(p->out, "Novint Falcon"));
     assert_true(json_number_of(p->out, "contact_s") > 0.0);
-    assert_true(json_number_of(p->out, "events") > 0.0);
+    assert_true(json_number_of(p->out, "half_cycles_crossed") > 10.0);
     assert_true(json_number_of(p->out, "force_max_n") > 0.0);
     process_free(p);
 }
@@ -43,12 +43,12 @@ TEST(a_falcon_is_among_the_devices) {
 }
 
 TEST(a_plate_is_felt_through_a_falcon) {
-    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "1"));
     check_felt(&p);
 }
 
 TEST(packets_in_pieces_change_nothing) {
-    process p = run_with_falcon(OPTIONS("--split"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+    process p = run_with_falcon(OPTIONS("--split"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "1"));
     check_felt(&p);
 }
 
@@ -57,12 +57,8 @@ TEST(a_falcon_without_firmware_is_given_the_image) {
     char uri[600];
     write_file(tool_path("image.bin"), zeros, sizeof zeros);
     (void)snprintf(uri, sizeof uri, "falcon:?firmware=%s", tool_path("image.bin"));
-    process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "2"));
+    process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "1"));
     check_felt(&p);
-    p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
-    assert_int_not_equal(p.exit_code, 0);
-    assert_non_null(strstr(p.err, "KNURL_FALCON_FIRMWARE"));
-    process_free(&p);
 }
 
 static double now(void) {
@@ -71,20 +67,20 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* A tick takes a position: with one in four exchanges, two thousand ticks would be eight seconds. */
+/* A tick takes a position: with one in four exchanges, six hundred ticks would be more than a second. */
 TEST(seconds_are_seconds_also_with_a_device_that_has_no_position_most_of_the_time) {
     const double begin = now();
     process p =
-        run_with_falcon(OPTIONS("--unhomed", "300"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "2"));
+        run_with_falcon(OPTIONS("--unhomed", "90"), ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "0.6"));
     const double took = now() - begin;
-    if (took < 2.0 || took > 4.0) {
-        fail_msg("expected 2 s and some for the start, found %g s: %s", took, p.out);
+    if (took < 0.6 || took > 2.6) {
+        fail_msg("expected 0.6 s and some for the start, found %g s: %s", took, p.out);
     }
     if (p.exit_code != 0) {
         fail_msg("exit %d: %s%s", p.exit_code, p.out, p.err);
     }
-    assert_true(json_number_of(p.out, "ticks") < 1000.0);
-    assert_true(json_number_of(p.out, "absences") > 1000.0);
+    assert_true(json_number_of(p.out, "ticks") < 400.0);
+    assert_true(json_number_of(p.out, "absences") > 200.0);
     process_free(&p);
 }
 
@@ -97,7 +93,7 @@ TEST(a_run_without_any_position_has_failed) {
 }
 
 TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
-    process p = run_with_falcon(OPTIONS("--unplug-after", "1"),
+    process p = run_with_falcon(OPTIONS("--unplug-after", "0.3"),
                                 ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "lost"));

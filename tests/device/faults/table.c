@@ -2,34 +2,17 @@
 #include "table.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 typedef struct cells {
     char text[6][96];
 } cells;
 
-/* Of the tries in which there was such a time: a force may be away for a millisecond only, and nobody look just then.
- */
-static void put_time(char *to, size_t size, double *values, int count) {
-    int missing = 0;
-    qsort(values, (size_t)count, sizeof *values, ascending);
-    while (missing < count && values[missing] < 0.0) {
-        missing++;
-    }
-    const int rest = count - missing;
-    if (rest == 0) {
+static void put_time(char *to, size_t size, double ms) {
+    if (ms < 0.0) {
         (void)snprintf(to, size, "-");
-    } else if (count == 1) {
-        (void)snprintf(to, size, "%.1f", values[0]);
     } else {
-        (void)snprintf(to, size, "%.1f (%.1f)", values[missing + rest / 2], values[missing]);
+        (void)snprintf(to, size, "%.1f", ms);
     }
 }
 
@@ -42,23 +25,15 @@ static void put_codes(char *to, size_t size, const outcome *o) {
 
 static cells cells_of(const row *r) {
     cells c;
-    double seen[TABLE_TRIES];
-    double zero[TABLE_TRIES];
-    int back = 0;
-    for (int i = 0; i < r->count; i++) {
-        seen[i] = r->tries[i].seen;
-        zero[i] = r->tries[i].zero;
-        back += r->tries[i].is_back;
-    }
     (void)snprintf(c.text[0], sizeof c.text[0], "%s", r->device);
     (void)snprintf(c.text[1], sizeof c.text[1], "%s", r->fault);
-    put_codes(c.text[2], sizeof c.text[2], &r->tries[0]);
+    put_codes(c.text[2], sizeof c.text[2], &r->result);
     if (r->what) {
         (void)snprintf(c.text[2], sizeof c.text[2], "%s", r->what);
     }
-    put_time(c.text[3], sizeof c.text[3], seen, r->count);
-    put_time(c.text[4], sizeof c.text[4], zero, r->count);
-    (void)snprintf(c.text[5], sizeof c.text[5], "%s", r->back ? r->back : back == r->count ? "yes" : "no");
+    put_time(c.text[3], sizeof c.text[3], r->result.seen);
+    put_time(c.text[4], sizeof c.text[4], r->result.zero);
+    (void)snprintf(c.text[5], sizeof c.text[5], "%s", r->back ? r->back : r->result.is_back ? "yes" : "no");
     return c;
 }
 
@@ -95,8 +70,7 @@ void table_print(const row *rows, int count, const char *markdown_path) {
             print_line(markdown, &c, widths, " | ", "| ");
         }
     }
-    (void)printf("times: from the fault to its event, from the event to motors without force; of several tries the "
-                 "median (and the best)\n");
+    (void)printf("times: from the fault to its event, from the event to motors without force\n");
     if (markdown) {
         (void)fclose(markdown);
     }

@@ -4,8 +4,6 @@
 
 #include <knurl/device.h>
 
-#define TABLE_TRIES 32
-
 /** What one try came to. Times in ms. */
 typedef struct outcome {
     double seen; /**< from the injection to the event; < 0: there was none */
@@ -20,8 +18,7 @@ typedef struct row {
     const char *fault;
     const char *what; /**< what happens, or null: its events */
     const char *back; /**< how it comes back, or null: yes or no */
-    outcome tries[TABLE_TRIES];
-    int count;
+    outcome result;
 } row;
 
 /** Aligned columns on stdout, and Markdown into a file. */

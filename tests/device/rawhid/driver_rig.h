@@ -131,7 +131,7 @@ static inline void wait_for_event(int32_t code) {
     fail_msg("no event '%s'", knurl_fault_name(code));
 }
 
-/* Ticks for a time as a loop does that always comes back from a halt: a machine under load brings some about. */
+/* Ticks for a time as a loop does that always comes back from a halt. */
 static inline void hold(double seconds, const double force[3]) {
     knurl_device_sample sample;
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);

@@ -1,5 +1,4 @@
-/* The raw HID driver over a simulated bus and device, in real time. What is checked is what must come in the end or
- * must never be, not how promptly the machine runs a thread. SPDX-License-Identifier: MIT */
+/* The raw HID driver over a simulated bus and device, on virtual time. SPDX-License-Identifier: MIT */
 #include "device/rawhid/driver_rig.h"
 
 /* --- opening --- */

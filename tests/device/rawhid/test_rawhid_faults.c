@@ -1,4 +1,4 @@
-/* What goes wrong with a raw HID device, in real time: what must come in the end, and what must never be.
+/* What goes wrong with a raw HID device: what must come in the end, and what must never be.
  * SPDX-License-Identifier: MIT */
 #include "device/port.h"
 #include "device/rawhid/driver_rig.h"

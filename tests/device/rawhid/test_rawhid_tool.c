@@ -15,11 +15,11 @@ TEST(the_tool_lists_the_device) {
 }
 
 TEST(a_plate_is_felt_with_it) {
-    process p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "2");
+    process p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "0.6");
     for (int tries = 1; p.exit_code != 0 && tries < 4; tries++) { /* an emulation that stalls for a second is lost */
         print_error("%s", p.err);
         process_free(&p);
-        p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "2");
+        p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "0.6");
     }
     assert_int_equal(p.exit_code, 0);
     assert_true(json_number_of(p.out, "contact_s") > 0.0);
@@ -28,7 +28,7 @@ TEST(a_plate_is_felt_with_it) {
 }
 
 TEST(a_run_with_a_device_that_is_not_there_fails_with_a_sentence) {
-    process p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "1");
+    process p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "0.1");
     assert_true(p.exit_code != 0);
     assert_non_null(strstr(p.err, "looked for a USB HID device 1234:0006 and found none"));
     process_free(&p);

@@ -18,6 +18,7 @@ static struct {
     stub_limp_function limp_since;
     stub_turn_function turn;
     stub_reset_function reset;
+    stub_use_time_function use_time;
 } stub;
 
 /** A group's setup: the driver finds the stub, and it stays loaded. */
@@ -29,10 +30,12 @@ static inline int stub_load(void **state) {
         !knurl_system_find_function(stub.library, "stub_ask", &stub.ask) ||
         !knurl_system_find_function(stub.library, "stub_limp_since", &stub.limp_since) ||
         !knurl_system_find_function(stub.library, "stub_turn", &stub.turn) ||
-        !knurl_system_find_function(stub.library, "stub_reset", &stub.reset)) {
+        !knurl_system_find_function(stub.library, "stub_reset", &stub.reset) ||
+        !knurl_system_find_function(stub.library, "stub_use_time", &stub.use_time)) {
         print_error("%s: %s\n", KNURL_TEST_STUB, stub.library ? "not all functions are there" : why);
         return 1;
     }
+    stub.use_time(&stub_program_time);
     return setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1);
 }
 

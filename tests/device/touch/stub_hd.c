@@ -5,11 +5,15 @@
  * SPDX-License-Identifier: MIT */
 #include "stub_state.h"
 
-stub_state hd = {.mutex = PTHREAD_MUTEX_INITIALIZER,
-                 .answered = PTHREAD_COND_INITIALIZER,
-                 .current = NONE,
-                 .rate = 1000.0,
-                 .random = 88172645463325252u};
+stub_state hd = {
+    .time = {knurl_system_now_ns, knurl_system_sleep_until_ns, knurl_system_start_thread, knurl_system_join_thread},
+    .current = NONE,
+    .rate = 1000.0,
+    .random = 88172645463325252u};
+
+__attribute__((constructor)) static void prepare(void) {
+    knurl_system_mutex_init(&hd.mutex);
+}
 
 static uint64_t random_bits(void) {
     hd.random ^= hd.random << 13;
@@ -89,6 +93,7 @@ static void tell_motors(simulated *d, const double force[3]) {
         d->answers[STUB_TOLD_BAD]++;
         return;
     }
+    d->answers[STUB_GAPS] += d->answers[STUB_TOLD] > 0.0 && !(length > 0.0);
     d->answers[STUB_TOLD] = length;
     d->answers[STUB_TOLD_MOST] = fmax(length, d->answers[STUB_TOLD_MOST]);
     d->limp_since = length > 0.0 ? 0 : d->limp_since ? d->limp_since : now_ns();
@@ -165,11 +170,10 @@ void HD_CALL hdMakeCurrentDevice(hd_device device) {
     if (used(device)) {
         hd.current = (int)device;
     }
-    const int dawdles = hd.settings[STUB_DAWDLES] > 0.0 && hd.runs && !pthread_equal(pthread_self(), hd.thread);
+    const int dawdles = hd.settings[STUB_DAWDLES] > 0.0 && hd.runs && knurl_system_thread_id() != hd.thread_id;
     unlock();
     if (dawdles) {
-        const struct timespec nap = {0, 5000000};
-        (void)nanosleep(&nap, NULL);
+        nap(5000000);
     }
 }
 
@@ -329,9 +333,18 @@ void HD_CALL hdGetDoublev(hd_enum what, double *values) {
 
 void HD_CALL hdSetDoublev(hd_enum what, const double *values) {
     lock();
+    const int dawdles = hd.settings[STUB_DAWDLES] > 0.0 && knurl_system_thread_id() == hd.thread_id;
+    unlock();
+    if (dawdles) {
+        nap(300000);
+    }
+    lock();
     simulated *d = current();
     if (what != HD_FORCE) {
         misuse(0x0100);
+    } else if (d && !d->in_frame &&
+               dawdles) { /* another thread has made it the current one: no fault of the caller's */
+        push(0x0102, hd.current);
     } else if (d && !d->in_frame) {
         misuse(0x0102);
     } else if (d) {
@@ -439,6 +452,10 @@ int64_t stub_limp_since(int device) {
     const int64_t since = hd.devices[device].limp_since;
     unlock();
     return since;
+}
+
+void stub_use_time(const stub_time *time) {
+    hd.time = *time;
 }
 
 void stub_reset(void) {

@@ -3,7 +3,7 @@
 #ifndef KNURL_TEST_STUB_HD_H
 #define KNURL_TEST_STUB_HD_H
 
-#include <stdint.h>
+#include "base/system.h"
 
 /** The devices that are plugged in: "Default Device" (null), "Left Device", "Right Device". */
 enum { STUB_DEFAULT, STUB_LEFT, STUB_RIGHT, STUB_DEVICES };
@@ -27,7 +27,8 @@ enum {
     STUB_STALL,         /* library: 1: the scheduler stops calling */
     STUB_DRIFTS,        /* library: 1: in frames, the current device becomes another, as if another thread had changed
                            it */
-    STUB_DAWDLES,       /* library: 1: threads but the scheduler's take their time after hdMakeCurrentDevice() */
+    STUB_DAWDLES,       /* library: 1: threads but the scheduler's take their time after hdMakeCurrentDevice(), and the
+                           scheduler's before it takes a force */
     STUB_BY_HAND,       /* library: 1: turns come from stub_turn() alone */
     STUB_SETTINGS
 };
@@ -40,6 +41,7 @@ enum {
     STUB_FRAMES,       /* ended */
     STUB_TOLD,         /* N: length of the force that the motors are told */
     STUB_TOLD_MOST,    /* N: the greatest so far */
+    STUB_GAPS,         /* frames without force after one that had some */
     STUB_TOLD_BAD,     /* forces that were not finite */
     STUB_DEPTH,        /* m below y = 0 */
     STUB_MISUSES,      /* library: calls that HD's reference does not allow */
@@ -63,6 +65,20 @@ typedef double (*stub_ask_function)(int device, int question);
 typedef int64_t (*stub_limp_function)(int device); /* ns on the monotonic clock since when no force; 0: there is one */
 typedef void (*stub_mirror_function)(stub_told *to); /* kept: what is told is written there as well */
 typedef void (*stub_turn_function)(uint64_t turns);
+/** Whose clock, sleeps and threads it uses (copied): the test program's, which may make time itself; the default: its
+ * own copy of the system's. */
+typedef struct stub_time {
+    int64_t (*now_ns)(void);
+    void (*sleep_until_ns)(int64_t deadline_ns);
+    knurl_thread *(*start_thread)(void (*entry)(void *argument), void *argument, size_t stack_bytes);
+    void (*join_thread)(knurl_thread *thread);
+} stub_time;
+typedef void (*stub_use_time_function)(const stub_time *time);
+
+/** Those that a test program is linked with. */
+static const stub_time stub_program_time = {knurl_system_now_ns, knurl_system_sleep_until_ns, knurl_system_start_thread,
+                                            knurl_system_join_thread};
+
 typedef void (*stub_reset_function)(void); /* as new; nothing may be in use */
 
 #endif

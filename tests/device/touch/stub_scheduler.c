@@ -2,6 +2,8 @@
  */
 #include "stub_state.h"
 
+#define STACK_BYTES ((size_t)256 * 1024)
+
 /* Every callback once, then time goes on. */
 static void turn(void) {
     lock();
@@ -13,7 +15,6 @@ static void turn(void) {
         (void)asked(asked_user);
         lock();
         hd.asked = NULL;
-        (void)pthread_cond_broadcast(&hd.answered);
         unlock();
     }
     for (int i = 0; i < LIST; i++) {
@@ -41,8 +42,12 @@ static void turn(void) {
     unlock();
 }
 
-static void *run(void *nothing) {
+static void run(void *nothing) {
     int64_t next = now_ns();
+    (void)nothing;
+    lock();
+    hd.thread_id = knurl_system_thread_id();
+    unlock();
     for (;;) {
         lock();
         const int stops = hd.stops;
@@ -50,7 +55,7 @@ static void *run(void *nothing) {
         const double rate = hd.rate;
         unlock();
         if (stops) {
-            return nothing;
+            return;
         }
         if (calls) {
             turn();
@@ -58,8 +63,7 @@ static void *run(void *nothing) {
         next += (int64_t)(1e9 / rate);
         const int64_t now = now_ns();
         next = now > next + 100000000 ? now : next;
-        const struct timespec until = {(time_t)(next / 1000000000), (long)(next % 1000000000)};
-        (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
+        hd.time.sleep_until_ns(next);
     }
 }
 
@@ -70,7 +74,8 @@ void HD_CALL hdStartScheduler(void) {
         misuse(0x0304);
     } else {
         hd.stops = 0;
-        hd.runs = pthread_create(&hd.thread, NULL, run, NULL) == 0;
+        hd.thread = hd.time.start_thread(run, NULL, STACK_BYTES);
+        hd.runs = hd.thread != NULL;
     }
     unlock();
 }
@@ -85,7 +90,7 @@ void HD_CALL hdStopScheduler(void) {
     }
     unlock();
     if (ran) {
-        (void)pthread_join(hd.thread, NULL);
+        hd.time.join_thread(hd.thread);
     }
 }
 
@@ -117,6 +122,13 @@ hd_scheduler_code HD_CALL hdScheduleAsynchronous(hd_callback callback, void *use
     return number;
 }
 
+/* With the lock, which it gives back meanwhile: time for others. */
+static void wait_a_little(void) {
+    unlock();
+    nap(50000);
+    lock();
+}
+
 /* Turns by hand come one after the other anyway. */
 void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned short priority) {
     (void)priority;
@@ -126,13 +138,13 @@ void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned sh
         misuse(0x0102);
     }
     while (hd.runs && !by_hand && hd.asked) { /* one at a time */
-        (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+        wait_a_little();
     }
     if (hd.runs && !by_hand) {
         hd.asked = callback;
         hd.asked_user = user;
         while (hd.asked == callback && hd.runs) {
-            (void)pthread_cond_wait(&hd.answered, &hd.mutex);
+            wait_a_little();
         }
         unlock();
     } else {
@@ -157,17 +169,16 @@ void HD_CALL hdUnschedule(hd_scheduler_code what) {
     unlock();
 }
 
-static void *turn_in_thread(void *turns) {
+static void turn_in_thread(void *turns) {
     for (uint64_t i = *(const uint64_t *)turns; i > 0; i--) {
         turn();
     }
-    return NULL;
 }
 
 /* In a thread of its own, as a scheduler's; returns after it. */
 void stub_turn(uint64_t turns) {
-    pthread_t thread;
-    if (pthread_create(&thread, NULL, turn_in_thread, &turns) == 0) {
-        (void)pthread_join(thread, NULL);
+    knurl_thread *thread = hd.time.start_thread(turn_in_thread, &turns, STACK_BYTES);
+    if (thread) {
+        hd.time.join_thread(thread);
     }
 }

@@ -10,10 +10,8 @@
 #include "device/touch/hd.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define EXPORT __attribute__((visibility("default")))
 
@@ -36,7 +34,8 @@ typedef struct simulated {
 } simulated;
 
 typedef struct stub_state {
-    pthread_mutex_t mutex;
+    knurl_mutex mutex;
+    stub_time time;
     simulated devices[STUB_DEVICES];
     double settings[STUB_SETTINGS];
     double answers[STUB_QUESTIONS];
@@ -53,8 +52,8 @@ typedef struct stub_state {
     unsigned long last_number;
     hd_callback asked; /* by hdScheduleSynchronous() */
     void *asked_user;
-    pthread_cond_t answered;
-    pthread_t thread;
+    knurl_thread *thread;
+    uintptr_t thread_id;
     int runs;
     int stops;
     double rate;
@@ -73,18 +72,22 @@ EXPORT void stub_mirror(stub_told *to);
 EXPORT void stub_turn(uint64_t turns);
 EXPORT void stub_reset(void);
 
+EXPORT void stub_use_time(const stub_time *time);
+
 static inline int64_t now_ns(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+    return hd.time.now_ns();
+}
+
+static inline void nap(int64_t ns) {
+    hd.time.sleep_until_ns(now_ns() + ns);
 }
 
 static inline void lock(void) {
-    (void)pthread_mutex_lock(&hd.mutex);
+    knurl_system_mutex_lock(&hd.mutex);
 }
 
 static inline void unlock(void) {
-    (void)pthread_mutex_unlock(&hd.mutex);
+    knurl_system_mutex_unlock(&hd.mutex);
 }
 
 static inline void push(uint32_t code, int device) {

@@ -10,6 +10,7 @@ static struct {
     stub_set_function set;
     stub_limp_function limp_since;
     stub_reset_function reset;
+    stub_use_time_function use_time;
 } stub;
 
 static knurl_device *open_double(void) {
@@ -18,10 +19,12 @@ static knurl_device *open_double(void) {
     stub.library = knurl_system_load_library(KNURL_TEST_STUB, why, sizeof why);
     if (!stub.library || !knurl_system_find_function(stub.library, "stub_set", &stub.set) ||
         !knurl_system_find_function(stub.library, "stub_limp_since", &stub.limp_since) ||
-        !knurl_system_find_function(stub.library, "stub_reset", &stub.reset)) {
+        !knurl_system_find_function(stub.library, "stub_reset", &stub.reset) ||
+        !knurl_system_find_function(stub.library, "stub_use_time", &stub.use_time)) {
         (void)knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: %s", KNURL_TEST_STUB, why);
         return NULL;
     }
+    stub.use_time(&stub_program_time);
     stub.reset();
     stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
     if (knurl_device_open("touch:?library=" KNURL_TEST_STUB, &device)) {
