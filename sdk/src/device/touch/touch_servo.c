@@ -91,6 +91,18 @@ static int call_tick(touch *t) {
     return more;
 }
 
+/* Another thread that initialises a device makes that the current one: then this one got no force, and gets it again.
+ */
+static void set_force(touch *t, const double force[3]) {
+    for (int attempt = 0; attempt < 2; attempt++) {
+        t->hd->make_current(t->handle); /* the tick took its time */
+        t->hd->set_doubles(HD_FORCE, force);
+        if (t->hd->current() == t->handle) {
+            break;
+        }
+    }
+}
+
 static void play(touch *t, int more) {
     double force[3] = {0.0, 0.0, 0.0};
     const double length = vec3_length(t->force);
@@ -98,8 +110,7 @@ static void play(touch *t, int more) {
         !knurl_device_must_be_zero()) {
         vec3_scale(length > t->base.max_force ? t->base.max_force / length : 1.0, t->force, force);
     }
-    t->hd->make_current(t->handle); /* the tick took its time */
-    t->hd->set_doubles(HD_FORCE, force);
+    set_force(t, force);
     t->hd->end_frame(t->handle);
     knurl_store_release(&t->base.quiet, vec3_dot(force, force) > 0.0 ? 0u : 1u);
 }
