@@ -199,7 +199,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
     knurl_session *s = make_session();
     for (int round = 0; round < 3; round++) {
         const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
-        knurl_session_way way = {{0.0, 0.0, 0.0}, 0};
+        knurl_session_way way = {.clock = KNURL_SESSION_FRAMES};
         run(s, &desc);
         for (int frame = 0; frame < 50; frame++) {
             const double position[3] = {0.0, 0.0, 1e-5 * frame};
