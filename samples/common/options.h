@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
-enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NOTHING_FELT = 4, TOOL_INTERRUPTED = 128 };
+enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NO_CONTACT = 4, TOOL_INTERRUPTED = 128 };
 
 /* Who says what is wrong, and whose --help is named: "knurl", unless main() sets another. */
 extern const char *tool_name;

@@ -13,7 +13,7 @@ const Gltf := preload("res://addons/knurl/import.gd")
 const HANDLE := "res://knurled_handle.glb"
 const HANDLE_SCALE := 0.65  # its 110 mm on a plate of 70
 const STROKE_SECONDS := 2.0
-const WARM_UP_FRAMES := 5  # late, for shaders are compiled; a device lets go when a game hangs
+const WARM_UP_FRAMES := 5  # late, for shaders are compiled; a device's force is zero while a game hangs
 
 @onready var _device: KnurlDevice = $KnurlDevice
 
@@ -72,7 +72,7 @@ func _end_after_stroke() -> void:
 
 
 ## Where the CPU draws, frames would else be so late that the device, which takes the game to hang,
-## lets go of the hand.
+## sets its force to zero.
 func _draw_coarsely(coarsely: bool) -> void:
 	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
 	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0

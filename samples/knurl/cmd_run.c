@@ -1,9 +1,9 @@
 /* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
 #include "faults.h"
-#include "felt.h"
 #include "recorder.h"
 #include "stroke.h"
 #include "tool.h"
+#include "travel.h"
 
 #include <math.h>
 #include <signal.h>
@@ -26,7 +26,7 @@ typedef struct run {
     knurl_loop *loop;
     knurl_surface_id surface; /* that is stroked */
     recorder recorder;
-    felt felt;
+    travel travel;
     faults faults;
     uint64_t ticks; /* wanted */
     double seconds; /* wanted of the clock; 0: a simulated device's time is its ticks */
@@ -144,8 +144,8 @@ static int lay(run *r, knurl_surface_id surface, double *last_t) {
     if (o->trace) {
         return stroke_play(r->scene, r->device, o->trace, last_t);
     }
-    r->felt.stroke = o->stroke_id;
-    return stroke_lay(r->scene, r->device, surface, o->stroke_id, &r->felt.stroke_length);
+    r->travel.stroke = o->stroke_id;
+    return stroke_lay(r->scene, r->device, surface, o->stroke_id, &r->travel.stroke_length);
 }
 
 static int open_device(run *r) {
@@ -187,7 +187,7 @@ static knurl_result clamp(knurl_scene *scene) {
 
 static void take_tick(const knurl_tick_output *output, void *user) {
     run *r = user;
-    felt_take(&r->felt, output);
+    travel_add(&r->travel, output);
     if (r->recorder.rows) {
         recorder_take(output, &r->recorder);
     }
@@ -212,7 +212,7 @@ static int make_loop(run *r) {
     }
     desc.tick_callback = take_tick;
     desc.user = r;
-    r->felt.period = 1.0 / r->options.rate;
+    r->travel.period = 1.0 / r->options.rate;
     if (knurl_loop_create(&desc, &r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
@@ -305,7 +305,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "ticks", (double)stats->ticks);
     json_number(&json, "contact_s", (double)counts.contact_ticks / r->options.rate);
     json_number(&json, "events", (double)counts.events);
-    json_number(&json, "metres", r->felt.metres);
+    json_number(&json, "metres", r->travel.metres);
     json_number(&json, "half_cycles_crossed", floor(counts.half_cycles_crossed));
     json_number(&json, "half_cycles_played", (double)counts.half_cycles_played);
     json_number(&json, "overruns", (double)stats->overruns);
@@ -363,7 +363,7 @@ static int perform(run *r) {
     print_summary(r, &stats);
     const int is_fake = !r->options.device || strncmp(r->options.device, "fake", 4) == 0;
     return code == TOOL_OK && is_fake
-               ? felt_judge(&r->felt, r->scene, r->surface, (double)stats.ticks / r->options.rate)
+               ? travel_check(&r->travel, r->scene, r->surface, (double)stats.ticks / r->options.rate)
                : code;
 }
 

@@ -269,7 +269,7 @@ static void check_regions(table *t) {
 }
 
 /* A force that is held over a tick while the spring goes on by dx gives K dx^2/2 more than it took: what the observer
- * has to find, of a wall that lets go again. */
+ * has to find, of a contact that ends again. */
 static void check_leak(table *t) {
     lab_case c;
     lab_result r;

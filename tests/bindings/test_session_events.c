@@ -129,7 +129,7 @@ TEST(each_of_them_is_told_once_and_the_last_at_the_end) {
     knurl_session_destroy(t.s);
 }
 
-TEST(a_surface_that_is_taken_out_is_let_go_of) {
+TEST(removing_a_surface_ends_its_contact) {
     three t;
     set_up(&t, "fake");
     press_on(&t, 0);

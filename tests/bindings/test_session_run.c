@@ -104,7 +104,7 @@ TEST(a_session_can_start_paused) {
     knurl_session_destroy(s);
 }
 
-TEST(a_game_that_hangs_is_let_go_of_until_it_lives_again) {
+TEST(while_a_game_hangs_its_device_has_no_force) {
     knurl_session_desc desc = describe("fake", "rest");
     knurl_session *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);

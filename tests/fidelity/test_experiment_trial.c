@@ -129,7 +129,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
     assert_int_equal(o.saturations, beyond);
 }
 
-TEST(leaving_the_sphere_lets_go_and_begins_the_trial_anew) {
+TEST(leaving_the_sphere_zeroes_the_force_and_begins_the_trial_anew) {
     const exp_trial trial = {1, 5, 1.05, {KNURL_T1, KNURL_T3}};
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;

@@ -86,7 +86,7 @@ func tells() -> void:
 	check("and its end", await until(func() -> bool: return told.has(["button", 0, false])))
 	s.get_parent().remove_child(s)
 	check("removed while touched: ended", told.has(["ended", s]))
-	check("and let go", not s.is_touched() and await until(func() -> bool: return d.force == Vector3.ZERO and not d.in_contact))
+	check("and no force", not s.is_touched() and await until(func() -> bool: return d.force == Vector3.ZERO and not d.in_contact))
 	s.free()
 	check("each once", told.size() == 4, told)
 	clear()
@@ -130,13 +130,13 @@ func dies_and_lives() -> void:
 	clear()
 
 
-func lets_go() -> void:
+func pauses_and_hangs() -> void:
 	var d := make_device("fake", "rest")
 	make_surface(plate())
 	d.start()
 	check("pressed", await until(func() -> bool: return d.force.length() > 0.05))
 	paused = true
-	check("a pause lets go", await until(func() -> bool: return d.force == Vector3.ZERO, 1.0), d.force)
+	check("a pause zeroes the force", await until(func() -> bool: return d.force == Vector3.ZERO, 1.0), d.force)
 	check("and holds on to the device", d.running)
 	paused = false
 	check("and comes back", await until(func() -> bool: return d.force.length() > 0.05))
@@ -147,7 +147,7 @@ func lets_go() -> void:
 	d.paused = false
 	check("and it comes back", await until(func() -> bool: return d.force.length() > 0.05))
 	OS.delay_msec(400)
-	check("a game that hangs lets go", d.force == Vector3.ZERO, d.force)
+	check("a game that hangs has no force", d.force == Vector3.ZERO, d.force)
 	check("and comes back as well", await until(func() -> bool: return d.force.length() > 0.05))
 	clear()
 
@@ -227,7 +227,7 @@ func tests() -> void:
 	await tells()
 	await ends_with_the_finger()
 	await dies_and_lives()
-	await lets_go()
+	await pauses_and_hangs()
 	await leaves_with_its_scene()
 	await stopped_by_its_own_signals()
 	await handlers_that_free_surfaces()

@@ -173,7 +173,8 @@ TEST(the_full_model_feels_the_same) {
 
 TEST(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe) {
     process slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));
-    /* A machine that stands still for 50 ms has its motors let go of, and rightly so: then the forces do differ. */
+    /* On a machine that stands still for 50 ms the watchdog zeroes the force, and rightly so: then the forces do
+     * differ. */
     for (int again = 0; again < 5 && json_number_of(slow.out, "watchdogs") > 0.0L; again++) {
         process_free(&slow);
         slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));

@@ -39,7 +39,7 @@ void UNITY_CALL UnityPluginUnload(void) {
     const uint32_t running = knurl_session_close_all();
     if (running > 0 && engine_log) {
         char text[128];
-        (void)snprintf(text, sizeof text, "Knurl: the plugin was unloaded while devices ran (%u): they were let go",
+        (void)snprintf(text, sizeof text, "Knurl: the plugin was unloaded while devices ran (%u): they were closed",
                        (unsigned)running);
         engine_log->log(UNITY_LOG_WARNING, text, "plugin.c", __LINE__);
     }

@@ -245,7 +245,7 @@ TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
 }
 
 /* At once, whatever the haptic thread does: also what is played, and what is still under way, when nobody writes. */
-TEST(a_halt_lets_go_of_the_motors_at_once) {
+TEST(a_halt_zeroes_the_force_at_once) {
     for (int delay = 0; delay <= 3; delay++) {
         char uri[200];
         (void)snprintf(uri, sizeof uri, FREE "&delay=%d", delay);

@@ -74,7 +74,7 @@ static double oscillator(double t, double x0, double w0, double g) {
     return x0 * exp(-g * t) * (cos(w * t) + g / w * sin(w * t));
 }
 
-TEST(a_mass_let_go_on_the_hands_spring_swings_as_an_oscillator_does) {
+TEST(a_mass_released_on_the_hands_spring_swings_as_an_oscillator_does) {
     static const double damping[][2] = {{0.0, 0.0}, {0.2, 0.0}, {0.0, 0.2}, {0.5, 5.0}}; /* device's, hand's: N s/m */
     for (size_t i = 0; i < COUNT_OF(damping); i++) {
         knurl_plant_config config = free_mass();
@@ -138,7 +138,7 @@ TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction) {
     CHECK_CLOSE(0.4 - plant.position[0], 20.0 * 0.2 / 700.0, 0.2 * DT);
 }
 
-TEST(dry_friction_holds_what_is_below_its_limit_and_lets_go_above) {
+TEST(dry_friction_holds_what_is_below_its_limit_and_slides_above) {
     knurl_plant_config config = free_mass();
     config.coulomb = 0.26;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
@@ -257,7 +257,7 @@ TEST(of_two_forces_written_in_one_tick_the_newer_counts) {
     }
 }
 
-TEST(the_workspaces_stops_hold_and_let_go) {
+TEST(the_workspaces_stops_hold_and_release) {
     knurl_plant_config config = free_mass();
     config.half_workspace[0] = 0.08;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);

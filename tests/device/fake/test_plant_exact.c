@@ -27,7 +27,7 @@ static void push(knurl_plant *plant, double dt, double force) {
 }
 
 /* m x'' + c x' + k x = 0 from x0 at rest, in all three cases of damping. */
-static double let_go(double t, double x0, double k, double c, double m) {
+static double released(double t, double x0, double k, double c, double m) {
     const double g = c / (2.0 * m);
     const double d = k / m - g * g;
     const double w = sqrt(fabs(d));
@@ -50,7 +50,7 @@ TEST(a_swing_is_that_of_the_closed_form_at_any_rate_and_damping) {
             knurl_plant plant = make_plant(&config, 0.01, 0.0);
             for (int tick = 1; tick <= 200; tick++) {
                 push(&plant, 1.0 / rates[j], 0.0);
-                CHECK_CLOSE(plant.position[0], let_go(tick / rates[j], 0.01, 700.0, dampings[i], 0.05), 1e-11);
+                CHECK_CLOSE(plant.position[0], released(tick / rates[j], 0.01, 700.0, dampings[i], 0.05), 1e-11);
             }
         }
     }
@@ -84,7 +84,7 @@ TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction_alone) {
     CHECK_CLOSE(0.4 - plant.position[0], 20.0 * 0.2 / 700.0, 1e-12);
 }
 
-TEST(dry_friction_holds_exactly_below_its_limit_and_lets_go_above) {
+TEST(dry_friction_holds_exactly_below_its_limit_and_slides_above) {
     knurl_plant_config config = free_mass();
     config.coulomb = 0.26;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);

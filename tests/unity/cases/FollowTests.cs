@@ -94,7 +94,7 @@ namespace Knurl.Tests
             Until(() => told.Count == 1 && IsAbout(d.Force.y, 0.4f), "pressed");
             s.enabled = false;
             Until(() => told.Count == 2, "disabled while touched: ended");
-            Until(() => d.Force == Vector3.zero && !d.InContact && !s.IsTouched, "let go");
+            Until(() => d.Force == Vector3.zero && !d.InContact && !s.IsTouched, "no force");
             s.enabled = true;
             Player.Frames(2);
             PressAgain(d);

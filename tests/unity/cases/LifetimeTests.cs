@@ -64,7 +64,7 @@ namespace Knurl.Tests
         [Test]
         public void QuittingStopsAlsoWhatIsNotDisabledByIt()
         {
-            // Application.quitting comes before any OnDisable; a player that ends there has let go of the hand.
+            // Application.quitting comes before any OnDisable; the force of a player that ends there is zero.
             MakeSurface(Plate());
             KnurlDevice d = StartResting();
             bool isRunning = true;
@@ -108,7 +108,7 @@ namespace Knurl.Tests
             Player.Frames(3);
             Assert.That(d.Running);
             Assert.AreEqual(0L, d.GetStatus().Surfaces);
-            Until(() => d.Force == Vector3.zero, "let go");
+            Until(() => d.Force == Vector3.zero, "no force");
         }
 
         [Test]
@@ -226,7 +226,7 @@ namespace Knurl.Tests
             KnurlDevice d = StartResting();
             Until(() => d.Force.magnitude > 0.05f, "pressed");
             Player.Pause(true);
-            Until(() => d.Force == Vector3.zero, "let go");
+            Until(() => d.Force == Vector3.zero, "no force");
             Assert.That(d.Running, "and holds on to the device");
             Player.Pause(false);
             Until(() => d.Force.magnitude > 0.05f, "and comes back");
@@ -239,7 +239,7 @@ namespace Knurl.Tests
             KnurlDevice d = StartResting();
             Until(() => d.Force.magnitude > 0.05f, "pressed");
             Time.timeScale = 0f;
-            Until(() => d.Force == Vector3.zero, "let go");
+            Until(() => d.Force == Vector3.zero, "no force");
             Assert.That(d.Running, "and holds on to the device");
             Time.timeScale = 1f;
             Until(() => d.Force.magnitude > 0.05f, "and comes back");
@@ -254,7 +254,7 @@ namespace Knurl.Tests
             d.contactEnded.AddListener(s => ended++);
             Until(() => d.Force.magnitude > 0.05f && d.InContact, "pressed");
             d.Paused = true;
-            Until(() => d.Force == Vector3.zero && !d.InContact, "let go");
+            Until(() => d.Force == Vector3.zero && !d.InContact, "no force");
             long then = d.Ticks;
             Until(() => d.Ticks > then + 400, "ticks go on");
             Assert.That(d.Running && d.Paused && d.Force == Vector3.zero && ended == 1, "and nothing is felt");
@@ -263,12 +263,12 @@ namespace Knurl.Tests
         }
 
         [Test]
-        public void AGameThatHangsLetsGo()
+        public void AGameThatHangsHasNoForce()
         {
             MakeSurface(Plate());
             KnurlDevice d = StartResting();
             Until(() => d.Force.magnitude > 0.05f, "pressed");
-            Assert.That(Waits(() => d.Force == Vector3.zero), "let go without a frame");
+            Assert.That(Waits(() => d.Force == Vector3.zero), "no force, without a frame");
             Until(() => d.Force.magnitude > 0.05f, "and comes back");
         }
 

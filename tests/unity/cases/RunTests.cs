@@ -107,7 +107,7 @@ namespace Knurl.Tests
             Object.DestroyImmediate(s.gameObject);
             Assert.AreEqual(ends + 1, told.Count(t => t.StartsWith("ended")),
                 "destroyed while touched: " + Words(told));
-            Until(() => d.Force == Vector3.zero && !d.InContact, "and let go");
+            Until(() => d.Force == Vector3.zero && !d.InContact, "and no force");
             Assert.That(d.Running && d.Touched == null);
         }
 

@@ -137,7 +137,7 @@ static void play_trace(fake *f, double t, double position[3]) {
 static void move_hand(fake *f, double t, double position[3]) {
     double before[3];
     if (knurl_load_acquire(&f->base.halted)) {
-        knurl_plant_let_go(&f->plant);
+        knurl_plant_zero_force(&f->plant);
     }
     if (f->ticks > 0) {
         vec3_copy(f->target, before);

@@ -20,7 +20,7 @@ void knurl_plant_write(knurl_plant *plant, const double force[3]) {
     vec3_scale(length > plant->config.max_force ? plant->config.max_force / length : 1.0, force, plant->told);
 }
 
-void knurl_plant_let_go(knurl_plant *plant) {
+void knurl_plant_zero_force(knurl_plant *plant) {
     memset(plant->told, 0, sizeof plant->told);
     memset(plant->forces, 0, sizeof plant->forces);
 }

@@ -46,7 +46,7 @@ void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, cons
 void knurl_plant_write(knurl_plant *plant, const double force[3]);
 
 /* Cuts the motors off: no force, and none under way. */
-void knurl_plant_let_go(knurl_plant *plant);
+void knurl_plant_zero_force(knurl_plant *plant);
 
 /* Moves on by dt (s), the hand pulling towards a target (m) that moves at target_velocity (m/s). */
 void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]);

@@ -1,15 +1,15 @@
-/* Whether a run felt anything. SPDX-License-Identifier: MIT */
-#include "felt.h"
+/* How far a run moved in contact. SPDX-License-Identifier: MIT */
+#include "travel.h"
 
 #include <math.h>
 
 #define JUDGED_S 1.0   /* a stroke takes a quarter of a second to come down */
 #define SOME_MM  0.005 /* m: who has moved no farther has not stroked anything */
 
-void felt_take(felt *f, const knurl_tick_output *output) {
+void travel_add(travel *t, const knurl_tick_output *output) {
     const double *v = output->surface_velocity;
     if (output->flags & KNURL_TICK_CONTACT) {
-        f->metres += f->period * sqrt(v[0] * v[0] + v[1] * v[1]);
+        t->metres += t->period * sqrt(v[0] * v[0] + v[1] * v[1]);
     }
 }
 
@@ -17,7 +17,7 @@ static int is_moving(int32_t stroke) {
     return stroke == KNURL_STROKE_LINE || stroke == KNURL_STROKE_SWEEP || stroke == KNURL_STROKE_CIRCLE;
 }
 
-int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface_id surface, double seconds) {
+int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id surface, double seconds) {
     knurl_hip_counts counts;
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
@@ -26,18 +26,18 @@ int felt_judge(const felt *f, const knurl_scene *scene, knurl_surface_id surface
         return TOOL_OK;
     }
     if (counts.contact_ticks == 0) {
-        return tool_error(TOOL_NOTHING_FELT,
+        return tool_error(TOOL_NO_CONTACT,
                           "run: nothing was touched in %.3g s: 'knurl inspect' tells which surfaces are in reach, and "
                           "which way they face",
                           seconds);
     }
     const double *fs = info.material.spatial_frequency;
     const double least = fmax(SOME_MM, fs[0] > 0.0 ? 1.0 / fs[0] : 0.0);
-    if (is_moving(f->stroke) && (f->metres < least || f->stroke_length < 0.001)) {
-        return tool_error(TOOL_NOTHING_FELT,
+    if (is_moving(t->stroke) && (t->metres < least || t->stroke_length < 0.001)) {
+        return tool_error(TOOL_NO_CONTACT,
                           "run: the stroke over '%s' is %.2g mm long and moved %.2g mm in contact, expected %.2g mm or "
                           "more: the surface is too small for it, or leaves the workspace where it begins",
-                          info.name, 1e3 * f->stroke_length, 1e3 * f->metres, 1e3 * least);
+                          info.name, 1e3 * t->stroke_length, 1e3 * t->metres, 1e3 * least);
     }
     return TOOL_OK;
 }

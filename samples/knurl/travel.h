@@ -1,0 +1,24 @@
+/* How far a run moved in contact, and what to say where that is next to nothing.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TOOL_TRAVEL_H
+#define KNURL_TOOL_TRAVEL_H
+
+#include "tool.h"
+
+#include <knurl/knurl.h>
+
+typedef struct travel {
+    double period;        /* s a tick */
+    double metres;        /* moved over surfaces in contact; by the haptic thread */
+    double stroke_length; /* m of the hand's stroke; 0: it stays where it is */
+    int32_t stroke;       /* KNURL_STROKE_, or 0: a trace, or somebody's hand */
+} travel;
+
+/* A tick. [haptic thread] */
+void travel_add(travel *t, const knurl_tick_output *output);
+
+/* After a whole run of `seconds`: TOOL_OK, or TOOL_NO_CONTACT having said why on stderr. A run of less than a second
+ * is not judged: its hand has only just come down. */
+int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id surface, double seconds);
+
+#endif
