@@ -54,7 +54,7 @@ BOXES = {
     "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact"]),
     "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh"]),
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),
-    "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point"]),
+    "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point", "contact/facet"]),
 }
 # The way of a force: where a tick's steps are done, in their order.
 WAY = ["device", "loop", "tick", "motion", "broad_phase", "candidates", "contact_update", "contact", "force_law",

@@ -23,6 +23,9 @@ typedef struct knurl_contact_state {
     uint32_t triangle; /* where the proxy was */
 } knurl_contact_state;
 
+/* What is kept of the triangle that a proxy is on (facet.h). Zero: nothing. */
+typedef struct knurl_facet knurl_facet;
+
 /* What is asked at a tick. */
 typedef struct knurl_contact_query {
     double hip[3];
@@ -30,14 +33,16 @@ typedef struct knurl_contact_query {
     double reach;         /* m in front of the surface that count as contact: the highest crest */
     int32_t has_previous; /* 0: a first tick; KNURL_CAPTURE_DEPTH applies */
     int32_t double_sided;
+    knurl_facet *facet; /* this contact's, zero when it begins; or null: none is kept */
 } knurl_contact_query;
 
 typedef struct knurl_contact {
     double proxy[3];
-    double normal[3];  /* unit, towards the side that the HIP came from */
-    double z;          /* m along the normal, negative inside */
-    double weights[3]; /* mesh: barycentric coordinates of the proxy */
-    uint32_t triangle; /* mesh: which; plane: 0 */
+    double normal[3];   /* unit, towards the side that the HIP came from */
+    double z;           /* m along the normal, negative inside */
+    double weights[3];  /* mesh: barycentric coordinates of the proxy */
+    uint32_t triangle;  /* mesh: which; plane: 0 */
+    knurl_facet *facet; /* mesh: that triangle's; null where none is kept */
 } knurl_contact;
 
 #endif

@@ -4,6 +4,7 @@
  * that is what tells the front of a wall from its back. SPDX-License-Identifier: MIT */
 #include "contact/mesh_contact.h"
 
+#include "contact/facet.h"
 #include "contact/mesh_query.h"
 #include "contact/mesh_walk.h"
 
@@ -28,6 +29,7 @@ static int set_contact(const knurl_mesh *mesh, int32_t side, const knurl_closest
     vec3_copy(closest->point, c->proxy);
     vec3_copy(closest->weights, c->weights);
     c->triangle = closest->triangle;
+    c->facet = NULL;
     if (closest->feature == 7) {
         vec3_scale(side / sqrt(closest->area2), closest->normal, c->normal);
         c->z = vec3_dot(closest->offset, c->normal);
@@ -207,15 +209,26 @@ static int begin_contact(const knurl_mesh *mesh, const knurl_contact_query *quer
     return c->z >= 0.0 ? c->z <= reach : captures;
 }
 
-/* A HIP inside: the proxy walks after it. */
+/* A HIP inside: the proxy walks after it. A triangle that it stays on is kept. */
 static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                         knurl_contact_state *state, knurl_contact *c) {
+    knurl_facet *facet = query->facet;
     knurl_closest_point closest;
+    if (facet && facet->triangle == state->triangle && facet->side == state->side &&
+        knurl_facet_contact(facet, query->hip, c) && c->z <= 0.0) {
+        c->facet = facet;
+        return 1;
+    }
     knurl_closest_on_triangle(mesh, state->triangle, query->hip, &closest);
     if (closest.feature != 7) {
         knurl_mesh_walk(mesh, query->hip, state->side, &closest);
     }
-    return contact_at(mesh, query, reach, &closest, &state->side, c);
+    const int held = contact_at(mesh, query, reach, &closest, &state->side, c);
+    if (facet && held && closest.feature == 7 && c->triangle == closest.triangle && c->triangle == state->triangle) {
+        knurl_facet_keep(&closest, state->side, facet);
+        c->facet = facet;
+    }
+    return held;
 }
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,

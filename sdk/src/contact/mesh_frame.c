@@ -3,6 +3,7 @@
 #include "contact/mesh_frame.h"
 
 #include "base/vec3.h"
+#include "contact/facet.h"
 
 #include <string.h>
 
@@ -182,8 +183,8 @@ static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, d
 }
 
 /* x is made tangent to the contact's normal, which is no face's at edges. */
-void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
-                      double coordinates[2]) {
+static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
+                       double coordinates[2]) {
     double along[3];
     if (mesh->has_axis) {
         vec3_copy(mesh->axis, along);
@@ -205,11 +206,67 @@ void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, doub
     }
 }
 
+/* What the uvs are on a kept facet: each number as frame_by_uvs() and rates_by_uvs() come to it. */
+static void keep_uvs(const knurl_mesh *mesh, knurl_facet *f) {
+    uv_edges e;
+    f->has_uvs = find_uv_edges(mesh, f->triangle, &e);
+    if (!f->has_uvs) {
+        return;
+    }
+    f->u0 = e.u0;
+    f->v0 = e.v0;
+    f->u1 = e.u1;
+    f->v1 = e.v1;
+    f->u2 = e.u2;
+    f->v2 = e.v2;
+    f->scale[0] = mesh->uv_scale[0];
+    f->scale[1] = vec3_dot(f->normal, f->unit) * e.det < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1];
+    const double u = steepness2(e.u1, e.u2, &e) * mesh->uv_scale[0] * mesh->uv_scale[0];
+    const double v = steepness2(e.v1, e.v2, &e) * mesh->uv_scale[1] * mesh->uv_scale[1];
+    f->steepest = sqrt((u > v ? u : v) / f->area2);
+}
+
+void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
+                      double coordinates[2]) {
+    knurl_facet *f = contact->facet;
+    const double *w = contact->weights;
+    if (!f || mesh->tangents || mesh->has_axis) {
+        find_frame(mesh, contact, x, y, coordinates);
+        return;
+    }
+    if (!f->has_frame) {
+        find_frame(mesh, contact, f->x, f->y, coordinates);
+        keep_uvs(mesh, f);
+        f->has_frame = 1;
+    }
+    vec3_copy(f->x, x);
+    vec3_copy(f->y, y);
+    coordinates[0] = f->has_uvs ? (f->u0 + w[1] * f->u1 + w[2] * f->u2) * f->scale[0] : 0.0;
+    coordinates[1] = f->has_uvs ? (f->v0 + w[1] * f->v1 + w[2] * f->v2) * f->scale[1] : 0.0;
+}
+
+/* rates_by_uvs() on a kept facet. */
+static int rates_on_facet(const knurl_facet *f, const double velocity[3], double rates[2], double *steepest) {
+    double turned[3];
+    if (!f->has_uvs) {
+        return 0;
+    }
+    vec3_cross(velocity, f->ac, turned);
+    const double a = vec3_dot(turned, f->normal) / f->area2;
+    vec3_cross(f->ab, velocity, turned);
+    const double b = vec3_dot(turned, f->normal) / f->area2;
+    rates[0] = (a * f->u1 + b * f->u2) * f->scale[0];
+    rates[1] = (a * f->v1 + b * f->v2) * f->scale[1];
+    *steepest = f->steepest;
+    return 1;
+}
+
 int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
                      double *steepest) {
     double x[3], y[3], coordinates[2];
     if (!mesh->has_axis) {
-        return rates_by_uvs(mesh, contact, velocity, rates, steepest);
+        return contact->facet && contact->facet->has_frame ? rates_on_facet(contact->facet, velocity, rates, steepest)
+                                                           : rates_by_uvs(mesh, contact, velocity, rates, steepest);
     }
     knurl_mesh_frame(mesh, contact, x, y, coordinates);
     rates[0] = vec3_dot(velocity, mesh->axis);

@@ -5,6 +5,7 @@
 
 #include "base/atomic.h"
 #include "base/vec3.h"
+#include "contact/facet.h"
 #include "scene/broad_phase.h"
 #include "scene/wall.h"
 
@@ -26,6 +27,7 @@ typedef struct knurl_candidate {
     double normal[3];
     float box[6];     /* scene axes; outside it there is no contact */
     double anchor[3]; /* friction: where the HIP sticks, shape's frame */
+    knurl_facet facet;
 } knurl_candidate;
 
 /* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of

@@ -62,6 +62,7 @@ static void place_hip(update *u, knurl_candidate *candidate, knurl_active_contac
     }
     query->reach = a->record->reach;
     query->double_sided = a->surface->double_sided;
+    query->facet = &candidate->facet;
     candidate->jumps = motion->jumps;
     candidate->has_previous = 1;
     vec3_copy(query->hip, candidate->previous);
@@ -98,6 +99,7 @@ static int begin_contact(update *u, knurl_candidate *candidate) {
         return 0;
     }
     memset(&candidate->grating, 0, sizeof candidate->grating);
+    candidate->facet.side = 0;
     knurl_wall_begin(&candidate->guard, over->given ? over->felt : 0.0);
     return 1;
 }
