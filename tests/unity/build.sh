@@ -32,7 +32,7 @@ unity=(-define:UNITY_2021_3_OR_NEWER,UNITY_STANDALONE,UNITY_STANDALONE_LINUX,UNI
 editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX)
 nunit=(-pkg:nunit)
 
-compile UnityEngine.dll "$out" -target:library -- "$here"/stubs/engine/*.cs
+compile UnityEngine.dll "$out" -target:library -r:System.Web.Extensions.dll -- "$here"/stubs/engine/*.cs
 compile UnityEditor.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/editor/*.cs
 cp "$out"/UnityEngine.dll "$out/player/"
 cp "$out"/Unity*.dll "$out/plain/"

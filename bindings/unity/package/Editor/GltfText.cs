@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 using System;
 using System.IO;
+using System.Text;
 
 namespace Knurl.Editing
 {
@@ -18,6 +19,23 @@ namespace Knurl.Editing
             using (FileStream file = File.OpenRead(path))
             {
                 return Holds(file, JsonLength(file));
+            }
+        }
+
+        /// <summary>The file's JSON.</summary>
+        internal static string ReadJson(string path)
+        {
+            using (FileStream file = File.OpenRead(path))
+            {
+                long length = JsonLength(file); // before it is read on
+                var bytes = new byte[Math.Min(length, file.Length - file.Position)];
+                int count = 0, read = -1;
+                while (count < bytes.Length && read != 0)
+                {
+                    read = file.Read(bytes, count, bytes.Length - count);
+                    count += read;
+                }
+                return Encoding.UTF8.GetString(bytes, 0, count).TrimStart('\uFEFF');
             }
         }
 

@@ -80,7 +80,7 @@ namespace Knurl.Editing
                 .Select(AssetDatabase.LoadAssetAtPath<KnurlGrating>).ToArray();
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Add Knurl Surfaces");
-            List<string> missed = TagSurfaces.Apply(root, tags, gratings);
+            List<string> missed = TagSurfaces.Apply(root, tags, gratings, new GltfNames(path));
             Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
             foreach (string sentence in missed)
             {

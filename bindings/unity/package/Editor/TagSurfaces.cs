@@ -7,63 +7,129 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Puts the tagged surfaces of a glTF file onto the objects that an importer made of it: by name, for that
-    /// is what all importers keep.</summary>
+    /// <summary>Puts the tagged surfaces of a glTF file onto the objects that an importer made of it: by the names of
+    /// objects and meshes, which all importers keep, but for a sole root: that becomes the asset's main object, and Unity
+    /// names it after the file.</summary>
     internal static class TagSurfaces
     {
         const string PartMark = " / "; // Knurl's names are "node / material" where a mesh has several primitives
 
-        /// <summary>Adds a KnurlSurface, or updates the one that is there, on each object at or below root whose name
-        /// is a tag's. gratings: one for each tag, or null. Can be undone in one step. Returns what could not be
+        /// <summary>What of an object's names speaks for a tag: the surest first.</summary>
+        enum Match
+        {
+            ObjectAndMesh,
+            Object,
+            Mesh,
+        }
+
+        /// <summary>Adds a KnurlSurface, or updates the one that is there, on the object of each tag at or below root.
+        /// gratings: one for each tag, or null. names: of the file. Can be undone in one step. Returns what could not be
         /// placed, a sentence each.</summary>
         internal static List<string> Apply(GameObject root, IReadOnlyList<KnurlTag> tags,
-            IReadOnlyList<KnurlGrating> gratings)
+            IReadOnlyList<KnurlGrating> gratings, GltfNames names)
+        {
+            var meshes = root.GetComponentsInChildren<MeshFilter>(true);
+            var found = new GameObject[tags.Count];
+            var used = new Dictionary<GameObject, string>();
+            foreach (Match match in Enum.GetValues(typeof(Match)))
+            {
+                for (int i = 0; i < tags.Count; i++)
+                {
+                    if (found[i] == null && gratings[i] != null)
+                    {
+                        Take(Find(meshes, tags[i].Name, names, match, used), tags[i].Name, out found[i], used);
+                    }
+                }
+            }
+            if (tags.Count == 1 && meshes.Length == 1)
+            {
+                found[0] = meshes[0].gameObject; // whatever it is called
+            }
+            return Place(root, tags, gratings, meshes, found, used);
+        }
+
+        static void Take(GameObject owner, string tag, out GameObject found, Dictionary<GameObject, string> used)
+        {
+            found = owner;
+            if (owner != null)
+            {
+                used.Add(owner, tag);
+            }
+        }
+
+        static List<string> Place(GameObject root, IReadOnlyList<KnurlTag> tags, IReadOnlyList<KnurlGrating> gratings,
+            MeshFilter[] meshes, GameObject[] found, Dictionary<GameObject, string> used)
         {
             var missed = new List<string>();
-            var meshes = root.GetComponentsInChildren<MeshFilter>(true);
-            var used = new Dictionary<GameObject, string>();
             for (int i = 0; i < tags.Count; i++)
             {
-                GameObject found = Find(meshes, tags[i].Name, used);
                 if (gratings[i] == null)
                 {
                     missed.Add("'" + tags[i].Name + "' has no grating: read the file's tags again");
                 }
-                else if (found == null)
+                else if (found[i] == null)
                 {
                     missed.Add(Explain(root, tags[i].Name, meshes, used));
                 }
                 else
                 {
-                    used.Add(found, tags[i].Name);
-                    Put(found, gratings[i], tags[i]);
+                    Put(found[i], gratings[i], tags[i]);
                 }
             }
             return missed;
         }
 
-        /// <summary>The first object of that name that is not taken; without the number that Knurl puts behind names
-        /// that come twice; without the material's.</summary>
-        static GameObject Find(MeshFilter[] meshes, string name, Dictionary<GameObject, string> used)
+        /// <summary>The first object that is not taken and matches.</summary>
+        static GameObject Find(MeshFilter[] meshes, string tag, GltfNames names, Match match,
+            Dictionary<GameObject, string> used)
         {
-            foreach (string candidate in Candidates(name))
+            HashSet<string> own = names.MeshesOf(Candidates(tag).Last());
+            string material = MaterialOf(tag);
+            bool isShown = meshes.Any(mesh => Shows(mesh, material)); // else importers have other materials
+            IEnumerable<MeshFilter> free = meshes.Where(mesh => !used.ContainsKey(mesh.gameObject)
+                && (!isShown || Shows(mesh, material)));
+            if (match != Match.Object)
             {
-                MeshFilter found = meshes.FirstOrDefault(mesh => mesh.gameObject.name == candidate
-                    && !used.ContainsKey(mesh.gameObject));
-                if (found != null)
-                {
-                    return found.gameObject;
-                }
+                free = free.Where(mesh => mesh.sharedMesh != null && own.Contains(mesh.sharedMesh.name));
             }
-            return null;
+            if (match == Match.Mesh)
+            {
+                return First(free.Where(mesh => !names.IsNode(mesh.gameObject.name)));
+            }
+            return Candidates(tag).Select(name => First(free.Where(mesh => mesh.gameObject.name == name)))
+                .FirstOrDefault(owner => owner != null);
         }
 
+        static GameObject First(IEnumerable<MeshFilter> meshes)
+        {
+            MeshFilter first = meshes.FirstOrDefault();
+            return first == null ? null : first.gameObject;
+        }
+
+        /// <summary>"Steel" of "Plate / Steel (2)"; null where the tag is all of its mesh's.</summary>
+        static string MaterialOf(string tag)
+        {
+            string once = WithoutNumber(tag);
+            int mark = once.IndexOf(PartMark, StringComparison.Ordinal);
+            return mark > 0 ? once.Substring(mark + PartMark.Length) : null;
+        }
+
+        static bool Shows(MeshFilter mesh, string material)
+        {
+            var drawn = mesh.GetComponent<Renderer>();
+            return material != null && drawn != null
+                && drawn.sharedMaterials.Any(shown => shown != null && shown.name == material);
+        }
+
+        /// <summary>What the object of a tag may be called: as the tag; without the number that Knurl puts behind names
+        /// that come twice, and with glTFast's, which counts from the second on; without the material's.</summary>
         internal static IEnumerable<string> Candidates(string name)
         {
             yield return name;
             string once = WithoutNumber(name);
             if (once != name)
             {
+                yield return once + "_" + (int.Parse(name.Substring(once.Length).Trim(' ', '(', ')')) - 2);
                 yield return once;
             }
             int mark = once.IndexOf(PartMark, StringComparison.Ordinal);

@@ -380,11 +380,17 @@ namespace UnityEngine
 
     public class Material : Object
     {
+        public Material(Shader shader) { this.shader = shader; }
+        public Shader shader { get; set; }
         public Color color { get; set; }
         public Texture mainTexture { get; set; }
     }
 
-    public class Shader : Object { }
+    /// Of every name there is one, without properties.
+    public class Shader : Object
+    {
+        public static Shader Find(string name) { return new Shader { held = name }; }
+    }
 
     public class Texture : Object
     {
@@ -425,7 +431,13 @@ namespace UnityEngine
     public class Renderer : Component
     {
         public bool enabled { get; set; }
-        public Material sharedMaterial { get; set; } = new Material();
+        public Material[] sharedMaterials { get; set; } = { new Material(new Shader()) };
+        public Material sharedMaterial
+        {
+            get { return sharedMaterials.Length > 0 ? sharedMaterials[0] : null; }
+            set { sharedMaterials = new[] { value }; }
+        }
+
         public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
         public Bounds bounds { get; set; }
         public bool isPartOfStaticBatch { get; internal set; }

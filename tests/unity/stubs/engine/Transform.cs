@@ -112,6 +112,8 @@ namespace UnityEngine
 
         public Transform root { get { return (object)above == null ? this : above.root; } }
         public int childCount { get { Living(); return children.Count; } }
+        /// Not: paths.
+        public Transform Find(string n) { Living(); return children.Find(child => child.name == n); }
         public Transform GetChild(int index) { Living(); return children[index]; }
         public IEnumerator GetEnumerator() { return children.ToArray().GetEnumerator(); }
         public void SetParent(Transform p) { SetParent(p, true); }

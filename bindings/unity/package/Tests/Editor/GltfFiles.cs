@@ -36,9 +36,7 @@ namespace Knurl.Tests
         /// <summary>Returns the path of a file with one node for each name, whose extras are "{...}" or "".</summary>
         internal string Write(string file, params string[] namesAndExtras)
         {
-            string path = Folder + "/" + file;
-            File.WriteAllText(path, Text(namesAndExtras));
-            return path;
+            return WriteText(file, Text(namesAndExtras));
         }
 
         internal static string Text(params string[] namesAndExtras)
@@ -50,15 +48,31 @@ namespace Knurl.Tests
                 nodes.Add("{\"name\": \"" + namesAndExtras[i] + "\", \"mesh\": 0" + extras + "}");
             }
             string all = string.Join(", ", Enumerable.Range(0, nodes.Count).Select(i => i.ToString()).ToArray());
-            return ("{'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [" + all + "]}], 'nodes': [NODES], "
-                + "'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}}]}], 'accessors': ["
-                + "{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3', 'min': [0, 0, 0], "
+            return Text(all, string.Join(", ", nodes.ToArray()), "{\"primitives\": [" + Primitive + "]}");
+        }
+
+        /// <summary>A triangle with UVs.</summary>
+        internal const string Primitive = "{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1}}";
+
+        /// <summary>A file of these parts: numbers of root nodes, nodes, meshes, materials, each without brackets and with
+        /// ' for ".</summary>
+        internal static string Text(string roots, string nodes, string meshes, string materials = "")
+        {
+            return ("{'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [" + roots + "]}], 'nodes': [" + nodes
+                + "], 'meshes': [" + meshes + "], " + (materials == "" ? "" : "'materials': [" + materials + "], ")
+                + "'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3', 'min': [0, 0, 0], "
                 + "'max': [0.1, 0.1, 0]}, {'bufferView': 1, 'componentType': 5126, 'count': 3, 'type': 'VEC2'}"
                 + "], 'bufferViews': [{'buffer': 0, 'byteLength': 36}, "
                 + "{'buffer': 0, 'byteOffset': 36, 'byteLength': 24}], "
                 + "'buffers': [{'byteLength': 60, 'uri': 'data:application/octet-stream;base64,BYTES'}]}")
-                .Replace('\'', '"').Replace("BYTES", Convert.ToBase64String(Triangle()))
-                .Replace("NODES", string.Join(", ", nodes.ToArray()));
+                .Replace('\'', '"').Replace("BYTES", Convert.ToBase64String(Triangle()));
+        }
+
+        internal string WriteText(string file, string text)
+        {
+            string path = Folder + "/" + file;
+            File.WriteAllText(path, text);
+            return path;
         }
 
         static byte[] Triangle()

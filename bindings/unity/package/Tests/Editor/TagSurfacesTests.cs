@@ -41,7 +41,7 @@ namespace Knurl.Tests
             IReadOnlyList<KnurlTag> tags = KnurlTags.Read(path);
             KnurlGrating[] gratings = TagAssets.PathsOf(path, tags.Select(tag => tag.Name)).Select(GltfFiles.Grating)
                 .ToArray();
-            return TagSurfaces.Apply(root, tags, gratings);
+            return TagSurfaces.Apply(root, tags, gratings, new GltfNames(path));
         }
 
         static float FrequencyOf(GameObject owner)
@@ -96,6 +96,7 @@ namespace Knurl.Tests
         public void A_tag_without_an_object_is_told()
         {
             Felt("B");
+            Felt("C");
             List<string> missed = Apply("A", GltfFiles.Tag(1000));
             Assert.AreEqual(1, missed.Count);
             StringAssert.Contains("'A' has no object with a mesh of that name at or below 'Model'", missed[0]);
@@ -127,9 +128,9 @@ namespace Knurl.Tests
         }
 
         [TestCase("A", "A")]
-        [TestCase("A (2)", "A (2)|A")]
+        [TestCase("A (2)", "A (2)|A_0|A")]
         [TestCase("A / Steel", "A / Steel|A")]
-        [TestCase("A / Steel (2)", "A / Steel (2)|A / Steel|A")]
+        [TestCase("A / Steel (2)", "A / Steel (2)|A / Steel_0|A / Steel|A")]
         [TestCase("A (x)", "A (x)")]
         [TestCase("(2)", "(2)")]
         public void What_a_tag_may_be_called(string name, string expected)
