@@ -22,7 +22,7 @@ namespace Knurl
         bool doubleSided;
 
         [SerializeField, Tooltip("The grating's x direction in the mesh's own axes, of any length. (0, 0, 0): the "
-            + "mesh's tangents, else its UVs; a mesh that has neither needs an axis.")]
+            + "mesh's UVs, else its tangents; a mesh that has neither needs an axis.")]
         Vector3 axis;
 
         /// <summary>How it feels; null: it cannot be felt.</summary>
@@ -45,7 +45,7 @@ namespace Knurl
         }
 
         /// <summary>The grating's x direction in the mesh's own axes, of any length. (0, 0, 0), the default: the mesh's
-        /// tangents, else its UVs; a mesh that has neither needs an axis.</summary>
+        /// UVs, else its tangents; a mesh that has neither needs an axis.</summary>
         public Vector3 Axis
         {
             get { return axis; }

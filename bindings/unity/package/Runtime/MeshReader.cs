@@ -1,4 +1,5 @@
 // Reads meshes as Knurl wants them. SPDX-License-Identifier: MIT
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -8,7 +9,7 @@ namespace Knurl
     internal sealed class MeshData
     {
         internal float[] Positions; // x, y, z a vertex
-        internal float[] Tangents;  // x, y, z, w a vertex, or null
+        internal float[] Tangents;  // x, y, z, w a vertex, or null: only where there are no UVs
         internal float[] Uvs;       // u, v a vertex, or null
         internal uint[] Indices;    // three a triangle, counter-clockwise from outside
     }
@@ -42,10 +43,31 @@ namespace Knurl
         {
             var data = new MeshData();
             data.Positions = ReadPositions(mesh, rest);
-            data.Tangents = ReadTangents(mesh, rest);
-            data.Uvs = ReadUvs(mesh);
             data.Indices = ReadIndices(mesh, Axes.Determinant(rest) < 0.0);
+            data.Uvs = ReadUvs(mesh);
+            if (!HaveArea(data.Uvs, data.Indices))
+            {
+                data.Uvs = null;
+                data.Tangents = ReadTangents(mesh, rest);
+            }
             return data;
+        }
+
+        /// <summary>Whether UVs say where u runs. They are asked first: tangents are made of them, and an importer of
+        /// glTF files may have turned tangents into Unity's axes another way than positions (glTFast does).</summary>
+        static bool HaveArea(float[] uvs, uint[] indices)
+        {
+            for (int i = 0; uvs != null && i + 2 < indices.Length; i += 3)
+            {
+                long a = 2L * indices[i], b = 2L * indices[i + 1], c = 2L * indices[i + 2];
+                bool areThere = Math.Max(a, Math.Max(b, c)) < uvs.Length; // else it is refused, with a sentence
+                if (areThere && ((double)uvs[b] - uvs[a]) * ((double)uvs[c + 1] - uvs[a + 1])
+                    != ((double)uvs[c] - uvs[a]) * ((double)uvs[b + 1] - uvs[a + 1]))
+                {
+                    return true;
+                }
+            }
+            return false;
         }
 
         static float[] ReadPositions(Mesh mesh, double* rest)

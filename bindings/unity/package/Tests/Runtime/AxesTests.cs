@@ -98,32 +98,67 @@ namespace Knurl.Tests
             Assert.AreEqual(0, Ridges(surface, Vector3.zero, Vector3.forward));
         }
 
-        [TestCase(true)]
-        [TestCase(false)]
-        public void RidgesFollowTangentsElseUvs(bool isByTangents)
+        static Vector3 Across(Vector3 along)
+        {
+            return new Vector3(-along.z, 0f, along.x);
+        }
+
+        /// <summary>A plate whose u, or nothing, runs along a direction, with these tangents.</summary>
+        KnurlSurface MakeTurned(Vector3 along, bool hasUvs, Vector3 tangent)
         {
             Mesh mesh = Plate();
-            Vector3 along = new Vector3(1f, 0f, 2f).normalized;
-            Vector3 across = new Vector3(-along.z, 0f, along.x);
             var tangents = new Vector4[4];
             var uvs = new Vector2[4];
             for (int i = 0; i < 4; i++)
             {
                 Vector3 p = mesh.vertices[i];
-                tangents[i] = new Vector4(along.x, along.y, along.z, -1f);
-                uvs[i] = isByTangents ? mesh.uv[i] : 10f * new Vector2(Vector3.Dot(p, along), Vector3.Dot(p, across));
+                tangents[i] = new Vector4(tangent.x, tangent.y, tangent.z, -1f);
+                uvs[i] = hasUvs ? 10f * new Vector2(Vector3.Dot(p, along), Vector3.Dot(p, Across(along))) : Vector2.zero;
             }
             mesh.uv = uvs;
-            mesh.tangents = isByTangents ? tangents : null;
-            KnurlSurface surface = MakeSurface(mesh);
-            if (!isByTangents)
-            {
-                Assert.That(Ridges(surface, Vector3.zero, along), Is.GreaterThan(28).And.LessThan(35));
-                Assert.AreEqual(0, Ridges(surface, Vector3.zero, across));
-            }
-            // Where heights come from uvs, only the direction is the tangents'; 1 mm of them is what S2 plays.
+            mesh.tangents = tangents;
+            return MakeSurface(mesh);
+        }
+
+        // 1 mm, as S2 plays it, to which positions say nothing.
+        void RunsAlong(KnurlSurface surface, Vector3 along)
+        {
             Assert.AreEqual(1000.0 * 0.04, Frequency(surface, along), 4.0);
-            Assert.AreEqual(0.0, Frequency(surface, across), 1.0);
+            Assert.AreEqual(0.0, Frequency(surface, Across(along)), 1.0);
+        }
+
+        [Test]
+        public void RidgesFollowUvs()
+        {
+            Vector3 along = new Vector3(1f, 0f, 2f).normalized;
+            KnurlSurface surface = MakeTurned(along, true, along);
+            Assert.That(Ridges(surface, Vector3.zero, along), Is.GreaterThan(28).And.LessThan(35));
+            Assert.AreEqual(0, Ridges(surface, Vector3.zero, Across(along)));
+            RunsAlong(surface, along);
+        }
+
+        /// <summary>glTFast turns positions into Unity's axes by -x and tangents by -z: where they lie in between, such
+        /// tangents are off by 90 degrees, here for a wall that stands in the file's xy plane.</summary>
+        [Test]
+        public void RidgesFollowUvsWhateverAnImporterMadeOfTangents()
+        {
+            Vector3 inFile = new Vector3(1f, 1f, 0f).normalized;
+            Vector3 along = new Vector3(-inFile.x, 0f, inFile.y); // the wall laid down: its y is this plate's z
+            Vector3 tangent = new Vector3(inFile.x, 0f, inFile.y);
+            RunsAlong(MakeTurned(along, true, tangent), along);
+        }
+
+        [TestCase(true)]
+        [TestCase(false)] // there are some, all of them in one place
+        public void WithoutUvsRidgesFollowTangents(bool areNone)
+        {
+            Vector3 along = new Vector3(1f, 0f, 2f).normalized;
+            KnurlSurface surface = MakeTurned(along, false, along);
+            if (areNone)
+            {
+                surface.GetComponent<MeshFilter>().sharedMesh.uv = null;
+            }
+            RunsAlong(surface, along);
         }
 
         // Ridges a second at 40 mm/s along `direction`, as one who slides along would be told (Hz).
