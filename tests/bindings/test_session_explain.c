@@ -143,3 +143,27 @@ TEST(one_that_can_is_not) {
     assert_string_equal(warning, "");
     knurl_session_destroy(s);
 }
+
+/* A plate at many heights of the fake device's workspace, from -35 to 35 mm: the hand that comes down on it is warned of
+ * where the plate is not in there, and not where it lies near an end. */
+TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
+    const knurl_session_desc desc = describe("fake", "line");
+    for (int mm = -40; mm < 40; mm++) {
+        const double z = 1e-3 * mm + 5e-4;
+        knurl_surface_id outside = 0;
+        knurl_hip_counts counts;
+        knurl_session *s = make_session();
+        const knurl_surface_id plate = add_plate(s, 0.0, 0.0, z);
+        open_session(s, &desc);
+        begin(s);
+        step(s, 700);
+        assert_int_equal(knurl_scene_get_tick(s->scene, 0, NULL, &counts), KNURL_OK);
+        assert_int_equal(knurl_session_lay_stroke(s, &outside), KNURL_OK);
+        if (fabs(z) < 0.035) {
+            assert_true(counts.contact_ticks > 450 && outside == 0);
+        } else {
+            assert_true(outside == plate);
+        }
+        knurl_session_destroy(s);
+    }
+}

@@ -146,8 +146,7 @@ KNURL_API knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_s
  */
 typedef struct knurl_stroke_report {
     uint32_t struct_size;
-    uint32_t is_outside; /**< 1: the surface's anchor is out of the device's workspace, or too near to its end for a
-                              hand to come down on it: the stroke is cut short */
+    uint32_t is_outside; /**< 1: the surface's anchor is out of the device's workspace: the stroke is cut short */
     uint32_t follows;    /**< 1: along a path over a curved surface; 0: straight */
     uint32_t reserved;   /**< 0 */
     double length; /**< m of the device: of LINE and SWEEP from one end to the other, of CIRCLE once round; else 0 */

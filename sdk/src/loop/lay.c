@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROOM      0.010 /* m above a surface that a stroke wants: it starts 5 mm above */
-#define HOVER     0.005
+#define HOVER     0.005 /* m above a surface that a stroke starts from */
 #define STEP      0.0005 /* m of the device between a path's rows */
 #define HALF_ROWS 400    /* in either direction from where a path begins: 0.2 m */
 #define SPREAD    0.9    /* of what there is up to a rim or the workspace's end: hands overshoot where they turn */
@@ -355,7 +354,7 @@ static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface_id id,
     knurl_motion_at(&l->surface->record->motion, knurl_scene_time(scene), &l->pose);
     report->follows = (uint32_t)lay_path(l, &desc);
     knurl_scene_unlock(scene);
-    report->is_outside = room(&l->limits, desc.centre, desc.normal) < ROOM;
+    report->is_outside = room(&l->limits, desc.centre, desc.normal) <= 0.0;
     if (stroke == KNURL_STROKE_LINE || stroke == KNURL_STROKE_SWEEP) {
         report->length = report->follows ? l->paths[0].length : 2.0 * desc.reach[0];
     } else if (stroke == KNURL_STROKE_CIRCLE) {
