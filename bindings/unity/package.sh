@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
 # Packs the Unity package with the libraries that were built: OUT_DIR/com.knurl.haptics, a folder to be added from disk
 # or committed to a branch for git URLs, and OUT_DIR/com.knurl.haptics-VERSION.tgz, the same as a tarball.
-# usage: package.sh OUT_DIR LIBRARY...
+# A Linux library that wants a newer glibc than 2.31 (Ubuntu 20.04's) is refused, or with --any-glibc told.
+# usage: package.sh [--any-glibc] OUT_DIR LIBRARY...
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-[ $# -ge 2 ] || { echo "usage: package.sh OUT_DIR LIBRARY..." >&2; exit 2; }
+GLIBC=2.31
+any=''
+[ "${1:-}" != --any-glibc ] || { any=1; shift; }
+[ $# -ge 2 ] || { echo "usage: package.sh [--any-glibc] OUT_DIR LIBRARY..." >&2; exit 2; }
 name=com.knurl.haptics
 export SOURCE_DATE_EPOCH=499162500 # npm's: October 1985; strip writes it into Windows libraries
 mkdir -p "$1"
@@ -28,6 +32,16 @@ place_library() {
     ! command -v "$4" >/dev/null || "$4" --strip-unneeded "$stage/$name/Plugins/$2/$(basename "$1")"
 }
 
+# check_glibc LIBRARY: by the versions of the symbols that it needs.
+check_glibc() {
+    local newest
+    newest=$(objdump -T "$1" | grep -o 'GLIBC_[0-9.]*' | sed 's/GLIBC_//' | sort -uV | tail -n 1 || true)
+    if [ -n "$newest" ] && [ "$(printf '%s\n' "$newest" $GLIBC | sort -V | tail -n 1)" != $GLIBC ]; then
+        echo "package: $1: expected symbols of glibc $GLIBC or older, found ones of $newest${any:+: packed all the same}" >&2
+        [ -n "$any" ] || exit 1
+    fi
+}
+
 stage=$(mktemp -d "$out/.package.XXXXXX") # beside what it becomes, so that moving it there is one step
 trap 'rm -rf "$stage"' EXIT
 mkdir "$stage/$name"
@@ -36,7 +50,10 @@ tar -C "$here/package" --exclude='*.so' --exclude='*.dll' -cf - . | tar -C "$sta
 find "$stage/$name" -name '.*' -type f -delete
 for library in "$@"; do
     case $(basename "$library") in
-    libknurl_unity.so) place_library "$library" Linux/x86_64 $'\x7fELF' strip ;;
+    libknurl_unity.so)
+        check_glibc "$library"
+        place_library "$library" Linux/x86_64 $'\x7fELF' strip
+        ;;
     knurl_unity.dll) place_library "$library" Windows/x86_64 MZ x86_64-w64-mingw32-strip ;;
     *)
         echo "package: $library: expected libknurl_unity.so or knurl_unity.dll" >&2

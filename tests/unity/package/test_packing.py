@@ -165,6 +165,32 @@ class Packing(package.InFolder):
         done = pack(self.out, self.linux, os.path.join(self.folder, "knurl_unity.dll"))
         self.expect_nothing_made(done, "knurl_unity.dll: expected a library that starts with 'MZ'")
 
+    def library_of(self, glibc):
+        """A library that needs one symbol, of that glibc."""
+        stand_in = os.path.join(self.folder, "libc.so.6")
+        library = os.path.join(self.folder, "libknurl_unity.so")
+        self.write(f"GLIBC_{glibc} {{ global: knurl_needed; local: *; }};", "map")
+        compiler = [os.environ.get("CC", "cc"), "-shared", "-fPIC", "-nostdlib", "-x", "c", "-"]
+        subprocess.run(compiler + ["-o", stand_in, f"-Wl,--version-script={self.folder}/map,-soname,libc.so.6"],
+                       input="int knurl_needed(void); int knurl_needed(void) { return 1; }", text=True, check=True)
+        subprocess.run(compiler + ["-o", library, "-x", "none", stand_in], text=True, check=True,
+                       input="int knurl_needed(void); int f(void); int f(void) { return knurl_needed(); }")
+        return library
+
+    @unittest.skipUnless(shutil.which("objdump"), "no objdump")
+    def test_a_library_for_a_newer_glibc_is_refused(self):
+        self.expect_nothing_made(pack(self.out, self.library_of("2.32")),
+                                 "libknurl_unity.so: expected symbols of glibc 2.31 or older, found ones of 2.32")
+        self.expect_nothing_made(pack(self.out, self.library_of("2.100")), "found ones of 2.100")
+        for fine in ("2.31", "2.9"):
+            self.assertEqual(pack(self.out, self.library_of(fine)).returncode, 0)
+
+    @unittest.skipUnless(shutil.which("objdump"), "no objdump")
+    def test_a_newer_glibc_can_be_allowed_and_is_told(self):
+        done = pack("--any-glibc", self.out, self.library_of("2.32"))
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("found ones of 2.32: packed all the same", done.stderr)
+
     def copy_of_sources(self):
         """What package.sh reads, to be broken."""
         unity = os.path.join(self.folder, "bindings", "unity")
