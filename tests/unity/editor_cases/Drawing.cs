@@ -17,7 +17,9 @@ namespace Knurl.Cases
             EditorGUILayout.Drawn.Clear();
             EditorGUILayout.Answers.Clear();
             Gizmos.Drawn.Clear();
+            GUI.Drawn.Clear();
             GenericMenu.Shown = null;
+            GUI.Pressed.Clear();
             AssetDatabase.Clear();
             Selection.objects = new Object[0];
         }
@@ -70,7 +72,7 @@ namespace Knurl.Cases
         }
 
         [Test]
-        public void A_preset_gives_a_grating_its_numbers_and_a_surface_itself()
+        public void A_preset_gives_a_grating_its_numbers()
         {
             AddPreset("b", 150f);
             AddPreset("a", 250f);
@@ -81,10 +83,96 @@ namespace Knurl.Cases
                 GenericMenu.Shown.Items.Keys.Select(title => title.Split(':')[0]).ToArray());
             GenericMenu.Shown.Items.Last().Value();
             Assert.AreEqual(150f, grating.Stiffness);
+        }
+
+        static KnurlGrating Preset(string name)
+        {
+            return AssetDatabase.LoadAssetAtPath<KnurlGrating>("Packages/com.knurl.haptics/Presets/" + name + ".asset");
+        }
+
+        /// <summary>The package's own cannot be edited, or would be changed for all projects.</summary>
+        [Test]
+        public void A_preset_gives_a_surface_a_copy_in_the_project()
+        {
+            AddPreset("a", 250f);
+            EditorGUILayout.Answers["Preset"] = true;
+            KnurlSurface surface = MakeSurface(Plate()), another = MakeSurface(Plate());
+            foreach (KnurlSurface each in new[] { surface, another })
+            {
+                Draw(each);
+                GenericMenu.Shown.Items.First().Value();
+            }
+            Assert.AreEqual("Assets/Gratings/a.asset", AssetDatabase.GetAssetPath(surface.Grating));
+            Assert.AreEqual("Assets/Gratings/a 1.asset", AssetDatabase.GetAssetPath(another.Grating));
+            Assert.AreEqual(250f, surface.Grating.Stiffness);
+            surface.Grating.Stiffness = 100f;
+            Assert.AreEqual(250f, another.Grating.Stiffness);
+            Assert.AreEqual(250f, Preset("a").Stiffness);
+        }
+
+        [Test]
+        public void A_surface_gets_a_new_grating_at_a_button()
+        {
+            KnurlSurface surface = MakeSurface(Plate());
+            surface.Grating = null;
+            GUI.Pressed.Add("New grating");
+            Draw(surface);
+            Assert.AreEqual("Assets/Gratings/Grating.asset", AssetDatabase.GetAssetPath(surface.Grating));
+        }
+
+        [Test]
+        public void A_surface_that_has_the_packages_own_grating_gets_a_copy_at_a_button()
+        {
+            AddPreset("a", 250f);
             KnurlSurface surface = MakeSurface(Plate());
             Draw(surface);
-            GenericMenu.Shown.Items.First().Value();
-            Assert.AreEqual("a", surface.Grating.name);
+            Assert.IsFalse(GUI.Drawn.Contains("button Make a copy to edit"));
+            surface.Grating = Preset("a");
+            GUI.Pressed.Add("Make a copy to edit");
+            Draw(surface);
+            Assert.AreEqual("Assets/Gratings/a.asset", AssetDatabase.GetAssetPath(surface.Grating));
+        }
+
+        sealed class OtherImporter : AssetImporter
+        {
+            [SerializeField] internal bool _readWriteEnabled;
+        }
+
+        KnurlSurface MakeUnreadable(string path, AssetImporter importer)
+        {
+            Mesh mesh = Plate();
+            mesh.UploadMeshData(true);
+            AssetDatabase.Assets[path] = mesh;
+            AssetImporter.Importers[path] = importer;
+            return MakeSurface(mesh);
+        }
+
+        [Test]
+        public void A_mesh_is_made_readable_at_a_button_beside_its_warning()
+        {
+            var model = new ModelImporter();
+            KnurlSurface surface = MakeUnreadable("Assets/a.fbx", model);
+            Draw(surface);
+            CollectionAssert.Contains(GUI.Drawn, "button Make readable");
+            Assert.IsFalse(model.isReadable);
+            GUI.Pressed.Add("Make readable");
+            Draw(surface);
+            Assert.IsTrue(model.isReadable);
+            Assert.AreEqual(1, model.Reimports);
+            var other = new OtherImporter(); // UnityGLTF's, by its field
+            Draw(MakeUnreadable("Assets/b.glb", other));
+            Assert.IsTrue(other._readWriteEnabled);
+            Assert.AreEqual(1, other.Reimports);
+        }
+
+        [Test]
+        public void Where_a_mesh_cannot_be_made_readable_there_is_no_button()
+        {
+            GUI.Drawn.Clear();
+            Draw(MakeSurface(Plate())); // it is
+            Draw(MakeUnreadable("Packages/x/a.fbx", new ModelImporter())); // it is not the project's
+            Draw(MakeUnreadable("Assets/a.xyz", new AssetImporter())); // nobody knows how
+            CollectionAssert.DoesNotContain(GUI.Drawn, "button Make readable");
         }
 
         [Test]

@@ -10,6 +10,7 @@ namespace Knurl.Editing
     internal static class Presets
     {
         internal const string Folder = "Packages/com.knurl.haptics/Presets";
+        internal const string Own = "Assets/Gratings";
 
         /// <summary>All of them, by name.</summary>
         internal static KnurlGrating[] Load()
@@ -26,6 +27,39 @@ namespace Knurl.Editing
         {
             return preset.name + ": " + Units.Frequency(preset.SpatialFrequency) + ", " +
                 Units.Millimetres(preset.Amplitude) + ", " + Units.Number(preset.Stiffness) + " N/m";
+        }
+
+        /// <summary>Whether a grating is the package's: it cannot be edited, or would be changed for every project that has
+        /// this package from the same disk.</summary>
+        internal static bool IsPreset(KnurlGrating grating)
+        {
+            return grating != null
+                && AssetDatabase.GetAssetPath(grating).StartsWith(Folder + "/", StringComparison.Ordinal);
+        }
+
+        /// <summary>A new asset of the project's own with a preset's numbers.</summary>
+        internal static KnurlGrating Copy(KnurlGrating preset)
+        {
+            var made = ScriptableObject.CreateInstance<KnurlGrating>();
+            EditorUtility.CopySerialized(preset, made);
+            return Save(made, preset.name);
+        }
+
+        /// <summary>A new asset with the numbers that every grating begins with.</summary>
+        internal static KnurlGrating New()
+        {
+            return Save(ScriptableObject.CreateInstance<KnurlGrating>(), "Grating");
+        }
+
+        static KnurlGrating Save(KnurlGrating made, string name)
+        {
+            if (!AssetDatabase.IsValidFolder(Own))
+            {
+                AssetDatabase.CreateFolder("Assets", Own.Substring("Assets/".Length));
+            }
+            AssetDatabase.CreateAsset(made, AssetDatabase.GenerateUniqueAssetPath(Own + "/" + name + ".asset"));
+            EditorGUIUtility.PingObject(made);
+            return made;
         }
 
         internal static void Draw(Action<KnurlGrating> chosen)

@@ -10,12 +10,12 @@ namespace Knurl.Editing
     {
         const double SecondsBetweenLooks = 0.5; // a mesh may be large
 
-        static readonly GUIContent Grating = new GUIContent("Grating", "How the surface feels: a preset, or an " +
-            "asset made by Create > Knurl > Grating");
+        static readonly GUIContent Grating = new GUIContent("Grating", "How the surface feels: an asset, made by " +
+            "one of the buttons below, or by Create > Knurl > Grating");
         static readonly GUIContent DoubleSided = new GUIContent("Double Sided", "Whether it can be touched from " +
             "behind as well");
         static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
-            "(0, 0, 0): the mesh's tangents, else its UVs");
+            "(0, 0, 0): the mesh's UVs, else its tangents");
 
         string[] warnings = new string[0];
         double lookAgain;
@@ -25,7 +25,7 @@ namespace Knurl.Editing
             serializedObject.Update();
             EditorGUI.BeginChangeCheck();
             EditorGUILayout.PropertyField(serializedObject.FindProperty("grating"), Grating);
-            Presets.Draw(Take);
+            DrawGratings();
             EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
             if (EditorGUI.EndChangeCheck())
@@ -44,6 +44,26 @@ namespace Knurl.Editing
             return EditorApplication.isPlaying;
         }
 
+        /// <summary>What is chosen is the project's own, to be edited: a preset is copied.</summary>
+        void DrawGratings()
+        {
+            Presets.Draw(preset => Take(Presets.Copy(preset)));
+            if (GUILayout.Button("New grating"))
+            {
+                Take(Presets.New());
+            }
+            var given = serializedObject.FindProperty("grating").objectReferenceValue as KnurlGrating;
+            if (!Presets.IsPreset(given))
+            {
+                return;
+            }
+            EditorGUILayout.HelpBox("This grating is the package's own, not to be edited.", MessageType.Info);
+            if (GUILayout.Button("Make a copy to edit"))
+            {
+                Take(Presets.Copy(given));
+            }
+        }
+
         void ShowState(KnurlSurface surface)
         {
             bool laysOut = Event.current.type == EventType.Layout; // what is drawn has to be what was laid out
@@ -56,12 +76,23 @@ namespace Knurl.Editing
             {
                 EditorGUILayout.HelpBox(warning, MessageType.Warning);
             }
+            DrawMakeReadable(surface.GetComponent<MeshFilter>());
             if (!EditorApplication.isPlaying)
             {
                 return;
             }
             EditorGUILayout.LabelField("Triangles felt", Units.Number(surface.TriangleCount));
             EditorGUILayout.LabelField("Touched", surface.IsTouched ? "yes" : "no");
+        }
+
+        void DrawMakeReadable(MeshFilter filter)
+        {
+            if (warnings.Length > 0 && filter != null && Readable.CanMake(filter.sharedMesh)
+                && GUILayout.Button("Make readable"))
+            {
+                Readable.Make(filter.sharedMesh);
+                lookAgain = 0.0;
+            }
         }
 
         /// <summary>Never throws: an inspector that does draws nothing below.</summary>
@@ -77,14 +108,14 @@ namespace Knurl.Editing
             }
         }
 
-        void Take(KnurlGrating preset)
+        void Take(KnurlGrating given)
         {
             if (target == null)
             {
                 return; // it was deleted while the menu was open
             }
             serializedObject.Update();
-            serializedObject.FindProperty("grating").objectReferenceValue = preset;
+            serializedObject.FindProperty("grating").objectReferenceValue = given;
             serializedObject.ApplyModifiedProperties();
             lookAgain = 0.0;
         }

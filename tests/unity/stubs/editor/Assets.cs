@@ -78,6 +78,7 @@ namespace UnityEditor
         {
             Assets.Clear();
             labels.Clear();
+            AssetImporter.Importers.Clear();
             folders.Clear();
             folders.Add("Assets");
         }
@@ -147,8 +148,16 @@ namespace UnityEditor
     {
         public string assetPath { get; set; }
         public string userData { get; set; }
-        public static AssetImporter GetAtPath(string path) { return null; }
-        public void SaveAndReimport() { }
+        /// What a test says that imports a path.
+        public static readonly Dictionary<string, AssetImporter> Importers = new Dictionary<string, AssetImporter>();
+        public int Reimports;
+        public static AssetImporter GetAtPath(string path)
+        {
+            AssetImporter found;
+            Importers.TryGetValue(path, out found);
+            return found;
+        }
+        public void SaveAndReimport() { Reimports++; }
     }
 
     public class ModelImporter : AssetImporter
@@ -238,6 +247,20 @@ namespace UnityEditor
         public static readonly List<string> Dialogs = new List<string>();
         public static string Chosen = "";
         public static void SetDirty(UnityEngine.Object o) { }
+        /// All fields that are serialised, and the name.
+        public static void CopySerialized(UnityEngine.Object source, UnityEngine.Object dest)
+        {
+            const System.Reflection.BindingFlags own = System.Reflection.BindingFlags.Instance
+                | System.Reflection.BindingFlags.Public | System.Reflection.BindingFlags.NonPublic;
+            foreach (System.Reflection.FieldInfo field in source.GetType().GetFields(own))
+            {
+                if (field.IsPublic || field.IsDefined(typeof(SerializeField), true))
+                {
+                    field.SetValue(dest, field.GetValue(source));
+                }
+            }
+            dest.name = source.name;
+        }
         public static bool IsPersistent(UnityEngine.Object o) { return AssetDatabase.Contains(o); }
         public static bool DisplayDialog(string title, string message, string ok)
         {

@@ -1,4 +1,5 @@
-// Test-only stand-ins, never shipped. Immediate-mode drawing is written down in GUI.Drawn; buttons are never pressed.
+// Test-only stand-ins, never shipped. Immediate-mode drawing is written down in GUI.Drawn; of buttons
+// those are pressed that a test has put into GUI.Pressed.
 using System.Collections.Generic;
 
 namespace UnityEngine
@@ -38,6 +39,7 @@ namespace UnityEngine
     public static class GUI
     {
         public static readonly List<string> Drawn = new List<string>();
+        public static readonly HashSet<string> Pressed = new HashSet<string>();
         public static Color color { get; set; }
         public static bool enabled { get; set; }
         public static bool changed { get; set; }
@@ -56,7 +58,7 @@ namespace UnityEngine
         public static bool Button(string text, params GUILayoutOption[] options)
         {
             GUI.Drawn.Add("button " + text);
-            return false;
+            return GUI.Pressed.Contains(text);
         }
 
         public static bool Button(GUIContent text, params GUILayoutOption[] options) { return Button(text.text); }
