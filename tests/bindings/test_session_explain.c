@@ -144,8 +144,8 @@ TEST(one_that_can_is_not) {
     knurl_session_destroy(s);
 }
 
-/* A plate at many heights of the fake device's workspace, from -35 to 35 mm: the hand that comes down on it is warned of
- * where the plate is not in there, and not where it lies near an end. */
+/* A plate at many heights of the fake device's workspace, from -35 to 35 mm: the hand that comes down on it is warned
+ * of where the plate is not in there, and not where it lies near an end. */
 TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
     const knurl_session_desc desc = describe("fake", "line");
     for (int mm = -40; mm < 40; mm++) {

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HOVER     0.005 /* m above a surface that a stroke starts from */
+#define HOVER     0.005  /* m above a surface that a stroke starts from */
 #define STEP      0.0005 /* m of the device between a path's rows */
 #define HALF_ROWS 400    /* in either direction from where a path begins: 0.2 m */
 #define SPREAD    0.9    /* of what there is up to a rim or the workspace's end: hands overshoot where they turn */
