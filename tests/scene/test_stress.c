@@ -14,7 +14,7 @@ enum { HIPS = 2, PRESSED = 12 };
 
 /* Four planes, 1 m apart in x. */
 enum {
-    FELT,  /* its material is replaced: stiffness and amplitude name the same number */
+    FELT,  /* its material is replaced, or all of it: stiffness and amplitude name the same number */
     MOVED, /* it jumps: its height and its turn name the same number */
     COMES, /* it is taken out, and another comes: the stiffness names which */
     GLIDES /* it is always on its way */
@@ -164,8 +164,11 @@ static void *hip_thread(void *user) {
 
 static void replace_material(stage *s) {
     const uint64_t number = s->done[FELT] + 1;
-    const surface_parts parts = numbered(FELT, number);
-    if (knurl_scene_set_material(s->scene, s->ids[FELT], &parts.material) == KNURL_OK) {
+    surface_parts parts = numbered(FELT, number);
+    const knurl_result result = number % 2 == 0
+                                    ? knurl_scene_set_material(s->scene, s->ids[FELT], &parts.material)
+                                    : knurl_scene_replace_surface(s->scene, s->ids[FELT], surface_ready(&parts));
+    if (result == KNURL_OK) {
         knurl_store_release(&s->done[FELT], number);
     }
 }

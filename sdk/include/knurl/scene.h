@@ -243,6 +243,14 @@ KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_s
  * Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface);
 
+/** Puts another surface in a surface's place, before the commit or after: another shape, side, axis, name, material and
+ * place under the same id. What is touched goes on being touched, as after a move in no time: a HIP that was in contact
+ * is in contact with the new surface where it is at most 10 mm behind it. The old name is gone with the old surface.
+ * Errors: KNURL_ERROR_STALE_ID and those of knurl_scene_add_surface() but KNURL_ERROR_FULL; the old surface then stays.
+ * [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface,
+                                                   const knurl_surface_desc *desc);
+
 /** Gives a surface another material, before the commit or after; an event that plays is played to its end.
  * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY, and those of a material. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,

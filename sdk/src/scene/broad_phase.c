@@ -212,6 +212,22 @@ void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *sur
     }
 }
 
+void knurl_broad_phase_replace(knurl_broad_phase *phase, knurl_surface_data *old, knurl_surface_data *made) {
+    knurl_broad_index *index = phase->index;
+    if (index) {
+        float both[6];
+        memcpy(both, index->boxes[made->place], sizeof both);
+        add_box(made->record->arrived, both);
+        store_box(index->boxes[made->place], both);
+        make_dynamic(index, made->place);
+        new_version(phase);
+        __atomic_store_n(&index->items[made->place], made, __ATOMIC_SEQ_CST);
+        store_box(index->boxes[made->place], made->record->arrived);
+        new_version(phase);
+    }
+    knurl_epoch_retire(phase->epoch, &old->retired);
+}
+
 void knurl_broad_phase_remove(knurl_broad_phase *phase, knurl_surface_data *surface) {
     if (phase->index) {
         __atomic_store_n(&phase->index->items[surface->place], NULL, __ATOMIC_SEQ_CST);

@@ -47,6 +47,9 @@ knurl_result knurl_broad_phase_add(knurl_broad_phase *phase, knurl_surface_data 
 void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *surface, knurl_record *record,
                                double time);
 
+/* A surface has taken another's place; that one is released once no tick can see it. Also before the commit. */
+void knurl_broad_phase_replace(knurl_broad_phase *phase, knurl_surface_data *old, knurl_surface_data *made);
+
 /* A surface goes, and is released once no tick can see it. Also before the commit. */
 void knurl_broad_phase_remove(knurl_broad_phase *phase, knurl_surface_data *surface);
 

@@ -49,6 +49,37 @@ knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id sur
     return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
 }
 
+/* Its motion counts one jump more than the old one's, which is how a tick sees that it is another shape. */
+static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_surface_data *made) {
+    knurl_surface_data *old = knurl_surfaces_get(&scene->surfaces, surface);
+    if (!old) {
+        return KNURL_ERROR_STALE_ID;
+    }
+    made->record->motion.jumps = old->record->motion.jumps + 1;
+    made->moved = 1;
+    knurl_surfaces_replace(&scene->surfaces, old, made);
+    knurl_broad_phase_replace(&scene->broad_phase, old, made);
+    return KNURL_OK;
+}
+
+knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface, const knurl_surface_desc *desc) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_surface_data *made = NULL;
+    knurl_result result = knurl_surface_build(&scene->heap, desc, scene->full_model, &made);
+    if (result) {
+        return result;
+    }
+    knurl_scene_lock(scene);
+    result = replace(scene, surface, made);
+    knurl_scene_unlock(scene);
+    if (result) {
+        made->retired.release(&scene->heap, &made->retired);
+    }
+    return result;
+}
+
 static knurl_result set_material(knurl_scene *scene, knurl_surface_id surface, const knurl_material_desc *material) {
     knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (!data) {

@@ -69,6 +69,13 @@ void knurl_surfaces_remove(knurl_surfaces *s, knurl_surface_data *surface) {
     s->vacant[s->vacant_count++] = surface->place;
 }
 
+void knurl_surfaces_replace(knurl_surfaces *s, const knurl_surface_data *old, knurl_surface_data *made) {
+    made->place = old->place;
+    made->generation = old->generation;
+    made->id = old->id;
+    s->items[old->place] = made;
+}
+
 knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *s, knurl_surface_id id) {
     const uint32_t place = (uint32_t)(id & KNURL_ID_PLACE_MAX) - 1; /* 0 wraps to a place that no scene has */
     knurl_surface_data *surface = place < s->capacity ? s->items[place] : NULL;

@@ -38,6 +38,9 @@ void knurl_surfaces_undo_add(knurl_surfaces *surfaces, knurl_surface_data *surfa
 /* From now on its id is stale; the surface itself is still the caller's to release. */
 void knurl_surfaces_remove(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
+/* `made` takes the place and the id of `old`, which is still the caller's to release. */
+void knurl_surfaces_replace(knurl_surfaces *surfaces, const knurl_surface_data *old, knurl_surface_data *made);
+
 /* The surface of an id, or null with an error. */
 knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *surfaces, knurl_surface_id id);
 

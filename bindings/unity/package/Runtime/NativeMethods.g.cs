@@ -574,7 +574,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "f2d7a2ef8f290b9a";
+        internal const string Interface = "bb2547fbadae3e7d";
 
         internal const string Version = "0.1.0";
 
@@ -868,6 +868,10 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_remove_surface(knurl_scene* scene, ulong surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_replace_surface(knurl_scene* scene, ulong surface,
+            knurl_surface_desc* desc);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_set_material(knurl_scene* scene, ulong surface,

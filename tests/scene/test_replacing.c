@@ -1,0 +1,162 @@
+/* Another shape in a surface's place: what is touched goes on being touched. SPDX-License-Identifier: MIT */
+#include "support/ledger.h"
+#include "support/poses.h"
+
+#define K     400.0
+#define DEPTH 0.001
+#define TOL   1e-9L
+
+/* A smooth box whose top is at z. */
+static surface_parts box_below(const shape *box, double half, double z) {
+    surface_parts parts = surface_mesh(box);
+    parts.desc.position[2] = z - half;
+    parts.desc.axis[0] = 1.0;
+    return parts;
+}
+
+static void replace(knurl_scene *scene, knurl_surface_id id, surface_parts *parts) {
+    const knurl_result result = knurl_scene_replace_surface(scene, id, surface_ready(parts));
+    if (result) {
+        print_error("%s\n", knurl_error_message());
+    }
+    assert_int_equal(result, KNURL_OK);
+}
+
+/* A HIP rests in what is replaced again and again: boxes of all sizes, planes, and places within a millimetre. */
+TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
+    uint64_t seed = 3;
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    (void)tick_at(scene, 0.0, 0.0, 0.01);
+    for (int i = 0; i < 500; i++) {
+        const double size = random_between(&seed, 0.005, 0.2);
+        const double top = random_between(&seed, -0.0005, 0.0015);
+        const double half[3] = {size, size, size};
+        shape box = shape_box(half, 0);
+        const int is_box = random_integer(&seed, 0, 2) > 0;
+        parts = is_box ? box_below(&box, size, top) : surface_plane();
+        parts.desc.position[2] = is_box ? parts.desc.position[2] : top;
+        parts.material.stiffness = random_between(&seed, 100.0, 900.0);
+        replace(scene, id, &parts);
+        for (int k = 0; k < 3; k++) {
+            const knurl_tick_output out = tick_at(scene, 0.001 * k, 0.0, -DEPTH);
+            assert_int_equal(out.contacts, 1);
+            assert_true(out.surface == id);
+            CHECK_CLOSE(out.force[2], parts.material.stiffness * (DEPTH + top), 2e-5L); /* positions are floats */
+        }
+        shape_free(&box);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* With the protections: the wall that took the other's place is as hard at once, and not a wall that came up. */
+TEST(the_depth_that_was_felt_goes_on) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    const knurl_surface_id id = add_surface(scene, &parts);
+    knurl_hip_desc hip;
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.resolution = 0.0;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    for (int k = 0; k <= 100; k++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.001 - 2e-5 * k);
+    }
+    const double before = tick_at(scene, 0.0, 0.0, -DEPTH).force[2];
+    CHECK_CLOSE(before, K * DEPTH, TOL);
+    replace(scene, id, &parts);
+    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -DEPTH);
+    CHECK_CLOSE(out.force[2], before, TOL);
+    assert_int_equal(out.flags & KNURL_TICK_ENTRY, 0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(what_it_shrinks_away_from_ends) {
+    const double large[3] = {0.05, 0.05, 0.05};
+    const double small[3] = {0.01, 0.01, 0.01};
+    shape boxes[2] = {shape_box(large, 0), shape_box(small, 0)};
+    surface_parts parts = box_below(&boxes[0], 0.05, 0.0);
+    knurl_scene *scene = scene_of(&parts);
+    (void)tick_at(scene, 0.03, 0.0, 0.01);
+    assert_int_equal(tick_at(scene, 0.03, 0.0, -DEPTH).contacts, 1);
+    parts = box_below(&boxes[1], 0.01, 0.0);
+    replace(scene, knurl_scene_get_surface(scene, 0), &parts);
+    const knurl_tick_output out = tick_at(scene, 0.03, 0.0, -DEPTH);
+    assert_int_equal(out.contacts, 0);
+    CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
+    shape_free(&boxes[0]);
+    shape_free(&boxes[1]);
+    knurl_scene_destroy(scene);
+}
+
+/* It is found where it has grown to, and no more where it was, also by HIPs that were far away. */
+TEST(it_is_felt_where_it_is_now) {
+    for (int committed = 0; committed < 2; committed++) {
+        surface_parts parts = surface_plane();
+        knurl_scene *scene = empty_scene(1);
+        const knurl_surface_id id = add_surface(scene, &parts);
+        configure_plainly(scene, 0);
+        if (committed) {
+            assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+            (void)tick_at(scene, 0.3, 0.0, 0.01);
+        }
+        parts.plane.half_extents[0] = 0.4;
+        parts.desc.name = "longer";
+        replace(scene, id, &parts);
+        if (!committed) {
+            assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+        }
+        const char *name = "";
+        assert_int_equal(knurl_scene_get_surface_name(scene, id, &name), KNURL_OK);
+        assert_string_equal(name, "longer");
+        assert_int_equal(knurl_scene_get_surface_count(scene), 1);
+        (void)tick_at(scene, 0.3, 0.0, 0.01);
+        CHECK_CLOSE(tick_at(scene, 0.3, 0.0, -DEPTH).force[2], K * DEPTH, TOL);
+        (void)tick_at(scene, 0.3, 0.0, 0.01);
+        parts.desc.position[0] = 2.0;
+        replace(scene, id, &parts);
+        assert_int_equal(tick_at(scene, 0.3, 0.0, -DEPTH).contacts, 0);
+        (void)tick_at(scene, 2.0, 0.0, 0.01);
+        CHECK_CLOSE(tick_at(scene, 2.0, 0.0, -DEPTH).force[2], K * DEPTH, TOL);
+        knurl_scene_destroy(scene);
+    }
+}
+
+TEST(what_is_refused_leaves_the_old_one) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    parts.material.stiffness = -1.0;
+    assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_ERROR_ARGUMENT);
+    check_message("stiffness");
+    parts.material.stiffness = K;
+    assert_int_equal(knurl_scene_replace_surface(scene, id + 1, surface_ready(&parts)), KNURL_ERROR_STALE_ID);
+    (void)tick_at(scene, 0.0, 0.0, 0.01);
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -DEPTH).force[2], K * DEPTH, TOL);
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_ERROR_STALE_ID);
+    knurl_scene_destroy(scene);
+}
+
+TEST(the_old_one_s_memory_comes_back) {
+    ledger books = {0, 0, 0, 0};
+    const double half[3] = {0.05, 0.05, 0.05};
+    shape box = shape_box(half, 0);
+    surface_parts parts = box_below(&box, 0.05, 0.0);
+    knurl_scene *scene = scene_with(&books);
+    configure_plainly(scene, 0);
+    const knurl_surface_id id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    uint64_t before = 0;
+    for (int i = 0; i < 100; i++) {
+        replace(scene, id, &parts);
+        (void)tick_at(scene, 0.0, 0.0, -DEPTH);
+        knurl_scene_collect(scene);
+        before = i == 50 ? knurl_scene_get_bytes(scene) : before;
+    }
+    assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
+    knurl_scene_destroy(scene);
+    assert_true(books.bytes == 0);
+    shape_free(&box);
+}
