@@ -85,7 +85,7 @@ func tells() -> void:
 	check("a button", await until(func() -> bool: return told.has(["button", 0, true])))
 	check("and its end", await until(func() -> bool: return told.has(["button", 0, false])))
 	s.get_parent().remove_child(s)
-	check("removed while touched: ended", told.has(["ended", s]))
+	check("removed while touched: ended", await until(func() -> bool: return told.has(["ended", s])))
 	check("and no force", not s.is_touched() and await until(func() -> bool: return d.force == Vector3.ZERO and not d.in_contact))
 	s.free()
 	check("each once", told.size() == 4, told)

@@ -37,6 +37,7 @@ TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
         const int is_box = random_integer(&seed, 0, 2) > 0;
         parts = is_box ? box_below(&box, size, top) : surface_plane();
         parts.desc.position[2] = is_box ? parts.desc.position[2] : top;
+        parts.desc.double_sided = random_integer(&seed, 0, 1) > 0;
         parts.material.stiffness = random_between(&seed, 100.0, 900.0);
         replace(scene, id, &parts);
         for (int k = 0; k < 3; k++) {

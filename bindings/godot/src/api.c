@@ -183,19 +183,55 @@ gd_variant gd_call_variant(GDExtensionMethodBindPtr method, GDExtensionObjectPtr
     return result;
 }
 
-void gd_emit(GDExtensionObjectPtr object, const char *signal, const gd_variant *arguments, uint32_t count) {
+/* A vararg method whose first argument is a name. */
+static gd_variant call_with_name(GDExtensionMethodBindPtr method, GDExtensionObjectPtr object, const char *name,
+                                 const gd_variant *arguments, uint32_t count) {
     gd_variant result;
-    gd_name name = gd_name_new(signal);
-    gd_variant wrapped = gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING_NAME, &name);
-    GDExtensionConstVariantPtr all[3] = {&wrapped};
+    gd_name first = gd_name_new(name);
+    gd_variant wrapped = gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING_NAME, &first);
+    GDExtensionConstVariantPtr all[4] = {&wrapped};
     GDExtensionCallError error;
     for (uint32_t i = 0; i < count; i++) {
         all[i + 1] = &arguments[i];
     }
-    gd.object_method_bind_call(gd_method.Object_emit_signal, object, all, 1 + (GDExtensionInt)count, &result, &error);
-    gd.variant_destroy(&result);
+    gd.object_method_bind_call(method, object, all, 1 + (GDExtensionInt)count, &result, &error);
     gd.variant_destroy(&wrapped);
-    gd_name_end(&name);
+    gd_name_end(&first);
+    return result;
+}
+
+gd_variant gd_call_named(GDExtensionObjectPtr object, const char *method, const gd_variant *arguments, uint32_t count) {
+    return call_with_name(gd_method.Object_call, object, method, arguments, count);
+}
+
+static void tie(const char *how, GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to,
+                const char *method) {
+    gd_value callable;
+    gd_name names[2] = {gd_name_new(signal), gd_name_new(method)};
+    const void *parts[2] = {&to, &names[1]};
+    gd.variant_get_ptr_constructor(GDEXTENSION_VARIANT_TYPE_CALLABLE, 2)(&callable, parts);
+    gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING_NAME, &names[0]),
+                               gd_wrap(GDEXTENSION_VARIANT_TYPE_CALLABLE, &callable)};
+    gd_variant result = gd_call_named(from, how, arguments, 2);
+    gd.variant_destroy(&result);
+    gd.variant_destroy(&arguments[0]);
+    gd.variant_destroy(&arguments[1]);
+    gd_types[GDEXTENSION_VARIANT_TYPE_CALLABLE].end(&callable);
+    gd_name_end(&names[0]);
+    gd_name_end(&names[1]);
+}
+
+void gd_connect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method) {
+    tie("connect", from, signal, to, method);
+}
+
+void gd_disconnect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method) {
+    tie("disconnect", from, signal, to, method);
+}
+
+void gd_emit(GDExtensionObjectPtr object, const char *signal, const gd_variant *arguments, uint32_t count) {
+    gd_variant result = call_with_name(gd_method.Object_emit_signal, object, signal, arguments, count);
+    gd.variant_destroy(&result);
 }
 
 GDExtensionObjectPtr gd_cast(GDExtensionObjectPtr object, const char *class_name) {

@@ -56,6 +56,7 @@
  * 4.6. */
 #define GD_METHODS(X)                                                                                                  \
     X(Object, emit_signal, 4047867050)                                                                                 \
+    X(Object, call, 3400424181)                                                                                        \
     X(RefCounted, unreference, 2240911060)                                                                             \
     X(Resource, emit_changed, 3218959716)                                                                              \
     X(Node, get_parent, 3160264692)                                                                                    \
@@ -185,6 +186,14 @@ void gd_call(GDExtensionMethodBindPtr method, GDExtensionObjectPtr object, const
 /* A method that returns a reference or a container: in a Variant that holds it, to be ended. index: its argument, or
  * negative for none. */
 gd_variant gd_call_variant(GDExtensionMethodBindPtr method, GDExtensionObjectPtr object, int64_t index);
+
+/* A method by its name, for what is rarely called: its result in a Variant, to be ended; nil, after an error, where
+ * there is none of that name. At most 3 arguments, which are left to the caller. */
+gd_variant gd_call_named(GDExtensionObjectPtr object, const char *method, const gd_variant *arguments, uint32_t count);
+
+/* Has an object's signal call another object's method, or no more. */
+void gd_connect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method);
+void gd_disconnect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method);
 
 /* Emits a signal with `count` arguments (at most 2), which are left to the caller. */
 void gd_emit(GDExtensionObjectPtr object, const char *signal, const gd_variant *arguments, uint32_t count);

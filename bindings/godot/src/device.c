@@ -94,8 +94,9 @@ knurl_result device_prepare(device *d) {
     result = result ? result : device_make_session(d);
     result = result ? result : open_session(d);
     for (surface *s = result ? NULL : surfaces; s; s = s->next) {
-        follow_add(d, s);
+        follow_put(d, s);
     }
+    follow_count_failures(d);
     d->gratings_seen = grating_changes;
     return result;
 }
@@ -106,8 +107,12 @@ void device_release(device *d) {
         knurl_session_close(d->session);
     }
     if (d->slot >= 0) {
-        for (surface *s = surfaces; s; s = s->next) {
+        for (surface *s = surfaces, *next; s; s = next) {
+            next = s->next;
             follow_remove(d, s);
+            if (s->is_leaving && !follow_is_felt(s)) {
+                surface_unlist(s);
+            }
         }
         devices[d->slot] = NULL;
         d->slot = -1;

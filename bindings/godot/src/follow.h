@@ -5,14 +5,20 @@
 
 #include "world.h"
 
-void follow_add(device *d, surface *s);
+/* As it is now, in the place of what the device's scene has of it; out, where it cannot be felt. */
+void follow_put(device *d, surface *s);
 void follow_remove(device *d, surface *s);
 void follow_all(device *d);
 
+/* After some were put: tells how many failed beyond those that were told of one by one. */
+void follow_count_failures(device *d);
+
+/* 1: it is in the scene of a running device. */
+int follow_is_felt(const surface *s);
+
+GDExtensionObjectPtr follow_parent(const surface *s);
+
 /* Where a Node3D stands, in the world: 1, or 0 where it is scaled to nothing. */
 int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
-
-/* Why a surface cannot be felt, a line each, in a caller's buffer; "" where it can. */
-void follow_explain(const surface *s, char *text, size_t size);
 
 #endif

@@ -53,19 +53,22 @@ static double determinant(const double m[9]) {
 }
 
 /* Copied as they are where nothing is baked: Knurl sees the very floats that the engine draws. */
-static void add_positions(const float *from, uint32_t count, const double baked[9], mesh_data *data) {
-    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+static void add_positions(const float *from, uint32_t count, const mesh_place *place, mesh_data *data) {
+    static const mesh_place identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
     float *to = data->positions + 3 * (size_t)data->vertex_count;
     int is_identity = 1;
     for (int i = 0; i < 9; i++) {
-        is_identity = is_identity && baked[i] == identity[i];
+        is_identity = is_identity && place->matrix[i] == identity.matrix[i] && place->offset[i % 3] == 0.0;
     }
     if (is_identity) {
         memcpy(to, from, 3 * (size_t)count * sizeof *to);
         return;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        transform(baked, from + 3 * (size_t)i, to + 3 * (size_t)i);
+    for (size_t i = 0; i < count; i++) {
+        transform(place->matrix, from + 3 * i, to + 3 * i);
+        for (int k = 0; k < 3; k++) {
+            to[3 * i + (size_t)k] += (float)place->offset[k];
+        }
     }
 }
 
@@ -107,7 +110,12 @@ static void add_uvs(const void *arrays, uint32_t count, mesh_data *data) {
     end(&uvs);
 }
 
-/* The engine's front faces are clockwise, unless a mirror is baked in. */
+/* Which corner stands at place `i`: the engine's front faces are clockwise, unless a mirror is baked in. */
+static uint64_t turned(uint64_t i, int is_mirrored) {
+    const uint64_t corner = i % 3;
+    return is_mirrored || corner == 0 ? i : corner == 1 ? i + 1 : i - 1;
+}
+
 static int add_indices(const void *arrays, uint32_t count, int is_mirrored, mesh_data *data) {
     packed given =
         take(arrays, ARRAY_INDEX, GDEXTENSION_VARIANT_TYPE_PACKED_INT32_ARRAY, gd_builtin.PACKED_INT32_ARRAY_size);
@@ -118,9 +126,7 @@ static int add_indices(const void *arrays, uint32_t count, int is_mirrored, mesh
         const int32_t *from = given.size > 0 ? gd.packed_int32_array_operator_index_const(given.opaque, 0) : NULL;
         uint32_t *to = data->indices + data->index_count;
         for (uint64_t i = 0; i < added; i++) {
-            const uint64_t corner = i % 3;
-            const uint64_t at = is_mirrored || corner == 0 ? i : corner == 1 ? i + 1 : i - 1;
-            to[at] = data->vertex_count + (from ? (uint32_t)from[i] : (uint32_t)i);
+            to[turned(i, is_mirrored)] = data->vertex_count + (from ? (uint32_t)from[i] : (uint32_t)i);
         }
         data->index_count += added;
     }
@@ -128,7 +134,7 @@ static int add_indices(const void *arrays, uint32_t count, int is_mirrored, mesh
     return fits;
 }
 
-static int add_surface(const void *arrays, const double baked[9], mesh_data *data) {
+static int add_surface(const void *arrays, const mesh_place *place, mesh_data *data) {
     int64_t array_count = 0;
     gd_builtin.ARRAY_size(gd_unconst(arrays), NULL, &array_count, 0);
     if (array_count < ARRAY_MAX) {
@@ -141,11 +147,12 @@ static int add_surface(const void *arrays, const double baked[9], mesh_data *dat
     int fits = 1;
     if (count > 0) {
         fits = grow(&data->positions, total, 3 * sizeof(float)) && grow(&data->tangents, total, 4 * sizeof(float)) &&
-               grow(&data->uvs, total, 2 * sizeof(float)) && add_indices(arrays, count, determinant(baked) < 0.0, data);
+               grow(&data->uvs, total, 2 * sizeof(float)) &&
+               add_indices(arrays, count, determinant(place->matrix) < 0.0, data);
     }
     if (count > 0 && fits) {
-        add_positions(gd.packed_vector3_array_operator_index_const(positions.opaque, 0), count, baked, data);
-        add_tangents(arrays, count, baked, data);
+        add_positions(gd.packed_vector3_array_operator_index_const(positions.opaque, 0), count, place, data);
+        add_tangents(arrays, count, place->matrix, data);
         add_uvs(arrays, count, data);
         data->vertex_count = (uint32_t)total;
     }
@@ -162,19 +169,46 @@ static int has_triangles(GDExtensionObjectPtr array_mesh, int64_t index) {
     return primitive == PRIMITIVE_TRIANGLES;
 }
 
-int mesh_read(GDExtensionObjectPtr mesh, const double baked[9], mesh_data *data) {
+void mesh_begin(mesh_data *data) {
+    memset(data, 0, sizeof *data);
+    data->has_tangents = data->has_uvs = 1;
+}
+
+/* As a surface's arrays with nothing but positions. */
+int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data) {
+    const int is_mirrored = determinant(place->matrix) < 0.0;
+    int64_t size = 0;
+    gd_builtin.PACKED_VECTOR3_ARRAY_size(gd_unconst(corners), NULL, &size, 0);
+    const uint32_t count = size < 3 || size > 1 << 28 ? 0 : (uint32_t)(size - size % 3);
+    const uint64_t total = (uint64_t)data->vertex_count + count;
+    if (count == 0) {
+        return 1;
+    }
+    if (!grow(&data->positions, total, 3 * sizeof(float)) || !grow(&data->tangents, total, 4 * sizeof(float)) ||
+        !grow(&data->uvs, total, 2 * sizeof(float)) ||
+        !grow(&data->indices, data->index_count + count, sizeof *data->indices)) {
+        return 0;
+    }
+    add_positions(gd.packed_vector3_array_operator_index_const(corners, 0), count, place, data);
+    for (uint32_t i = 0; i < count; i++) {
+        data->indices[data->index_count++] = data->vertex_count + (uint32_t)turned(i, is_mirrored);
+    }
+    data->vertex_count = (uint32_t)total;
+    data->has_tangents = data->has_uvs = 0;
+    return 1;
+}
+
+int mesh_add(GDExtensionObjectPtr mesh, const mesh_place *place, mesh_data *data) {
     const GDExtensionObjectPtr array_mesh = gd_cast(mesh, "ArrayMesh");
     int64_t count = 0;
     int fits = 1;
-    memset(data, 0, sizeof *data);
-    data->has_tangents = data->has_uvs = 1;
     gd_call(gd_method.Mesh_get_surface_count, mesh, NULL, &count);
     for (int64_t i = 0; i < count && fits; i++) {
         if (has_triangles(array_mesh, i)) {
             uint64_t arrays;
             gd_variant held = gd_call_variant(gd_method.Mesh_surface_get_arrays, mesh, i);
             gd_types[GDEXTENSION_VARIANT_TYPE_ARRAY].from_variant(&arrays, &held);
-            fits = add_surface(&arrays, baked, data);
+            fits = add_surface(&arrays, place, data);
             gd_types[GDEXTENSION_VARIANT_TYPE_ARRAY].end(&arrays);
             gd.variant_destroy(&held);
         }

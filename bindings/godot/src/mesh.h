@@ -16,9 +16,20 @@ typedef struct mesh_data {
     int has_tangents, has_uvs; /* 1: every surface of the mesh has them */
 } mesh_data;
 
-/* Reads all surfaces of triangles, counter-clockwise in front, with the row-major matrix `baked` applied to positions
- * and tangents. 1, or 0 where memory is short. To be ended in either case. */
-int mesh_read(GDExtensionObjectPtr mesh, const double baked[9], mesh_data *data);
+/* Where a mesh stands in what it is read into: at matrix * position + offset. */
+typedef struct mesh_place {
+    double matrix[9]; /* row-major */
+    double offset[3]; /* m */
+} mesh_place;
+
+/* Begins with nothing; to be ended. */
+void mesh_begin(mesh_data *data);
+
+/* Adds all surfaces of triangles, counter-clockwise in front. 1, or 0 where memory is short. */
+int mesh_add(GDExtensionObjectPtr mesh, const mesh_place *place, mesh_data *data);
+
+/* Adds triangles: corners one after another in a PackedVector3Array. 1, or 0 where memory is short. */
+int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data);
 void mesh_end(mesh_data *data);
 
 /* What knurl_scene_add_surface() wants of it. */

@@ -1,5 +1,7 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
+#include "explain.h"
 #include "follow.h"
+#include "geometry.h"
 #include "serve.h"
 #include "signals.h"
 
@@ -9,6 +11,7 @@ static int init(void *self) {
     surface *s = self;
     s->enabled = 1;
     gd.variant_new_nil(&s->held);
+    gd.variant_new_nil(&s->watched);
     return 1;
 }
 
@@ -76,7 +79,7 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
 static void get_warnings(void *self, const void *const *arguments, void *result) {
     static char text[8192];
     (void)arguments;
-    follow_explain(self, text, sizeof text);
+    explain_surface(self, text, sizeof text);
     for (char *line = text, *end; *line; line = end) {
         gd_string string;
         int64_t failed = 0;
@@ -99,48 +102,84 @@ static void is_touched(void *self, const void *const *arguments, void *result) {
     memcpy(result, &touched, sizeof touched);
 }
 
+/* The parent tells when it gets another mesh, and a mesh when it changes. */
+static void unwatch(surface *s) {
+    GDExtensionObjectPtr mesh = NULL;
+    if (gd.variant_get_type(&s->watched) == GDEXTENSION_VARIANT_TYPE_OBJECT) {
+        gd_types[GDEXTENSION_VARIANT_TYPE_OBJECT].from_variant(&mesh, &s->watched);
+        gd_disconnect(mesh, "changed", s->base.object, "update_mesh");
+        gd.variant_destroy(&s->watched);
+        gd.variant_new_nil(&s->watched);
+    }
+    if (s->watched_parent) {
+        gd_disconnect(s->watched_parent, "property_list_changed", s->base.object, "update_mesh");
+        s->watched_parent = NULL;
+    }
+}
+
+static void watch(surface *s) {
+    gd_variant held;
+    const GDExtensionObjectPtr parent = follow_parent(s);
+    const GDExtensionObjectPtr mesh = geometry_mesh(parent, &held);
+    unwatch(s);
+    if (gd_cast(parent, "MeshInstance3D")) {
+        s->watched_parent = parent;
+        gd_connect(parent, "property_list_changed", s->base.object, "update_mesh");
+    }
+    if (mesh) {
+        s->watched = held;
+        gd_connect(mesh, "changed", s->base.object, "update_mesh");
+    } else {
+        gd.variant_destroy(&held);
+    }
+}
+
+static void update_mesh(void *self, const void *const *arguments, void *result) {
+    surface *s = self;
+    (void)arguments;
+    (void)result;
+    if (s->is_listed && !s->is_leaving) {
+        watch(s);
+        make_anew(s);
+    }
+}
+
 static void enter(surface *s) {
     const uint8_t notify = 1;
-    surface *last = surfaces;
-    while (last && last->next) {
-        last = last->next;
+    s->is_leaving = 0;
+    if (!s->is_listed) {
+        surface_list(s);
     }
-    s->previous = last;
-    *(last ? &last->next : &surfaces) = s;
     make_anew(s);
+    watch(s);
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
-static void unlink_surface(surface *s) {
-    if (s->next) {
-        s->next->previous = s->previous;
-    }
-    if (s->previous || surfaces == s) {
-        *(s->previous ? &s->previous->next : &surfaces) = s->next;
-    }
-    s->next = s->previous = NULL;
-    surface **at = &marked_surfaces;
-    while (s->is_marked && *at != s) {
-        at = &(*at)->next_marked;
-    }
-    if (s->is_marked) {
-        *at = s->next_marked;
-        s->is_marked = 0;
-    }
-}
-
-/* Told at once: a frame later there may be no node any more to tell of. */
-static void leave(surface *s) {
+/* Out of all scenes and of the list, and what that ends is told. */
+static void remove_now(surface *s) {
     for (int i = 0; i < DEVICE_SLOTS; i++) {
         if (devices[i]) {
             follow_remove(devices[i], s);
         }
     }
-    unlink_surface(s);
+    surface_unlist(s);
     for (int i = 0; i < DEVICE_SLOTS; i++) { /* last: a handler may do what it likes */
         if (devices[i] && devices[i]->touched_node == s->base.object) {
             signals_end_contact(devices[i]);
         }
+    }
+}
+
+/* What a game puts elsewhere in the tree leaves it and comes back within a frame: only what is being freed goes at
+ * once.
+ */
+static void leave(surface *s) {
+    unwatch(s);
+    if (s->is_dying || !follow_is_felt(s)) {
+        remove_now(s);
+    } else {
+        s->is_leaving = 1;
+        surface_mark(s);
     }
 }
 
@@ -159,6 +198,12 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_EXIT_TREE:
         leave(s);
+        break;
+    case GD_PREDELETE:
+        s->is_dying = 1;
+        if (s->is_leaving) {
+            remove_now(s);
+        }
         break;
     default:
         break;
@@ -186,6 +231,7 @@ static const gd_property properties[] = {
 static const gd_method_row methods[] = {
     {"get_triangle_count", GDEXTENSION_VARIANT_TYPE_INT, get_triangle_count, 0, {{NULL}}},
     {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, get_warnings, 0, {{NULL}}},
+    {"update_mesh", GDEXTENSION_VARIANT_TYPE_NIL, update_mesh, 0, {{NULL}}},
     {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, is_touched, 0, {{NULL}}},
 };
 

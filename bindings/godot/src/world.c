@@ -3,13 +3,45 @@
 
 device *devices[DEVICE_SLOTS];
 surface *surfaces;
+static surface *last_surface;
 surface *marked_surfaces;
 
 /* Surfaces outside of a tree have nothing to tell. */
 void surface_mark(surface *s) {
-    if (!s->is_marked && (s->previous || surfaces == s)) {
-        s->is_marked = 1;
+    if (!s->marked_at && s->is_listed) {
         s->next_marked = marked_surfaces;
+        s->marked_at = &marked_surfaces;
+        if (s->next_marked) {
+            s->next_marked->marked_at = &s->next_marked;
+        }
         marked_surfaces = s;
+    }
+}
+
+void surface_unmark(surface *s) {
+    if (s->marked_at) {
+        *s->marked_at = s->next_marked;
+        if (s->next_marked) {
+            s->next_marked->marked_at = s->marked_at;
+        }
+        s->next_marked = NULL;
+        s->marked_at = NULL;
+    }
+}
+
+void surface_list(surface *s) {
+    s->previous = last_surface;
+    *(last_surface ? &last_surface->next : &surfaces) = s;
+    last_surface = s;
+    s->is_listed = 1;
+}
+
+void surface_unlist(surface *s) {
+    if (s->is_listed) {
+        surface_unmark(s);
+        *(s->previous ? &s->previous->next : &surfaces) = s->next;
+        *(s->next ? &s->next->previous : &last_surface) = s->previous;
+        s->next = s->previous = NULL;
+        s->is_listed = s->is_leaving = 0;
     }
 }

@@ -15,13 +15,17 @@ typedef struct surface {
     grating *grating;
     uint8_t double_sided, enabled;
     float axis[3];
-    struct surface *next_marked;
-    uint8_t is_marked;
-    struct surface *next, *previous;    /* of those in a tree */
-    uint8_t moved, changed, made_anew;  /* masks: which running device has yet to be told */
-    uint8_t by_physics;                 /* 1: a step of the physics moved it last */
-    uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
-    knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */
+    struct surface *next_marked, **marked_at; /* the link that leads here; or null: not marked */
+    struct surface *next, *previous;          /* of those in a tree */
+    gd_variant watched;                       /* the mesh whose changes are followed, or nil */
+    GDExtensionObjectPtr watched_parent;      /* the node whose changes are followed, or null */
+    uint8_t is_listed;                        /* 1: among `surfaces` */
+    uint8_t is_leaving;                       /* 1: out of the tree since the last frame; it may come back at once */
+    uint8_t is_dying;                         /* 1: being freed */
+    uint8_t moved, changed, made_anew;        /* masks: which running device has yet to be told */
+    uint8_t by_physics;                       /* 1: a step of the physics moved it last */
+    uint8_t flat;                             /* mask: scaled to nothing, so not in that device's scene */
+    knurl_surface_id ids[DEVICE_SLOTS];       /* in each running device's scene, or 0 */
     knurl_session_way ways[DEVICE_SLOTS];
     double rest[DEVICE_SLOTS][9]; /* scale that is baked in */
 } surface;
@@ -40,6 +44,7 @@ typedef struct device {
     knurl_surface_id touched;
     GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
     uint64_t gratings_seen;
+    uint32_t failures;              /* surfaces that could not be put into its scene, since that was last told */
     double frames_time, steps_time; /* s: frames and physics steps so far, in real time */
     uint64_t steps_seen;
 } device;
@@ -47,13 +52,16 @@ typedef struct device {
 extern const gd_class surface_class;
 extern const gd_class device_class;
 
-/* Those in a tree, in the order of entering. */
+/* Those in a tree, or that were at the last frame, in the order of entering. */
 extern surface *surfaces;
+void surface_list(surface *s);
+void surface_unlist(surface *s);
 
 /* Those of which some running device may have yet to be told something, by next_marked. Most surfaces stand still: they
  * are not even looked at. */
 extern surface *marked_surfaces;
 void surface_mark(surface *s);
+void surface_unmark(surface *s);
 
 /* Running devices, or null. */
 extern device *devices[DEVICE_SLOTS];

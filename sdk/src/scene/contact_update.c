@@ -30,8 +30,9 @@ static void end_contact(knurl_candidate *candidate) {
     memset(&candidate->contact, 0, sizeof candidate->contact);
 }
 
-/* The surface's motion now, and the HIP in its frame, before and now. */
-static void place_hip(update *u, knurl_candidate *candidate, knurl_active_contact *a, knurl_contact_query *query) {
+/* The surface's motion now, and the HIP in its frame, before and now. Returns 1 where it was in contact and has jumped,
+ * or another shape has come in its place: that contact is over. */
+static int place_hip(update *u, knurl_candidate *candidate, knurl_active_contact *a, knurl_contact_query *query) {
     knurl_contacts *c = u->contacts;
     const knurl_motion *motion = &a->record->motion;
     if (motion->start_time - c->clock.time > MAX_LAG) {
@@ -66,6 +67,7 @@ static void place_hip(update *u, knurl_candidate *candidate, knurl_active_contac
     candidate->jumps = motion->jumps;
     candidate->has_previous = 1;
     vec3_copy(query->hip, candidate->previous);
+    return ends;
 }
 
 /* Where a HIP comes from that has slid off a surface, as long as it is behind where the surface was. */
@@ -133,8 +135,15 @@ static void update_candidate(update *u, knurl_candidate *candidate) {
         return;
     }
     a->record = __atomic_load_n(&a->surface->record, __ATOMIC_SEQ_CST);
-    place_hip(u, candidate, a, &query);
+    const int has_jumped = place_hip(u, candidate, a, &query);
     int held = knurl_shape_contact(&a->surface->shape, &query, &candidate->contact, &a->contact);
+    if (!held && has_jumped && query.double_sided) { /* from the side that it was on */
+        double from[3];
+        vec3_madd(candidate->proxy, KNURL_CAPTURE_DEPTH, candidate->normal, from);
+        knurl_pose_to_own(a->pose, from, query.previous);
+        query.has_previous = 1;
+        held = knurl_shape_contact(&a->surface->shape, &query, &candidate->contact, &a->contact);
+    }
     if (!held && candidate->in_contact) {
         slide_off(c, candidate, u->position);
     } else if (!held && over->given && query.has_previous) {
