@@ -9,8 +9,9 @@
 
 #define BENCH_RATE           1000.0  /* Hz */
 #define BENCH_TICKS          1000000 /* a case, unless its time is up before */
-#define BENCH_PACED_TICKS    5000
-#define BENCH_SECONDS        0.7   /* of one case at the most, so that the whole run ends within 40 s */
+#define BENCH_PACED_TICKS    3000
+#define BENCH_SECONDS        0.3   /* of one case at the most, so that the whole run ends within 40 s */
+#define BENCH_BATCH          64    /* ticks between two readings of the clock, where single ones are not told */
 #define BENCH_FRAME_RATE     120.0 /* Hz: how often a game moves what moves */
 #define BENCH_TIMER_READINGS 100000
 
@@ -21,11 +22,22 @@
 #define BENCH_PERIOD     0.001    /* m: the grating's */
 #define BENCH_AMPLITUDE  0.0002   /* m */
 #define BENCH_TILE       0.008    /* m: the side of BENCH_FIELD's tiles, of which there are 100 x 100 */
+#define BENCH_CROWD_TILE 0.0015   /* m: of BENCH_CROWD's, 40 x 40: more than 100 within the 10 mm that a HIP looks */
 #define BENCH_FRICTION   0.3      /* Coulomb coefficient */
 #define BENCH_RESOLUTION 0.055e-3 /* m: the Touch's, for FOAW */
 
 /* What a case ticks. */
-enum { BENCH_FOAW, BENCH_GRATING, BENCH_EMPTY, BENCH_PLANE, BENCH_MESH, BENCH_FIELD, BENCH_MOVING };
+enum {
+    BENCH_FOAW,
+    BENCH_GRATING,
+    BENCH_EMPTY,
+    BENCH_PLANE,
+    BENCH_MESH,
+    BENCH_FIELD,
+    BENCH_MOVING_FIELD, /* a thousand of its tiles move */
+    BENCH_CROWD,
+    BENCH_MOVING
+};
 
 /* How its surface feels. */
 enum { BENCH_TEXTURED, BENCH_SMOOTH, BENCH_FRICTIONAL };
@@ -34,14 +46,19 @@ typedef struct bench_case {
     const char *name;
     int shape;          /**< BENCH_FOAW to _MOVING */
     int feel;           /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
-    int32_t method;     /**< BENCH_GRATING: KNURL_S1, _S2 or _LOCKED */
+    int32_t method;     /**< KNURL_S1, _S2, _LOCKED or _AREA */
     uint32_t triangles; /**< BENCH_MESH: about as many */
-    uint32_t hips;      /**< HIPs that tick at once; the first is timed */
-    int paced;          /**< one tick a millisecond, asleep in between */
+    uint32_t hips;      /**< HIPs that tick at once: the first is timed, the others are ticked in turn beside it */
+    int pace;      /**< BENCH_WARM: as fast as they go; _PACED, _COLD: in a loop at 1 kHz, with and without dry ticks */
+    int estimates; /**< 1: positions in a device's counts, from which FOAW estimates the velocity; 0: it is given */
 } bench_case;
 
+enum { BENCH_WARM, BENCH_PACED, BENCH_COLD };
+
 typedef struct bench_result {
-    double p50_ns, p99_ns, p999_ns, max_ns; /**< a tick, less the timer */
+    double p50_ns, p99_ns, p999_ns, max_ns; /**< a tick, less the timer; paced: from position read to force written */
+    double batch_ns;                        /**< a tick, the median of batches; 0: not timed so */
+    double edits_per_s;                     /**< of what moves; 0: nothing does */
     double bytes;                           /**< memory of the surfaces, without one of what is ticked */
     double build_ms;                        /**< to add the surfaces and commit */
     double triangles;                       /**< in all surfaces */
@@ -61,6 +78,7 @@ typedef struct bench {
     const volatile sig_atomic_t *interrupted;
     double ticks;     /**< a case; 0: the defaults, within BENCH_SECONDS */
     double timer_ns;  /**< the timer's own cost: the median of back-to-back readings */
+    double step_ns;   /**< the least that two of its readings differ by */
     int64_t *samples; /**< room for the ticks of a case, ns */
     bench_stage stage;
 } bench;
@@ -83,21 +101,30 @@ int bench_run(bench *b, const bench_case *c, bench_result *result);
 /** Puts a case's scene up, or changes the one that is up. Results as the library's. */
 knurl_result bench_stage_set(bench_stage *stage, const bench_case *c);
 
-/** A frame of a game at 120 Hz: every surface of BENCH_MOVING is sent on its way. */
-knurl_result bench_stage_move(bench_stage *stage, double seconds);
+/** A frame of a game at 120 Hz: what moves of the scene is sent on its way. *moved: how many surfaces. */
+knurl_result bench_stage_move(bench_stage *stage, double seconds, uint32_t *moved);
 
 /* --- stroke.c: where the HIP is --- */
 
 /** HIP `hip` at a tick of the case's stroke; the velocity is the last tick's way. */
 void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_input *input);
 
+/* --- paced.c --- */
+
+/** A case in a loop of its own at 1 kHz, on a device that is a stroke: what that device sees, from the position that it
+ * gives to the force that it gets, in samples. *count: of them. Results as the library's. */
+knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count);
+
 /* --- timing.c --- */
 
 /** Monotonic, ns. */
 int64_t bench_now(void);
 
-/** The median of back-to-back readings of the clock, ns. */
-double bench_timer_cost(int64_t *room, size_t count);
+/** The median of back-to-back readings of the clock, ns. *step: the least that two differ by. */
+double bench_timer_cost(int64_t *room, size_t count, double *step);
+
+/** The median; sorts the samples. */
+double bench_median(int64_t *samples, size_t count);
 
 /** Sorts the samples and takes the timer's cost off what is told of them; never below 0. */
 void bench_percentiles(int64_t *samples, size_t count, double timer_ns, bench_result *result);

@@ -1,38 +1,48 @@
-/* The cases, and the loops that time them. SPDX-License-Identifier: MIT */
+/* The cases, and what times them warm. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
-#include <errno.h>
 #include <math.h>
 #include <pthread.h>
-#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#define WARM(name, shape, feel, method, triangles) {name, shape, feel, method, triangles, 1, BENCH_WARM, 0}
+#define FOAW(name, shape, feel, method, triangles) {name, shape, feel, method, triangles, 1, BENCH_WARM, 1}
 #define MESH(name, triangles)                                                                                          \
-    {name, BENCH_MESH, BENCH_TEXTURED, 0, triangles, 1, 0},                                                            \
-        {name "_smooth", BENCH_MESH, BENCH_SMOOTH, 0, triangles, 1, 0},                                                \
-        {name "_friction", BENCH_MESH, BENCH_FRICTIONAL, 0, triangles, 1, 0}
+    WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_S2, triangles),                                                       \
+        WARM(name "_locked", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, triangles),                                     \
+        WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_S2, triangles),                                           \
+        WARM(name "_friction", BENCH_MESH, BENCH_FRICTIONAL, KNURL_S2, triangles)
 
-const bench_case bench_cases[] = {{"empty", BENCH_EMPTY, 0, 0, 0, 1, 0},
-                                  {"motion_foaw", BENCH_FOAW, 0, 0, 0, 1, 0},
-                                  {"grating_S1", BENCH_GRATING, 0, KNURL_S1, 0, 1, 0},
-                                  {"grating_S2", BENCH_GRATING, 0, KNURL_S2, 0, 1, 0},
-                                  {"grating_locked", BENCH_GRATING, 0, KNURL_LOCKED, 0, 1, 0},
-                                  {"grating_area", BENCH_GRATING, 0, KNURL_AREA, 0, 1, 0},
-                                  {"plane", BENCH_PLANE, BENCH_TEXTURED, 0, 0, 1, 0},
-                                  {"plane_smooth", BENCH_PLANE, BENCH_SMOOTH, 0, 0, 1, 0},
-                                  {"plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, 0, 0, 1, 0},
-                                  MESH("mesh_1k", 1000),
-                                  MESH("mesh_10k", 10000),
-                                  MESH("mesh_100k", 100000),
-                                  MESH("mesh_1m", 1000000),
-                                  {"surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, 0, 0, 1, 0},
-                                  {"moving", BENCH_MOVING, BENCH_TEXTURED, 0, 0, 1, 0},
-                                  {"two_hips", BENCH_MESH, BENCH_TEXTURED, 0, 100000, 2, 0},
-                                  {"paced_plane", BENCH_PLANE, BENCH_TEXTURED, 0, 0, 1, 1},
-                                  {"paced_mesh_100k", BENCH_MESH, BENCH_TEXTURED, 0, 100000, 1, 1},
-                                  {NULL, 0, 0, 0, 0, 0, 0}};
+/* Names stay from release to release: what a name times does not change. Without a suffix: S2, the velocity given. */
+const bench_case bench_cases[] = {
+    WARM("empty", BENCH_EMPTY, 0, KNURL_S2, 0),
+    FOAW("motion_foaw", BENCH_FOAW, 0, 0, 0),
+    WARM("grating_S1", BENCH_GRATING, 0, KNURL_S1, 0),
+    WARM("grating_S2", BENCH_GRATING, 0, KNURL_S2, 0),
+    WARM("grating_locked", BENCH_GRATING, 0, KNURL_LOCKED, 0),
+    WARM("grating_area", BENCH_GRATING, 0, KNURL_AREA, 0),
+    WARM("plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("plane_locked", BENCH_PLANE, BENCH_TEXTURED, KNURL_LOCKED, 0),
+    FOAW("plane_foaw", BENCH_PLANE, BENCH_TEXTURED, KNURL_LOCKED, 0),
+    WARM("plane_smooth", BENCH_PLANE, BENCH_SMOOTH, KNURL_S2, 0),
+    WARM("plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, KNURL_S2, 0),
+    MESH("mesh_1k", 1000),
+    MESH("mesh_10k", 10000),
+    MESH("mesh_100k", 100000),
+    FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, 100000),
+    MESH("mesh_1m", 1000000),
+    WARM("surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("moving_1k", BENCH_MOVING_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("crowded", BENCH_CROWD, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("moving", BENCH_MOVING, BENCH_TEXTURED, KNURL_S2, 0),
+    {"two_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 2, BENCH_WARM, 0},
+    {"eight_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 8, BENCH_WARM, 0},
+    {"paced_plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0, 1, BENCH_PACED, 0},
+    {"paced_plane_cold", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0, 1, BENCH_COLD, 0},
+    {"paced_mesh_100k", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 1, BENCH_PACED, 0},
+    {"paced_mesh_100k_cold", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 1, BENCH_COLD, 0},
+    {NULL, 0, 0, 0, 0, 0, 0, 0}};
 
 /* What one case ticks. */
 typedef struct subject {
@@ -43,8 +53,14 @@ typedef struct subject {
     knurl_velocity velocity;
     knurl_grating grating;
     knurl_grating_state grating_state;
+    int64_t editing_ns; /* that `edits` edits took */
+    uint64_t edits;
     volatile double sink; /* what comes out is used, or it would not be computed */
 } subject;
+
+static int is_moving(const bench_case *c) {
+    return c->shape == BENCH_MOVING || c->shape == BENCH_MOVING_FIELD;
+}
 
 static void tick_foaw(subject *s, const knurl_tick_input *input) {
     double velocity[3];
@@ -91,11 +107,16 @@ static knurl_result prepare(bench *b, const bench_case *c, subject *s, bench_res
 }
 
 /* What happens between two timed ticks: the hand moves on, and where things move a game sends them on. */
-static knurl_result between(const subject *s, uint64_t tick, knurl_tick_input *input) {
+static knurl_result between(subject *s, uint64_t tick, knurl_tick_input *input) {
     bench_stroke(s->timed, s->hip, tick, input);
     const double frame = floor((double)tick * BENCH_FRAME_RATE / BENCH_RATE);
-    if (s->timed->shape == BENCH_MOVING && frame > floor(((double)tick - 1.0) * BENCH_FRAME_RATE / BENCH_RATE)) {
-        return bench_stage_move(&s->owner->stage, frame / BENCH_FRAME_RATE);
+    if (is_moving(s->timed) && frame > floor(((double)tick - 1.0) * BENCH_FRAME_RATE / BENCH_RATE)) {
+        uint32_t moved = 0;
+        const int64_t before = bench_now();
+        const knurl_result result = bench_stage_move(&s->owner->stage, frame / BENCH_FRAME_RATE, &moved);
+        s->editing_ns += bench_now() - before;
+        s->edits += moved;
+        return result;
     }
     return KNURL_OK;
 }
@@ -122,40 +143,26 @@ static size_t time_warm(subject *s, size_t ticks, knurl_result *failed) {
     return i;
 }
 
-/* Once a millisecond, asleep in between: caches as cold as whoever else runs leaves them. The input is made before the
- * sleep; timed is from the waking to the tick's end. */
-static size_t time_paced(subject *s, size_t ticks) {
-    const int64_t period = (int64_t)(1e9 / BENCH_RATE);
-    int64_t due = bench_now();
-    size_t i = 0;
-    while (i < ticks && !*s->owner->interrupted) {
-        knurl_tick_input input;
-        bench_stroke(s->timed, s->hip, i, &input);
-        due += period * (1 + (bench_now() - due) / period); /* a tick that is missed is not made up for */
-        const struct timespec wake = {due / 1000000000, due % 1000000000};
-        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, NULL) == EINTR && !*s->owner->interrupted) {}
-        s->owner->samples[i++] = timed(s, &input);
+/* The same without a reading of the clock at each tick, which some clocks are too coarse for. Returns ns a tick. */
+static double time_batches(subject *s, size_t ticks) {
+    const bench *b = s->owner;
+    const int64_t end = bench_now() + (int64_t)(1e9 * BENCH_SECONDS);
+    size_t batches = 0;
+    while ((batches + 1) * BENCH_BATCH <= ticks && !*b->interrupted && (b->ticks > 0.0 || bench_now() < end)) {
+        knurl_tick_input inputs[BENCH_BATCH];
+        for (size_t i = 0; i < BENCH_BATCH; i++) {
+            bench_stroke(s->timed, s->hip, batches * BENCH_BATCH + i, &inputs[i]);
+        }
+        const int64_t before = bench_now();
+        for (size_t i = 0; i < BENCH_BATCH; i++) {
+            s->tick(s, &inputs[i]);
+        }
+        b->samples[batches++] = bench_now() - before;
     }
-    return i;
+    return bench_median(b->samples, batches) / BENCH_BATCH;
 }
 
-/* Real-time scheduling where it is permitted, as a haptic loop has it; else a tick may be cut in two. */
-static size_t time_paced_in_real_time(subject *s, size_t ticks) {
-    struct sched_param before;
-    struct sched_param wanted;
-    int policy = SCHED_OTHER;
-    memset(&wanted, 0, sizeof wanted);
-    wanted.sched_priority = 1;
-    const int known = pthread_getschedparam(pthread_self(), &policy, &before) == 0;
-    (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
-    const size_t count = time_paced(s, ticks);
-    if (known) {
-        (void)pthread_setschedparam(pthread_self(), policy, &before);
-    }
-    return count;
-}
-
-/* Another HIP of the same scene, in a thread of its own, which ticks until it is told to stop. */
+/* The other HIPs of the same scene, in turn in a thread of their own, which ticks until it is told to stop. */
 typedef struct neighbour {
     subject subject;
     int stop;
@@ -164,17 +171,18 @@ typedef struct neighbour {
 static void *tick_beside(void *argument) {
     neighbour *n = argument;
     for (uint64_t i = 0; !__atomic_load_n(&n->stop, __ATOMIC_RELAXED); i++) {
-        knurl_tick_input input;
-        bench_stroke(n->subject.timed, n->subject.hip, i, &input);
-        n->subject.tick(&n->subject, &input);
+        for (n->subject.hip = 1; n->subject.hip < n->subject.timed->hips; n->subject.hip++) {
+            knurl_tick_input input;
+            bench_stroke(n->subject.timed, n->subject.hip, i, &input);
+            n->subject.tick(&n->subject, &input);
+        }
     }
     return NULL;
 }
 
-static size_t time_beside_another(subject *s, size_t ticks, knurl_result *failed) {
+static size_t time_beside_others(subject *s, size_t ticks, knurl_result *failed) {
     neighbour n = {*s, 0};
     pthread_t thread;
-    n.subject.hip = 1;
     if (pthread_create(&thread, NULL, tick_beside, &n) != 0) {
         *failed = knurl_fail(KNURL_ERROR_SYSTEM, "a second thread was refused");
         return 0;
@@ -186,7 +194,7 @@ static size_t time_beside_another(subject *s, size_t ticks, knurl_result *failed
 }
 
 static size_t default_ticks(const bench_case *c) {
-    return c->paced ? BENCH_PACED_TICKS : BENCH_TICKS;
+    return c->pace != BENCH_WARM ? BENCH_PACED_TICKS : BENCH_TICKS;
 }
 
 int bench_start(bench *b) {
@@ -196,7 +204,7 @@ int bench_start(bench *b) {
         return 1;
     }
     memset(b->samples, 1, (size_t)room * sizeof *b->samples);
-    b->timer_ns = bench_timer_cost(b->samples, BENCH_TIMER_READINGS);
+    b->timer_ns = bench_timer_cost(b->samples, BENCH_TIMER_READINGS, &b->step_ns);
     return 0;
 }
 
@@ -222,9 +230,11 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     const size_t ticks = b->ticks > 0.0 ? (size_t)b->ticks : default_ticks(c);
     size_t count = 0;
     if (!failed && !*b->interrupted) {
-        count = c->paced      ? time_paced_in_real_time(&s, ticks)
-                : c->hips > 1 ? time_beside_another(&s, ticks, &failed)
-                              : time_warm(&s, ticks, &failed);
+        if (c->pace != BENCH_WARM) {
+            failed = bench_pace(b, c, ticks, &count);
+        } else {
+            count = c->hips > 1 ? time_beside_others(&s, ticks, &failed) : time_warm(&s, ticks, &failed);
+        }
     }
     if (failed) {
         return failed == KNURL_ERROR_UNSUPPORTED ? BENCH_SKIPPED : BENCH_FAILED;
@@ -233,7 +243,11 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
         return BENCH_INTERRUPTED;
     }
     bench_percentiles(b->samples, count, b->timer_ns, result);
+    result->edits_per_s = s.edits > 0 ? 1e9 * (double)s.edits / (double)s.editing_ns : 0.0;
     result->ticks = (double)count;
     result->contact = s.tick == tick_scene ? contact_share(b) : 0.0;
+    if (c->pace == BENCH_WARM && c->hips == 1 && !is_moving(c)) {
+        result->batch_ns = time_batches(&s, ticks);
+    }
     return BENCH_DONE;
 }

@@ -6,14 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-#define TILES         100 /* a side */
+#define TILES         100    /* a side */
+#define CROWD         40     /* likewise */
+#define MOVING_ROWS   10     /* of a field: a thousand tiles */
+#define FIELD_SWING   0.0001 /* m */
 #define MOVING        10
 #define MOVING_SWING  0.005 /* m */
 #define MOVING_HEIGHT 0.05  /* m from one to the next below it: only the first is felt */
 
 static void make_material(const bench_case *c, knurl_material_desc *m) {
     knurl_material_desc_init(m, sizeof *m);
-    m->method = KNURL_S2;
+    m->method = c->method;
     m->stiffness = BENCH_STIFFNESS;
     m->spatial_frequency[0] = c->feel == BENCH_SMOOTH ? 0.0 : 1.0 / BENCH_PERIOD;
     m->amplitude = c->feel == BENCH_SMOOTH ? 0.0 : BENCH_AMPLITUDE;
@@ -47,8 +50,8 @@ static knurl_result add_mesh(knurl_scene *scene, const knurl_material_desc *m, c
 }
 
 /* Tiles side by side, planes and two-triangle meshes in turn. */
-static knurl_result add_field(knurl_scene *scene, const knurl_material_desc *m) {
-    const float half = (float)(0.5 * BENCH_TILE);
+static knurl_result add_field(knurl_scene *scene, const knurl_material_desc *m, int tiles, double tile) {
+    const float half = (float)(0.5 * tile);
     const float corners[12] = {-half, -half, 0.0F, half, -half, 0.0F, half, half, 0.0F, -half, half, 0.0F};
     const float uvs[8] = {0.0F, 0.0F, 1.0F, 0.0F, 1.0F, 1.0F, 0.0F, 1.0F};
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -60,12 +63,12 @@ static knurl_result add_field(knurl_scene *scene, const knurl_material_desc *m) 
     mesh.indices = indices;
     mesh.index_count = 6;
     knurl_result result = KNURL_OK;
-    for (int i = 0; i < TILES * TILES && !result; i++) {
-        const int column = i % TILES - TILES / 2; /* one is in the middle, under the stroke */
-        const int row = i / TILES - TILES / 2;
-        const double position[3] = {BENCH_TILE * column, BENCH_TILE * row, 0.0};
+    for (int i = 0; i < tiles * tiles && !result; i++) {
+        const int column = i % tiles - tiles / 2; /* one is in the middle, under the stroke */
+        const int row = i / tiles - tiles / 2;
+        const double position[3] = {tile * column, tile * row, 0.0};
         result = (column + row) % 2 ? add_mesh(scene, m, position, &mesh)
-                                    : add_plane(scene, m, position, 0.5 * BENCH_TILE, 0.5 * BENCH_TILE);
+                                    : add_plane(scene, m, position, 0.5 * tile, 0.5 * tile);
     }
     return result;
 }
@@ -89,7 +92,10 @@ static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const 
     case BENCH_MESH:
         return add_mesh(scene, &m, origin, mesh);
     case BENCH_FIELD:
-        return add_field(scene, &m);
+    case BENCH_MOVING_FIELD:
+        return add_field(scene, &m, TILES, BENCH_TILE);
+    case BENCH_CROWD:
+        return add_field(scene, &m, CROWD, BENCH_CROWD_TILE);
     case BENCH_MOVING:
         return add_stack(scene, &m);
     default:
@@ -97,16 +103,17 @@ static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const 
     }
 }
 
-/* Device axes are the scene's, positions are exact: nothing but the tick is to differ from case to case. */
-static knurl_result configure_hips(knurl_scene *scene, uint32_t hips) {
+/* Device axes are the scene's, positions are exact but where FOAW is asked for: nothing but the tick is to differ from
+ * case to case. */
+static knurl_result configure_hips(knurl_scene *scene, const bench_case *c) {
     knurl_result result = KNURL_OK;
-    for (uint32_t hip = 0; hip < hips && !result; hip++) {
+    for (uint32_t hip = 0; hip < c->hips && !result; hip++) {
         knurl_hip_desc d;
         knurl_workspace workspace;
         knurl_workspace_init(&workspace);
         knurl_hip_desc_init(&d, sizeof d);
         d.update_rate_hz = BENCH_RATE;
-        d.resolution = 0.0;
+        d.resolution = c->estimates ? BENCH_RESOLUTION : 0.0;
         d.workspace = &workspace;
         result = knurl_scene_configure_hip(scene, hip, &d);
     }
@@ -140,7 +147,7 @@ static knurl_result build(bench_stage *stage, const bench_case *c) {
     d.max_surfaces = TILES * TILES;
     d.hip_count = c->hips;
     knurl_result result = knurl_scene_create(&d, &stage->scene);
-    result = result ? result : configure_hips(stage->scene, c->hips);
+    result = result ? result : configure_hips(stage->scene, c);
     const int64_t before = bench_now();
     result = result ? result : add_surfaces(stage->scene, c, &mesh);
     result = result ? result : knurl_scene_commit(stage->scene);
@@ -152,7 +159,7 @@ static knurl_result build(bench_stage *stage, const bench_case *c) {
 /* The same scene with another material, so that a mesh is built once for all that is timed on it. */
 static knurl_result change(const bench_stage *stage, const bench_case *c) {
     knurl_material_desc m;
-    knurl_result result = configure_hips(stage->scene, c->hips); /* forgets what they touched */
+    knurl_result result = configure_hips(stage->scene, c); /* forgets what they touched */
     make_material(c, &m);
     for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene) && !result; i++) {
         result = knurl_scene_set_material(stage->scene, knurl_scene_get_surface(stage->scene, i), &m);
@@ -177,15 +184,40 @@ knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
     return result;
 }
 
-knurl_result bench_stage_move(bench_stage *stage, double seconds) {
+/* The tiles of the rows either side of the one that is felt, up and down. */
+static knurl_result move_field(bench_stage *stage, double seconds, uint32_t *moved) {
+    static const double level[4] = {0.0, 0.0, 0.0, 1.0};
     knurl_result result = KNURL_OK;
-    for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene) && !result; i++) {
+    for (int i = 0; i < MOVING_ROWS * TILES && !result; i++) {
+        const int beside = i / TILES - MOVING_ROWS / 2;
+        const int row = beside + (beside >= 0);
+        const int column = i % TILES - TILES / 2;
+        const uint32_t at = (uint32_t)((row + TILES / 2) * TILES + i % TILES);
+        const double position[3] = {BENCH_TILE * column, BENCH_TILE * row,
+                                    FIELD_SWING * sin(2.0 * acos(-1.0) * seconds + i)};
+        result = knurl_scene_set_transform(stage->scene, knurl_scene_get_surface(stage->scene, at), position, level,
+                                           1.0 / BENCH_FRAME_RATE);
+        ++*moved;
+    }
+    return result;
+}
+
+static knurl_result move_stack(bench_stage *stage, double seconds, uint32_t *moved) {
+    knurl_result result = KNURL_OK;
+    for (uint32_t i = 0; i < MOVING && !result; i++) {
         const double swing = sin(2.0 * acos(-1.0) * seconds + i);
         const double position[3] = {MOVING_SWING * swing, 0.0, -MOVING_HEIGHT * i};
         const double half_turn = i > 0 ? 0.05 * swing : 0.0; /* the one that is felt stays level */
         const double rotation[4] = {sin(half_turn), 0.0, 0.0, cos(half_turn)};
         result = knurl_scene_set_transform(stage->scene, knurl_scene_get_surface(stage->scene, i), position, rotation,
                                            1.0 / BENCH_FRAME_RATE);
+        ++*moved;
     }
     return result;
+}
+
+knurl_result bench_stage_move(bench_stage *stage, double seconds, uint32_t *moved) {
+    return stage->shape == BENCH_MOVING         ? move_stack(stage, seconds, moved)
+           : stage->shape == BENCH_MOVING_FIELD ? move_field(stage, seconds, moved)
+                                                : KNURL_OK;
 }

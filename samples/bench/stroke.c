@@ -31,8 +31,8 @@ void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_i
     for (int axis = 0; axis < 3; axis++) {
         input->velocity[axis] = (input->position[axis] - last[axis]) * BENCH_RATE;
     }
-    input->has_velocity = 1;
-    for (int axis = 0; axis < 3 && c->shape == BENCH_FOAW; axis++) { /* its work is to make sense of an encoder */
+    input->has_velocity = !c->estimates;
+    for (int axis = 0; axis < 3 && c->estimates; axis++) { /* FOAW's work is to make sense of an encoder */
         input->position[axis] = floor(input->position[axis] / BENCH_RESOLUTION + 0.5) * BENCH_RESOLUTION;
     }
 }

@@ -17,14 +17,24 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-double bench_timer_cost(int64_t *room, size_t count) {
+double bench_median(int64_t *samples, size_t count) {
+    qsort(samples, count, sizeof *samples, by_value);
+    const size_t middle = count / 2;
+    return count > 0 ? (double)samples[middle] : 0.0;
+}
+
+double bench_timer_cost(int64_t *room, size_t count, double *step) {
     for (size_t i = 0; i < count; i++) {
         const int64_t before = bench_now();
         room[i] = bench_now() - before;
     }
-    qsort(room, count, sizeof *room, by_value);
-    const size_t middle = count / 2;
-    return (double)room[middle];
+    const double median = bench_median(room, count);
+    *step = 0.0;
+    for (size_t i = 0; i + 1 < count; i++) {
+        const double apart = (double)(room[i + 1] - room[i]);
+        *step = apart > 0.0 && (apart < *step || *step == 0.0) ? apart : *step;
+    }
+    return median;
 }
 
 /* The smallest sample that at least this share does not exceed (nearest rank). */

@@ -27,7 +27,7 @@ typedef struct row {
 
 typedef struct report {
     char machine[128];
-    double timer_ns;
+    double timer_ns, step_ns;
     row rows[MAX_CASES];
     size_t count;
 } report;
@@ -88,6 +88,12 @@ static void print_result(json_writer *json, const row *r) {
     json_number(json, "p99_ns", r->result.p99_ns);
     json_number(json, "p999_ns", r->result.p999_ns);
     json_number(json, "max_ns", r->result.max_ns);
+    if (r->result.batch_ns > 0.0) {
+        json_number(json, "batch_ns", r->result.batch_ns);
+    }
+    if (r->result.edits_per_s > 0.0) {
+        json_number(json, "edits_per_s", r->result.edits_per_s);
+    }
     json_number(json, "bytes", r->result.bytes);
     json_number(json, "build_ms", r->result.build_ms);
     json_number(json, "triangles", r->result.triangles);
@@ -100,7 +106,9 @@ static void print_json(const report *out) {
     json_writer json;
     json_start(&json, stdout, 0);
     json_open(&json, NULL, '{');
+    json_string(&json, "version", knurl_version_string());
     json_number(&json, "timer_ns", out->timer_ns);
+    json_number(&json, "clock_step_ns", out->step_ns);
     json_string(&json, "machine", out->machine);
     json_open(&json, "cases", '[');
     for (size_t i = 0; i < out->count; i++) {
@@ -123,9 +131,10 @@ static void print_json(const report *out) {
 }
 
 static void print_table(const report *out) {
-    printf("%s; ns a tick, less %g of the timer\n", out->machine, out->timer_ns);
-    printf("%-20s %8s %8s %8s %10s %10s %12s %6s %9s\n", "case", "p50", "p99", "p99.9", "max", "ticks", "bytes", "/tri",
-           "build ms");
+    printf("%s; ns a tick, less %g of the timer, whose steps are %g; in batches: without it\n", out->machine,
+           out->timer_ns, out->step_ns);
+    printf("%-20s %8s %8s %8s %8s %10s %10s %12s %6s %9s\n", "case", "batch", "p50", "p99", "p99.9", "max", "ticks",
+           "bytes", "/tri", "build ms");
     for (size_t i = 0; i < out->count; i++) {
         const row *r = &out->rows[i];
         const bench_result *t = &r->result;
@@ -133,8 +142,8 @@ static void print_table(const report *out) {
             printf("%-20s skipped\n", r->timed->name);
             continue;
         }
-        printf("%-20s %8.0f %8.0f %8.0f %10.0f %10.0f %12.0f ", r->timed->name, t->p50_ns, t->p99_ns, t->p999_ns,
-               t->max_ns, t->ticks, t->bytes);
+        printf("%-20s %8.1f %8.0f %8.0f %8.0f %10.0f %10.0f %12.0f ", r->timed->name, t->batch_ns, t->p50_ns, t->p99_ns,
+               t->p999_ns, t->max_ns, t->ticks, t->bytes);
         if (t->triangles > 0.0) {
             printf("%6.1f ", t->bytes / t->triangles);
         } else {
@@ -178,6 +187,7 @@ int cmd_bench(int argc, char **argv) {
     }
     machine_name(out->machine, sizeof out->machine);
     out->timer_ns = b.timer_ns;
+    out->step_ns = b.step_ns;
     int code = measure(&b, only, out);
     if (as_json) {
         print_json(out);

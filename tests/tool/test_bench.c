@@ -4,12 +4,44 @@
 #include "support/tool.h"
 
 /* The contract's cases, in its words. */
-static const char *const contract[] = {
-    "empty",       "motion_foaw",     "grating_S1",        "grating_S2",   "grating_locked",   "grating_area",
-    "plane",       "plane_smooth",    "plane_friction",    "mesh_1k",      "mesh_1k_smooth",   "mesh_1k_friction",
-    "mesh_10k",    "mesh_10k_smooth", "mesh_10k_friction", "mesh_100k",    "mesh_100k_smooth", "mesh_100k_friction",
-    "mesh_1m",     "mesh_1m_smooth",  "mesh_1m_friction",  "surfaces_10k", "moving",           "two_hips",
-    "paced_plane", "paced_mesh_100k"};
+static const char *const contract[] = {"empty",
+                                       "motion_foaw",
+                                       "grating_S1",
+                                       "grating_S2",
+                                       "grating_locked",
+                                       "grating_area",
+                                       "plane",
+                                       "plane_locked",
+                                       "plane_foaw",
+                                       "plane_smooth",
+                                       "plane_friction",
+                                       "mesh_1k",
+                                       "mesh_1k_locked",
+                                       "mesh_1k_smooth",
+                                       "mesh_1k_friction",
+                                       "mesh_10k",
+                                       "mesh_10k_locked",
+                                       "mesh_10k_smooth",
+                                       "mesh_10k_friction",
+                                       "mesh_100k",
+                                       "mesh_100k_locked",
+                                       "mesh_100k_smooth",
+                                       "mesh_100k_friction",
+                                       "mesh_100k_foaw",
+                                       "mesh_1m",
+                                       "mesh_1m_locked",
+                                       "mesh_1m_smooth",
+                                       "mesh_1m_friction",
+                                       "surfaces_10k",
+                                       "moving_1k",
+                                       "crowded",
+                                       "moving",
+                                       "two_hips",
+                                       "eight_hips",
+                                       "paced_plane",
+                                       "paced_plane_cold",
+                                       "paced_mesh_100k",
+                                       "paced_mesh_100k_cold"};
 
 /* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
 static const char *only_case(const char *json, const char *name) {
@@ -80,9 +112,23 @@ TEST(each_kind_of_case_runs) {
 
 /* A HIP that had slipped off would be cheap. 600 ticks: there and back once, over every seam. */
 TEST(each_scene_is_touched_in_every_tick) {
-    static const char *const names[] = {"plane_smooth",      "plane_friction", "mesh_1k", "mesh_1k_smooth",
-                                        "mesh_10k_friction", "surfaces_10k",   "moving",  "two_hips",
-                                        "paced_plane",       "paced_mesh_100k"};
+    static const char *const names[] = {"plane_smooth",
+                                        "plane_friction",
+                                        "plane_locked",
+                                        "plane_foaw",
+                                        "mesh_1k",
+                                        "mesh_1k_smooth",
+                                        "mesh_10k_friction",
+                                        "surfaces_10k",
+                                        "moving_1k",
+                                        "crowded",
+                                        "moving",
+                                        "two_hips",
+                                        "eight_hips",
+                                        "paced_plane",
+                                        "paced_plane_cold",
+                                        "paced_mesh_100k",
+                                        "paced_mesh_100k_cold"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         process p = RUN_TOOL("bench", "--json", "--ticks", "600", "--case", names[i]);
         check_done(&p);
@@ -102,6 +148,21 @@ TEST(a_mesh_tells_its_triangles_and_bytes) {
     process_free(&p);
 }
 
+TEST(batches_are_told_beside_single_ticks_and_edits_where_things_move) {
+    process p = RUN_TOOL("bench", "--json", "--ticks", "640", "--case", "plane");
+    check_done(&p);
+    assert_true(json_number_of(p.out, "batch_ns") > 0.0);
+    assert_true(json_number_of(p.out, "clock_step_ns") > 0.0);
+    assert_non_null(strstr(p.out, "\"version\": \""));
+    assert_null(strstr(p.out, "edits_per_s"));
+    process_free(&p);
+    p = RUN_TOOL("bench", "--json", "--ticks", "640", "--case", "moving_1k");
+    check_done(&p);
+    assert_true(json_number_of(p.out, "edits_per_s") > 0.0);
+    assert_null(strstr(p.out, "batch_ns"));
+    process_free(&p);
+}
+
 TEST(the_table_has_a_line_a_case) {
     process p = RUN_TOOL("bench", "--case", "plane", "--ticks", "100");
     check_done(&p);
@@ -118,7 +179,7 @@ TEST(an_unknown_case_is_refused_with_the_list) {
         (void)strncat(names, contract[i], sizeof names - strlen(names) - 1);
     }
     assert_non_null(strstr(p.err, names)); /* all of them, no others */
-    check_refused(&p, 2, "--case|empty|paced_mesh_100k|found 'mesh_2k'", "an unknown case");
+    check_refused(&p, 2, "--case|empty|paced_mesh_100k_cold|found 'mesh_2k'", "an unknown case");
 }
 
 TEST(wrong_ticks_are_refused) {

@@ -1,0 +1,79 @@
+/* What a device sees: a loop at 1 kHz on a device that is a stroke. SPDX-License-Identifier: MIT */
+#include "bench.h"
+
+#include <string.h>
+
+typedef struct stroked {
+    bench *owner;
+    const bench_case *timed;
+    knurl_loop *loop;
+    size_t ticks; /* to time */
+    size_t reads, writes;
+    int64_t read_at;       /* ns */
+    knurl_tick_input next; /* made after the latest write, so that the loop finds the caches as others leave them */
+} stroked;
+
+static void get_info(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = 3.3;
+    info->resolution = 0.0;
+}
+
+static knurl_result read_stroke(void *user, knurl_device_sample *sample) {
+    stroked *s = user;
+    memcpy(sample->position, s->next.position, sizeof sample->position);
+    s->reads++;
+    s->read_at = bench_now();
+    return KNURL_OK;
+}
+
+static knurl_result write_force(void *user, const double force[3]) {
+    stroked *s = user;
+    const int64_t at = bench_now();
+    (void)force;
+    if (s->writes < s->reads && s->writes < s->ticks) {
+        s->owner->samples[s->writes++] = at - s->read_at;
+    }
+    if (s->loop && (s->writes == s->ticks || *s->owner->interrupted)) {
+        knurl_loop_request_stop(s->loop);
+    }
+    bench_stroke(s->timed, 0, s->reads, &s->next);
+    return KNURL_OK;
+}
+
+static knurl_result run(bench *b, const bench_case *c, stroked *s, knurl_device *device) {
+    knurl_loop_desc d;
+    knurl_loop_desc_init(&d, sizeof d);
+    d.device = device;
+    d.scene = b->stage.scene;
+    d.update_rate_hz = BENCH_RATE;
+    d.dry_ticks = c->pace == BENCH_PACED;
+    d.tick_limit = s->ticks;
+    knurl_result result = knurl_loop_create(&d, &s->loop);
+    result = result ? result : knurl_loop_start(s->loop);
+    while (!result && !knurl_loop_wait(s->loop, 1.0)) {}
+    knurl_loop_destroy(s->loop);
+    s->loop = NULL;
+    return result;
+}
+
+knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count) {
+    stroked s;
+    knurl_device *device = NULL;
+    knurl_device_functions functions;
+    memset(&s, 0, sizeof s);
+    s.owner = b;
+    s.timed = c;
+    s.ticks = ticks;
+    bench_stroke(c, 0, 0, &s.next);
+    knurl_device_functions_init(&functions, sizeof functions);
+    functions.user = &s;
+    functions.get_info = get_info;
+    functions.read = read_stroke;
+    functions.write = write_force;
+    knurl_result result = knurl_device_open_functions(&functions, &device);
+    result = result ? result : run(b, c, &s, device);
+    knurl_device_close(device);
+    *count = s.writes;
+    return result;
+}
