@@ -26,7 +26,7 @@ ROOMS = {
     "gltf": {"scene", "grating", "contact"},
 }
 # Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.
-HEADER_ONLY = {"base/atomic", "base/finite", "base/handle", "base/seqlock"}
+HEADER_ONLY = {"base/atomic", "base/finite", "base/handle", "base/regular_file", "base/seqlock"}
 
 SHORT_HEADERS = ("scene", "contact")
 HEADER_LINES = 120

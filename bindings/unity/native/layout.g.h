@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "bb2547fbadae3e7d"
+#define KNURL_UNITY_INTERFACE "0902ada9a5a716a8"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -165,7 +165,7 @@
     FIELD(knurl_material_desc, damping, "damping", 40, 8) \
     FIELD(knurl_material_desc, friction, "friction", 48, 8) \
     FIELD(knurl_material_desc, orientation, "orientation", 56, 8) \
-    STRUCT(knurl_surface_desc, 120) \
+    STRUCT(knurl_surface_desc, 128) \
     FIELD(knurl_surface_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_desc, double_sided, "double_sided", 4, 4) \
     FIELD(knurl_surface_desc, name, "name", 8, 8) \
@@ -175,6 +175,7 @@
     FIELD(knurl_surface_desc, position, "position", 40, 24) \
     FIELD(knurl_surface_desc, rotation, "rotation", 64, 32) \
     FIELD(knurl_surface_desc, axis, "axis", 96, 24) \
+    FIELD(knurl_surface_desc, shape_of, "shape_of", 120, 8) \
     STRUCT(knurl_hip_desc, 96) \
     FIELD(knurl_hip_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_hip_desc, velocity_method, "velocity_method", 4, 4) \
@@ -267,13 +268,22 @@
     FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
-    STRUCT(knurl_gltf_report, 32) \
+    STRUCT(knurl_gltf_budget, 40) \
+    FIELD(knurl_gltf_budget, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_gltf_budget, max_surfaces, "max_surfaces", 4, 4) \
+    FIELD(knurl_gltf_budget, max_bytes, "max_bytes", 8, 8) \
+    FIELD(knurl_gltf_budget, max_vertices, "max_vertices", 16, 8) \
+    FIELD(knurl_gltf_budget, max_triangles, "max_triangles", 24, 8) \
+    FIELD(knurl_gltf_budget, max_seconds, "max_seconds", 32, 8) \
+    STRUCT(knurl_gltf_report, 48) \
     FIELD(knurl_gltf_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \
     FIELD(knurl_gltf_report, skipped, "skipped", 8, 4) \
     FIELD(knurl_gltf_report, reserved, "reserved", 12, 4) \
     FIELD(knurl_gltf_report, file_read, "file_read", 16, 8) \
     FIELD(knurl_gltf_report, user, "user", 24, 8) \
+    FIELD(knurl_gltf_report, progress, "progress", 32, 8) \
+    FIELD(knurl_gltf_report, budget, "budget", 40, 8) \
     STRUCT(knurl_clock, 24) \
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \

@@ -59,7 +59,8 @@ extern "C" {
     X(KNURL_ERROR_UNKNOWN, -9, "a name is not known")                                                                  \
     X(KNURL_ERROR_DEVICE_LOST, -10, "the device no longer answers")                                                    \
     X(KNURL_ERROR_SYSTEM, -11, "the operating system refused")                                                         \
-    X(KNURL_ERROR_DEVICE_NOT_READY, -12, "the device gives no position that can be trusted")
+    X(KNURL_ERROR_DEVICE_NOT_READY, -12, "the device gives no position that can be trusted")                           \
+    X(KNURL_ERROR_CANCELLED, -13, "the caller stopped it")
 
 enum {
 #define KNURL_RESULT_ENUMERATOR(name, value, text) name = (value),

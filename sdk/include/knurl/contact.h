@@ -19,11 +19,13 @@ typedef struct knurl_plane_desc {
 /** A triangle mesh in the surface's own frame; counter-clockwise triangles face out. All arrays are the caller's and
  * are copied. Triangles without area are left out and counted. */
 typedef struct knurl_mesh_desc {
-    uint32_t struct_size;    /**< set by knurl_mesh_desc_init() */
-    uint32_t vertex_count;   /**< vertices in each array, 3 to 2^28 */
-    const float *positions;  /**< x, y, z a vertex: m, finite */
-    const float *tangents;   /**< x, y, z, w a vertex (w is not used), or null: the surface's x direction */
-    const float *uvs;        /**< u, v a vertex, or null: surface coordinates, and x where there are no tangents */
+    uint32_t struct_size;   /**< set by knurl_mesh_desc_init() */
+    uint32_t vertex_count;  /**< vertices in each array, 3 to 2^28 */
+    const float *positions; /**< x, y, z a vertex: m, at most 1.2e30, so that boxes of floats stay finite; of
+                                 what lies beyond 1e6 knurl_scene_check_surface() warns */
+    const float *tangents;  /**< x, y, z, w a vertex (w is not used), or null: the surface's x direction */
+    const float
+        *uvs; /**< u, v a vertex, at most 1.2e30, or null: surface coordinates, and x where there are no tangents */
     const uint32_t *indices; /**< three a triangle, each below vertex_count; or null: 0, 1, 2, ... in order */
     uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 where indices is null */
 } knurl_mesh_desc;

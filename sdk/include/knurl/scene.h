@@ -47,14 +47,16 @@ typedef struct knurl_surface_desc {
     uint32_t struct_size;                /**< set by knurl_surface_desc_init() */
     uint32_t double_sided;               /**< 1: can be touched from behind as well */
     const char *name;                    /**< UTF-8, for reports; null for "" */
-    const knurl_plane_desc *plane;       /**< exactly one of plane and mesh */
-    const knurl_mesh_desc *mesh;         /**< exactly one of plane and mesh */
+    const knurl_plane_desc *plane;       /**< exactly one of plane, mesh and shape_of */
+    const knurl_mesh_desc *mesh;         /**< exactly one of plane, mesh and shape_of */
     const knurl_material_desc *material; /**< required */
     double position[3];                  /**< the surface's origin in the scene, m */
     double rotation[4];                  /**< surface to scene: unit quaternion x, y, z, w */
     double axis[3];                      /**< the grating's x in the surface's frame (any length); 0, 0, 0: a plane's x,
                                               a mesh's tangents, else its uvs. With an axis, surface coordinates are
                                               metres from the surface's origin along it */
+    knurl_surface_id shape_of;           /**< a surface of this scene: this one has the same shape and axis, built once
+                                              and held once, for as long as one of them is there; 0: none */
 } knurl_surface_desc;
 
 /** The protections of a HIP, all on by default; one may be left out, to study what it does. */
@@ -123,7 +125,8 @@ typedef struct knurl_surface_info {
     const char *name;             /**< the scene's, valid while the surface is */
     const char *shape;            /**< "plane" or "mesh": what was given; static */
     const char *model;            /**< what a tick works on: "plane", "plane+outline" or "mesh+bvh"; static */
-    uint64_t bytes;               /**< memory this surface holds in the scene */
+    uint64_t bytes;               /**< memory this surface holds in the scene; of a shape that several have
+                                       (knurl_surface_desc.shape_of), its part */
     double bounds_min[3];         /**< scene axes, m */
     double bounds_max[3];         /**< scene axes, m */
     double anchor[3];             /**< a point on the surface near the middle of its bounds, scene, m */
@@ -233,7 +236,7 @@ KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_sc
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface; before the commit or after.
- * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_FULL,
+ * Errors: KNURL_ERROR_ARGUMENT (which field, expected, found), KNURL_ERROR_FULL, KNURL_ERROR_STALE_ID (shape_of),
  * KNURL_ERROR_MEMORY. surface: gets its id; may be null. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
                                                knurl_surface_id *surface);
@@ -313,9 +316,13 @@ enum {
     KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
     KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
     KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
+    KNURL_LIMIT_FAR = 64, /**< more than KNURL_FAR from the scene's origin: float32 positions lie centimetres apart */
     KNURL_LIMIT_STRETCH = 32 /**< somewhere S1 or LOCKED feel more than KNURL_STRETCH_MAX times the ridges a metre that
                                   the material says, or fewer than one in so many: uneven uvs */
 };
+
+/** m: farther from the origin, coordinates in float32, which meshes and engines have, lie 6 cm apart and more. */
+#define KNURL_FAR 1000000.0
 
 /** A factor that hands can tell, and unwrapped uvs can keep: an octave. */
 #define KNURL_STRETCH_MAX 2.0

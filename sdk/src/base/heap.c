@@ -45,6 +45,7 @@ static void default_release(void *memory, size_t size, void *user) {
 
 void knurl_heap_init(knurl_heap *heap, const knurl_allocator *allocator) {
     memset(heap, 0, sizeof *heap);
+    heap->seed = (uint64_t)knurl_system_now_ns() ^ (uint64_t)(uintptr_t)heap << 20;
     if (allocator) {
         heap->allocator = *allocator;
     } else {

@@ -9,6 +9,9 @@
 #define DOWNWARDS   ((uint64_t)1 << 63)
 #define USES        (UPWARDS | DOWNWARDS)
 
+/* Collisions a slot: two thirds full, a table of random keys has 1 (Knuth, 6.4, linear probing). */
+#define STEPS_MAX 64
+
 static uint64_t slots_for(uint64_t edges) {
     uint64_t slots = 16;
     while (slots < edges + edges / 2) {
@@ -27,6 +30,7 @@ knurl_result knurl_edges_make(knurl_heap *heap, uint64_t edges, knurl_edge_table
 void knurl_edges_clear(knurl_edge_table *table, uint64_t edges) {
     const uint64_t slots = slots_for(edges);
     table->mask = (slots < table->capacity ? slots : table->capacity) - 1;
+    table->steps = 0;
     memset(table->slots, 0, (size_t)(table->mask + 1) * sizeof *table->slots);
 }
 
@@ -38,8 +42,9 @@ int knurl_edges_add(knurl_edge_table *table, uint32_t from, uint32_t to) {
     uint64_t slot = hash & table->mask;
     while (table->slots[slot] != 0 && (table->slots[slot] & ~USES) != key) {
         slot = (slot + 1) & table->mask;
+        table->steps++;
     }
-    if (table->slots[slot] & way) {
+    if (table->slots[slot] & way || table->steps > STEPS_MAX * (table->mask + 1)) {
         return 0;
     }
     table->slots[slot] |= key | way;

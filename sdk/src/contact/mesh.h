@@ -47,7 +47,9 @@ typedef struct knurl_mesh {
     int32_t has_axis;        /* 1: x runs along this axis, not by tangents or uvs */
     double axis[3];          /* unit */
     double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */
-    double stretch[2][3];    /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; 1 without uvs */
+    double stretch[2][3];    /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; with an axis of
+                                how much of it is tangent, and 1; 1 without both */
+    uint32_t other_users;    /* atomic: shapes that share it, without the first */
 } knurl_mesh;
 
 /* What triangle-relative geometry a contact needs. */

@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "contact/mesh_adjacency.h"
 #include "contact/mesh_frame.h"
+#include "contact/seeded_hash.h"
 #include "contact/weld.h"
 
 #include <string.h>
@@ -61,14 +62,12 @@ static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint3
 
 /* Looks for a triangle between the same corners as the one after the last, which it enters where there is none.
  * Returns 0: none; 1: one facing the same way; -1: one facing the other way. */
-static int find_duplicate(const draft *d, uint32_t *table, uint64_t mask) {
+static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_t *table, uint64_t mask) {
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
     rotate_lowest_first(d, &d->corners[3 * (size_t)triangle], own);
-    uint64_t hash = own[0] * 0x9e3779b97f4a7c15u; /* the same for both turns */
-    hash = (hash ^ (hash >> 31) ^ ((uint64_t)own[1] + own[2])) * 0xbf58476d1ce4e5b9u;
-    hash = (hash ^ (hash >> 29) ^ (own[1] < own[2] ? own[2] : own[1])) * 0x94d049bb133111ebu;
-    uint64_t slot = (hash ^ (hash >> 32)) & mask;
+    const int turn = own[1] < own[2]; /* the same slot for both turns */
+    uint64_t slot = knurl_seeded_hash_of(hash, own[0], own[turn ? 1 : 2], own[turn ? 2 : 1]) & mask;
     for (; table[slot] != 0; slot = (slot + 1) & mask) {
         uint32_t other[3];
         rotate_lowest_first(d, &d->corners[3 * (size_t)(table[slot] - 1)], other);
@@ -92,16 +91,18 @@ static knurl_result keep_triangles(draft *d) {
     const uint64_t slots = knurl_table_slots(corners / 3);
     d->corners = knurl_heap_alloc(d->heap, corners, sizeof *d->corners);
     uint32_t *table = knurl_heap_alloc(d->heap, slots, sizeof *table); /* triangle + 1, or 0 */
+    knurl_seeded_hash hash;
     if (!d->corners || !table) {
         knurl_heap_free(d->heap, table);
         return KNURL_ERROR_MEMORY;
     }
+    knurl_seeded_hash_init(&hash, d->heap->seed);
     for (uint64_t i = 0; i < corners; i += 3) {
         uint32_t *to = &d->corners[3 * (size_t)mesh->triangle_count];
         for (uint32_t k = 0; k < 3; k++) {
             to[k] = desc->indices ? desc->indices[i + k] : (uint32_t)(i + k);
         }
-        const int duplicate = has_area(d, to) ? find_duplicate(d, table, slots - 1) : 1;
+        const int duplicate = has_area(d, to) ? find_duplicate(d, &hash, table, slots - 1) : 1;
         mesh->triangle_count += duplicate == 0;
         mesh->dropped += duplicate > 0;
         mesh->reversed_twins += duplicate < 0;

@@ -104,17 +104,15 @@ static double steepness2(double c1, double c2, const uv_edges *e) {
     return vec3_dot(along, along);
 }
 
-void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[2][3]) {
-    memcpy(stretch, mesh->stretch, sizeof mesh->stretch);
-    if (!mesh->has_axis) {
-        return;
-    }
+void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
+    vec3_copy(axis, mesh->axis);
+    mesh->has_axis = 1;
     double area = 0.0;
     double sum = 0.0;
-    double *along = stretch[0];
+    double *along = mesh->stretch[0];
     along[0] = 1.0;
     along[2] = 0.0;
-    stretch[1][0] = stretch[1][1] = stretch[1][2] = 1.0; /* metres, whichever way the surface faces */
+    mesh->stretch[1][0] = mesh->stretch[1][1] = mesh->stretch[1][2] = 1.0; /* metres, whichever way the surface faces */
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         knurl_triangle t;
         double tangent[3];

@@ -9,9 +9,8 @@
 /* Part of knurl_mesh_create(): uv_scale and stretch. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh);
 
-/* min, mean, max of d(surface coordinate)/d(metre along x), and along y: uvs by their own stretch, an axis by how much
- * of it is tangent. */
-void knurl_mesh_stretch(const knurl_mesh *mesh, double stretch[2][3]);
+/* Part of the same: x runs along this axis (unit), and stretch is by how much of it is tangent. */
+void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]);
 
 /* The surface's tangent frame at a contact (unit, tangent to the contact's normal, y = n x x), by the axis, else by
  * tangents or uvs, and where on the grating it is (m; 0 without an axis and uvs). Allowed in a tick. */

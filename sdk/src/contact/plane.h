@@ -38,6 +38,7 @@ typedef struct knurl_plane {
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */
+    uint32_t other_users;    /* atomic: shapes that share it, without the first */
 } knurl_plane;
 
 /* Its coordinates run `along` times as fast as the way along x, and as fast as it along y. */

@@ -53,12 +53,17 @@ static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
     memcpy(facts->stretch, plane->stretch, sizeof facts->stretch);
 }
 
+static uint32_t *plane_other_users(void *geometry) {
+    knurl_plane *plane = geometry;
+    return &plane->other_users;
+}
+
 static void plane_destroy(knurl_heap *heap, void *plane) {
     knurl_plane_destroy(heap, plane);
 }
 
-static const knurl_shape_functions plane_functions = {plane_contact, plane_rates, plane_anchor, plane_facts,
-                                                      plane_destroy};
+static const knurl_shape_functions plane_functions = {plane_contact, plane_rates,       plane_anchor,
+                                                      plane_facts,   plane_other_users, plane_destroy};
 
 /* --- the mesh's --- */
 
@@ -84,15 +89,21 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .dropped = mesh->dropped,
                               .reversed_twins = mesh->reversed_twins,
                               .error = 0.0}; /* meshes are given as floats, and kept as they are given */
-    knurl_mesh_stretch(mesh, made.stretch);
+    memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;
+}
+
+static uint32_t *mesh_other_users(void *geometry) {
+    knurl_mesh *mesh = geometry;
+    return &mesh->other_users;
 }
 
 static void mesh_destroy(knurl_heap *heap, void *mesh) {
     knurl_mesh_destroy(heap, mesh);
 }
 
-static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_rates, mesh_anchor, mesh_facts, mesh_destroy};
+static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_rates,       mesh_anchor,
+                                                     mesh_facts,   mesh_other_users, mesh_destroy};
 
 /* --- creation --- */
 
@@ -116,8 +127,7 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
         shape->high[i] = (double)mesh->nodes[0].max[i];
     }
     if (axis) {
-        vec3_copy(axis, mesh->axis);
-        mesh->has_axis = 1;
+        knurl_mesh_set_axis(mesh, axis);
     }
     shape->has_coordinates = mesh->uvs || axis;
     shape->double_sided = mesh->double_sided;

@@ -30,6 +30,7 @@ typedef struct knurl_shape_functions {
                  double *steepest) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
     void (*facts)(const void *geometry, knurl_shape_facts *facts);
+    uint32_t *(*other_users)(void *geometry); /* atomic */
     void (*destroy)(knurl_heap *heap, void *geometry);
 } knurl_shape_functions;
 
@@ -57,9 +58,21 @@ typedef struct knurl_shape_desc {
 knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, knurl_shape *shape, double position[3],
                                 double rotation[9]);
 
-/* A zeroed shape is allowed. */
+/* A further shape of the same geometry: a copy of the struct, each to be destroyed. [any thread] */
+static inline knurl_shape knurl_shape_share(const knurl_shape *shape) {
+    (void)__atomic_fetch_add(shape->functions->other_users(shape->geometry), 1, __ATOMIC_RELAXED);
+    return *shape;
+}
+
+/* How many shapes have this geometry, itself one of them. */
+static inline uint32_t knurl_shape_users(const knurl_shape *shape) {
+    return 1 + __atomic_load_n(shape->functions->other_users(shape->geometry), __ATOMIC_RELAXED);
+}
+
+/* The last of those that share a geometry frees it. A zeroed shape is allowed. [any thread] */
 static inline void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape) {
-    if (shape->functions) {
+    if (shape->functions &&
+        __atomic_fetch_sub(shape->functions->other_users(shape->geometry), 1, __ATOMIC_ACQ_REL) == 0) {
         shape->functions->destroy(heap, shape->geometry);
     }
 }

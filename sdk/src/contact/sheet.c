@@ -2,6 +2,7 @@
 #include "contact/sheet.h"
 
 #include "base/vec3.h"
+#include "contact/seeded_hash.h"
 #include "contact/weld.h"
 
 #include <string.h>
@@ -149,11 +150,6 @@ static void find_plane(const knurl_mesh_desc *d, knurl_sheet *sheet, const char 
     vec3_cross(sheet->axes[2], sheet->axes[0], sheet->axes[1]);
 }
 
-static uint64_t mix(uint64_t hash, uint32_t value) {
-    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
-    return hash ^ hash >> 29;
-}
-
 /* A triangle's welded corners, lowest first. */
 static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t out[3]) {
     for (uint32_t k = 0; k < 3; k++) {
@@ -172,9 +168,9 @@ static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t
 enum { FRONT = 1, BACK = 2 };
 
 /* Where a triangle's corners are, or would go, in the table of those kept (number + 1, or 0). */
-static uint64_t find_corners(const knurl_sheet *sheet, const uint32_t *table, uint64_t mask,
-                             const uint32_t corners[3]) {
-    uint64_t slot = mix(mix(mix(1, corners[0]), corners[1]), corners[2]) & mask;
+static uint64_t find_corners(const knurl_sheet *sheet, const knurl_seeded_hash *hash, const uint32_t *table,
+                             uint64_t mask, const uint32_t corners[3]) {
+    uint64_t slot = knurl_seeded_hash_of(hash, corners[0], corners[1], corners[2]) & mask;
     while (table[slot] != 0) {
         uint32_t there[3];
         sorted_corners(sheet, sheet->kept[table[slot] - 1], there);
@@ -187,8 +183,10 @@ static uint64_t find_corners(const knurl_sheet *sheet, const uint32_t *table, ui
 }
 
 /* Keeps one triangle of those with the same corners: the first that faces the front. */
-static void keep_triangles(knurl_sheet *sheet, uint32_t *table, uint64_t mask, uint8_t *seen) {
+static void keep_triangles(knurl_sheet *sheet, uint64_t seed, uint32_t *table, uint64_t mask, uint8_t *seen) {
     const knurl_mesh_desc *d = sheet->desc;
+    knurl_seeded_hash hash;
+    knurl_seeded_hash_init(&hash, seed);
     sheet->count = 0;
     for (uint64_t i = 0; i < knurl_sheet_triangles(d); i++) {
         double area[3];
@@ -198,7 +196,7 @@ static void keep_triangles(knurl_sheet *sheet, uint32_t *table, uint64_t mask, u
         }
         const uint8_t facing = vec3_dot(area, sheet->axes[2]) > 0.0 ? FRONT : BACK;
         sorted_corners(sheet, i, corners);
-        const uint64_t slot = find_corners(sheet, table, mask, corners);
+        const uint64_t slot = find_corners(sheet, &hash, table, mask, corners);
         if (table[slot] == 0) {
             sheet->kept[sheet->count] = (uint32_t)i;
             seen[sheet->count] = facing;
@@ -220,7 +218,7 @@ static knurl_result leave_out_duplicates(knurl_heap *heap, knurl_sheet *sheet, c
     sheet->kept = knurl_heap_alloc(heap, sheet->count, sizeof *sheet->kept);
     const knurl_result result = table && seen && sheet->kept ? KNURL_OK : KNURL_ERROR_MEMORY;
     if (!result) {
-        keep_triangles(sheet, table, slots - 1, seen);
+        keep_triangles(sheet, heap->seed, table, slots - 1, seen);
     }
     for (uint32_t i = 0; !result && i < sheet->count && !*why; i++) {
         if (sheet->twins > 0 && seen[i] != (FRONT | BACK)) {

@@ -33,14 +33,15 @@ T value_at(const unsigned char *at) {
 
 /// Places `elements` (all but its data and stride) at an offset into a bufferView. Numbers are at most 2^31
 /// (filter.cpp), so that none of these sums and products wraps.
-void locate(const tinygltf::Model &model, int view_index, size_t offset, bool strided, Elements &elements,
+void locate(const Model &model, int view_index, size_t offset, bool strided, Elements &elements,
             const std::string &where) {
-    const tinygltf::BufferView &view = model.bufferViews.at(static_cast<size_t>(view_index));
-    const std::vector<unsigned char> &bytes = model.buffers.at(static_cast<size_t>(view.buffer)).data;
-    const std::string view_label = "bufferView " + std::to_string(view_index);
-    if (uint64_t{view.byteOffset} + view.byteLength > bytes.size())
+    const tinygltf::BufferView &view = model.parsed.bufferViews.at(static_cast<size_t>(view_index));
+    const Bytes &bytes = model.buffers.at(static_cast<size_t>(view.buffer));
+    const std::string view_label =
+        "bufferView " + std::to_string(model.filtered.views.at(static_cast<size_t>(view_index)));
+    if (uint64_t{view.byteOffset} + view.byteLength > bytes.size)
         refuse(where, view_label + " ends at byte " + std::to_string(uint64_t{view.byteOffset} + view.byteLength) +
-                          " of a buffer of " + std::to_string(bytes.size()) + " bytes");
+                          " of a buffer of " + std::to_string(bytes.size) + " bytes");
     const uint64_t size =
         uint64_t{elements.components} *
         static_cast<uint64_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(elements.component_type)));
@@ -52,13 +53,12 @@ void locate(const tinygltf::Model &model, int view_index, size_t offset, bool st
     if (end > view.byteLength)
         refuse(where, "expected " + std::to_string(elements.count) + " elements up to byte " + std::to_string(end) +
                           ", found a " + view_label + " of " + std::to_string(view.byteLength) + " bytes");
-    elements.data = bytes.data() + view.byteOffset + offset;
+    elements.data = bytes.data + view.byteOffset + offset;
     elements.stride = static_cast<size_t>(stride);
 }
 
 /// An accessor's elements without its sparse ones; data is null where it has no bufferView (all zeros).
-Elements dense_elements(const tinygltf::Model &model, const tinygltf::Accessor &accessor, size_t most,
-                        const std::string &where) {
+Elements dense_elements(const Model &model, const tinygltf::Accessor &accessor, size_t most, const std::string &where) {
     Elements elements;
     elements.count = accessor.count;
     elements.components = static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
@@ -121,7 +121,7 @@ void element_to_floats(const Elements &elements, size_t i, float *out) {
 
 /// Calls put(i, values, j) for each sparse element: element i of the accessor is values' element j.
 template <typename Put>
-void for_each_sparse(const tinygltf::Model &model, const tinygltf::Accessor &accessor, const Elements &like,
+void for_each_sparse(const Model &model, const tinygltf::Accessor &accessor, const Elements &like,
                      const std::string &where, const Put &put) {
     if (!accessor.sparse.isSparse)
         return;
@@ -151,13 +151,22 @@ void for_each_sparse(const tinygltf::Model &model, const tinygltf::Accessor &acc
 
 } // namespace
 
-std::vector<float> read_floats(const tinygltf::Model &model, int index, size_t components, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.accessors.at(static_cast<size_t>(index));
-    const std::string place = where + " (accessor " + std::to_string(index) + ")";
-    const Elements elements = dense_elements(model, accessor, vertices_max, place);
+size_t count_elements(const Model &model, int index, size_t components, size_t most, const std::string &where) {
+    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const std::string place = where + " (" + model.accessor_label(index) + ")";
+    if (components == 1)
+        check_whole_type(accessor.componentType, place);
+    const Elements elements = dense_elements(model, accessor, most, place);
     if (elements.components != components)
-        refuse(place, "type: expected VEC" + std::to_string(components) + ", found one of " +
-                          std::to_string(elements.components) + " components");
+        refuse(place, "type: expected " + (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)) +
+                          ", found one of " + std::to_string(elements.components) + " components");
+    return elements.count;
+}
+
+std::vector<float> read_floats(const Model &model, int index, size_t components, const std::string &where) {
+    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const std::string place = where + " (" + model.accessor_label(index) + ")";
+    const Elements elements = dense_elements(model, accessor, vertices_max, place); // of so many components: counted
     if (elements.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         refuse(place, "componentType: expected 5126 (float) or integers of 8 or 16 bits, found 5125");
     std::vector<float> out(elements.count * components);
@@ -174,14 +183,10 @@ std::vector<float> read_floats(const tinygltf::Model &model, int index, size_t c
     return out;
 }
 
-std::vector<uint32_t> read_indices(const tinygltf::Model &model, int index, size_t vertex_count,
-                                   const std::string &where) {
-    const tinygltf::Accessor &accessor = model.accessors.at(static_cast<size_t>(index));
-    const std::string place = where + " (accessor " + std::to_string(index) + ")";
-    check_whole_type(accessor.componentType, place);
+std::vector<uint32_t> read_indices(const Model &model, int index, size_t vertex_count, const std::string &where) {
+    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const std::string place = where + " (" + model.accessor_label(index) + ")";
     const Elements elements = dense_elements(model, accessor, 3 * triangles_max, place);
-    if (elements.components != 1)
-        refuse(place, "type: expected SCALAR, found one of " + std::to_string(elements.components) + " components");
     std::vector<uint32_t> out(elements.count);
     if (elements.data != nullptr)
         for (size_t i = 0; i < elements.count; ++i)

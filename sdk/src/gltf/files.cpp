@@ -2,52 +2,50 @@
 #include "files.hpp"
 #include "uri.hpp"
 
+#include "base/regular_file.h"
+
 #include <algorithm>
-#include <fstream>
+#include <cstdio>
+#include <memory>
 
 namespace fs = std::filesystem;
 
 namespace knurl::gltf {
 namespace {
 
-/// A regular file's size. A directory, FIFO or device is refused before it is opened: opening one may never return.
-uint64_t regular_size(const fs::path &path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found)
-        throw Failure(KNURL_ERROR_IO, "no such file");
-    if (error)
-        throw Failure(KNURL_ERROR_IO, "cannot be read: " + error.message());
-    if (status.type() != fs::file_type::regular)
-        throw Failure(KNURL_ERROR_IO, std::string("expected a regular file, found a ") +
-                                          (status.type() == fs::file_type::directory ? "directory" : "special file"));
-    const uint64_t size = fs::file_size(path, error);
-    if (error)
-        throw Failure(KNURL_ERROR_IO, "cannot be read: " + error.message());
-    return size;
-}
+/// What is read between two looks at the budget.
+constexpr size_t block = size_t{1} << 22U;
 
-std::vector<unsigned char> read_start(const fs::path &path, uint64_t size) {
+/// path: below the folder where there is one, and without links then.
+std::vector<unsigned char> read_regular(const fs::path *folder, const fs::path &path, Budget &budget,
+                                        const std::string &where) {
+    char why[200];
+    uint64_t size = 0;
+    const std::string root = folder != nullptr ? folder->u8string() : "";
+    const std::unique_ptr<FILE, int (*)(FILE *)> file(knurl_regular_open(folder != nullptr ? root.c_str() : nullptr,
+                                                                         path.generic_u8string().c_str(), &size, why,
+                                                                         sizeof why),
+                                                      std::fclose);
+    if (!file)
+        throw Failure(KNURL_ERROR_IO, why);
+    budget.take_bytes(size, where);
     std::vector<unsigned char> bytes(static_cast<size_t>(size));
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream)
-        throw Failure(KNURL_ERROR_IO, "cannot be opened for reading");
-    stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<uint64_t>(stream.gcount()) != size)
-        throw Failure(KNURL_ERROR_IO, "cannot be read to its end");
+    for (size_t at = 0; at < bytes.size(); at += block) {
+        const size_t wanted = std::min(block, bytes.size() - at);
+        if (std::fread(bytes.data() + at, 1, wanted, file.get()) != wanted)
+            throw Failure(KNURL_ERROR_IO, "cannot be read to its end");
+        budget.step();
+    }
     return bytes;
 }
 
-std::vector<unsigned char> read_regular_start(const fs::path &path, uint64_t size) {
-    const uint64_t there = regular_size(path);
-    if (there < size)
-        throw Failure(KNURL_ERROR_FORMAT,
-                      "expected " + std::to_string(size) + " bytes (byteLength), found " + std::to_string(there));
-    return read_start(path, size);
-}
+struct Place {
+    fs::path folder;
+    fs::path file; ///< whole
+};
 
 /// The file that a relative URI names, symbolic links resolved; nothing outside the folder.
-fs::path locate(const std::string &uri, const fs::path &folder) {
+Place locate(const std::string &uri, const fs::path &folder) {
     const std::string decoded = percent_decoded(uri);
     const fs::path relative = fs::u8path(decoded);
     if (has_scheme(uri) || relative.has_root_path() || decoded.find('\0') != std::string::npos)
@@ -61,7 +59,7 @@ fs::path locate(const std::string &uri, const fs::path &folder) {
         throw Failure(KNURL_ERROR_IO, "no such file in " + in_quotes(folder.empty() ? "." : folder.u8string()));
     if (std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first != root.end())
         throw Failure(KNURL_ERROR_FORMAT, "expected a file in the glTF file's folder or below it");
-    return file;
+    return {root, file};
 }
 
 std::vector<unsigned char> read_data_uri(const std::string &uri, uint64_t size) {
@@ -69,31 +67,39 @@ std::vector<unsigned char> read_data_uri(const std::string &uri, uint64_t size) 
     if (bytes.size() < size)
         throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
                                               std::to_string(bytes.size()));
-    bytes.resize(static_cast<size_t>(size)); // a longer one is allowed, and padded to 3 bytes is common
-    return bytes;
+    return bytes; // a longer one is allowed, and padded to 3 bytes is common
 }
 
 } // namespace
 
-std::vector<unsigned char> read_file(const fs::path &path) {
-    const uint64_t size = regular_size(path);
-    if (size > bytes_max)
-        throw Failure(KNURL_ERROR_IO, "expected at most 1 GiB, found " + std::to_string(size) + " bytes");
-    return read_start(path, size);
+std::vector<unsigned char> read_file(const fs::path &path, Budget &budget) {
+    return read_regular(nullptr, path, budget, "");
 }
 
-std::vector<unsigned char> read_uri(const std::string &uri, uint64_t size, const Resources &resources,
-                                    const std::string &where) {
+Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where) {
     try {
-        if (is_data_uri(uri))
-            return read_data_uri(uri, size);
+        const auto length = static_cast<size_t>(size);
+        if (is_data_uri(uri)) {
+            resources.budget->take_bytes(size, where);
+            return {texts_.emplace_back(read_data_uri(uri, size)).data(), length};
+        }
         if (!resources.folder)
             throw Failure(KNURL_ERROR_IO, "an external file cannot be read, for no folder was given: embed the buffer");
-        const fs::path file = locate(uri, *resources.folder);
-        std::vector<unsigned char> bytes = read_regular_start(file, size);
-        resources.listener.tell(file);
-        return bytes;
+        const Place place = locate(uri, *resources.folder);
+        auto known = files_.find(place.file);
+        if (known == files_.end()) {
+            std::vector<unsigned char> bytes =
+                read_regular(&place.folder, place.file.lexically_relative(place.folder), *resources.budget, where);
+            resources.listener.tell(place.file);
+            known = files_.emplace(place.file, std::move(bytes)).first;
+        }
+        if (known->second.size() < size)
+            throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
+                                                  std::to_string(known->second.size()));
+        return {known->second.data(), length};
     } catch (const Failure &failure) {
+        if (failure.code() == KNURL_ERROR_FULL || failure.code() == KNURL_ERROR_CANCELLED)
+            throw; // of the load, and said in full
         refuse(where + ": uri " + in_quotes(uri), failure.what(), failure.code());
     }
 }

@@ -3,17 +3,14 @@
 #ifndef KNURL_GLTF_FILES_HPP
 #define KNURL_GLTF_FILES_HPP
 
-#include "failure.hpp"
+#include "budget.hpp"
 
-#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace knurl::gltf {
-
-/** Files, and the buffers of one load taken together, may not be larger. */
-constexpr uint64_t bytes_max = uint64_t{1} << 30U;
 
 /** Bytes that somebody else owns. */
 struct Bytes {
@@ -21,8 +18,8 @@ struct Bytes {
     size_t size = 0;
 };
 
-/** A whole regular file of at most bytes_max. */
-std::vector<unsigned char> read_file(const std::filesystem::path &path);
+/** A whole regular file, links to it followed. */
+std::vector<unsigned char> read_file(const std::filesystem::path &path, Budget &budget);
 
 /** Whoever wants to know which files were read. */
 struct Listener {
@@ -40,11 +37,19 @@ struct Resources {
     std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
     std::optional<std::filesystem::path> folder; ///< external files lie in it or below; none: they are refused
     Listener listener;                           ///< told of external files
+    Budget *budget = nullptr;                    ///< required
 };
 
-/** The first `size` bytes of what a buffer's URI names: data: or a file below the folder. where: for messages. */
-std::vector<unsigned char> read_uri(const std::string &uri, uint64_t size, const Resources &resources,
-                                    const std::string &where);
+/** What URIs name, each file read and held once. */
+class Sources {
+  public:
+    /** The first `size` bytes of what a buffer's URI names: data: or a file below the folder. where: for messages. */
+    Bytes read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where);
+
+  private:
+    std::map<std::filesystem::path, std::vector<unsigned char>> files_; ///< whole
+    std::vector<std::vector<unsigned char>> texts_;                     ///< what data: URIs held
+};
 
 } // namespace knurl::gltf
 #endif

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace knurl::gltf {
 namespace {
@@ -34,51 +35,84 @@ void copy_component_type(Json &to, const Fields &from) {
     to["componentType"] = type;
 }
 
-class Filter {
+/// An array of the file, of which some elements are kept, in the order in which they are come across.
+class Kept {
   public:
-    explicit Filter(const Json &json)
-        : root_(json, "", no_index), nodes_(stubs("nodes", Json::object())),
-          meshes_(stubs("meshes", {{"primitives", Json::array()}})),
-          accessors_(stubs("accessors", {{"componentType", 5126}, {"count", 0}, {"type", "SCALAR"}})),
-          views_(stubs("bufferViews", {{"buffer", 0}, {"byteLength", 1}})),
-          buffers_(stubs("buffers", {{"byteLength", 1}})), done_accessors_(accessors_.size()),
-          done_views_(views_.size()), sources_(buffers_.size()) {}
+    explicit Kept(size_t size) : size_(size) {}
 
-    Filtered run(const Outline &outline) {
-        std::vector<bool> done_nodes(nodes_.size());
-        for (const Instance &instance : outline.instances) {
-            for (int32_t node = static_cast<int32_t>(instance.node); node >= 0 && !done_nodes[index(node)];
-                 node = outline.parents[index(node)]) {
-                done_nodes[index(node)] = true;
-                keep_node(index(node));
-            }
-            keep_primitive(instance.mesh, instance.primitive);
+    size_t size() const {
+        return size_;
+    }
+    /// The place of element `number`, and whether it is a new one, whose JSON is still to be filled in.
+    std::pair<uint32_t, bool> place(uint32_t number) {
+        const auto [found, fresh] = places_.emplace(number, static_cast<uint32_t>(numbers_.size()));
+        if (fresh) {
+            numbers_.push_back(number);
+            json_.emplace_back();
         }
-        for (size_t i = 0; i < buffers_.size(); ++i)
-            buffers_[i]["uri"] = std::to_string(i); // what the file calls for is in sources_
-        const Json all = {{"asset", {{"version", "2.0"}}},    {"nodes", std::move(nodes_)},
-                          {"meshes", std::move(meshes_)},     {"accessors", std::move(accessors_)},
-                          {"bufferViews", std::move(views_)}, {"buffers", std::move(buffers_)}};
-        return {all.dump(), std::move(sources_)};
+        return {found->second, fresh};
+    }
+    Json &operator[](uint32_t place) {
+        return json_[place];
+    }
+    Json take_json() {
+        return std::move(json_);
+    }
+    std::vector<uint32_t> take_numbers() {
+        return std::move(numbers_);
+    }
+    std::unordered_map<uint32_t, uint32_t> take_places() {
+        return std::move(places_);
     }
 
   private:
-    static size_t index(int32_t node) {
-        return static_cast<size_t>(node);
+    size_t size_;
+    std::unordered_map<uint32_t, uint32_t> places_;
+    std::vector<uint32_t> numbers_;
+    Json::array_t json_;
+};
+
+class Filter {
+  public:
+    explicit Filter(const Json &json)
+        : root_(json, "", no_index), nodes_(root_.array_size("nodes")), accessors_(root_.array_size("accessors")),
+          views_(root_.array_size("bufferViews")), buffers_(root_.array_size("buffers")) {}
+
+    Filtered run(const Outline &outline) {
+        Filtered filtered;
+        for (const Instance &instance : outline.instances) {
+            for (int32_t node = static_cast<int32_t>(instance.node); node >= 0;
+                 node = outline.parents[static_cast<size_t>(node)]) {
+                const auto [place, fresh] = nodes_.place(static_cast<uint32_t>(node));
+                if (!fresh)
+                    break; // and its ancestors are kept
+                nodes_[place] = node_of(static_cast<uint32_t>(node));
+            }
+            filtered.primitives.push_back(primitive_place(instance.mesh, instance.primitive));
+        }
+        for (uint32_t i = 0; i < sources_.size(); ++i)
+            buffers_[i] = {{"byteLength", 1}, {"uri", std::to_string(i)}}; // what the file calls for is in sources_
+        Json mesh = {{"primitives", std::move(primitives_)}};
+        const Json all = {{"asset", {{"version", "2.0"}}},     {"nodes", nodes_.take_json()},
+                          {"meshes", {std::move(mesh)}},       {"accessors", accessors_.take_json()},
+                          {"bufferViews", views_.take_json()}, {"buffers", buffers_.take_json()}};
+        filtered.json = all.dump();
+        filtered.buffers = std::move(sources_);
+        filtered.accessors = accessors_.take_numbers();
+        filtered.views = views_.take_numbers();
+        filtered.nodes = nodes_.take_places();
+        return filtered;
     }
 
-    Json stubs(const char *key, const Json &stub) const {
-        return Json::array_t(root_.array_size(key), stub);
-    }
-
+  private:
     Fields at(const char *key, const char *kind, size_t i) const {
         return {root_.json().at(key).at(i), kind, i};
     }
 
-    void keep_node(size_t i) {
+    Json node_of(size_t i) const {
         const Fields node = at("nodes", "node", i);
-        Json &kept = nodes_[i];
-        kept["name"] = node.name();
+        Json kept;
+        kept["name"] = shortened(node.name());
         if (node.find("matrix") != nullptr)
             for (const char *key : {"translation", "rotation", "scale"})
                 if (node.find(key) != nullptr)
@@ -87,42 +121,51 @@ class Filter {
         copy_numbers(kept, node, "translation", 3);
         copy_numbers(kept, node, "rotation", 4);
         copy_numbers(kept, node, "scale", 3);
+        return kept;
     }
 
-    void keep_primitive(uint32_t mesh_index, uint32_t primitive_index) {
-        const Fields mesh = at("meshes", "mesh", mesh_index);
-        Json &kept_mesh = meshes_[mesh_index];
-        if (kept_mesh["primitives"].empty()) {
-            kept_mesh["name"] = mesh.name();
-            const Json stub = {{"attributes", Json::object()}};
-            kept_mesh["primitives"] = Json::array_t(mesh.array_size("primitives"), stub);
+    /// Looked at once, whoever shows it; and those of the same accessors are one.
+    uint32_t primitive_place(uint32_t mesh, uint32_t primitive) {
+        const auto [known, fresh] = primitive_places_.emplace(uint64_t{mesh} << 32U | primitive, 0);
+        if (fresh) {
+            Json made = primitive_of(mesh, primitive);
+            const auto [same, first] = same_primitives_.emplace(made.dump(), primitives_.size());
+            if (first)
+                primitives_.push_back(std::move(made));
+            known->second = static_cast<uint32_t>(same->second);
         }
-        Json &kept = kept_mesh["primitives"][primitive_index];
-        if (!kept["attributes"].empty())
-            return; // another node shows it as well
+        return known->second;
+    }
+
+    Json primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
+        const Fields mesh = at("meshes", "mesh", mesh_index);
         const Fields primitive = mesh.element("primitives", primitive_index);
+        Json kept;
         copy_whole(kept, primitive, "mode", 0, 6);
         if (const auto accessor = primitive.index("indices", accessors_.size(), "accessors")) {
-            kept["indices"] = *accessor;
-            keep_accessor(*accessor);
+            const uint32_t place = accessor_place(*accessor);
+            kept["indices"] = place;
             // tinygltf refuses such a file in words that name nothing.
-            if (!accessors_[*accessor].contains("bufferView"))
+            if (!accessors_[place].contains("bufferView"))
                 at("accessors", "accessor", *accessor).refuse_key("bufferView", "missing: expected one for indices");
         }
         const std::optional<Fields> attributes = primitive.object("attributes");
         if (!attributes || attributes->find("POSITION") == nullptr)
             primitive.refuse_key("attributes.POSITION", "missing: expected an accessor in a tagged primitive");
-        for (const char *name : attribute_names)
-            if (const auto accessor = attributes->index(name, accessors_.size(), "accessors")) {
-                kept["attributes"][name] = *accessor;
-                keep_accessor(*accessor);
-            }
+        for (const Attribute &read : attributes_read)
+            if (const auto accessor = attributes->index(read.name, accessors_.size(), "accessors"))
+                kept["attributes"][read.name] = accessor_place(*accessor);
+        return kept;
     }
 
-    void keep_accessor(uint32_t i) {
-        if (done_accessors_[i])
-            return;
-        done_accessors_[i] = true;
+    uint32_t accessor_place(uint32_t i) {
+        const auto [place, fresh] = accessors_.place(i);
+        if (fresh)
+            accessors_[place] = accessor_of(i);
+        return place;
+    }
+
+    Json accessor_of(uint32_t i) {
         const Fields accessor = at("accessors", "accessor", i);
         Json kept;
         keep_view_of(kept, accessor);
@@ -140,7 +183,7 @@ class Filter {
         kept["type"] = *type;
         if (const auto sparse = accessor.object("sparse"))
             kept["sparse"] = keep_sparse(*sparse);
-        accessors_[i] = std::move(kept);
+        return kept;
     }
 
     Json keep_sparse(const Fields &sparse) {
@@ -165,45 +208,46 @@ class Filter {
         const auto view = from.index("bufferView", views_.size(), "bufferViews");
         if (!view)
             return;
-        kept["bufferView"] = *view;
-        if (!done_views_[*view])
-            keep_view(*view);
-        done_views_[*view] = true;
+        const auto [place, fresh] = views_.place(*view);
+        if (fresh)
+            views_[place] = view_of(*view);
+        kept["bufferView"] = place;
     }
 
-    void keep_view(uint32_t i) {
+    Json view_of(uint32_t i) {
         const Fields view = at("bufferViews", "bufferView", i);
         Json kept;
         const uint32_t buffer =
             view.required(view.index("buffer", buffers_.size(), "buffers"), "buffer", "the index of a buffer");
-        kept["buffer"] = buffer;
         copy_whole(kept, view, "byteOffset");
         copy_required(kept, view, "byteLength", 1, "a length in bytes");
         copy_whole(kept, view, "byteStride", 4, 252);
         if (kept.contains("byteStride") && kept["byteStride"].get<uint32_t>() % 4 != 0)
             view.refuse_value("byteStride", "a multiple of 4", *view.find("byteStride"));
-        views_[i] = std::move(kept);
-        if (!sources_[buffer].needed)
-            keep_buffer(buffer);
+        const auto [place, fresh] = buffers_.place(buffer);
+        kept["buffer"] = place;
+        if (fresh)
+            sources_.push_back(source_of(buffer));
+        return kept;
     }
 
-    void keep_buffer(uint32_t i) {
+    BufferSource source_of(uint32_t i) const {
         const Fields buffer = at("buffers", "buffer", i);
-        BufferSource &source = sources_[i];
-        source.needed = true;
+        BufferSource source;
+        source.number = i;
         source.byte_length = buffer.required(buffer.whole("byteLength", 1), "byteLength", "a length in bytes");
         source.uri = buffer.text("uri");
-        buffers_[i]["byteLength"] = source.byte_length;
+        return source;
     }
 
     Fields root_;
-    Json nodes_;
-    Json meshes_;
-    Json accessors_;
-    Json views_;
-    Json buffers_;
-    std::vector<bool> done_accessors_;
-    std::vector<bool> done_views_;
+    Kept nodes_;
+    Kept accessors_;
+    Kept views_;
+    Kept buffers_;
+    Json::array_t primitives_;
+    std::unordered_map<uint64_t, uint32_t> primitive_places_; ///< by mesh and primitive
+    std::map<std::string, size_t> same_primitives_;           ///< by their JSON
     std::vector<BufferSource> sources_;
 };
 

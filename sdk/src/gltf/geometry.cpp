@@ -6,7 +6,7 @@
 namespace knurl::gltf {
 namespace {
 
-std::vector<float> read_attribute(const tinygltf::Model &model, const tinygltf::Primitive &primitive, const char *name,
+std::vector<float> read_attribute(const Model &model, const tinygltf::Primitive &primitive, const char *name,
                                   size_t components, size_t vertices, const std::string &where) {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end())
@@ -24,7 +24,8 @@ const char *mode_name(int mode) {
     return names[mode];
 }
 
-void check_count(size_t count, int mode, const std::string &where) {
+/// Returns how many triangles so many vertices or indices make.
+size_t check_count(size_t count, int mode, const std::string &where) {
     if (mode < TINYGLTF_MODE_TRIANGLES)
         refuse(where, std::string("mode: expected triangles in a tagged primitive, found ") + mode_name(mode));
     if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
@@ -34,6 +35,7 @@ void check_count(size_t count, int mode, const std::string &where) {
     if (triangles > triangles_max)
         refuse(where,
                "expected at most " + std::to_string(triangles_max) + " triangles, found " + std::to_string(triangles));
+    return triangles;
 }
 
 /// glTF 2.0, 3.7.2.1: each second triangle of a strip is turned, so that all face the same way; a fan's triangles start
@@ -82,9 +84,27 @@ void drop_unused_vertices(Geometry &geometry) {
 
 } // namespace
 
-Geometry read_geometry(const tinygltf::Model &model, const tinygltf::Primitive &primitive, const std::string &where) {
+GeometryCount count_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where) {
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES)
         check_count(0, primitive.mode, where);
+    GeometryCount count;
+    size_t corners = 0;
+    for (const Attribute &read : attributes_read) {
+        const auto found = primitive.attributes.find(read.name);
+        if (found == primitive.attributes.end())
+            continue;
+        const size_t elements =
+            count_elements(model, found->second, read.components, vertices_max, where + ": " + read.name);
+        corners = corners == 0 ? elements : corners; // POSITION's, which is the first
+        count.elements += elements;
+    }
+    if (primitive.indices >= 0)
+        corners = count_elements(model, primitive.indices, 1, 3 * triangles_max, where + ": indices");
+    count.triangles = check_count(corners, primitive.mode, where);
+    return count;
+}
+
+Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where) {
     Geometry geometry;
     geometry.positions = read_attribute(model, primitive, "POSITION", 3, 0, where);
     const size_t vertices = geometry.positions.size() / 3;

@@ -14,9 +14,18 @@ struct Geometry {
     std::vector<uint32_t> indices; ///< three a triangle; never empty
 };
 
+/** What reading a primitive comes to. */
+struct GeometryCount {
+    uint64_t elements = 0; ///< of its attributes
+    uint64_t triangles = 0;
+};
+
+/** Counts without reading; checks what can be told without. where: as below. Throws Failure. */
+GeometryCount count_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
+
 /** Reads a primitive in its mesh's frame: triangles, strips and fans as triangles, counter-clockwise out.
  * where: "mesh 'm' (0), primitive 1". Throws Failure. */
-Geometry read_geometry(const tinygltf::Model &model, const tinygltf::Primitive &primitive, const std::string &where);
+Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
 
 } // namespace knurl::gltf
 #endif

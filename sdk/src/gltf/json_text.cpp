@@ -14,6 +14,8 @@ using nlohmann::json;
 /// Builds the tree from the parser's events, so that limits are met while reading and not after it.
 class Builder : public nlohmann::json_sax<json> {
   public:
+    explicit Builder(Budget &budget) : budget_(budget) {}
+
     json take() {
         return std::move(root_);
     }
@@ -82,6 +84,8 @@ class Builder : public nlohmann::json_sax<json> {
 
   private:
     json *add(json value) {
+        if (values_ % values_a_step == 0)
+            budget_.step();
         if (++values_ > json_values_max)
             refuse("JSON", "more than " + std::to_string(json_values_max) + " values");
         if (open_.empty()) {
@@ -117,6 +121,9 @@ class Builder : public nlohmann::json_sax<json> {
         return text.empty() ? "the file's root" : text;
     }
 
+    static constexpr size_t values_a_step = size_t{1} << 14U;
+
+    Budget &budget_;
     json root_;
     // Pointers into the tree stay good: a container grows only while none of its children is open.
     std::vector<json *> open_;
@@ -126,8 +133,8 @@ class Builder : public nlohmann::json_sax<json> {
 
 } // namespace
 
-nlohmann::json parse_json(std::string_view text) {
-    Builder builder;
+nlohmann::json parse_json(std::string_view text, Budget &budget) {
+    Builder builder(budget);
     json::sax_parse(text.data(), text.data() + text.size(), &builder);
     return builder.take();
 }

@@ -3,6 +3,8 @@
 #ifndef KNURL_GLTF_JSON_TEXT_HPP
 #define KNURL_GLTF_JSON_TEXT_HPP
 
+#include "budget.hpp"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
@@ -18,7 +20,7 @@ constexpr size_t json_values_max = size_t{1} << 23U;
 
 /** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that stands twice in one
  * object (of which readers would keep different ones). */
-nlohmann::json parse_json(std::string_view text);
+nlohmann::json parse_json(std::string_view text, Budget &budget);
 
 /** What a value is, for "found ...". */
 std::string described(const nlohmann::json &value);

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <map>
 #include <new>
 
 namespace fs = std::filesystem;
@@ -28,11 +30,12 @@ class Addition {
         for (; !added_.empty(); added_.pop_back())
             (void)knurl_scene_remove_surface(scene_, added_.back());
     }
-    void add(const knurl_surface_desc &desc, const std::string &where) {
+    /// The new surface's id.
+    knurl_surface_id add(const knurl_surface_desc &desc, const std::string &where) {
         added_.push_back(0); // before the surface is there: this may throw
         const knurl_result result = knurl_scene_add_surface(scene_, &desc, &added_.back());
         if (result == KNURL_OK)
-            return;
+            return added_.back();
         added_.pop_back();
         refuse(where, knurl_error_message(), result);
     }
@@ -74,68 +77,184 @@ knurl_mesh_desc mesh_of(const Geometry &geometry) {
     return mesh;
 }
 
-void add_instance(Addition &addition, const Instance &instance, const std::string &name, const Geometry &geometry,
-                  const Frame &frame, const std::string &where) {
-    const knurl_mesh_desc mesh = mesh_of(geometry);
-    const knurl_material_desc material = material_of(instance.tag);
-    knurl_surface_desc surface;
-    knurl_surface_desc_init(&surface, sizeof surface);
-    surface.double_sided = instance.double_sided ? 1 : 0;
-    surface.name = name.c_str();
-    surface.mesh = &mesh;
-    surface.material = &material;
-    for (int i = 0; i < 3; ++i)
-        surface.position[i] = frame.position[i];
-    surface.rotation[0] = frame.rotation.x;
-    surface.rotation[1] = frame.rotation.y;
-    surface.rotation[2] = frame.rotation.z;
-    surface.rotation[3] = frame.rotation.w;
-    if (const auto &axis = instance.tag.axis) {
-        const glm::dvec3 turned = glm::normalize(frame.bake * glm::dvec3((*axis)[0], (*axis)[1], (*axis)[2]));
-        for (int i = 0; i < 3; ++i)
-            surface.axis[i] = turned[i];
-    } else if (geometry.tangents.empty() && geometry.uvs.empty()) {
-        refuse(where, "knurl.axis: missing: expected one (3 numbers, the grating's x in object space), for the "
-                      "primitive has neither TANGENT nor TEXCOORD_0: add an axis to the tag, or UVs to the mesh");
-    }
-    addition.add(surface, where);
+/// What makes a shape the same: the primitive (its place), what is baked into it, its axis (0: none).
+using ShapeKey = std::array<double, 13>;
+
+ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame) {
+    ShapeKey key{static_cast<double>(primitive)};
+    const std::array<double, 9> baked = bake_key(frame);
+    std::copy(baked.begin(), baked.end(), key.begin() + 1);
+    if (const auto &axis = instance.tag.axis)
+        std::copy(axis->begin(), axis->end(), key.begin() + 10);
+    return key;
 }
 
-knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder,
-                               const Listener &listener) {
+/// A shape that nodes show.
+struct Shape {
+    uint64_t triangles = 0;
+    knurl_surface_id first = 0; ///< a surface that has it; 0: not made yet
+};
+
+/// One instance, where it stands, and its shape.
+struct Plan {
+    Frame frame;
+    Shape *shape = nullptr;
+};
+
+/// From an outline to surfaces: all is counted before any of it is read.
+class Maker {
+  public:
+    Maker(const nlohmann::json &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
+        : root_(root), outline_(outline), model_(model), budget_(budget), scene_(scene) {}
+
+    uint32_t run() {
+        plan();
+        Names names(scene_);
+        Addition addition(scene_);
+        uint64_t made = 0;
+        for (size_t i = 0; i < plans_.size(); ++i) {
+            Shape &shape = *plans_[i].shape;
+            made += shape.first == 0 ? shape.triangles : 0;
+            add(addition, i, names.unique(outline_.instances[i].name));
+            budget_.step(read_done + (1.0 - read_done) * static_cast<double>(made) / static_cast<double>(triangles_));
+        }
+        return addition.keep();
+    }
+
+  private:
+    static constexpr double read_done = 0.25; ///< JSON and buffers are there
+
+    void plan() {
+        Placement placement(model_, outline_.parents);
+        budget_.step(read_done);
+        for (size_t i = 0; i < outline_.instances.size(); ++i) {
+            const Instance &instance = outline_.instances[i];
+            const uint32_t place = model_.filtered.primitives[i];
+            const Frame frame = placement.frame(instance.node);
+            const auto [known, fresh] = shapes_.try_emplace(key_of(instance, place, frame));
+            if (fresh) {
+                const std::string where = where_of(root_, instance);
+                const GeometryCount count = count_geometry(model_, primitive(place), where);
+                budget_.take_shape(count.elements, count.triangles, where);
+                known->second.triangles = count.triangles;
+                triangles_ += count.triangles;
+            }
+            plans_.push_back({frame, &known->second});
+            budget_.step();
+        }
+    }
+
+    const tinygltf::Primitive &primitive(uint32_t place) const {
+        return model_.parsed.meshes.at(0).primitives.at(place);
+    }
+
+    void add(Addition &addition, size_t i, const std::string &name) {
+        const Instance &instance = outline_.instances[i];
+        const Plan &plan = plans_[i];
+        const std::string where = where_of(root_, instance);
+        const knurl_material_desc material = material_of(instance.tag);
+        knurl_surface_desc surface;
+        knurl_surface_desc_init(&surface, sizeof surface);
+        surface.double_sided = instance.double_sided ? 1 : 0;
+        surface.name = name.c_str();
+        surface.material = &material;
+        for (int axis = 0; axis < 3; ++axis)
+            surface.position[axis] = plan.frame.position[axis];
+        surface.rotation[0] = plan.frame.rotation.x;
+        surface.rotation[1] = plan.frame.rotation.y;
+        surface.rotation[2] = plan.frame.rotation.z;
+        surface.rotation[3] = plan.frame.rotation.w;
+        surface.shape_of = plan.shape->first;
+        if (surface.shape_of != 0)
+            (void)addition.add(surface, where);
+        else
+            plan.shape->first = add_shape(addition, i, surface, where);
+    }
+
+    /// The first that shows a shape makes it.
+    knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc &surface, const std::string &where) {
+        const Frame &frame = plans_[i].frame;
+        const tinygltf::Primitive &from = primitive(model_.filtered.primitives[i]);
+        Geometry geometry = read_geometry(model_, from, where);
+        bake(geometry, frame, where, model_.accessor_label(from.attributes.at("POSITION")));
+        const knurl_mesh_desc mesh = mesh_of(geometry);
+        surface.mesh = &mesh;
+        if (const auto &axis = outline_.instances[i].tag.axis) {
+            const glm::dvec3 turned = glm::normalize(frame.bake * glm::dvec3((*axis)[0], (*axis)[1], (*axis)[2]));
+            for (int k = 0; k < 3; ++k)
+                surface.axis[k] = turned[k];
+        } else if (geometry.tangents.empty() && geometry.uvs.empty()) {
+            refuse(where, "knurl.axis: missing: expected one (3 numbers, the grating's x in object space), for the "
+                          "primitive has neither TANGENT nor TEXCOORD_0: add an axis to the tag, or UVs to the mesh");
+        }
+        return addition.add(surface, where);
+    }
+
+    const nlohmann::json &root_;
+    const Outline &outline_;
+    const Model &model_;
+    Budget &budget_;
+    knurl_scene *scene_;
+    std::map<ShapeKey, Shape> shapes_;
+    std::vector<Plan> plans_; ///< of each instance
+    uint64_t triangles_ = 0;
+};
+
+/// What a load is given but for its bytes.
+struct Order {
+    Budget budget;
+    Listener listener;
+};
+
+knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder, Order &order) {
+    Budget &budget = order.budget;
     const Container container = split(bytes);
-    const nlohmann::json root = parse_json(container.json);
-    const Outline outline = read_outline(root);
+    const nlohmann::json root = parse_json(container.json, budget);
+    const Outline outline = read_outline(root, budget);
     knurl_gltf_report report{};
     report.skipped = outline.skipped;
     if (outline.instances.empty())
         return report; // no buffer is read for nothing
-    const tinygltf::Model model = load_model(filter(root, outline), {container.bin, std::move(folder), listener});
-    Placement placement(model, outline.parents);
-    Names names(scene);
-    Addition addition(scene);
-    uint64_t triangles = 0;
-    for (const Instance &instance : outline.instances) {
-        const std::string where = where_of(root, instance);
-        const Frame frame = placement.frame(instance.node);
-        const tinygltf::Primitive &primitive = model.meshes.at(instance.mesh).primitives.at(instance.primitive);
-        Geometry geometry = read_geometry(model, primitive, where);
-        triangles += geometry.indices.size() / 3;
-        if (triangles > triangles_max)
-            refuse(where, "all surfaces together: expected at most " + std::to_string(triangles_max) + " triangles");
-        bake(geometry, frame, where);
-        add_instance(addition, instance, names.unique(instance.name), geometry, frame, where);
-    }
-    report.surfaces = addition.keep();
+    Model model;
+    load_model(filter(root, outline), {container.bin, std::move(folder), order.listener, &budget}, model);
+    report.surfaces = Maker(root, outline, model, budget, scene).run();
     return report;
 }
 
 /// What a report held in version 0.1; callers of that version know no more.
 constexpr uint32_t report_size_first = 16;
 
-Listener listener_of(const knurl_gltf_report *report) {
-    return report != nullptr && report->struct_size >= sizeof *report ? Listener{report->file_read, report->user}
-                                                                      : Listener{};
+/// As it was set, over the defaults.
+Limits limits_of(const knurl_gltf_budget *wanted) {
+    knurl_gltf_budget all{};
+    if (wanted == nullptr)
+        return {};
+    const uint32_t size = wanted->struct_size;
+    if (size < 8 || size > 65536)
+        throw Failure(KNURL_ERROR_ARGUMENT, "knurl_gltf_budget.struct_size: expected what knurl_gltf_budget_init() "
+                                            "sets, found " +
+                                                std::to_string(size));
+    const auto *bytes = reinterpret_cast<const unsigned char *>(wanted);
+    for (size_t i = sizeof all; i < size; ++i)
+        if (bytes[i] != 0)
+            throw Failure(KNURL_ERROR_UNSUPPORTED, "knurl_gltf_budget: byte " + std::to_string(i) +
+                                                       " is set, but this version knows only " +
+                                                       std::to_string(sizeof all) + " bytes of it");
+    std::memcpy(&all, wanted, std::min<size_t>(size, sizeof all));
+    return {all.max_surfaces, all.max_bytes, all.max_vertices, all.max_triangles, all.max_seconds};
+}
+
+/// A report as it was set, over one that is empty: the caller may be of an older version.
+knurl_gltf_report complete(const knurl_gltf_report *report) {
+    knurl_gltf_report all{};
+    if (report == nullptr)
+        return all;
+    if (report->struct_size < report_size_first || report->struct_size > 65536)
+        throw Failure(KNURL_ERROR_ARGUMENT,
+                      "knurl_gltf_report.struct_size: expected what knurl_gltf_report_init() sets, found " +
+                          std::to_string(report->struct_size));
+    std::memcpy(&all, report, std::min<size_t>(report->struct_size, sizeof all));
+    return all;
 }
 
 /// Runs `load` and turns what it throws into a result and a message that starts with the file's name.
@@ -143,18 +262,14 @@ template <typename Load>
 knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &load) {
     const char *file = name != nullptr && *name != '\0' ? name : "glTF data";
     try {
-        if (report != nullptr && (report->struct_size < report_size_first || report->struct_size > 65536))
-            return knurl_fail(KNURL_ERROR_ARGUMENT,
-                              "knurl_gltf_report.struct_size: expected what knurl_gltf_report_init() sets, found %u",
-                              report->struct_size);
-        const Listener listener = listener_of(report);
-        knurl_gltf_report made = load(listener);
-        if (report != nullptr) {
-            made.struct_size = report->struct_size;
-            made.file_read = listener.file_read;
-            made.user = listener.user;
+        const knurl_gltf_report asked = complete(report);
+        Order order{{limits_of(asked.budget), asked.progress, asked.user}, {asked.file_read, asked.user}};
+        knurl_gltf_report made = asked;
+        const knurl_gltf_report counts = load(order);
+        made.surfaces = counts.surfaces;
+        made.skipped = counts.skipped;
+        if (report != nullptr)
             std::memcpy(report, &made, std::min<size_t>(made.struct_size, sizeof made));
-        }
         return KNURL_OK;
     } catch (const Failure &failure) {
         return knurl_fail(failure.code(), "%.400s: %s", file, failure.what());
@@ -186,6 +301,13 @@ bool has_gltf_name(const fs::path &path) {
 using knurl::gltf::Failure;
 using knurl::gltf::is_null;
 
+void knurl_gltf_budget_init(knurl_gltf_budget *budget, uint32_t size) {
+    if (is_null(budget, "budget") || size < sizeof budget->struct_size)
+        return;
+    std::memset(budget, 0, size);
+    budget->struct_size = size;
+}
+
 void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
     if (is_null(report, "report") || size < sizeof report->struct_size)
         return;
@@ -197,13 +319,13 @@ knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gl
     if (is_null(path, "path") ||
         knurl_scene_get_bytes(scene) == 0) // which says what is wrong with a scene that has none
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(path, report, [&](const knurl::gltf::Listener &listener) {
+    return knurl::gltf::guarded(path, report, [&](knurl::gltf::Order &order) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
             throw Failure(KNURL_ERROR_FORMAT, "expected a name that ends in .gltf or .glb");
-        const std::vector<unsigned char> bytes = knurl::gltf::read_file(file);
-        listener.tell(file);
-        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path(), listener);
+        const std::vector<unsigned char> bytes = knurl::gltf::read_file(file, order.budget);
+        order.listener.tell(file);
+        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path(), order);
     });
 }
 
@@ -211,13 +333,12 @@ knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64
                                     const char *folder, knurl_gltf_report *report) {
     if ((size != 0 && is_null(data, "data")) || knurl_scene_get_bytes(scene) == 0)
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(name, report, [&](const knurl::gltf::Listener &listener) {
-        if (size > knurl::gltf::bytes_max)
-            throw Failure(KNURL_ERROR_IO, "expected at most 1 GiB, found " + std::to_string(size) + " bytes");
+    return knurl::gltf::guarded(name, report, [&](knurl::gltf::Order &order) {
+        order.budget.take_bytes(size, "");
         std::optional<fs::path> root;
         if (folder != nullptr)
             root = fs::u8path(folder);
         return knurl::gltf::add_surfaces(scene, {static_cast<const unsigned char *>(data), static_cast<size_t>(size)},
-                                         std::move(root), listener);
+                                         std::move(root), order);
     });
 }

@@ -1,4 +1,4 @@
-// Knurl: the tagged part of a glTF file as tinygltf's model, buffers read.
+// Knurl: the tagged part of a glTF file as tinygltf's model, and the bytes of its buffers beside it.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_MODEL_HPP
 #define KNURL_GLTF_MODEL_HPP
@@ -9,8 +9,22 @@
 
 namespace knurl::gltf {
 
-/** Throws Failure. */
-tinygltf::Model load_model(const Filtered &filtered, const Resources &resources);
+/** What tinygltf has read, what its places are called in the file, and the buffers (its own have 1 byte). Holds
+ * pointers into itself and the resources' BIN chunk. */
+struct Model {
+    tinygltf::Model parsed;
+    Filtered filtered;
+    Sources sources;
+    std::vector<Bytes> buffers;
+
+    /** "accessor 7": by its number in the file. */
+    std::string accessor_label(int place) const {
+        return "accessor " + std::to_string(filtered.accessors.at(static_cast<size_t>(place)));
+    }
+};
+
+/** Throws Failure. model: gets everything. */
+void load_model(Filtered filtered, const Resources &resources, Model &model);
 
 } // namespace knurl::gltf
 #endif

@@ -7,10 +7,14 @@
 
 #include <knurl/scene.h>
 
+#include <map>
 #include <string>
-#include <unordered_map>
 
 namespace knurl::gltf {
+
+/** A surface's name is at most 255 bytes: a node's or a mesh's, " / ", a material's, and " (2)" or so. */
+constexpr size_t name_max = 255;
+constexpr size_t name_part_max = 115; ///< and "..."
 
 class Names {
   public:
@@ -21,7 +25,8 @@ class Names {
     std::string unique(const std::string &name);
 
   private:
-    std::unordered_map<std::string, uint32_t> taken_; ///< and the highest number that was tried
+    /// A tree: no names make it slow, whoever chose them.
+    std::map<std::string, uint32_t> taken_; ///< and the highest number that was tried
 };
 
 } // namespace knurl::gltf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "outline.hpp"
 #include "hierarchy.hpp"
+#include "names.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -75,7 +76,7 @@ struct MeshPlan {
 
 class Reader {
   public:
-    explicit Reader(const Json &json) : root_(json, "", no_index) {}
+    Reader(const Json &json, Budget &budget) : root_(json, "", no_index), budget_(budget) {}
 
     Outline read() {
         check_asset(root_);
@@ -85,8 +86,10 @@ class Reader {
         nodes_ = read_tags(root_, "nodes", "node");
         refuse_lost_tags();
         check_count(hierarchy.shown);
-        for (const uint32_t node : hierarchy.shown)
+        for (const uint32_t node : hierarchy.shown) {
             show(node);
+            budget_.step();
+        }
         outline_.parents = std::move(hierarchy.parents);
         return std::move(outline_);
     }
@@ -138,9 +141,10 @@ class Reader {
                 const MeshPlan &shape = plan(*mesh);
                 total += find(nodes_, node) != nullptr ? shape.materials.size() : shape.tagged.size();
             }
-        if (total > surfaces_max)
-            throw Failure(KNURL_ERROR_FULL, "expected at most " + std::to_string(surfaces_max) +
-                                                " tagged surfaces, found " + std::to_string(total));
+        if (total > budget_.surfaces())
+            throw Failure(KNURL_ERROR_FULL, "budget.max_surfaces: expected at most " +
+                                                std::to_string(budget_.surfaces()) + " tagged surfaces, found " +
+                                                std::to_string(total));
     }
 
     void show(uint32_t index) {
@@ -186,16 +190,18 @@ class Reader {
     /// The same whatever else is tagged, so that a script may rely on it.
     std::string surface_name(const Fields &node, uint32_t index, const Fields &mesh, uint32_t primitive,
                              std::optional<uint32_t> material, size_t primitives) const {
-        std::string name(!node.name().empty() ? node.name() : mesh.name());
+        std::string name = shortened(!node.name().empty() ? node.name() : mesh.name(), name_part_max);
         if (name.empty())
             name = "node " + std::to_string(index);
         if (primitives < 2)
             return name;
         const std::string_view part = material ? at("materials", "material", *material).name() : std::string_view();
-        return name + " / " + (part.empty() ? "primitive " + std::to_string(primitive) : std::string(part));
+        return name + " / " +
+               (part.empty() ? "primitive " + std::to_string(primitive) : shortened(part, name_part_max));
     }
 
     Fields root_;
+    Budget &budget_;
     Tags materials_;
     Tags meshes_;
     Tags nodes_;
@@ -205,10 +211,10 @@ class Reader {
 
 } // namespace
 
-Outline read_outline(const Json &root) {
+Outline read_outline(const Json &root, Budget &budget) {
     if (!root.is_object())
         refuse("JSON", "expected an object at its root, found " + described(root));
-    return Reader(root).read();
+    return Reader(root, budget).read();
 }
 
 std::string where_of(const Json &root, const Instance &instance) {

@@ -3,12 +3,10 @@
 #ifndef KNURL_GLTF_OUTLINE_HPP
 #define KNURL_GLTF_OUTLINE_HPP
 
+#include "budget.hpp"
 #include "tags.hpp"
 
 namespace knurl::gltf {
-
-/** As many as a scene can hold. */
-constexpr size_t surfaces_max = size_t{1} << 20U;
 
 /** One surface to be: a tagged primitive as one node shows it. */
 struct Instance {
@@ -17,7 +15,7 @@ struct Instance {
     uint32_t primitive = 0;
     Tag tag; ///< merged; the required keys are there
     bool double_sided = false;
-    std::string name; ///< not unique yet
+    std::string name; ///< not unique yet; at most name_max bytes
 };
 
 struct Outline {
@@ -27,7 +25,7 @@ struct Outline {
 };
 
 /** root: the file's JSON. Throws Failure. */
-Outline read_outline(const nlohmann::json &root);
+Outline read_outline(const nlohmann::json &root, Budget &budget);
 
 /** The three roles of "where" in messages about an instance: "node 'n' (1), mesh 'm' (0), primitive 2". */
 std::string where_of(const nlohmann::json &root, const Instance &instance);

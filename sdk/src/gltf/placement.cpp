@@ -4,6 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace knurl::gltf {
@@ -13,15 +14,22 @@ namespace {
 constexpr double unit_tolerance = 1e-2;
 constexpr double affine_tolerance = 1e-6;
 
+// m: what knurl_mesh_desc takes.
+constexpr double coordinate_max = 1.2e30;
+
 // A volume this small beside its sides' product is lost in float32 positions.
 constexpr double flat_tolerance = 1e-9;
 
-std::string node_label(const tinygltf::Model &model, uint32_t node) {
-    return label("node", model.nodes.at(node).name, node);
+const tinygltf::Node &node_at(const Model &model, uint32_t number) {
+    return model.parsed.nodes.at(model.filtered.nodes.at(number));
 }
 
-glm::dmat4 local_matrix(const tinygltf::Model &model, uint32_t index) {
-    const tinygltf::Node &node = model.nodes.at(index);
+std::string node_label(const Model &model, uint32_t number) {
+    return label("node", node_at(model, number).name, number);
+}
+
+glm::dmat4 local_matrix(const Model &model, uint32_t index) {
+    const tinygltf::Node &node = node_at(model, index);
     if (!node.matrix.empty()) {
         const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
         for (int column = 0; column < 4; ++column)
@@ -44,6 +52,13 @@ glm::dmat4 local_matrix(const tinygltf::Model &model, uint32_t index) {
     if (!node.translation.empty())
         matrix[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
     return matrix;
+}
+
+/// "1e+39"
+std::string shown(double value) {
+    char text[32];
+    (void)std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
 }
 
 bool is_finite(const glm::dvec3 &v) {
@@ -99,11 +114,27 @@ Frame Placement::frame(uint32_t node) {
     return frame;
 }
 
-void bake(Geometry &geometry, const Frame &frame, const std::string &where) {
+std::array<double, 9> bake_key(const Frame &frame) {
+    std::array<double, 9> key{};
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i)
+        largest = std::fmax(largest, std::fabs(frame.bake[i / 3][i % 3]));
+    // Counts of 2^-40 of the largest: rotations leave some 2^-50, float32 keeps 2^-24.
+    const double unit = std::ldexp(1.0, std::ilogb(largest) - 40);
+    for (int i = 0; i < 9; ++i)
+        key[static_cast<size_t>(i)] = std::nearbyint(frame.bake[i / 3][i % 3] / unit) * unit + 0.0;
+    return key;
+}
+
+void bake(Geometry &geometry, const Frame &frame, const std::string &where, const std::string &positions) {
     for (size_t i = 0; i + 2 < geometry.positions.size(); i += 3) {
-        put(geometry.positions, i, frame.bake * at(geometry.positions, i));
-        if (!is_finite(at(geometry.positions, i)))
-            refuse(where, "its transform moves vertex " + std::to_string(i / 3) + " beyond float32's range");
+        const glm::dvec3 p = frame.bake * at(geometry.positions, i);
+        for (int axis = 0; axis < 3; ++axis)
+            if (!knurl_is_within(p[axis], -coordinate_max, coordinate_max))
+                refuse(where, "POSITION (" + positions + "): its used vertex " + std::to_string(i / 3) +
+                                  ": expected within 1.2e30 m with the node's transform, found " + shown(p[axis]) +
+                                  " m");
+        put(geometry.positions, i, p);
     }
     for (size_t i = 0; i + 3 < geometry.tangents.size(); i += 4) {
         // A direction: its length says nothing, but must not overflow or vanish on the way.

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <array>
 #include <unordered_map>
 
 namespace knurl::gltf {
@@ -24,7 +25,7 @@ struct Frame {
 class Placement {
   public:
     /** Both must outlive this. */
-    Placement(const tinygltf::Model &model, const std::vector<int32_t> &parents) : model_(model), parents_(parents) {}
+    Placement(const Model &model, const std::vector<int32_t> &parents) : model_(model), parents_(parents) {}
 
     /** Throws Failure where the node's transform is not finite or flattens what it shows. */
     Frame frame(uint32_t node);
@@ -32,13 +33,18 @@ class Placement {
   private:
     const glm::dmat4 &world(uint32_t node);
 
-    const tinygltf::Model &model_;
+    const Model &model_;
     const std::vector<int32_t> &parents_;
     std::unordered_map<uint32_t, glm::dmat4> worlds_;
 };
 
-/** Moves a geometry from its mesh's frame into its surface's. where: "node 'n' (1)". Throws Failure. */
-void bake(Geometry &geometry, const Frame &frame, const std::string &where);
+/** What a bake comes to but for its rounding: as good as the same for all that is stored in float32, and the same for
+ * nodes that only stand and face differently. */
+std::array<double, 9> bake_key(const Frame &frame);
+
+/** Moves a geometry from its mesh's frame into its surface's. where: "node 'n' (1)"; positions: what its POSITION is
+ * called, "accessor 0". Throws Failure. */
+void bake(Geometry &geometry, const Frame &frame, const std::string &where, const std::string &positions);
 
 } // namespace knurl::gltf
 #endif

@@ -99,6 +99,24 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     }
 }
 
+/* Coordinates in which nothing can be felt: a unit that was mistaken, or a vertex that went astray. */
+static void check_place(const inspection *on, const knurl_surface_data *surface) {
+    double low[3];
+    double high[3];
+    double farthest = 0.0;
+    char sentence[256];
+    knurl_surface_bounds(surface, &surface->record->motion, HUGE_VAL, low, high);
+    for (int i = 0; i < 3; i++) {
+        farthest = fmax(farthest, fmax(fabs(low[i]), fabs(high[i])));
+    }
+    if (!(farthest <= KNURL_FAR)) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
+                       farthest * 0x1p-24);
+        say(on, KNURL_LIMIT_FAR, sentence, "look for a vertex that went astray, or another unit than metres");
+    }
+}
+
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
@@ -111,6 +129,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     check->amplitude = m->amplitude;
     check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
     check_wall(&on);
+    check_place(&on, surface);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);

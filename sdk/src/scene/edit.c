@@ -2,6 +2,8 @@
  * fail comes first; what a tick may see is swapped last. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
+#include "base/base.h"
+
 static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     knurl_result result = knurl_surfaces_add(&scene->surfaces, surface);
     if (!result && scene->committed) {
@@ -13,13 +15,31 @@ static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     return result;
 }
 
+/* Long; without the lock but for the look at the surface whose shape it is to have. */
+static knurl_result build(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_data **made) {
+    knurl_surface_desc d;
+    knurl_shared_shape shared;
+    knurl_surface_desc_init(&d, sizeof d);
+    knurl_result result = knurl_desc_read("knurl_surface_desc", desc, &d, sizeof d);
+    if (!result && d.shape_of) {
+        knurl_scene_lock(scene);
+        const knurl_surface_data *other = knurl_surfaces_get(&scene->surfaces, d.shape_of);
+        if (other) {
+            knurl_surface_share(other, &shared);
+        }
+        knurl_scene_unlock(scene);
+        result = other ? KNURL_OK : KNURL_ERROR_STALE_ID;
+    }
+    return result ? result
+                  : knurl_surface_build(&scene->heap, &d, scene->full_model, d.shape_of ? &shared : NULL, made);
+}
+
 knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *surface) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_surface_data *made = NULL;
-    knurl_result result =
-        knurl_surface_build(&scene->heap, desc, scene->full_model, &made); /* long; without the lock */
+    knurl_result result = build(scene, desc, &made);
     if (result) {
         return result;
     }
@@ -67,7 +87,7 @@ knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id su
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_surface_data *made = NULL;
-    knurl_result result = knurl_surface_build(&scene->heap, desc, scene->full_model, &made);
+    knurl_result result = build(scene, desc, &made);
     if (result) {
         return result;
     }

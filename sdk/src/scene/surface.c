@@ -56,6 +56,30 @@ static knurl_result set_shape(knurl_heap *heap, const knurl_surface_desc *d, uin
     return result;
 }
 
+void knurl_surface_share(const knurl_surface_data *surface, knurl_shared_shape *shared) {
+    shared->shape = knurl_shape_share(&surface->shape);
+    shared->local = surface->local;
+    shared->given = surface->given;
+    vec3_copy(surface->axis, shared->axis);
+}
+
+static knurl_result set_shared_shape(const knurl_surface_desc *d, const knurl_shared_shape *shared,
+                                     knurl_surface_data *surface) {
+    surface->shape = shared->shape; /* first: who frees the surface frees its part of it */
+    surface->local = shared->local;
+    surface->given = shared->given;
+    surface->double_sided = d->double_sided != 0 || shared->shape.double_sided;
+    if (d->plane || d->mesh) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "shape: expected exactly one of plane, mesh and shape_of, found more");
+    }
+    if (vec3_length(surface->axis) > 0.0) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected none with shape_of, which has one, found [%g, %g, %g]",
+                          d->axis[0], d->axis[1], d->axis[2]);
+    }
+    vec3_copy(shared->axis, surface->axis);
+    return KNURL_OK;
+}
+
 static knurl_result set_name(knurl_heap *heap, const char *name, knurl_surface_data *surface) {
     const size_t length = name ? strlen(name) : 0;
     surface->name = knurl_heap_alloc(heap, length + 1, 1);
@@ -148,11 +172,15 @@ void knurl_surface_release(knurl_heap *heap, knurl_retired *retired) {
 }
 
 static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint32_t full_model,
-                            knurl_surface_data *surface) {
+                            const knurl_shared_shape *shared, knurl_surface_data *surface) {
     knurl_pose pose;
-    knurl_result result = knurl_surface_check_pose(d->position, d->rotation, &pose);
-    result = result ? result : set_axis(d, surface);
-    result = result ? result : set_shape(heap, d, full_model, surface);
+    knurl_result result = set_axis(d, surface);
+    if (shared) {
+        const knurl_result taken = set_shared_shape(d, shared, surface);
+        result = result ? result : taken;
+    }
+    result = result ? result : knurl_surface_check_pose(d->position, d->rotation, &pose);
+    result = result || shared ? result : set_shape(heap, d, full_model, surface);
     knurl_pose_settle(&surface->local);
     surface->record = result ? NULL : knurl_record_copy(heap, NULL);
     result = !result && !surface->record ? KNURL_ERROR_MEMORY : result;
@@ -168,17 +196,17 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
 }
 
 knurl_result knurl_surface_build(knurl_heap *heap, const knurl_surface_desc *desc, uint32_t full_model,
-                                 knurl_surface_data **surface) {
-    knurl_surface_desc d;
-    knurl_surface_desc_init(&d, sizeof d);
-    knurl_result result = knurl_desc_read("knurl_surface_desc", desc, &d, sizeof d);
-    if (result) {
-        return result;
-    }
+                                 const knurl_shared_shape *shared, knurl_surface_data **surface) {
     knurl_surface_data *made = knurl_heap_alloc(heap, 1, sizeof *made);
-    result = made ? fill_in(heap, &d, full_model, made) : KNURL_ERROR_MEMORY;
+    if (!made) {
+        if (shared) {
+            knurl_shape_destroy(heap, &shared->shape);
+        }
+        return KNURL_ERROR_MEMORY;
+    }
+    const knurl_result result = fill_in(heap, desc, full_model, shared, made);
     if (result) {
-        knurl_surface_release(heap, made ? &made->retired : NULL);
+        knurl_surface_release(heap, &made->retired);
         return result;
     }
     made->retired.release = knurl_surface_release;

@@ -22,9 +22,22 @@ typedef struct knurl_surface_data {
     const char *given; /* "plane" or "mesh" */
 } knurl_surface_data;
 
-/* Builds a surface with its record from its description. Errors: as knurl_scene_add_surface(). */
+/* A surface's shape as another may have it: the shape, shared, and what goes with it. */
+typedef struct knurl_shared_shape {
+    knurl_shape shape;
+    knurl_pose local;
+    double axis[3];
+    const char *given;
+} knurl_shared_shape;
+
+/* To be used up by knurl_surface_build(). */
+void knurl_surface_share(const knurl_surface_data *surface, knurl_shared_shape *shared);
+
+/* Builds a surface with its record from its description, all of which is there (knurl_desc_read()). shared: what
+ * `shape_of` has come to, or null; the surface's from now on, freed where this fails. Errors: as
+ * knurl_scene_add_surface(). */
 knurl_result knurl_surface_build(knurl_heap *heap, const knurl_surface_desc *desc, uint32_t full_model,
-                                 knurl_surface_data **surface);
+                                 const knurl_shared_shape *shared, knurl_surface_data **surface);
 void knurl_surface_release(knurl_heap *heap, knurl_retired *surface);
 
 /* Checks a pose and turns it into one of the surface's own frame. Errors: KNURL_ERROR_ARGUMENT. */

@@ -53,8 +53,8 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->reversed_twins = facts.reversed_twins;
     info->model_error = facts.error;
     info->double_sided = (uint32_t)surface->double_sided;
-    info->bytes =
-        knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) + facts.bytes;
+    info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
+                  facts.bytes / knurl_shape_users(&surface->shape);
     memcpy(info->stretch, facts.stretch[0], sizeof facts.stretch[0]);
     memcpy(info->stretch_y, facts.stretch[1], sizeof facts.stretch[1]);
 }

@@ -58,9 +58,9 @@ void knurl_surfaces_undo_add(knurl_surfaces *s, knurl_surface_data *surface) {
 }
 
 void knurl_surfaces_remove(knurl_surfaces *s, knurl_surface_data *surface) {
-    uint32_t at = 0;
+    uint32_t at = s->count - 1; /* from the end: what was added last goes first where a load is taken back */
     while (s->order[at] != surface->place) {
-        at++;
+        at--;
     }
     s->count--;
     memmove(&s->order[at], &s->order[at + 1], (s->count - at) * sizeof *s->order);

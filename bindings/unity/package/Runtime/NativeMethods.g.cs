@@ -259,6 +259,7 @@ namespace Knurl
         public fixed double position[3];
         public fixed double rotation[4];
         public fixed double axis[3];
+        public ulong shape_of;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -382,6 +383,17 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_gltf_budget
+    {
+        public uint struct_size;
+        public uint max_surfaces;
+        public ulong max_bytes;
+        public ulong max_vertices;
+        public ulong max_triangles;
+        public double max_seconds;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_gltf_report
     {
         public uint struct_size;
@@ -390,6 +402,8 @@ namespace Knurl
         public uint reserved;
         public IntPtr file_read;
         public IntPtr user;
+        public IntPtr progress;
+        public knurl_gltf_budget* budget;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -557,6 +571,9 @@ namespace Knurl
     internal unsafe delegate void knurl_gltf_report_file_read(IntPtr user, byte* path);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate int knurl_gltf_report_progress(IntPtr user, double done);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
         IntPtr user);
 
@@ -574,7 +591,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "bb2547fbadae3e7d";
+        internal const string Interface = "0902ada9a5a716a8";
 
         internal const string Version = "0.1.0";
 
@@ -592,6 +609,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
+        internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_SESSION_HISTORY = 8192;
         internal const int KNURL_OK = 0;
@@ -607,6 +625,7 @@ namespace Knurl
         internal const int KNURL_ERROR_DEVICE_LOST = -10;
         internal const int KNURL_ERROR_SYSTEM = -11;
         internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
+        internal const int KNURL_ERROR_CANCELLED = -13;
         internal const int KNURL_FAULT_LOST = 1;
         internal const int KNURL_FAULT_SILENT = 2;
         internal const int KNURL_FAULT_CORRUPT = 3;
@@ -665,6 +684,7 @@ namespace Knurl
         internal const int KNURL_LIMIT_AMPLITUDE = 4;
         internal const int KNURL_LIMIT_HEAT = 8;
         internal const int KNURL_LIMIT_PERIOD = 16;
+        internal const int KNURL_LIMIT_FAR = 64;
         internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_LOOP_IDLE = 0;
         internal const int KNURL_LOOP_RUNNING = 1;
@@ -929,6 +949,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_lock_memory(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_gltf_budget_init(knurl_gltf_budget* budget, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_gltf_report_init(knurl_gltf_report* report, uint size);
