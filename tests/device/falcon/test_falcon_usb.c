@@ -42,6 +42,21 @@ static int run(knurl_device *device, int ms, double stiffness, int *lost) {
     return good;
 }
 
+/* Until so many more positions have come, whose rate is the emulation's and the machine's; it may not get lost. */
+static void run_until(knurl_device *device, uint64_t positions, double stiffness) {
+    knurl_device_status status;
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const uint64_t enough = status.exchanges + positions;
+    for (int i = 0; i < 500 && status.exchanges < enough; i++) {
+        int lost = 0;
+        (void)run(device, 20, stiffness, &lost);
+        assert_int_equal(lost, 0);
+        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    }
+    assert_true(status.exchanges >= enough);
+}
+
 static int reported(knurl_device *device, int32_t code) {
     int count = 0;
     knurl_device_event event;
@@ -62,11 +77,10 @@ static knurl_device *open_falcon(void) {
 /* The hand presses 1 mm below the floor, its spring of 700 N/m against the floor's 400: it rests where both agree. */
 TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
     falcon_emulation setup = {0};
-    int lost = 0;
     plug_in(&setup);
     knurl_device *device = open_falcon();
     const int64_t begin = knurl_system_now_ns();
-    const int good = run(device, 500, 400.0, &lost);
+    run_until(device, 500, 400.0); /* the simulated hand goes on by a millisecond with each */
     const double seconds = 1e-9 * (double)(knurl_system_now_ns() - begin);
     knurl_device_status status;
     knurl_device_status_init(&status, sizeof status);
@@ -74,8 +88,6 @@ TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
     const falcon_sim sim = falcon_emulated_look();
     print_message("%.0f exchanges a second, median %.2f ms, 99 %% within %.2f ms\n", (double)status.exchanges / seconds,
                   1e-6 * status.exchange_ns_p50, 1e-6 * status.exchange_ns_p99);
-    assert_true(good > 150);
-    assert_int_equal(lost, 0);
     assert_int_equal(sim.bad_bytes, 0);
     assert_int_equal(status.bad_bytes, 0);
     /* 700 (0.001 - d) = 400 d, give or take dry friction (0.5 N over 1100 N/m) */
@@ -88,12 +100,10 @@ TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
 
 TEST(short_packets_change_nothing) {
     falcon_emulation setup = {0};
-    int lost = 0;
     setup.is_split = 1;
     plug_in(&setup);
     knurl_device *device = open_falcon();
-    assert_true(run(device, 200, 0.0, &lost) > 40);
-    assert_int_equal(lost, 0);
+    run_until(device, 100, 0.0);
     assert_int_equal(reported(device, KNURL_FAULT_CORRUPT), 0);
     knurl_device_close(device);
     falcon_emulated_stop();
@@ -104,7 +114,7 @@ TEST(a_mute_device_is_silent_then_lost) {
     int lost = 0;
     plug_in(&setup);
     knurl_device *device = open_falcon();
-    assert_true(run(device, 50, 0.0, &lost) > 0);
+    run_until(device, 1, 0.0);
     falcon_emulated_mute(1);
     (void)run(device, 100, 0.0, &lost);
     assert_true(reported(device, KNURL_FAULT_SILENT) > 0);
@@ -120,7 +130,7 @@ TEST(a_pulled_cable_is_told_at_once_and_the_device_had_back) {
     int lost = 0;
     plug_in(&setup);
     knurl_device *device = open_falcon();
-    assert_true(run(device, 50, 0.0, &lost) > 0);
+    run_until(device, 1, 0.0);
     falcon_emulated_unplug();
     (void)run(device, 100, 0.0, &lost);
     assert_true(lost > 50);
@@ -128,8 +138,7 @@ TEST(a_pulled_cable_is_told_at_once_and_the_device_had_back) {
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     assert_true(falcon_emulated_plug_in());
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-    assert_true(run(device, 100, 0.0, &lost) > 0);
-    assert_int_equal(lost, 0);
+    run_until(device, 10, 0.0);
     knurl_device_close(device);
     falcon_emulated_stop();
 }
@@ -226,16 +235,14 @@ TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_told) {
     assert_int_equal(stat(falcon_emulated_node(), &node), 0);
     for (int i = 0; i < 3; i++) {
         knurl_device *device = NULL;
-        int lost = 0;
         if (knurl_device_open("falcon:?guard=1", &device)) {
             fail_msg("%s", knurl_error_message());
         }
-        assert_true(run(device, 100, 400.0, &lost) > 20);
-        assert_int_equal(lost, 0);
+        run_until(device, 50, 400.0);
         assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 0);
         if (i == 2) {
             assert_int_equal(kill(find_guard(node.st_ino), SIGKILL), 0);
-            assert_true(run(device, 100, 400.0, &lost) > 0);
+            run_until(device, 100, 400.0);
             assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 1);
         }
         knurl_device_close(device);
