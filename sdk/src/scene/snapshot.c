@@ -13,7 +13,7 @@ void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
 
 void knurl_snapshot_clear(knurl_published *published) {
     static const knurl_snapshot none;
-    knurl_snapshot_publish(published, &none.output, &none.counts);
+    knurl_seqlock_write(&published->sequence, published->words, &none, sizeof none);
 }
 
 void knurl_snapshot_read(const knurl_published *published, knurl_snapshot *snapshot) {

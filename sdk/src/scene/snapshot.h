@@ -7,6 +7,8 @@
 
 #include <knurl/scene.h>
 
+#include <stddef.h>
+
 typedef struct knurl_snapshot {
     knurl_tick_output output;
     knurl_hip_counts counts;
@@ -27,12 +29,26 @@ static inline void knurl_counts_add(knurl_hip_counts *counts, const knurl_tick_o
     counts->force_max = force > counts->force_max ? force : counts->force_max;
 }
 
-/* Never waits. [one thread: the haptic one] */
+/* Some of the counts, from one member up to another. */
+static inline void knurl_snapshot_put(knurl_published *published, const knurl_hip_counts *counts, size_t from,
+                                      size_t to) {
+    uint64_t *words = published->words + (offsetof(knurl_snapshot, counts) + from) / sizeof(uint64_t);
+    knurl_seqlock_put(words, (const char *)counts + from, to - from);
+}
+
+/* A tick just counted. Counts of rare flags stand as they are where it has none. Never waits.
+ * [one thread: the haptic one] */
 static inline void knurl_snapshot_publish(knurl_published *published, const knurl_tick_output *output,
                                           const knurl_hip_counts *counts) {
+    const size_t rare = offsetof(knurl_hip_counts, force_limit_ticks);
+    const size_t after = offsetof(knurl_hip_counts, force_max);
     knurl_seqlock_begin(&published->sequence);
     knurl_seqlock_put(published->words, output, sizeof *output);
-    knurl_seqlock_put(published->words + sizeof *output / sizeof(uint64_t), counts, sizeof *counts);
+    knurl_snapshot_put(published, counts, 0, rare);
+    if (output->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+        knurl_snapshot_put(published, counts, rare, after);
+    }
+    knurl_snapshot_put(published, counts, after, sizeof *counts);
     knurl_seqlock_end(&published->sequence);
 }
 

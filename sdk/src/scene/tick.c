@@ -87,21 +87,26 @@ static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, c
     hip->counts.half_cycles_played += share->grating.turned;
 }
 
+/* From one contact to its force. Returns N: its texture's step. */
+static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knurl_tick_output *out) {
+    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
+    const int64_t events = c->candidate->grating.event_count;
+    knurl_wall wall;
+    knurl_contact_force share;
+    knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
+    knurl_guard_before(&hip->guard, &wall, &out->flags);
+    knurl_force_law(&motion, c, &wall, &share);
+    const double step = knurl_guard_after(&hip->guard, &wall);
+    count_grating(hip, c, &share, events);
+    add_contact(c, &share, out);
+    return step;
+}
+
 /* From contacts to their force as it is sent, N, scene; returns its length. */
 static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
-    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
-        const knurl_active_contact *c = &hip->contacts.active[i];
-        const int64_t events = c->candidate->grating.event_count;
-        knurl_wall wall;
-        knurl_contact_force share;
-        knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
-        knurl_guard_before(&hip->guard, &wall, &out->flags);
-        knurl_force_law(&motion, c, &wall, &share);
-        steps += knurl_guard_after(&hip->guard, &wall);
-        count_grating(hip, c, &share, events);
-        add_contact(c, &share, out);
+        steps += render_contact(hip, &hip->contacts.active[i], out);
     }
     return knurl_guard_limit(&hip->guard, steps, out->force, &out->flags);
 }
