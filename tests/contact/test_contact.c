@@ -175,7 +175,7 @@ TEST(mesh_stopped_at_exactly_is_held_from_the_side_the_hip_came_from) {
     probe_free(&p);
 }
 
-TEST(double_sided_front_stopped_at_exactly_lets_go) {
+TEST(double_sided_front_stopped_at_exactly_ends_the_contact) {
     shape sheet = shape_sheet(5, 5, (const double[2]){HALF_X, HALF_Y}, NULL);
     probe probes[2] = {probe_plane(HALF_X, HALF_Y), probe_shape(&sheet)};
     for (int i = 0; i < 2; i++) {

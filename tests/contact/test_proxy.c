@@ -1,4 +1,4 @@
-/* The proxy on meshes: what is pressed is held, what has left is let go, and the normal and depth are the shape's.
+/* The proxy on meshes: what is pressed is held, what has left is free, and the normal and depth are the shape's.
  * SPDX-License-Identifier: MIT */
 #include "contact/bodies.h"
 #include "support/probe.h"
@@ -272,7 +272,7 @@ static void compare_on_walk(probe *a, probe *b, double (*distance)(const double[
     assert_in_range(held_ticks, 2000, 20000);
 }
 
-TEST(seams_of_doubled_vertices_do_not_let_go) {
+TEST(seams_of_doubled_vertices_do_not_end_the_contact) {
     const double start[3] = {0.030, 0.0, 0.0085};
     shape welded = body_torus(60, 20);
     shape apart = body_torus(60, 20);

@@ -3,7 +3,7 @@
 
 #define PI 3.14159265358979323846
 
-TEST(rim_of_an_open_sheet_lets_go) {
+TEST(beyond_the_rim_of_an_open_sheet_the_contact_ends) {
     const double half[2] = {0.0625, 0.03125};
     shape sheet = shape_sheet(9, 7, half, NULL);
     probe p = probe_shape(&sheet);

@@ -198,7 +198,7 @@ TEST(strokes_on_a_sphere_are_held_at_their_depth) {
     }
 }
 
-TEST(strokes_on_random_heights_never_let_go) {
+TEST(strokes_on_random_heights_never_lose_contact) {
     for (uint64_t seed = 1; seed <= 3; seed++) {
         shape s = body_noise(seed, 40, 0.001);
         const outcome out = scan(&s, 0.03, 0.001, 0.247, 3000);
@@ -206,7 +206,7 @@ TEST(strokes_on_random_heights_never_let_go) {
     }
 }
 
-TEST(strokes_on_the_moon_never_let_go) {
+TEST(strokes_on_the_moon_never_lose_contact) {
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
         shape moon = body_moon();
         if (moon.index_count == 0) {

@@ -183,7 +183,7 @@ TEST_WITH(without_a_limit_a_loop_goes_on, NULL, end_rig) {
     assert_int_equal(r.calls, 50000);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
     rig_destroy(&r);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
 }
 
 /* --- ends --- */
@@ -212,7 +212,7 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
         CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
         assert_int_equal(r.calls, 30); /* nobody is asked for a force any more */
         assert_int_equal(rig_stats(&r).ticks, 30);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         rig_destroy(&r);
     }
 }
@@ -231,14 +231,14 @@ TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, NULL, en
     rig_destroy(&r);
 }
 
-TEST_WITH(without_a_ramp_the_motors_are_let_go_at_once, NULL, end_rig) {
+TEST_WITH(without_a_ramp_the_force_is_zeroed_at_once, NULL, end_rig) {
     rig_init(&r);
     r.desc.ramp_s = 0.0;
     r.desc.tick_limit = 10;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     assert_in_range(r.writes, 10, 11);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
     rig_destroy(&r);
 }
 
@@ -261,8 +261,8 @@ TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, NULL, e
     rig_destroy(&r);
 }
 
-/* A device that no longer answers cannot be ramped down: its motors are let go. */
-TEST_WITH(a_lost_device_ends_the_loop_with_the_motors_let_go, NULL, end_rig) {
+/* A device that no longer answers cannot be ramped down: its force is zeroed. */
+TEST_WITH(a_lost_device_ends_the_loop_with_its_force_zeroed, NULL, end_rig) {
     for (int i = 0; i < 4; i++) {
         const int threaded = i % 2;
         rig_init(&r);
@@ -277,7 +277,7 @@ TEST_WITH(a_lost_device_ends_the_loop_with_the_motors_let_go, NULL, end_rig) {
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
         assert_in_range(rig_stats(&r).ticks, 70, 71); /* the tick whose force could not be written may count */
         assert_int_equal(r.writes, 70);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         knurl_loop_stop(r.loop); /* no hang */
         assert_int_equal(knurl_loop_wait(r.loop, 0.0), 1);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
@@ -292,7 +292,7 @@ TEST_WITH(a_device_that_is_lost_in_the_ramp_ends_it, NULL, end_rig) {
     rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.writes, 55);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
     rig_destroy(&r);
 }
 
@@ -379,7 +379,7 @@ TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, NULL, en
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     rig_destroy(&r);
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
 }
 
 TEST_WITH(a_new_loop_on_a_halted_device_plays, NULL, end_rig) {

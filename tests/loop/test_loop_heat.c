@@ -143,7 +143,7 @@ TEST_WITH(periods_that_a_thread_missed_cool_as_well, NULL, end_bench) {
     CHECK_CLOSE(heat(), warm * exp(-60.1 / 60.0), 2e-5);
 }
 
-/* Nobody let go of the motors meanwhile: a clock of the caller's has no watchdog. */
+/* Nobody zeroed the force meanwhile: a clock of the caller's has no watchdog. */
 TEST_WITH(periods_that_a_thread_missed_while_it_pressed_warm, NULL, end_bench) {
     bench_open(&b, 0.005); /* 2 N */
     b.late = INT64_C(5000000000);

@@ -168,7 +168,7 @@ TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
     const uint64_t calls = r.calls;
     assert_int_equal(rig_stats(&r).ticks, calls);
     CHECK_SAME(r.written[(r.writes - 1) % RIG_ROOM][1], 0.0L);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
     knurl_loop_stop(r.loop); /* twice is fine */
     sleep_s(0.01);
     assert_int_equal(r.calls, calls);
@@ -240,7 +240,7 @@ TEST_WITH(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterw
         const uint64_t calls = r.calls;
         const uint64_t writes = r.writes;
         assert_true(writes == 0 || r.written[writes - 1][1] == 0.0);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         sleep_s(0.003);
         assert_true(r.calls == calls && r.writes == writes);
     }
@@ -268,7 +268,7 @@ static void stall(rig *self) {
     self->seen = knurl_device_is_halted(self->desc.device);
 }
 
-TEST_WITH(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_by_the_ramp, NULL, end_rig) {
+TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_back_by_the_ramp, NULL, end_rig) {
     init_real();
     r.desc.watchdog_s = 0.05;
     r.special_call = 100;
@@ -276,7 +276,7 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_
     r.desc.tick_limit = 600;
     rig_create(&r);
     rig_run(&r);
-    assert_int_equal(r.seen, 1); /* let go while the callback stood */
+    assert_int_equal(r.seen, 1); /* zeroed while the callback stood */
     assert_true(rig_stats(&r).watchdog_trips >= 1);
     assert_int_equal(rig_stats(&r).ticks, 600);
     CHECK_SAME(r.written[100][1], 0.0L); /* what was computed in the stall is not played */
@@ -289,7 +289,7 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_lets_go_and_the_force_comes_back_
     rig_destroy(&r);
 }
 
-TEST_WITH(without_a_watchdog_nobody_lets_go, NULL, end_rig) {
+TEST_WITH(without_a_watchdog_nobody_zeroes_the_force, NULL, end_rig) {
     init_real();
     r.special_call = 50;
     r.special = stall;

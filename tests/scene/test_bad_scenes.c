@@ -271,7 +271,7 @@ TEST(heaps_of_random_triangles_are_sorted_out_and_survived) {
     }
 }
 
-/* Pages of a book: many sheets share one edge. Along it the HIP is let go or held, and nothing breaks. */
+/* Pages of a book: many sheets share one edge. Along it the HIP is held or not, and nothing breaks. */
 TEST(edges_of_many_triangles_are_survived) {
     enum { PAGES = 40 };
     shape s = shape_new(2 + 2 * PAGES, 6 * PAGES, 0);

@@ -275,7 +275,7 @@ TEST(surface_refused_after_the_commit_changes_nothing) {
 
 /* --- edits under a HIP --- */
 
-TEST(removing_what_is_touched_lets_go_at_the_next_tick) {
+TEST(removing_what_is_touched_ends_the_contact_at_the_next_tick) {
     knurl_surface_id id;
     knurl_scene *scene = pressed_scene(&id);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);

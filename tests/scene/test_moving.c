@@ -357,11 +357,12 @@ TEST(jump_passes_by_what_is_on_its_way) {
     }
 }
 
-/* A HIP that was in contact has a first tick with it: held up to 10 mm deep, let go beyond; slid past at no speed. */
+/* A HIP that was in contact has a first tick with it: held up to 10 mm deep, no contact beyond; slid past at no speed.
+ */
 TEST(jump_of_what_is_touched_is_a_first_tick) {
     static const struct {
         double x, z;
-        double depth; /* 0: let go */
+        double depth; /* 0: no contact */
     } cases[] = {{0.0, 0.004, 0.005}, {0.0, 0.0088, 0.0098}, {0.0, 0.0092, 0.0},
                  {0.0, 0.3, 0.0},     {0.1, 0.0, 0.001},     {0.4, 0.001, 0.002},
                  {0.0, -0.002, 0.0},  {0.6, 0.0, 0.0},       {0.0, -0.0005, 0.0005}};

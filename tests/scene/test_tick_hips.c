@@ -124,7 +124,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     knurl_scene_destroy(scene);
 }
 
-TEST(numbers_that_are_not_finite_let_go_and_are_survived) {
+TEST(numbers_that_are_not_finite_zero_the_force_and_are_survived) {
     static const double wrong[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
     surface_parts parts = s2_plane();
     knurl_scene *scene = scene_of(&parts);

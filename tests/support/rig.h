@@ -154,8 +154,8 @@ static inline knurl_loop_stats rig_stats(const rig *r) {
     return stats;
 }
 
-/** After the end: nothing pulls, whatever the last force was. */
-static inline void rig_check_let_go(const rig *r) {
+/** After the end: no force, whatever the last one was. */
+static inline void rig_check_halted(const rig *r) {
     assert_true(knurl_device_is_halted(&r->device));
 }
 

@@ -23,7 +23,7 @@ typedef struct knurl_driver {
     /* options: what follows "uri:", or "". Makes a zeroed knurl_device with knurl_device_init() and max_force set,
      * ready to be started. Errors: as knurl_device_open(). */
     knurl_result (*open)(const char *options, knurl_device **device);
-    /* The motors have been let go of, or are now; ends with knurl_device_free(). */
+    /* The force has been set to zero, or is now; ends with knurl_device_free(). */
     void (*close)(knurl_device *device);
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
     /* Null where there is nothing to tell beyond what every device tells. */

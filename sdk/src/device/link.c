@@ -1,4 +1,4 @@
-/* The I/O thread: force out, position in, again and again. Read turn() first. SPDX-License-Identifier: MIT */
+/* The I/O thread: force out, position in, again and again. Read run_cycle() first. SPDX-License-Identifier: MIT */
 #include "device/link.h"
 
 #include "base/atomic.h"
@@ -73,7 +73,7 @@ static void tell_guard(knurl_link *link, int64_t now) {
 }
 
 /* One exchange. Returns 0 when there will be no further one. */
-static int turn(knurl_link *link) {
+static int run_cycle(knurl_link *link) {
     double force[3];
     knurl_device_sample sample;
     memset(&sample, 0, sizeof sample);
@@ -86,7 +86,7 @@ static int turn(knurl_link *link) {
         publish(link, &sample);
     }
     knurl_device_after_force(link->device, force);
-    knurl_count_up(&link->turns);
+    knurl_count_up(&link->cycles);
     tell_guard(link, now);
     judge(link, outcome, now);
     return !knurl_load_relaxed(&link->lost);
@@ -101,7 +101,7 @@ static void io_thread(void *argument) {
     (void)knurl_system_make_realtime();
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
-        if (!turn(link)) {
+        if (!run_cycle(link)) {
             knurl_store_release(&link->device->quiet, 1u); /* there is nobody to be told */
             return;
         }
@@ -126,7 +126,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     memset(link->forces, 0, sizeof link->forces);
     link->has_sample = link->is_silent = link->is_late = link->is_unguarded = 0;
     link->stale = link->watched = link->stuck = 0;
-    link->turns = 0;
+    link->cycles = 0;
     knurl_store_release(&link->stop, 0u);
     knurl_store_release(&link->lost, 0u);
     knurl_link_start(link, device->period > 0.0 ? 1.0 / device->period : 1000.0);
@@ -153,9 +153,9 @@ knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     if (knurl_load_acquire(&link->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    const uint64_t turns = knurl_load_relaxed(&link->turns);
-    link->stuck = turns == link->watched ? link->stuck + 1 : 0;
-    link->watched = turns;
+    const uint64_t cycles = knurl_load_relaxed(&link->cycles);
+    link->stuck = cycles == link->watched ? link->stuck + 1 : 0;
+    link->watched = cycles;
     if (knurl_mailbox_take(&link->positions)) {
         link->has_sample = 1;
         link->device->check.gap += (double)link->stale * link->device->period; /* what held was no new position */

@@ -38,7 +38,7 @@ typedef struct knurl_link {
     knurl_device_sample samples[3];
     uint64_t stale;   /* reads since the latest position; these four are the haptic thread's */
     uint64_t stuck;   /* reads since the latest turn of the I/O thread */
-    uint64_t watched; /* `turns` at the latest read */
+    uint64_t watched; /* `cycles` at the latest read */
     uint32_t has_sample;
     /* from the haptic thread */
     knurl_mailbox orders;
@@ -55,7 +55,7 @@ typedef struct knurl_link {
     uint32_t is_silent; /* reported, by either thread */
     uint32_t stop;
     uint32_t lost;
-    uint64_t turns;     /* of the I/O thread */
+    uint64_t cycles;    /* of the I/O thread */
     uint64_t exchanges; /* that brought a position */
     knurl_histogram durations;
 } knurl_link;

@@ -34,7 +34,7 @@ struct knurl_loop {
     knurl_pace pace;
     double force[3];       /* the latest, as sent, device axes, N */
     double scene_force[3]; /* the same in scene axes; 0 without a scene */
-    double gain;           /* 0..1 on the next force: climbs back after the watchdog let go */
+    double gain;           /* 0..1 on the next force: climbs back after the watchdog zeroed it */
     double max_force;      /* N: the device's */
     knurl_heat motors;     /* the device's, in N^2; never limited */
     knurl_heat heat;       /* the same, of its continuous force, and what a callback's force is limited by */

@@ -195,7 +195,7 @@ static void fault_with_force(int where) {
     sleep_ns(INT64_C(10000000000));
 }
 
-TEST_WITH(a_fault_on_the_games_thread_or_in_a_tick_lets_go, share, unshare) {
+TEST_WITH(a_fault_on_the_games_thread_or_in_a_tick_zeroes_the_force, share, unshare) {
     for (int where = 0; where < 2; where++) {
         memset(m, 0, sizeof *m);
         check_ended_by(run(fault_with_force, where), SIGSEGV);
@@ -226,7 +226,7 @@ static void overflow_the_stack(int number) {
 }
 
 /* A handler needs a stack, too. */
-TEST_WITH(a_stack_that_overflows_lets_go, share, unshare) {
+TEST_WITH(a_stack_that_overflows_zeroes_the_force, share, unshare) {
     check_ended_by(run(overflow_the_stack, 0), SIGSEGV);
     check_limp();
 }
@@ -237,7 +237,7 @@ static void crash_without_blocking(int number) {
     crash_by(number);
 }
 
-TEST_WITH(a_device_without_an_io_thread_is_let_go_by_the_haptic_thread, share, unshare) {
+TEST_WITH(the_haptic_thread_zeroes_a_device_without_an_io_thread, share, unshare) {
     check_ended_by(run(crash_without_blocking, SIGSEGV), SIGSEGV);
     check_limp();
 }
@@ -307,7 +307,7 @@ TEST_WITH(an_exchange_under_way_is_waited_for, share, unshare) {
 }
 
 /* Nothing pulls: opened and never written to; lost. */
-static void crash_with_nothing_to_let_go(int which) {
+static void crash_with_nothing_to_zero(int which) {
     knurl_device *device = NULL;
     if (which == 0) {
         (void)open_device(0);
@@ -330,7 +330,7 @@ TEST_WITH(a_device_that_has_no_force_or_is_gone_is_not_waited_for, share, unshar
         int64_t best = INT64_MAX;
         for (int k = 0; k < 5; k++) {
             memset(m, 0, sizeof *m);
-            check_ended_by(run(crash_with_nothing_to_let_go, which), SIGTERM);
+            check_ended_by(run(crash_with_nothing_to_zero, which), SIGTERM);
             const int64_t took = now_ns() - m->crashed_at;
             best = took < best ? took : best;
         }

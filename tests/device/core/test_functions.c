@@ -161,7 +161,7 @@ TEST(statuses_count_what_an_io_thread_does_and_are_zero_without_one) {
 
 /* --- the end --- */
 
-TEST(closing_lets_go_of_the_motors_and_then_closes_once) {
+TEST(closing_zeroes_the_force_and_then_closes_once) {
     const double force[3] = {1.0, 1.0, 1.0};
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
         knurl_device *device = home_open(&h, blocking);

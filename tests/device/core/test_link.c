@@ -76,7 +76,7 @@ TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
     assert_true(worst <= PERIOD_NS + 10000);
 }
 
-TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_let_go_of) {
+TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_zeroed) {
     const double f[3] = {1.0, 0.0, 0.0};
     knurl_device_event event;
     knurl_device *device = home_open(&h, 1);
@@ -163,7 +163,7 @@ TEST(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst) {
 
 /* --- silence --- */
 
-TEST(a_mute_device_is_silent_after_10_ms_and_its_motors_are_let_go) {
+TEST(a_mute_device_is_silent_after_10_ms_and_its_force_is_zeroed) {
     knurl_device_event event = {0};
     knurl_device_sample sample;
     knurl_device *device = home_open(&h, 1);
@@ -234,7 +234,7 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
     force[0] = 1.0;
 }
 
-/* As long as it is silent: the latest position still held when the motors had been let go, and the loop came back. */
+/* As long as it is silent: the latest position still held when the force had been zeroed, and the loop came back. */
 TEST(a_loop_does_not_resume_while_the_device_is_silent) {
     for (int phase = 0; phase < 5; phase++) {
         knurl_loop_desc desc;
@@ -329,7 +329,7 @@ TEST(a_hang_is_seen_whatever_was_counted_before_it) {
         knurl_mailbox_post(&link.positions);
         assert_int_equal(knurl_link_read(&link, &sample), KNURL_OK);
         for (int k = 0; k < 100; k++) {
-            link.turns += (uint64_t)k < counted;
+            link.cycles += (uint64_t)k < counted;
             (void)knurl_link_read(&link, &sample);
         }
         assert_int_equal(knurl_link_read(&link, &sample), KNURL_ERROR_DEVICE_NOT_READY);

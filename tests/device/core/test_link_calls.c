@@ -94,7 +94,7 @@ static void strictly(int ask_for_something) {
         if (k % 3 == 0 && k < 3000) { /* later it is silent */
             io.samples[io.positions.back].position[0] = k % 500 ? 0.0 : (double)NAN;
             knurl_mailbox_post(&io.positions);
-            io.turns++;
+            io.cycles++;
         }
         read_and_write(&linked, 1);
     }

@@ -87,7 +87,7 @@ static int32_t next_event(void) {
     return next_code(&r.device, KNURL_FAULT_OVERRUN);
 }
 
-/* The ramp from a write on that came after the motors had been let go: none, then a step more each. */
+/* The ramp from a write on that came after a halt: none, then a step more each. */
 static void check_ramp_up(uint64_t from) {
     for (uint64_t k = 0; k < 30; k++) {
         CHECK_CLOSE(r.written[from + k][1], fmin(1.0, (double)k / 21.0), 1e-12);
@@ -158,7 +158,7 @@ TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it,
         assert_int_equal(extra.reopens, 0);
         assert_int_equal(next_event(), KNURL_FAULT_LOST);
         assert_int_equal(next_event(), 0);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         rig_destroy(&r);
     }
 }
@@ -204,7 +204,7 @@ TEST_WITH(a_stop_while_the_device_is_lost_ends_the_loop, NULL, end_rig) {
         }
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         assert_int_equal(r.writes, 70);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         rig_destroy(&r);
     }
 }
@@ -240,13 +240,13 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
 }
 
 /* What is noticed while writing is no other loss than what is noticed while reading. */
-TEST_WITH(a_device_that_is_lost_while_it_is_written_is_let_go_and_its_force_resumes, NULL, end_rig) {
+TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, NULL, end_rig) {
     init();
     r.desc.reconnect = 1;
     r.writes_left = 70;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 71), KNURL_OK);
-    rig_check_let_go(&r);
+    rig_check_halted(&r);
     assert_int_equal(knurl_loop_step(r.loop, 99), KNURL_OK);
     check_ramp_up(70);
     assert_int_equal(next_event(), KNURL_FAULT_LOST);
@@ -287,7 +287,7 @@ TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, NULL, end
     assert_int_equal(rig_stats(&r).absent, 0);
 }
 
-/* A device that does not let go by itself plays its last force for ever. */
+/* A device that does not zero its force by itself plays its last force for ever. */
 TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, NULL, end_rig) {
     for (int i = 0; i < 6; i++) {
         init();
@@ -305,12 +305,12 @@ TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_th
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         CHECK_SAME(r.written[49][1], 1.0L);
         CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-        rig_check_let_go(&r);
+        rig_check_halted(&r);
         rig_destroy(&r);
     }
 }
 
-static uint32_t halts; /* bit k: the motors were let go of when the force of tick k was about to be written */
+static uint32_t halts; /* bit k: the device was halted when the force of tick k was about to be written */
 
 static void see_halt(const knurl_tick_output *output, void *user) {
     rig *self = user;

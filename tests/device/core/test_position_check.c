@@ -1,4 +1,4 @@
-/* Positions that no hand can have brought about: not finite, or a jump. The motors are let go while they last, and what
+/* Positions that no hand can have brought about: not finite, or a jump. The force is zero while they last, and what
  * comes after is a new beginning. By read counts, never by the clock. SPDX-License-Identifier: MIT */
 #include "home.h"
 #include "support/scenes.h"
@@ -48,7 +48,7 @@ static int drain(knurl_device *device, knurl_device_event *latest) {
 
 /* --- not finite --- */
 
-TEST(what_is_not_finite_is_told_once_and_the_motors_are_let_go) {
+TEST(what_is_not_finite_is_told_once_and_the_force_is_zeroed) {
     static const double wrong[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < 3 * COUNT_OF(wrong); i++) {
         knurl_device_event event;
@@ -251,7 +251,7 @@ TEST(exchanges_that_take_long_do_not_make_a_hand_jump) {
             io.samples[io.positions.back].position[0] = 4.0 * k / 1000.0;
             knurl_mailbox_post(&io.positions);
         }
-        io.turns++;
+        io.cycles++;
         assert_int_equal(knurl_device_read(&device, &sample), KNURL_OK);
         CHECK_SAME(sample.position[0], (long double)(4.0 * (k - k % 10) / 1000.0));
     }

@@ -322,7 +322,7 @@ static void check_silence(int fault, int32_t and_told) {
     close_fake(device);
 }
 
-TEST(a_mute_device_is_let_go_and_comes_back) {
+TEST(a_mute_device_is_halted_and_comes_back) {
     check_silence(DOUBLE_MUTE, 0);
 }
 
@@ -373,7 +373,7 @@ TEST(random_bytes_are_counted_and_make_no_position) {
     close_fake(device);
 }
 
-TEST(a_jump_is_a_fault_and_lets_go) {
+TEST(a_jump_is_a_fault_and_zeroes_the_force) {
     const double force[3] = {0.0, 0.0, 1.0};
     int others = 0;
     begin();

@@ -61,7 +61,7 @@ typedef struct trial {
     knurl_device *device;
     knurl_loop *loop;
     int64_t injected;   /* ns */
-    int64_t seen;       /* ns, of the fault that let go: the latest before the motors had no force */
+    int64_t seen;       /* ns, of the fault that zeroed it: the latest before the motors had no force */
     int64_t limp;       /* ns; 0: they always had one */
     int64_t stall_ns;   /* atomic: the next tick takes so long */
     uint32_t game_dead; /* 1: no more heartbeats */
@@ -109,7 +109,7 @@ static int wait_for_limp(trial *t, int is_limp, int ms) {
     return (t->on->limp_since() > 0) == is_limp;
 }
 
-/* Writes down the events there are; those before the motors had no force are what let go. */
+/* Writes down the events there are; those before the motors had no force are what zeroed it. */
 static void take_events(trial *t, int but) {
     knurl_device_event event;
     outcome *r = &t->result;
@@ -211,7 +211,7 @@ static void check_row(row *r, outcome (*attempt)(int which), int (*is_good)(cons
     }
 }
 
-TEST(every_fault_of_every_device_lets_go_within_5_ms_of_its_event_and_is_overcome) {
+TEST(every_fault_of_every_device_zeroes_the_force_within_5_ms_of_its_event_and_is_overcome) {
     for (size_t i = 0; i < COUNT_OF(doubles); i++) {
         for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
             if (doubles[i]->faults & 1u << fault) {
@@ -371,7 +371,7 @@ static int is_end(const outcome *r, int number) {
     return r->is_back && r->zero >= 0.0 && r->zero <= BOUND;
 }
 
-TEST(a_process_that_ends_lets_go_first) {
+TEST(a_process_that_ends_zeroes_the_force_first) {
     static const struct {
         int number;
         const char *text;

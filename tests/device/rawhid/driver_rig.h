@@ -164,7 +164,7 @@ static inline void wait_until_limp(void) {
     assert_true(fake_hid_limp_since(&hid) != 0);
 }
 
-static inline void check_let_go(int fault, int32_t code) {
+static inline void check_zeroed(int fault, int32_t code) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
     open_device("");

@@ -5,24 +5,24 @@
 
 /* --- faults --- */
 
-TEST_WITH(a_device_that_falls_silent_is_let_go_of_and_comes_back, set_up, tear_down) {
-    check_let_go(DOUBLE_MUTE, KNURL_FAULT_SILENT);
+TEST_WITH(a_device_that_falls_silent_is_halted_and_comes_back, set_up, tear_down) {
+    check_zeroed(DOUBLE_MUTE, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
-TEST_WITH(a_device_that_hangs_is_let_go_of_by_itself_and_comes_back, set_up, tear_down) {
-    check_let_go(DOUBLE_HANG, KNURL_FAULT_SILENT);
+TEST_WITH(a_device_that_hangs_zeroes_its_force_by_itself_and_comes_back, set_up, tear_down) {
+    check_zeroed(DOUBLE_HANG, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
 TEST_WITH(answers_that_come_late_are_no_positions, set_up, tear_down) {
-    check_let_go(DOUBLE_LATE, KNURL_FAULT_SILENT);
+    check_zeroed(DOUBLE_LATE, KNURL_FAULT_SILENT);
     check_recovers();
 }
 
 TEST_WITH(answers_that_are_cut_off_are_counted_and_told_once, set_up, tear_down) {
     knurl_device_status status;
-    check_let_go(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
+    check_zeroed(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
     tick_for(0.05, none);
     assert_int_equal(events_of(KNURL_FAULT_CORRUPT), 0);
     knurl_device_status_init(&status, sizeof status);
@@ -32,7 +32,7 @@ TEST_WITH(answers_that_are_cut_off_are_counted_and_told_once, set_up, tear_down)
 }
 
 TEST_WITH(answers_of_random_bytes_are_no_positions, set_up, tear_down) {
-    check_let_go(DOUBLE_CORRUPT, KNURL_FAULT_CORRUPT);
+    check_zeroed(DOUBLE_CORRUPT, KNURL_FAULT_CORRUPT);
     check_recovers();
 }
 
@@ -46,7 +46,7 @@ TEST_WITH(a_jump_is_told_and_where_the_device_then_stays_is_believed, set_up, te
 }
 
 TEST_WITH(a_device_that_loses_its_counters_gets_no_force_until_it_is_homed, set_up, tear_down) {
-    check_let_go(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
+    check_zeroed(DOUBLE_UNHOMED, KNURL_FAULT_UNCALIBRATED);
     knurl_device_sample sample;
     assert_false(tick_until(KNURL_OK, none, 0.1, &sample));
     press_button();

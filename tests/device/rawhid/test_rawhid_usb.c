@@ -205,7 +205,7 @@ TEST_WITH(permission_denied_names_the_rule_that_helps, set_up, tear_down) {
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-TEST_WITH(muted_it_is_let_go_of_and_comes_back, set_up, tear_down) {
+TEST_WITH(muted_it_is_halted_and_comes_back, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
     plug(0xffab, 64);

@@ -141,7 +141,7 @@ TEST_WITH(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan, st
     end(&b);
 }
 
-TEST_WITH(a_device_that_is_halted_is_let_go_of_within_a_turn_and_comes_back_by_the_ramp, stub_by_hand, stub_check) {
+TEST_WITH(a_device_that_is_halted_has_no_force_within_a_frame_and_comes_back_by_the_ramp, stub_by_hand, stub_check) {
     bench b;
     start(&b, 1.0);
     stub.turn(5);
@@ -232,7 +232,7 @@ TEST_WITH(a_force_whose_device_is_halted_after_it_was_written_does_not_go_out, s
     knurl_device_close(t.device);
 }
 
-TEST_WITH(closing_lets_go_of_the_motors_and_nothing_is_called_any_more, stub_by_hand, stub_check) {
+TEST_WITH(closing_zeroes_the_force_and_nothing_is_called_any_more, stub_by_hand, stub_check) {
     ticker t = serve(1000, 1000);
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK);
     stub.turn(10);

@@ -166,7 +166,7 @@ TEST_WITH(a_tick_that_takes_longer_than_a_second_is_no_loss, stub_by_hand, stub_
 
 /* --- refusals and other errors --- */
 
-TEST_WITH(a_force_that_is_refused_is_one_fault_a_burst_and_lets_go, stub_by_hand, stub_check) {
+TEST_WITH(a_force_that_is_refused_is_one_fault_a_burst_and_zeroed, stub_by_hand, stub_check) {
     static const double codes[] = {0x0200, 0x0201, 0x0202, 0x0203, 0x0204};
     for (size_t i = 0; i < COUNT_OF(codes); i++) {
         bench b;
@@ -226,7 +226,7 @@ TEST_WITH(errors_without_end_do_not_hold_up_the_servo_thread, stub_by_hand, stub
 
 /* --- positions --- */
 
-TEST_WITH(positions_that_are_no_numbers_let_go_until_they_are_again, stub_by_hand, stub_check) {
+TEST_WITH(positions_that_are_no_numbers_zero_the_force_until_they_are_again, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(10);
@@ -242,7 +242,7 @@ TEST_WITH(positions_that_are_no_numbers_let_go_until_they_are_again, stub_by_han
 }
 
 /* By 5 m, which is further than a hand gets in the gap. */
-TEST_WITH(a_position_that_jumps_lets_go_until_it_is_believed, stub_by_hand, stub_check) {
+TEST_WITH(a_position_that_jumps_zeroes_the_force_until_it_is_believed, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(10);

@@ -221,7 +221,7 @@ static void usb_close(void *self) {
     const int64_t deadline = after_ms(CLOSE_MS);
     u->is_closing = 1;
     while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
-        wait_for_events(u, deadline); /* the last frame: it lets go of the motors */
+        wait_for_events(u, deadline); /* the last frame: it sets the force to zero */
     }
     if (u->is_in_pending) {
         (void)lib.cancel_transfer(u->in);

@@ -20,7 +20,7 @@
 #define GREET_TRIES   25      /* of 20 ms: the firmware takes a while after power-up */
 #define HOME_MARGIN   100     /* counts that a hand may have moved since the counters were set */
 #define STRANGE_LIMIT 3       /* impossible poses in a row that make the counters untrustworthy */
-#define HOLD_TURNS    50      /* exchanges without a position after homing: the loop lets go first, then ramps */
+#define HOLD_CYCLES   50 /* exchanges without a position after homing: the loop zeroes the force first, then ramps */
 
 typedef struct rawhid {
     knurl_device base;
@@ -121,7 +121,7 @@ static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sam
             knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
         }
         r->knows_angles = 0;
-        r->hold = HOLD_TURNS;
+        r->hold = HOLD_CYCLES;
         r->strange = r->is_lost = 0;
         (void)send_home(r);
         return KNURL_LINK_NO_POSITION;
@@ -320,7 +320,7 @@ knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus,
 
 static void rawhid_close(knurl_device *device) {
     rawhid *r = of(device);
-    knurl_link_close(&r->link); /* its last exchanges let go of the motors */
+    knurl_link_close(&r->link); /* its last exchanges set the force to zero */
     close_port(r);
     knurl_device_free(device);
 }

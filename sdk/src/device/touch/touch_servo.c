@@ -1,5 +1,5 @@
-/* A Touch on HD's scheduler thread: a frame a tick. Should that thread ever stand still, HD itself is assumed to let go
- * of the motors: its device driver has a watchdog of its own. SPDX-License-Identifier: MIT */
+/* A Touch on HD's scheduler thread: a frame a tick. Should that thread ever stand still, HD itself is assumed to
+ * zero the force: its device driver has a watchdog of its own. SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
 #include "base/atomic.h"
