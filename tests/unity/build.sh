@@ -41,6 +41,14 @@ cp "$out"/Unity*.dll "$out/plain/"
 compile Knurl.Haptics.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
     -doc:"$out/Knurl.Haptics.xml" -- "$package"/Runtime/**/*.cs
 compile Knurl.Haptics.dll "$out/player" -target:library "${unity[@]}" -r:UnityEngine.dll -- "$package"/Runtime/**/*.cs
+# As IL2CPP, mono's full ahead-of-time compiler has to know all code and all types in advance.
+if command -v as >/dev/null && command -v ld >/dev/null; then
+    aot=$(cd "$out/player" && timeout 120 mono --aot=full,outfile="$out/player/aot.so" Knurl.Haptics.dll 2>&1) || true
+    if ! grep -qE '^Compiled: ([0-9]+)/\1$' <<<"$aot"; then
+        echo "build.sh: Knurl.Haptics.dll cannot be compiled ahead of time: $aot" >&2
+        exit 1
+    fi
+fi
 compile Knurl.Haptics.Editor.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
     -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
 for sample in "$package"/Samples~/*/; do

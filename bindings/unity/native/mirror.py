@@ -309,6 +309,11 @@ def cs_body(mirror):
     return "\n".join(types), "\n".join(members)
 
 
+def cs_sizes(mirror):
+    """Of each struct by its name, without reflection, which ahead-of-time compilers take parts of away."""
+    return "\n".join(f'                case "{called}": return sizeof({called});' for called in mirror.structs)
+
+
 def cs_file(mirror, digits):
     types, members = cs_body(mirror)
     return f"""// {NOTE}
@@ -328,6 +333,16 @@ namespace Knurl
         internal const string Interface = "{digits}";
 
         internal const string Version = "{version(mirror)}";
+
+        /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
+        internal static int SizeOf(string type)
+        {{
+            switch (type)
+            {{
+{cs_sizes(mirror)}
+                default: return 0;
+            }}
+        }}
 
 {members}
     }}

@@ -118,6 +118,14 @@ class Scripts(unittest.TestCase):
             for name in re.findall(r"class (\w+)\s*:\s*(?:MonoBehaviour|ScriptableObject)\b", code):
                 self.assertEqual(os.path.basename(path), name + ".cs")
 
+    def test_of_the_runtime_ask_for_no_type_by_its_name(self):
+        """IL2CPP strips what nobody names, and has no size for Marshal.SizeOf(Type) where a type is not marshalled."""
+        for path in scripts():
+            if path.startswith("Runtime/"):
+                found = re.findall(r"Marshal\.SizeOf|using System\.Reflection|\bType\.GetType|Activator\.",
+                                   package.read(package.PACKAGE, path))
+                self.assertEqual(found, [], path)
+
     def test_of_the_runtime_leave_the_editor_alone(self):
         for path in scripts():
             if not path.startswith(("Editor/", "Tests/Editor/")):

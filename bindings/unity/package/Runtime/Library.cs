@@ -1,7 +1,5 @@
 // Whether the native library is there, and the one that this package belongs to. SPDX-License-Identifier: MIT
 using System;
-using System.Reflection;
-using System.Runtime.InteropServices;
 
 namespace Knurl
 {
@@ -94,16 +92,15 @@ namespace Knurl
         /// differently.</summary>
         static string FindWrongSize()
         {
-            Assembly assembly = typeof(NativeMethods).Assembly;
             knurl_unity_layout_row row;
             for (uint i = 0; NativeMethods.knurl_unity_layout(i, &row) != 0; i++)
             {
-                Type type = row.field[0] == 0 ? assembly.GetType("Knurl." + Utf8.Read(row.type)) : null;
-                int size = type == null ? (int)row.size : Marshal.SizeOf(type);
-                if (size != (int)row.size)
+                string type = Utf8.Read(row.type);
+                int size = row.field[0] == 0 ? NativeMethods.SizeOf(type) : 0;
+                if (size != 0 && size != (int)row.size)
                 {
                     return "The native library " + NativeMethods.Library + " (Knurl " + NativeMethods.Version
-                        + ") lays " + type.Name + " out in " + row.size + " bytes, this package's C# (Knurl "
+                        + ") lays " + type + " out in " + row.size + " bytes, this package's C# (Knurl "
                         + NativeMethods.Version + ") in " + size + ": " + Remedy + ".";
                 }
             }

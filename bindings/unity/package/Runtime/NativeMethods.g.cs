@@ -595,6 +595,54 @@ namespace Knurl
 
         internal const string Version = "0.1.0";
 
+        /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
+        internal static int SizeOf(string type)
+        {
+            switch (type)
+            {
+                case "knurl_allocator": return sizeof(knurl_allocator);
+                case "knurl_plane_desc": return sizeof(knurl_plane_desc);
+                case "knurl_mesh_desc": return sizeof(knurl_mesh_desc);
+                case "knurl_device_info": return sizeof(knurl_device_info);
+                case "knurl_device_sample": return sizeof(knurl_device_sample);
+                case "knurl_device_listing": return sizeof(knurl_device_listing);
+                case "knurl_device_event": return sizeof(knurl_device_event);
+                case "knurl_device_status": return sizeof(knurl_device_status);
+                case "knurl_device_functions": return sizeof(knurl_device_functions);
+                case "knurl_stroke_desc": return sizeof(knurl_stroke_desc);
+                case "knurl_fake_truth": return sizeof(knurl_fake_truth);
+                case "knurl_vibration_event": return sizeof(knurl_vibration_event);
+                case "knurl_wave": return sizeof(knurl_wave);
+                case "knurl_grating": return sizeof(knurl_grating);
+                case "knurl_grating_state": return sizeof(knurl_grating_state);
+                case "knurl_grating_output": return sizeof(knurl_grating_output);
+                case "knurl_velocity": return sizeof(knurl_velocity);
+                case "knurl_workspace": return sizeof(knurl_workspace);
+                case "knurl_material_desc": return sizeof(knurl_material_desc);
+                case "knurl_surface_desc": return sizeof(knurl_surface_desc);
+                case "knurl_hip_desc": return sizeof(knurl_hip_desc);
+                case "knurl_scene_desc": return sizeof(knurl_scene_desc);
+                case "knurl_surface_info": return sizeof(knurl_surface_info);
+                case "knurl_tick_input": return sizeof(knurl_tick_input);
+                case "knurl_tick_output": return sizeof(knurl_tick_output);
+                case "knurl_hip_counts": return sizeof(knurl_hip_counts);
+                case "knurl_surface_check": return sizeof(knurl_surface_check);
+                case "knurl_gltf_report": return sizeof(knurl_gltf_report);
+                case "knurl_clock": return sizeof(knurl_clock);
+                case "knurl_loop_desc": return sizeof(knurl_loop_desc);
+                case "knurl_percentiles": return sizeof(knurl_percentiles);
+                case "knurl_loop_stats": return sizeof(knurl_loop_stats);
+                case "knurl_stroke_report": return sizeof(knurl_stroke_report);
+                case "knurl_session_desc": return sizeof(knurl_session_desc);
+                case "knurl_session_state": return sizeof(knurl_session_state);
+                case "knurl_session_event": return sizeof(knurl_session_event);
+                case "knurl_session_way": return sizeof(knurl_session_way);
+                case "knurl_session_pose": return sizeof(knurl_session_pose);
+                case "knurl_unity_layout_row": return sizeof(knurl_unity_layout_row);
+                default: return 0;
+            }
+        }
+
         internal const int KNURL_VERSION_MAJOR = 0;
         internal const int KNURL_VERSION_MINOR = 1;
         internal const int KNURL_VERSION_PATCH = 0;

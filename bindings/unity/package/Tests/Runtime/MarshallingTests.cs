@@ -76,6 +76,7 @@ namespace Knurl.Tests
                     Assert.That(type, Is.Not.Null, name);
                     Assert.AreEqual((int)row.size, SizeOf(type), name);
                     Assert.AreEqual((int)row.size, Marshal.SizeOf(type), name);
+                    Assert.AreEqual((int)row.size, NativeMethods.SizeOf(name), name);
                     structs++;
                 }
             }
