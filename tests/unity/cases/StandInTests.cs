@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Events;
+using UnityEngine.TestTools;
 using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
@@ -121,6 +122,45 @@ namespace Knurl.Tests
             what.AddListener(() => Told.Add("behind it"));
             Assert.Throws<InvalidOperationException>(() => what.Invoke());
             Assert.AreEqual("", Words(Told));
+        }
+
+        [Test]
+        public void ABodysErrorsAreExpectedInItAndInOrder()
+        {
+            Debug.Log("a plain line is fine");
+            Debug.LogError("one");
+            Debug.LogException(new InvalidOperationException("two"));
+            LogAssert.Expect(LogType.Error, "one"); // before or after it comes
+            ExpectException("two");
+        }
+
+        [Test]
+        public void APlainLineIsReceivedToo()
+        {
+            LogAssert.NoUnexpectedReceived();
+            Debug.Log("plain");
+            Assert.Throws<Exception>(LogAssert.NoUnexpectedReceived);
+            LogAssert.Expect(LogType.Log, "plain");
+            LogAssert.NoUnexpectedReceived();
+        }
+
+        [Test]
+        public void AScopeFailsOnWhatIsWrongInItAlone()
+        {
+            Debug.LogError("nobody expects this");
+            Assert.Throws<Exception>(LogAssert.EndScope);
+            LogAssert.Expect(LogType.Error, "this does not come");
+            Assert.Throws<Exception>(LogAssert.EndScope);
+            LogAssert.Expect(LogType.Error, "second");
+            LogAssert.Expect(LogType.Error, "first");
+            Debug.LogError("first");
+            Debug.LogError("second");
+            Assert.Throws<Exception>(LogAssert.EndScope);
+            LogAssert.ignoreFailingMessages = true;
+            Debug.LogError("ignored");
+            LogAssert.EndScope();
+            Debug.LogError("of the next scope, where it is not");
+            Assert.Throws<Exception>(LogAssert.EndScope);
         }
 
         [Test]

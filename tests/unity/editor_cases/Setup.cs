@@ -4,6 +4,8 @@ using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
 
+[assembly: Knurl.Tests.Scopes]
+
 namespace Knurl.Cases
 {
     /// <summary>These cases play.</summary>

@@ -21,6 +21,7 @@ namespace UnityEngine
         public string Text;
         public Object Context;
         public Exception Exception;
+        internal bool isIgnored, isHandled; // by LogAssert
         public override string ToString() { return Type + ": " + Text; }
     }
 
@@ -34,7 +35,11 @@ namespace UnityEngine
             string text = message == null ? "Null" : message.ToString();
             lock (Lines)
             {
-                Lines.Add(new LogLine { Type = type, Text = text, Context = context, Exception = exception });
+                Lines.Add(new LogLine
+                {
+                    Type = type, Text = text, Context = context, Exception = exception,
+                    isIgnored = TestTools.LogAssert.ignoreFailingMessages
+                });
             }
             Application.Tell(text, exception == null ? "" : exception.StackTrace, type);
         }
@@ -233,8 +238,10 @@ namespace UnityEngine.TestTools
 {
     using System.Text.RegularExpressions;
 
-    /// Faithful: an error or exception that nobody expects fails a test, and so does one that is expected and does not
-    /// come; Unity's runner asks by itself, here a test's TearDown asks NoUnexpectedReceived().
+    /// Faithful: a set-up, a test's body and a tear-down have a scope each (tests/unity/cases/Scopes.cs ends them, as
+    /// Unity's runner does). At its end an error, an assertion or an exception that was not expected fails the test, and
+    /// so does what was expected and has not come; what is expected has to come in that order. NoUnexpectedReceived()
+    /// fails on any line of its own scope that was not expected, plain ones too. Not: frames, UnityTest's scopes.
     public static class LogAssert
     {
         sealed class Expected
@@ -243,7 +250,7 @@ namespace UnityEngine.TestTools
             internal Regex Pattern;
         }
 
-        static readonly List<Expected> expected = new List<Expected>();
+        static readonly Queue<Expected> expected = new Queue<Expected>();
         public static bool ignoreFailingMessages { get; set; }
 
         public static void Expect(LogType type, string message)
@@ -253,24 +260,53 @@ namespace UnityEngine.TestTools
 
         public static void Expect(LogType type, Regex message)
         {
-            expected.Add(new Expected { Type = type, Pattern = message });
+            expected.Enqueue(new Expected { Type = type, Pattern = message });
+        }
+
+        static void Match()
+        {
+            foreach (LogLine line in Debug.Lines)
+            {
+                if (expected.Count > 0 && !line.isHandled && expected.Peek().Type == line.Type
+                    && expected.Peek().Pattern.IsMatch(line.Text))
+                {
+                    expected.Dequeue();
+                    line.isHandled = true;
+                }
+            }
+        }
+
+        static string Text(LogLine line)
+        {
+            return "unexpected " + line + (line.Exception == null ? "" : "\n" + line.Exception);
         }
 
         public static void NoUnexpectedReceived()
         {
+            lock (Debug.Lines)
+            {
+                Match();
+                LogLine first = Debug.Lines.Find(line => !line.isHandled);
+                if (first != null)
+                {
+                    throw new Exception(Text(first));
+                }
+            }
+        }
+
+        /// For the runner.
+        public static void EndScope()
+        {
             List<string> wrong = new List<string>();
             lock (Debug.Lines)
             {
+                Match();
                 foreach (LogLine line in Debug.Lines)
                 {
-                    int at = expected.FindIndex(e => e.Type == line.Type && e.Pattern.IsMatch(line.Text));
-                    if (at >= 0)
+                    bool fails = line.Type != LogType.Log && line.Type != LogType.Warning;
+                    if (fails && !line.isHandled && !line.isIgnored)
                     {
-                        expected.RemoveAt(at);
-                    }
-                    else if (line.Type != LogType.Log && line.Type != LogType.Warning && !ignoreFailingMessages)
-                    {
-                        wrong.Add("unexpected " + line + (line.Exception == null ? "" : "\n" + line.Exception));
+                        wrong.Add(Text(line));
                     }
                 }
                 Debug.Lines.Clear();
