@@ -288,5 +288,89 @@ namespace Knurl.Tests
             Assert.AreEqual(Vector3.zero, d.Force);
             Assert.AreEqual(0L, d.GetStatus().Surfaces);
         }
+
+        [Test]
+        public void AMeshThatIsReadAgainKeepsTheContact()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            Until(() => IsAbout(d.Force.y, 0.4f), "pressed");
+            List<string> told = Listen(d);
+            Mesh mesh = s.GetComponent<MeshFilter>().sharedMesh;
+            Vector3[] lower = mesh.vertices;
+            for (int i = 0; i < lower.Length; i++)
+            {
+                lower[i].y = -0.0005f;
+            }
+            mesh.vertices = lower;
+            Player.Frames(5);
+            Assert.That(IsAbout(d.Force.y, 0.4f), "nobody has said so yet");
+            s.UpdateMesh();
+            Until(() => IsAbout(d.Force.y, 0.2f), "lowered by half");
+            s.transform.localScale = new Vector3(2f, 1f, 2f);
+            Player.Frames(5);
+            Assert.AreEqual("", Words(told));
+            s.Axis = Vector3.forward;
+            Player.Frames(5);
+            Assert.AreEqual("", Words(told));
+        }
+
+        [Test]
+        public void WhatAnAnimationChangesCountsAndWhatItDoesNotIsNotReadAnew()
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            int made = s.Made, felt = s.Felt;
+            Player.ApplyAnimation(s);
+            Assert.AreEqual(made, s.Made);
+            Assert.AreEqual(felt, s.Felt);
+            var fields = new UnityEditor.SerializedObject(s);
+            fields.FindProperty("axis").vector3Value = Vector3.forward; // written, and nothing told
+            Player.ApplyAnimation(s);
+            Player.ApplyAnimation(s);
+            Assert.AreEqual(made + 1, s.Made);
+            fields.FindProperty("doubleSided").boolValue = true;
+            Player.ApplyAnimation(s);
+            Assert.AreEqual(made + 2, s.Made);
+            fields.FindProperty("grating").objectReferenceValue = MakeGrating(500f);
+            Player.ApplyAnimation(s);
+            Assert.AreEqual(felt + 1, s.Felt);
+            Assert.AreEqual(made + 2, s.Made);
+        }
+
+        /// <summary>A plate slides at 20 mm/s in steps of 20 ms, several frames each: played as they arrive
+        /// it leaps and stands still.</summary>
+        [Test]
+        public void WhatABodyMovesIsFeltToMoveEvenly()
+        {
+            KnurlSurface s = MakeSurface(Plate());
+            Transform body = MakeObject("Body").transform;
+            body.gameObject.AddComponent<Rigidbody>();
+            s.transform.SetParent(body, false);
+            KnurlDevice d = StartPressing();
+            Until(() => d.InContact, "pressed");
+            Mover mover = body.gameObject.AddComponent<Mover>();
+            mover.Step = new Vector3(0.0004f, 0f, 0f);
+            Until(() => mover.Count > 20, "it moves");
+            int frames = 0, moving = 0;
+            while (mover.Count < 70)
+            {
+                Player.Frames(1);
+                frames++;
+                moving += d.TemporalFrequency > 10f && d.TemporalFrequency < 40f ? 1 : 0; // 20 mm/s, a ridge a mm
+            }
+            Assert.That(moving, Is.GreaterThan(frames / 2), "of " + frames);
+        }
+
+        sealed class Mover : MonoBehaviour
+        {
+            internal Vector3 Step;
+            internal int Count;
+
+            void FixedUpdate()
+            {
+                transform.position += Step;
+                Count++;
+            }
+        }
     }
 }

@@ -229,6 +229,30 @@ namespace Knurl.Cases
                 "wire cube " + Vector3.zero + " " + new Vector3(0.16f, 0.12f, 0.07f));
         }
 
+        static Vector3 BoxCentre(KnurlDevice device)
+        {
+            Gizmos.WireCubes.Clear();
+            Hooks.DrawGizmo(device);
+            return Gizmos.WireCubes.Single().MultiplyPoint3x4(Vector3.zero);
+        }
+
+        /// <summary>Where it is felt: the workspace stays while the object is moved.</summary>
+        [Test]
+        public void A_running_devices_box_stays_where_it_started()
+        {
+            KnurlDevice device = MakeDevice();
+            device.transform.position = Vector3.up;
+            Assert.AreEqual(Vector3.up, BoxCentre(device));
+            Assert.IsTrue(device.StartDevice());
+            device.transform.position = Vector3.right;
+            device.WorkspaceScale = 3f;
+            Player.Frames(2);
+            Assert.AreEqual(Vector3.up, BoxCentre(device));
+            Assert.AreEqual(1f, Gizmos.WireCubes.Single().MultiplyVector(Vector3.right).magnitude, 1e-6f);
+            device.StopDevice();
+            Assert.AreEqual(Vector3.right, BoxCentre(device));
+        }
+
         [Test]
         public void A_running_device_shows_its_hip()
         {

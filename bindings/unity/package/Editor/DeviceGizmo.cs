@@ -35,17 +35,14 @@ namespace Knurl.Editing
         [DrawGizmo(GizmoType.Selected | GizmoType.NonSelected | GizmoType.Pickable)]
         static void Draw(KnurlDevice device, GizmoType type)
         {
-            Transform place = device.transform;
-            float scale = device.WorkspaceScale;
-            // Without the object's scale, which does not count.
-            Gizmos.matrix = Matrix4x4.TRS(place.position, place.rotation, scale * Vector3.one);
+            Gizmos.matrix = device.Workspace;
             Gizmos.color = Box;
             Gizmos.DrawWireCube(Vector3.zero, ReachOf(device.Device));
             DrawAxes();
             Gizmos.matrix = Matrix4x4.identity;
             if (device.Running)
             {
-                DrawRun(device, scale);
+                DrawRun(device, device.Workspace.MultiplyVector(Vector3.right).magnitude);
             }
         }
 
@@ -60,6 +57,7 @@ namespace Knurl.Editing
             Gizmos.DrawLine(Vector3.zero, Axis * Vector3.back);
         }
 
+        /// <summary>scale: m of the scene per metre of the device's.</summary>
         static void DrawRun(KnurlDevice device, float scale)
         {
             Gizmos.color = Box;

@@ -12,37 +12,56 @@ namespace Knurl
             return NativeMethods.knurl_session_split_pose(rows, pose) != 0;
         }
 
-        void Add(KnurlSurface surface, Follower* f)
+        /// <summary>Into the scene, in the place of what is there of it, so that a finger stays in contact; or out of it,
+        /// where it cannot be felt.</summary>
+        void Put(KnurlSurface surface, Follower* f)
         {
             knurl_session_pose pose;
-            Mesh mesh;
+            ulong before = f->id;
             f->made = surface.Made;
             f->felt = surface.Felt;
             f->isFlat = Split(&f->seen, &pose) ? 0 : 1;
-            if (f->isFlat != 0 || surface.Grating == null)
+            if (f->isFlat != 0 || surface.Grating == null || !PutMesh(surface, f, &pose))
             {
-                return; // its warnings say so
-            }
-            string refusal = surface.FindMesh(out mesh);
-            if (refusal != null)
-            {
-                Complain(surface, refusal);
+                Remove(f);
                 return;
             }
-            f->id = AddMesh(surface, MeshReader.Read(mesh, pose.rest), &pose);
-            f->way = default(knurl_session_way);
+            if (before == 0)
+            {
+                f->way = default(knurl_session_way);
+                f->way.clock = (uint)(IsMovedBySteps(surface) ? NativeMethods.KNURL_SESSION_STEPS
+                    : NativeMethods.KNURL_SESSION_FRAMES);
+            }
             Copy(pose.position, f->way.position, 3);
             Copy(pose.rest, f->rest, 9);
         }
 
-        /// <summary>Its id, or 0 after an error.</summary>
-        ulong AddMesh(KnurlSurface surface, MeshData data, knurl_session_pose* pose)
+        /// <summary>False after a sentence in the console.</summary>
+        bool PutMesh(KnurlSurface surface, Follower* f, knurl_session_pose* pose)
+        {
+            Mesh mesh;
+            string refusal = surface.FindMesh(out mesh);
+            if (refusal != null)
+            {
+                Complain(surface, refusal);
+                return false;
+            }
+            return PutMesh(surface, MeshReader.Read(mesh, pose->rest), f, pose);
+        }
+
+        /// <summary>A body that is not interpolated moves its objects in physics steps.</summary>
+        static bool IsMovedBySteps(KnurlSurface surface)
+        {
+            var body = surface.GetComponentInParent<Rigidbody>();
+            return body != null && body.interpolation == RigidbodyInterpolation.None;
+        }
+
+        bool PutMesh(KnurlSurface surface, MeshData data, Follower* f, knurl_session_pose* pose)
         {
             knurl_material_desc material;
             knurl_mesh_desc mesh;
             knurl_surface_desc desc;
             double* axis = stackalloc double[3];
-            ulong id = 0;
             surface.Grating.Describe(&material);
             NativeMethods.knurl_mesh_desc_init(&mesh, (uint)sizeof(knurl_mesh_desc));
             NativeMethods.knurl_surface_desc_init(&desc, (uint)sizeof(knurl_surface_desc));
@@ -64,9 +83,9 @@ namespace Knurl
                 mesh.tangents = tangents;
                 mesh.uvs = uvs;
                 mesh.indices = indices;
-                Tell(surface, NativeMethods.knurl_scene_add_surface(scene, &desc, &id));
+                return Tell(surface, f->id != 0 ? NativeMethods.knurl_scene_replace_surface(scene, f->id, &desc)
+                    : NativeMethods.knurl_scene_add_surface(scene, &desc, &f->id));
             }
-            return id;
         }
 
         void Remove(Follower* f)
@@ -99,8 +118,7 @@ namespace Knurl
             }
             else if (NativeMethods.knurl_session_same_rest(pose.rest, f->rest) == 0)
             {
-                Remove(f);
-                Add(surface, f);
+                Put(surface, f);
             }
             else
             {
@@ -109,12 +127,14 @@ namespace Knurl
             }
         }
 
-        static void Tell(KnurlSurface surface, int result)
+        /// <summary>Whether it went well.</summary>
+        static bool Tell(KnurlSurface surface, int result)
         {
             if (result != NativeMethods.KNURL_OK)
             {
                 Complain(surface, Utf8.Read(NativeMethods.knurl_error_message()));
             }
+            return result == NativeMethods.KNURL_OK;
         }
 
         static void Complain(KnurlSurface surface, string sentence)

@@ -164,8 +164,7 @@ namespace Knurl
             f->seen = *now;
             if (f->made != surface.Made || (f->id == 0 && (f->isFlat != 0 ? hasMoved : isFeltAnew)))
             {
-                Remove(f);
-                Add(surface, f);
+                Put(surface, f);
             }
             else if (f->id != 0)
             {

@@ -15,6 +15,8 @@ namespace Knurl
         [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
+        [NonSerialized] Matrix4x4 workspace; // of the run: it stays where it was at the start
+        [NonSerialized] double framesTime, stepsTime; // s: how far the game's frames and physics steps have come
 
         /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component
         /// active and enabled.</summary>
@@ -110,6 +112,7 @@ namespace Knurl
             desc.reconnect = reconnect ? 1u : 0u;
             desc.clamp = clamp ? 1u : 0u;
             desc.update_rate_hz = rate;
+            workspace = WorkspaceHere();
             Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
             fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"))
             {
@@ -119,6 +122,12 @@ namespace Knurl
             }
             following = new Following(session);
             following.Fill();
+        }
+
+        /// <summary>Without the object's scale, which does not count.</summary>
+        Matrix4x4 WorkspaceHere()
+        {
+            return Matrix4x4.TRS(transform.position, transform.rotation, workspaceScale * Vector3.one);
         }
 
         unsafe void Begin()
@@ -197,9 +206,24 @@ namespace Knurl
             {
                 Pause();
                 NativeMethods.knurl_unity_update(session);
+                TellTime();
                 following.Follow();
                 TellEvents();
             }
+        }
+
+        void FixedUpdate()
+        {
+            stepsTime += Time.fixedDeltaTime / Time.timeScale; // with a time scale of 0 there are no steps
+        }
+
+        /// <summary>In real time: a time scale changes how much of the game's a frame or a step is, not when it
+        /// comes.</summary>
+        void TellTime()
+        {
+            framesTime += Time.unscaledDeltaTime;
+            NativeMethods.knurl_session_tell_time(session, NativeMethods.KNURL_SESSION_FRAMES, framesTime);
+            NativeMethods.knurl_session_tell_time(session, NativeMethods.KNURL_SESSION_STEPS, stepsTime);
         }
 
         void OnApplicationPause(bool pause)

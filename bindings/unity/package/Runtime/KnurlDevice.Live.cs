@@ -165,6 +165,13 @@ namespace Knurl
             return isRunning ? KnurlStatus.Of(session) : default(KnurlStatus);
         }
 
+        /// <summary>Where the workspace lies, in device metres to global: while it runs, where the object was when it
+        /// started.</summary>
+        internal Matrix4x4 Workspace
+        {
+            get { return isRunning ? workspace : WorkspaceHere(); }
+        }
+
         internal int CountTriangles(KnurlSurface surface)
         {
             return isRunning ? following.CountTriangles(surface) : 0;

@@ -7,9 +7,10 @@ namespace Knurl
 {
     /// <summary>Makes the mesh of its MeshFilter felt, with every running <see cref="KnurlDevice"/>. The mesh is read
     /// when a device starts, or when the surface is enabled while one runs, at rest: skins and blend shapes are not
-    /// followed. To have a mesh that was changed read again, disable the surface and enable it. It follows its
-    /// transform, so that what slides under a finger is felt to slide. A scale is worked into the mesh, which is read
-    /// again whenever the scale changes: cheap enough for now and then, not for every frame. Main thread.</summary>
+    /// followed; after a change of the mesh call <see cref="UpdateMesh"/>. It follows its transform, so that what slides
+    /// under a finger is felt to slide: evenly, by the physics steps of a Rigidbody at or above it that is not
+    /// interpolated, else by the frames. A scale is worked into the mesh, which is read again whenever the scale changes:
+    /// cheap enough for now and then, not for every frame. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Surface")]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(MeshFilter))]
@@ -25,6 +26,11 @@ namespace Knurl
             + "mesh's UVs, else its tangents; a mesh that has neither needs an axis.")]
         Vector3 axis;
 
+        // As counted in Made and Felt.
+        [NonSerialized] KnurlGrating latestGrating;
+        [NonSerialized] Vector3 latestAxis;
+        [NonSerialized] bool latestDoubleSided;
+
         /// <summary>How it feels; null: it cannot be felt.</summary>
         public KnurlGrating Grating
         {
@@ -34,6 +40,7 @@ namespace Knurl
                 Made += (grating == null) != (value == null) ? 1 : 0;
                 Felt++;
                 grating = value;
+                Remember();
             }
         }
 
@@ -41,7 +48,7 @@ namespace Knurl
         public bool DoubleSided
         {
             get { return doubleSided; }
-            set { doubleSided = value; Made++; }
+            set { doubleSided = value; Made++; Remember(); }
         }
 
         /// <summary>The grating's x direction in the mesh's own axes, of any length. (0, 0, 0), the default: the mesh's
@@ -49,7 +56,7 @@ namespace Knurl
         public Vector3 Axis
         {
             get { return axis; }
-            set { axis = value; Made++; }
+            set { axis = value; Made++; Remember(); }
         }
 
         /// <summary>How many triangles are felt with the first device that feels it; 0 while no running device
@@ -87,6 +94,13 @@ namespace Knurl
 
         /// <summary>Counts gratings that it was given.</summary>
         internal int Felt { get; private set; }
+
+        /// <summary>Has the mesh read again in the next frame: after it was changed, or its MeshFilter was given another. A
+        /// finger that rests on it stays in contact.</summary>
+        public void UpdateMesh()
+        {
+            Made++;
+        }
 
         /// <summary>Why it cannot be felt, or not as asked for: a sentence each. Empty where all is well. In play mode
         /// this includes what the running devices cannot do. Not for every frame.</summary>
@@ -151,6 +165,7 @@ namespace Knurl
 
         void OnEnable()
         {
+            Remember();
             World.Enter(this);
         }
 
@@ -163,6 +178,25 @@ namespace Knurl
         {
             Made++;
             Felt++;
+            Remember();
+        }
+
+        void Remember()
+        {
+            latestGrating = grating;
+            latestAxis = axis;
+            latestDoubleSided = doubleSided;
+        }
+
+        /// <summary>An animation writes fields behind the properties' back, each frame: only what is another counts, for
+        /// the mesh is read anew for it.</summary>
+        void OnDidApplyAnimationProperties()
+        {
+            bool isMadeAnew = latestDoubleSided != doubleSided || !latestAxis.Equals(axis)
+                || (latestGrating == null) != (grating == null);
+            Made += isMadeAnew ? 1 : 0;
+            Felt += ReferenceEquals(latestGrating, grating) ? 0 : 1;
+            Remember();
         }
     }
 }

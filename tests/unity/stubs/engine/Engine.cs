@@ -71,12 +71,13 @@ namespace UnityEngine
         public static float timeScale { get; set; }
         public static float deltaTime { get; set; }
         public static float unscaledDeltaTime { get; set; }
+        public static float fixedDeltaTime { get; set; }
         public static int frameCount { get; set; }
         public static float time { get; set; }
         public static float unscaledTime { get; set; }
         public static float realtimeSinceStartup { get { return (float)watch.Elapsed.TotalSeconds; } }
         public static double realtimeSinceStartupAsDouble { get { return watch.Elapsed.TotalSeconds; } }
-        static Time() { timeScale = 1f; deltaTime = unscaledDeltaTime = 1f / 60f; }
+        static Time() { timeScale = 1f; deltaTime = unscaledDeltaTime = 1f / 60f; fixedDeltaTime = 0.02f; }
     }
 
     public enum RuntimePlatform
@@ -154,12 +155,18 @@ namespace UnityEngine
     public static class Gizmos
     {
         public static readonly List<string> Drawn = new List<string>();
+        public static readonly List<Matrix4x4> WireCubes = new List<Matrix4x4>(); // the matrix of each
         public static Color color { get; set; }
         public static Matrix4x4 matrix { get; set; }
         static Gizmos() { color = Color.white; matrix = Matrix4x4.identity; }
         public static void DrawLine(Vector3 a, Vector3 b) { Drawn.Add("line " + a + " " + b); }
         public static void DrawRay(Vector3 a, Vector3 b) { Drawn.Add("ray " + a + " " + b); }
-        public static void DrawWireCube(Vector3 a, Vector3 b) { Drawn.Add("wire cube " + a + " " + b); }
+        public static void DrawWireCube(Vector3 a, Vector3 b)
+        {
+            Drawn.Add("wire cube " + a + " " + b);
+            WireCubes.Add(matrix);
+        }
+
         public static void DrawCube(Vector3 a, Vector3 b) { Drawn.Add("cube " + a + " " + b); }
         public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + Text.Of(r)); }
         public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + Text.Of(r)); }

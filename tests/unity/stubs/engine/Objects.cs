@@ -445,6 +445,20 @@ namespace UnityEngine
 
     public class MeshRenderer : Renderer { }
 
+    public enum RigidbodyInterpolation
+    {
+        None,
+        Interpolate,
+        Extrapolate
+    }
+
+    /// Does not move.
+    public sealed class Rigidbody : Component
+    {
+        public RigidbodyInterpolation interpolation { get; set; }
+        public bool isKinematic { get; set; }
+    }
+
     /// Text out of a file of the project.
     public class TextAsset : Object
     {

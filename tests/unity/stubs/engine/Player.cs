@@ -17,6 +17,8 @@ namespace UnityEngine
         public static Action<int> PlayModeChanged;
         public static Action AssemblyReload;
 
+        static double latestFrame;
+        static float due; // s of physics steps
         static readonly List<GameObject> objects = new List<GameObject>();
         static readonly List<Object> dying = new List<Object>();
         static readonly List<Object> kept = new List<Object>();
@@ -26,12 +28,13 @@ namespace UnityEngine
         public static void Frame()
         {
             Time.frameCount++;
-            Time.unscaledDeltaTime = 1f / 60f;
-            Time.deltaTime = Time.timeScale / 60f;
+            Time.unscaledDeltaTime = Math.Max(1e-4f, (float)(Time.realtimeSinceStartupAsDouble - latestFrame));
+            latestFrame = Time.realtimeSinceStartupAsDouble;
+            Time.deltaTime = Math.Min(Time.unscaledDeltaTime, 1f / 3f) * Time.timeScale; // Time.maximumDeltaTime
             Time.time += Time.deltaTime;
             Time.unscaledTime += Time.unscaledDeltaTime;
             Starts();
-            if (Time.timeScale > 0f)
+            for (due += Time.deltaTime; due >= Time.fixedDeltaTime; due -= Time.fixedDeltaTime)
             {
                 ToAll("FixedUpdate");
             }
@@ -134,6 +137,12 @@ namespace UnityEngine
             {
                 Disable(b);
             }
+        }
+
+        /// As an Animator does after it has written to serialised fields.
+        public static void ApplyAnimation(MonoBehaviour b)
+        {
+            Send(b, "OnDidApplyAnimationProperties");
         }
 
         public static void Pause(bool paused)
