@@ -627,6 +627,7 @@ namespace Knurl
                 case "knurl_tick_output": return sizeof(knurl_tick_output);
                 case "knurl_hip_counts": return sizeof(knurl_hip_counts);
                 case "knurl_surface_check": return sizeof(knurl_surface_check);
+                case "knurl_gltf_budget": return sizeof(knurl_gltf_budget);
                 case "knurl_gltf_report": return sizeof(knurl_gltf_report);
                 case "knurl_clock": return sizeof(knurl_clock);
                 case "knurl_loop_desc": return sizeof(knurl_loop_desc);
