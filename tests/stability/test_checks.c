@@ -81,28 +81,33 @@ TEST(a_slow_hand_gets_back_what_it_gave_where_the_damper_takes_what_the_wall_lea
     }
 }
 
+/* Signals of at most 2000 ticks, all 0. */
+static lab_signals make_signals(size_t count) {
+    static double rows[3][2000];
+    lab_signals s;
+    memset(rows, 0, sizeof rows);
+    memset(&s, 0, sizeof s);
+    s.count = count;
+    s.height = rows[0];
+    s.motor = rows[1];
+    s.texture = rows[2];
+    return s;
+}
+
 /* Signals of a device that zigzags by one step a tick, the worst motion there is, under the law F = -K x - B dx/dt. */
 static double zigzag_gain(double stiffness, double damping, size_t count) {
-    static double height[2000];
-    static double motor[2000];
-    static double texture[2000];
     const double step = 1e-5;
+    const lab_signals s = make_signals(count);
     lab_case c;
     lab_result r;
-    lab_signals s;
     lab_case_init(&c);
-    memset(&s, 0, sizeof s);
     memset(&r, 0, sizeof r);
     c.stiffness = stiffness;
-    s.count = count;
-    s.height = height;
-    s.motor = motor;
-    s.texture = texture;
     for (size_t i = 0; i < count; i++) {
         const double before = i % 2 > 0 ? 0.5 * step : -0.5 * step;
-        height[i] = -before;
+        s.height[i] = -before;
         if (i + 1 < count) {
-            motor[i + 1] = -stiffness * height[i] - damping * (height[i] - before) * 1000.0;
+            s.motor[i + 1] = -stiffness * s.height[i] - damping * (s.height[i] - before) * 1000.0;
         }
     }
     lab_energies(&c, &s, &r);
@@ -145,23 +150,15 @@ TEST(a_held_force_gives_half_k_dx_squared_a_tick_more_than_the_spring_took) {
  * spring: what comes out of it is not the wall's fault. */
 TEST(energy_that_the_texture_put_in_is_authorised) {
     enum { COUNT = 500 };
-    static double height[COUNT];
-    static double motor[COUNT];
-    static double texture[COUNT];
+    const lab_signals s = make_signals(COUNT);
     lab_case c;
     lab_result r;
-    lab_signals s;
     lab_case_init(&c);
-    memset(&s, 0, sizeof s);
     memset(&r, 0, sizeof r);
-    s.count = COUNT;
-    s.height = height;
-    s.motor = motor;
-    s.texture = texture;
     for (int i = 0; i < COUNT; i++) { /* pressed 1 mm deep; H jumps by 0.2 mm, and the device follows in 0.5 um steps */
-        texture[i] = i < 10 ? 0.0 : 0.2e-3;
-        height[i] = i < 10 ? -1e-3 : fmin(-0.8e-3, -1e-3 + 0.5e-6 * (i - 10));
-        motor[i] = i > 0 ? c.stiffness * (texture[i - 1] - height[i - 1]) : 0.0;
+        s.texture[i] = i < 10 ? 0.0 : 0.2e-3;
+        s.height[i] = i < 10 ? -1e-3 : fmin(-0.8e-3, -1e-3 + 0.5e-6 * (i - 10));
+        s.motor[i] = i > 0 ? c.stiffness * (s.texture[i - 1] - s.height[i - 1]) : 0.0;
     }
     lab_energies(&c, &s, &r);
     const double lift = 0.5 * c.stiffness * (1.2e-3 * 1.2e-3 - 1e-3 * 1e-3);

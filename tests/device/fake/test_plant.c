@@ -4,27 +4,9 @@
  * its decay rate): h w/2 from the skewed ellipse on which it goes round, h g from the decay, which is wrong by g h in
  * itself and shows most after 1/g, 1/e of it. The tests allow this for h = a whole tick.
  * SPDX-License-Identifier: MIT */
-#include "support/close.h"
-
-#include "device/fake/plant.h"
+#include "free_mass.h"
 
 #define DT 0.001 /* s */
-
-static const double nowhere[3] = {0.0, 0.0, 0.0};
-
-/* 50 g on nothing: no friction, no hand, no limit in sight. */
-static knurl_plant_config free_mass(void) {
-    const knurl_plant_config config = {.mass = 0.05, .max_force = 1000.0, .half_workspace = {10.0, 10.0, 10.0}};
-    return config;
-}
-
-static knurl_plant make_plant(const knurl_plant_config *config, double x, double velocity) {
-    const double position[3] = {x, 0.0, 0.0};
-    knurl_plant plant;
-    knurl_plant_init(&plant, config, position);
-    plant.velocity[0] = velocity;
-    return plant;
-}
 
 /* One tick under a force along x, the hand's target at the origin. */
 static void push(knurl_plant *plant, double force) {
@@ -34,7 +16,7 @@ static void push(knurl_plant *plant, double force) {
 }
 
 TEST(a_mass_that_nothing_touches_goes_straight_on) {
-    const knurl_plant_config config = free_mass();
+    const knurl_plant_config config = free_mass(0);
     knurl_plant plant = make_plant(&config, 0.5, 0.25);
     for (int tick = 1; tick <= 1000; tick++) {
         push(&plant, 0.0);
@@ -45,7 +27,7 @@ TEST(a_mass_that_nothing_touches_goes_straight_on) {
 
 /* x = F t^2 / 2m. */
 TEST(a_constant_force_accelerates_a_free_mass) {
-    const knurl_plant_config config = free_mass();
+    const knurl_plant_config config = free_mass(0);
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     for (int tick = 1; tick <= 500; tick++) {
         const double t = tick * DT;
@@ -58,7 +40,7 @@ TEST(a_constant_force_accelerates_a_free_mass) {
 
 /* v = v0 exp(-b t/m): after a path of m v0/b it stands. */
 TEST(viscous_friction_slows_a_free_mass_exponentially) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.viscous = 0.5; /* a time constant of 0.1 s */
     knurl_plant plant = make_plant(&config, 0.0, 1.0);
     for (int tick = 1; tick <= 3000; tick++) {
@@ -77,7 +59,7 @@ static double oscillator(double t, double x0, double w0, double g) {
 TEST(a_mass_released_on_the_hands_spring_swings_as_an_oscillator_does) {
     static const double damping[][2] = {{0.0, 0.0}, {0.2, 0.0}, {0.0, 0.2}, {0.5, 5.0}}; /* device's, hand's: N s/m */
     for (size_t i = 0; i < COUNT_OF(damping); i++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(0);
         config.hand_stiffness = 700.0;
         config.viscous = damping[i][0];
         config.hand_damping = damping[i][1];
@@ -92,7 +74,7 @@ TEST(a_mass_released_on_the_hands_spring_swings_as_an_oscillator_does) {
 }
 
 TEST(without_friction_a_swing_neither_grows_nor_dies) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.hand_stiffness = 700.0;
     knurl_plant plant = make_plant(&config, 0.01, 0.0);
     for (int tick = 1; tick <= 20000; tick++) { /* 377 cycles */
@@ -108,7 +90,7 @@ TEST(without_friction_a_swing_neither_grows_nor_dies) {
 TEST(a_constant_force_deflects_the_hands_spring_by_force_over_stiffness) {
     static const double stiffness[] = {100.0, 700.0, 3000.0};
     for (size_t i = 0; i < COUNT_OF(stiffness); i++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(0);
         config.hand_stiffness = stiffness[i];
         config.hand_damping = 5.0;
         config.viscous = 0.5;
@@ -124,7 +106,7 @@ TEST(a_constant_force_deflects_the_hands_spring_by_force_over_stiffness) {
  * moves along, does not hold it back. The integrator moves the mass after it has looked at the spring: v h. */
 TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction) {
     static const double velocity[3] = {0.2, 0.0, 0.0};
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.hand_stiffness = 700.0;
     config.hand_damping = 5.0;
     config.viscous = 20.0;
@@ -139,7 +121,7 @@ TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction) {
 }
 
 TEST(dry_friction_holds_what_is_below_its_limit_and_slides_above) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.coulomb = 0.26;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     for (int tick = 0; tick < 1000; tick++) {
@@ -154,7 +136,7 @@ TEST(dry_friction_holds_what_is_below_its_limit_and_slides_above) {
 
 TEST(dry_friction_holds_against_the_length_of_the_force_and_not_its_parts) {
     static const double diagonal[3] = {0.2, 0.2, 0.2}; /* 0.346 N */
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.coulomb = 0.26;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     knurl_plant_write(&plant, diagonal);
@@ -169,7 +151,7 @@ TEST(dry_friction_holds_against_the_length_of_the_force_and_not_its_parts) {
 
 /* v falls by Fc/m a second: the way is m v0^2 / 2 Fc. */
 TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.coulomb = 0.25;
     knurl_plant plant = make_plant(&config, 0.0, 0.5); /* 0.1 s, 25 mm */
     for (int tick = 1; tick <= 100; tick++) {
@@ -187,7 +169,7 @@ TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
 
 /* It comes to rest where the spring pulls with no more than the friction: |x| <= Fc/k. */
 TEST(dry_friction_keeps_the_hand_off_its_target_by_no_more_than_its_limit) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.hand_stiffness = 700.0;
     config.hand_damping = 5.0;
     config.coulomb = 0.26;
@@ -203,7 +185,7 @@ TEST(dry_friction_keeps_the_hand_off_its_target_by_no_more_than_its_limit) {
 
 TEST(a_force_beyond_what_the_motors_can_do_is_played_at_their_limit) {
     static const double far_too_much[3] = {30.0, -40.0, 0.0};
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.max_force = 2.0;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     knurl_plant_write(&plant, far_too_much);
@@ -216,7 +198,7 @@ TEST(a_force_beyond_what_the_motors_can_do_is_played_at_their_limit) {
 
 TEST(a_force_acts_exactly_delay_ticks_later) {
     for (int32_t delay = 0; delay <= KNURL_PLANT_MAX_DELAY; delay++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(0);
         config.delay = delay;
         knurl_plant plant = make_plant(&config, 0.0, 0.0);
         for (int tick = 0; tick < 60; tick++) {
@@ -230,7 +212,7 @@ TEST(a_force_acts_exactly_delay_ticks_later) {
 TEST(a_force_that_is_written_once_arrives_after_its_delay_and_stays) {
     static const double once[3] = {1.0, 0.0, 0.0};
     for (int32_t delay = 0; delay <= 3; delay++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(0);
         config.delay = delay;
         knurl_plant plant = make_plant(&config, 0.0, 0.0);
         knurl_plant_write(&plant, once);
@@ -245,7 +227,7 @@ TEST(of_two_forces_written_in_one_tick_the_newer_counts) {
     static const double first[3] = {7.0, 0.0, 0.0};
     static const double second[3] = {1.0, 0.0, 0.0};
     for (int32_t delay = 0; delay <= 3; delay++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(0);
         config.delay = delay;
         knurl_plant plant = make_plant(&config, 0.0, 0.0);
         for (int tick = 0; tick < 10; tick++) {
@@ -258,7 +240,7 @@ TEST(of_two_forces_written_in_one_tick_the_newer_counts) {
 }
 
 TEST(the_workspaces_stops_hold_and_release) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.half_workspace[0] = 0.08;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     for (int side = -1; side <= 1; side += 2) {
@@ -273,7 +255,7 @@ TEST(the_workspaces_stops_hold_and_release) {
 }
 
 TEST(positions_are_told_to_the_nearest_multiple_of_the_resolution) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.resolution = 0.055e-3;
     uint64_t random = 5;
     for (int i = 0; i < 20000; i++) {
@@ -292,7 +274,7 @@ TEST(positions_are_told_to_the_nearest_multiple_of_the_resolution) {
 }
 
 TEST(the_same_history_gives_the_same_positions_bit_for_bit) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(0);
     config.hand_stiffness = 700.0;
     config.coulomb = 0.26;
     config.delay = 2;

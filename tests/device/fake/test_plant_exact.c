@@ -1,24 +1,6 @@
 /* The plant's exact motion against closed forms, where it takes over from the plain steps, and the plain steps as they
  * have always been. SPDX-License-Identifier: MIT */
-#include "support/close.h"
-
-#include "device/fake/plant.h"
-
-static const double nowhere[3] = {0.0, 0.0, 0.0};
-
-static knurl_plant_config free_mass(void) {
-    const knurl_plant_config config = {
-        .mass = 0.05, .max_force = 1000.0, .half_workspace = {10.0, 10.0, 10.0}, .exact = 1};
-    return config;
-}
-
-static knurl_plant make_plant(const knurl_plant_config *config, double x, double velocity) {
-    const double position[3] = {x, 0.0, 0.0};
-    knurl_plant plant;
-    knurl_plant_init(&plant, config, position);
-    plant.velocity[0] = velocity;
-    return plant;
-}
+#include "free_mass.h"
 
 static void push(knurl_plant *plant, double dt, double force) {
     const double forces[3] = {force, 0.0, 0.0};
@@ -43,7 +25,7 @@ TEST(a_swing_is_that_of_the_closed_form_at_any_rate_and_damping) {
     static const double rates[] = {50.0, 250.0, 1000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(dampings); i++) {
         for (size_t j = 0; j < COUNT_OF(rates); j++) {
-            knurl_plant_config config = free_mass();
+            knurl_plant_config config = free_mass(1);
             config.hand_stiffness = 700.0;
             config.hand_damping = 0.5 * dampings[i];
             config.viscous = 0.5 * dampings[i];
@@ -58,7 +40,7 @@ TEST(a_swing_is_that_of_the_closed_form_at_any_rate_and_damping) {
 
 /* x = F t^2 / 2m: nothing but rounding is left of a held force's half tick. */
 TEST(a_held_force_moves_a_free_mass_by_half_a_t_squared) {
-    const knurl_plant_config config = free_mass();
+    const knurl_plant_config config = free_mass(1);
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     for (int tick = 1; tick <= 500; tick++) {
         const double t = 1e-3 * tick;
@@ -71,7 +53,7 @@ TEST(a_held_force_moves_a_free_mass_by_half_a_t_squared) {
 /* Behind a target at speed v it trails by b v/k: without the plain steps' error of v h. */
 TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction_alone) {
     static const double velocity[3] = {0.2, 0.0, 0.0};
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(1);
     config.hand_stiffness = 700.0;
     config.hand_damping = 5.0;
     config.viscous = 20.0;
@@ -85,7 +67,7 @@ TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction_alone) {
 }
 
 TEST(dry_friction_holds_exactly_below_its_limit_and_slides_above) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(1);
     config.coulomb = 0.26;
     knurl_plant plant = make_plant(&config, 0.0, 0.0);
     for (int tick = 0; tick < 1000; tick++) {
@@ -101,7 +83,7 @@ TEST(dry_friction_holds_exactly_below_its_limit_and_slides_above) {
 /* v falls by Fc/m a second and stays 0: the way is m v0^2 / 2 Fc, wherever in a step the end comes. */
 TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
     static const double speeds[] = {0.5, 0.4999, 0.123456, 0.001};
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(1);
     config.coulomb = 0.25;
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
         knurl_plant plant = make_plant(&config, 0.0, speeds[i]);
@@ -115,7 +97,7 @@ TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
 
 /* Each half swing of an oscillator with dry friction alone is smaller by 2 fc/k (its sizes are a straight line). */
 TEST(dry_friction_takes_twice_its_deflection_a_half_swing) {
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(1);
     config.hand_stiffness = 700.0;
     config.coulomb = 0.07; /* 0.1 mm of the spring */
     knurl_plant plant = make_plant(&config, 0.00505, 0.0);
@@ -137,7 +119,7 @@ TEST(dry_friction_takes_twice_its_deflection_a_half_swing) {
 /* Across a way that is slid at v, small motions feel fc/v N s/m: with 1 mm/s across 0.2 m/s they die in m v/fc. */
 TEST(dry_friction_of_a_slide_damps_what_goes_across_it) {
     static const double along[3] = {0.0, 0.0, 0.2};
-    knurl_plant_config config = free_mass();
+    knurl_plant_config config = free_mass(1);
     config.coulomb = 0.25;
     config.hand_stiffness = 1e-9;
     config.hand_damping = 0.0;
@@ -173,7 +155,7 @@ TEST(no_device_and_hand_that_can_be_asked_for_is_unstable) {
     for (size_t i = 0; i < 81; i++) {
         for (size_t j = 0; j < COUNT_OF(rates); j++) {
             for (int exact = 0; exact < 2; exact++) {
-                knurl_plant_config config = free_mass();
+                knurl_plant_config config = free_mass(1);
                 config.exact = exact;
                 config.mass = masses[i / 27];
                 config.viscous = viscous[i / 9 % 3];
@@ -208,7 +190,7 @@ static void plain_tick(const knurl_plant_config *c, double dt, double force, dou
 TEST(a_device_that_is_not_exact_takes_four_plain_steps_a_tick_bit_for_bit) {
     static const double rates[] = {100.0, 1000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        knurl_plant_config config = free_mass();
+        knurl_plant_config config = free_mass(1);
         config.exact = 0;
         config.mass = 0.045;
         config.viscous = 0.5;
