@@ -60,7 +60,10 @@ knurl_result knurl_session_create(knurl_session **session) {
     if (!made) {
         return knurl_fail(KNURL_ERROR_MEMORY, "session: could not get %u bytes", (unsigned)sizeof *made);
     }
-    const knurl_result result = knurl_scene_create(NULL, &made->scene);
+    knurl_scene_desc desc;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.max_surfaces = 1u << 20; /* as many as there can be: a scene costs what is in it */
+    const knurl_result result = knurl_scene_create(&desc, &made->scene);
     if (result) {
         free(made);
         return result;

@@ -2,6 +2,7 @@
 #include "follow.h"
 
 #include "geometry.h"
+#include "watch.h"
 
 #include <string.h>
 
@@ -87,6 +88,9 @@ void follow_put(device *d, surface *s) {
     s->changed &= others;
     s->made_anew &= others;
     s->flat &= others;
+    if (!s->is_leaving) {
+        watch_mesh(s);
+    }
     if (!can_be_felt(s)) {
         follow_remove(d, s);
         return;

@@ -1,9 +1,9 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
 #include "explain.h"
 #include "follow.h"
-#include "geometry.h"
 #include "serve.h"
 #include "signals.h"
+#include "watch.h"
 
 #include <string.h>
 
@@ -102,46 +102,12 @@ static void is_touched(void *self, const void *const *arguments, void *result) {
     memcpy(result, &touched, sizeof touched);
 }
 
-/* The parent tells when it gets another mesh, and a mesh when it changes. */
-static void unwatch(surface *s) {
-    GDExtensionObjectPtr mesh = NULL;
-    if (gd.variant_get_type(&s->watched) == GDEXTENSION_VARIANT_TYPE_OBJECT) {
-        gd_types[GDEXTENSION_VARIANT_TYPE_OBJECT].from_variant(&mesh, &s->watched);
-        gd_disconnect(mesh, "changed", s->base.object, "update_mesh");
-        gd.variant_destroy(&s->watched);
-        gd.variant_new_nil(&s->watched);
-    }
-    if (s->watched_parent) {
-        gd_disconnect(s->watched_parent, "property_list_changed", s->base.object, "update_mesh");
-        s->watched_parent = NULL;
-    }
-}
-
-static void watch(surface *s) {
-    gd_variant held;
-    const GDExtensionObjectPtr parent = follow_parent(s);
-    const GDExtensionObjectPtr mesh = geometry_mesh(parent, &held);
-    unwatch(s);
-    if (gd_cast(parent, "MeshInstance3D")) {
-        s->watched_parent = parent;
-        gd_connect(parent, "property_list_changed", s->base.object, "update_mesh");
-    }
-    if (mesh) {
-        s->watched = held;
-        gd_connect(mesh, "changed", s->base.object, "update_mesh");
-    } else {
-        gd.variant_destroy(&held);
-    }
-}
-
 static void update_mesh(void *self, const void *const *arguments, void *result) {
     surface *s = self;
     (void)arguments;
     (void)result;
-    if (s->is_listed && !s->is_leaving) {
-        watch(s);
-        make_anew(s);
-    }
+    unwatch_mesh(s); /* it may be another one */
+    make_anew(s);
 }
 
 static void enter(surface *s) {
@@ -151,7 +117,6 @@ static void enter(surface *s) {
         surface_list(s);
     }
     make_anew(s);
-    watch(s);
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
@@ -174,7 +139,7 @@ static void remove_now(surface *s) {
  * once.
  */
 static void leave(surface *s) {
-    unwatch(s);
+    unwatch_mesh(s);
     if (s->is_dying || !follow_is_felt(s)) {
         remove_now(s);
     } else {
