@@ -64,6 +64,7 @@
     X(Node, is_inside_tree, 36873697)                                                                                  \
     X(Node, set_process_internal, 2586408642)                                                                          \
     X(Node, update_configuration_warnings, 3218959716)                                                                 \
+    X(Node3D, get_transform, 3229777777)                                                                               \
     X(Node3D, get_global_transform, 3229777777)                                                                        \
     X(Node3D, set_notify_transform, 2586408642)                                                                        \
     X(MeshInstance3D, get_mesh, 1808005922)                                                                            \

@@ -1,6 +1,7 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
 #include "device.h"
 
+#include "explain.h"
 #include "follow.h"
 #include "signals.h"
 
@@ -144,6 +145,7 @@ int64_t device_start(device *d) {
         return error;
     }
     d->runs = 1;
+    explain_start();
     if (warning[0]) {
         gd_warning("KnurlDevice.start", "KnurlDevice: %s", warning);
     }

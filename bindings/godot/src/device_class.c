@@ -1,5 +1,6 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
+#include "explain.h"
 #include "status.h"
 #include "trace.h"
 
@@ -46,17 +47,55 @@ static void pause(void *self) {
     }
 }
 
+static void explain_anew(void *self) {
+    const device *d = self;
+    if (gd_is_in_editor()) {
+        explain_again(&d->base);
+        explain_all_again();
+    }
+}
+
+static void place(device *d) {
+    const uint8_t notify = 1;
+    d->next_placed = placed_devices;
+    placed_devices = d;
+    gd_call(gd_method.Node3D_set_notify_transform, d->base.object, &notify, NULL);
+    explain_anew(d);
+}
+
+static void unplace(const device *d) {
+    device **at = &placed_devices;
+    while (*at && *at != d) {
+        at = &(*at)->next_placed;
+    }
+    if (*at) {
+        *at = d->next_placed;
+    }
+}
+
+static void get_warnings(void *self, const void *const *arguments, void *result) {
+    char text[512];
+    (void)arguments;
+    explain_device(self, text, sizeof text);
+    explain_give(text, result);
+}
+
 static void notify(void *self, int32_t what) {
     device *d = self;
     switch (what) {
     case GD_ENTER_TREE:
+        place(d);
         if (!gd_is_in_editor()) {
             d->wants_start = d->autostart; /* in the first frame, when all of the scene is there */
             set_processing(d, 1);
         }
         break;
     case GD_EXIT_TREE:
+        unplace(d);
         device_stop(d);
+        break;
+    case GD_TRANSFORM_CHANGED:
+        explain_anew(d);
         break;
     case GD_PAUSED:
     case GD_UNPAUSED:
@@ -215,10 +254,10 @@ static void load_gltf(void *self, const void *const *arguments, void *result) {
 #define DOUBLES GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT64_ARRAY
 
 static const gd_property properties[] = {
-    {.name = "device", .type = STRING, .offset = offsetof(device, uri)},
-    {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, NULL},
+    {.name = "device", .type = STRING, .offset = offsetof(device, uri), .changed = explain_anew},
+    {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, explain_anew},
     {"workspace_scale", FLOAT, offsetof(device, workspace_scale), 0.001, 100.0, 0.001, "or_greater,exp", 0, NULL, NULL,
-     NULL},
+     explain_anew},
     {.name = "autostart", .type = BOOL, .offset = offsetof(device, autostart)},
     {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},
     {.name = "clamp", .type = BOOL, .offset = offsetof(device, clamp)},
@@ -241,6 +280,7 @@ static const gd_property properties[] = {
 };
 
 static const gd_method_row methods[] = {
+    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, get_warnings, 0, {{NULL}}},
     {"start", INT, start, 0, {{NULL}}},
     {"stop", NOTHING, stop, 0, {{NULL}}},
     {"move_hip", NOTHING, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
@@ -264,6 +304,7 @@ const gd_class device_class = {
     .init = init,
     .finish = finish,
     .notify = notify,
+    .warnings = get_warnings,
     .properties = properties,
     .property_count = sizeof properties / sizeof *properties,
     .methods = methods,

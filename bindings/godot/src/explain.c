@@ -3,9 +3,15 @@
 
 #include "follow.h"
 #include "geometry.h"
+#include "preview.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* So many surfaces are looked at, and so many lines told, when a device starts. */
+enum { MOST_LOOKED_AT = 1000, MOST_WARNINGS = 8 };
 
 static void say(char *text, size_t size, const char *sentence) {
     const size_t length = strlen(text);
@@ -13,22 +19,206 @@ static void say(char *text, size_t size, const char *sentence) {
     (void)snprintf(text + length, size - length, "%s%s", line, sentence);
 }
 
-void explain_surface(const surface *s, char *text, size_t size) {
+/* An object that a getter returns, to compare it: what is not held elsewhere may be gone. */
+static GDExtensionObjectPtr result_of(GDExtensionObjectPtr object, const char *method) {
+    GDExtensionObjectPtr found = NULL;
+    gd_variant held = gd_call_named(object, method, NULL, 0);
+    if (gd.variant_get_type(&held) == GDEXTENSION_VARIANT_TYPE_OBJECT) {
+        gd_types[GDEXTENSION_VARIANT_TYPE_OBJECT].from_variant(&found, &held);
+    }
+    gd.variant_destroy(&held);
+    return found;
+}
+
+static void say_bends(GDExtensionObjectPtr parent, char *text, size_t size) {
+    int64_t shapes = 0;
+    if (gd_cast(parent, "SoftBody3D")) {
+        say(text, size, "Its parent is a SoftBody3D: it is felt at rest, however it is drawn.");
+    } else if (gd_cast(parent, "MeshInstance3D")) {
+        gd_variant count = gd_call_named(parent, "get_blend_shape_count", NULL, 0);
+        gd_types[GDEXTENSION_VARIANT_TYPE_INT].from_variant(&shapes, &count);
+        if (result_of(parent, "get_skin") || shapes > 0) {
+            say(text, size, "Its mesh has a skin or blend shapes: it is felt at rest, however it is drawn.");
+        }
+    }
+}
+
+/* How far a surface stands off the node that is drawn, and whether it is turned or scaled against it. */
+static void say_away(const surface *s, char *text, size_t size) {
+    gd_transform t;
+    char sentence[192];
+    float off = 0.0F;
+    float turned = 0.0F;
+    gd_call(gd_method.Node3D_get_transform, s->base.object, NULL, &t);
+    for (int i = 0; i < 3; i++) {
+        off += t.origin[i] * t.origin[i];
+        for (int j = 0; j < 3; j++) {
+            turned = fmaxf(turned, fabsf(t.basis[i][j] - (i == j ? 1.0F : 0.0F)));
+        }
+    }
+    if (off > 1e-10F || turned > 1e-5F) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "It stands %.3g mm off its parent%s: it is felt there, not where the mesh is drawn.",
+                       1e3 * sqrt((double)off), turned > 1e-5F ? ", turned or scaled" : "");
+        say(text, size, sentence);
+    }
+}
+
+static void say_scale(const knurl_session_pose *at, char *text, size_t size) {
+    double length[3];
+    char sentence[192];
+    for (int j = 0; j < 3; j++) {
+        length[j] =
+            sqrt(at->rest[j] * at->rest[j] + at->rest[3 + j] * at->rest[3 + j] + at->rest[6 + j] * at->rest[6 + j]);
+    }
+    const double most = fmax(length[0], fmax(length[1], length[2]));
+    const double least = fmin(length[0], fmin(length[1], length[2]));
+    if (most > 1.01 * least) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "It is scaled unevenly (%.3g, %.3g, %.3g): textures are drawn stretched, while its ridges are "
+                       "as far apart as asked for on average.",
+                       length[0], length[1], length[2]);
+        say(text, size, sentence);
+    }
+}
+
+static void say_world(const surface *s, const device *d, char *text, size_t size) {
+    char name[128];
+    char sentence[256];
+    if (result_of(s->base.object, "get_world_3d") != result_of(d->base.object, "get_world_3d")) {
+        gd_node_name(d->base.object, name, sizeof name);
+        (void)snprintf(sentence, sizeof sentence,
+                       "It is in another World3D than '%s', which feels it all the same (own_world_3d).", name);
+        say(text, size, sentence);
+    }
+}
+
+/* What its nodes say. */
+static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
+    say_away(s, text, size);
+    say_bends(follow_parent(s), text, size);
+    say_scale(at, text, size);
+    for (const device *d = placed_devices; d; d = d->next_placed) {
+        say_world(s, d, text, size);
+    }
+}
+
+static void say_of_running(const surface *s, char *text, size_t size) {
+    char why[4096];
+    int is_felt = 0;
+    for (int i = 0; i < DEVICE_SLOTS; i++) {
+        if (!devices[i] || !s->ids[i]) {
+            continue;
+        }
+        knurl_session_explain(devices[i]->session, s->ids[i], why, sizeof why);
+        say(text, size, why);
+        is_felt = 1;
+    }
+    if (!is_felt && s->explanation) {
+        say(text, size, s->explanation);
+    }
+}
+
+void explain_surface(surface *s, char *text, size_t size) {
+    char why[4096];
     uint8_t is_inside = 0;
     knurl_session_pose at;
     geometry_refuse(follow_parent(s), text, size);
+    const int has_shape = text[0] == '\0';
     gd_call(gd_method.Node_is_inside_tree, s->base.object, NULL, &is_inside);
     if (!s->grating) {
         say(text, size, "It has no grating: nothing says how it feels.");
     }
-    if (is_inside && !follow_pose(s->base.object, &at)) {
-        say(text, size, "It is scaled to nothing.");
+    if (!is_inside) {
+        return;
     }
-    for (int i = 0; i < DEVICE_SLOTS; i++) {
-        if (devices[i] && s->ids[i]) {
-            char why[4096];
-            knurl_session_explain(devices[i]->session, s->ids[i], why, sizeof why);
-            say(text, size, why);
+    if (!follow_pose(s->base.object, &at)) {
+        say(text, size, "It is scaled to nothing.");
+        return;
+    }
+    if (has_shape) {
+        say_facts(s, &at, text, size);
+    }
+    if (!gd_is_in_editor()) {
+        say_of_running(s, text, size);
+    } else if (has_shape && s->grating && s->enabled) {
+        preview_surface(s, &at, why, sizeof why);
+        say(text, size, why);
+    }
+}
+
+void explain_device(const device *d, char *text, size_t size) {
+    static const char *const known[] = {"auto", "fake", "touch", "falcon", "rawhid", "mouse"};
+    const char *uri = d->uri ? d->uri : "";
+    uint8_t is_inside = 0;
+    knurl_session_pose at;
+    int is_known = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const size_t length = strlen(known[i]);
+        is_known |= strncmp(uri, known[i], length) == 0 && (uri[length] == '\0' || uri[length] == ':');
+    }
+    if (!is_known) {
+        (void)snprintf(text, size, "Its device is '%s': expected auto, fake, touch, falcon, rawhid or mouse.", uri);
+    }
+    gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
+    if (is_inside && !follow_pose(d->base.object, &at)) {
+        say(text, size, "It is scaled to nothing: its workspace has no axes.");
+    } else if (is_inside && fabs(at.rest[0] - 1.0) + fabs(at.rest[4] - 1.0) + fabs(at.rest[8] - 1.0) > 1e-3) {
+        say(text, size, "Its node is scaled, which does not count: its workspace goes by workspace_scale.");
+    }
+}
+
+void explain_start(void) {
+    static char text[8192];
+    char name[128];
+    uint32_t told = 0;
+    uint32_t looked_at = 0;
+    for (surface *s = surfaces; s && looked_at < MOST_LOOKED_AT; s = s->next, looked_at++) {
+        explain_surface(s, text, sizeof text);
+        for (char *line = text, *end; *line && s->enabled; line = end) {
+            end = line + strcspn(line, "\n");
+            const int length = (int)(end - line);
+            end += *end == '\n';
+            if (told++ < MOST_WARNINGS) {
+                gd_node_name(follow_parent(s), name, sizeof name);
+                gd_warning("KnurlSurface", "KnurlSurface of '%s': %.*s", name, length, line);
+            }
         }
+    }
+    if (told > MOST_WARNINGS) {
+        gd_warning("KnurlSurface", "KnurlSurface: %u further warnings: see get_warnings()",
+                   (unsigned)(told - MOST_WARNINGS));
+    }
+}
+
+void explain_keep(surface *s, const char *text) {
+    free(s->explanation);
+    s->explanation = text ? malloc(strlen(text) + 1) : NULL;
+    if (s->explanation) {
+        memcpy(s->explanation, text, strlen(text) + 1);
+    }
+}
+
+void explain_again(const gd_instance *node) {
+    gd_call(gd_method.Node_update_configuration_warnings, node->object, NULL, NULL);
+}
+
+void explain_all_again(void) {
+    for (const surface *s = surfaces; s; s = s->next) {
+        explain_again(&s->base);
+    }
+}
+
+void explain_give(char *text, void *strings) {
+    for (char *line = text, *end; *line; line = end) {
+        gd_string string;
+        int64_t failed = 0;
+        const void *given[1] = {&string};
+        end = line + strcspn(line, "\n");
+        end += *end == '\n' ? (*end = '\0', 1) : 0;
+        gd.string_new_with_utf8_chars(&string, line);
+        gd_builtin.PACKED_STRING_ARRAY_append(strings, given, &failed, 1);
+        gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
     }
 }

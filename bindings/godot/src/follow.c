@@ -1,9 +1,11 @@
 /* Surfaces follow their nodes into the scenes of running devices. SPDX-License-Identifier: MIT */
 #include "follow.h"
 
+#include "explain.h"
 #include "geometry.h"
 #include "watch.h"
 
+#include <stdio.h>
 #include <string.h>
 
 GDExtensionObjectPtr follow_parent(const surface *s) {
@@ -28,8 +30,11 @@ int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
 /* So many errors are told a frame; of the rest, how many there are. */
 enum { MOST_ERRORS = 3 };
 
-static void complain(device *d, const surface *s) {
+static void complain(device *d, surface *s) {
     char name[128];
+    char sentence[1024];
+    (void)snprintf(sentence, sizeof sentence, "It cannot be felt: %s.", knurl_error_message());
+    explain_keep(s, sentence);
     if (d->failures++ < MOST_ERRORS) {
         gd_node_name(follow_parent(s), name, sizeof name);
         gd_error("KnurlSurface", "KnurlSurface of '%s': %s", name, knurl_error_message());
@@ -44,17 +49,18 @@ void follow_count_failures(device *d) {
     d->failures = 0;
 }
 
-/* Puts it into the device's scene, in the place of what is there of it. */
-static knurl_result put(const device *d, surface *s, const mesh_data *data, const knurl_session_pose *at) {
-    knurl_scene *scene = knurl_session_get_scene(d->session);
-    knurl_surface_id *id = &s->ids[d->slot];
+static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *id) {
+    return *id ? knurl_scene_replace_surface(scene, *id, desc) : knurl_scene_add_surface(scene, desc, id);
+}
+
+knurl_result follow_describe(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
     char name[128];
+    mesh_data data;
     knurl_surface_desc desc;
     knurl_mesh_desc mesh;
     knurl_material_desc material;
     gd_node_name(follow_parent(s), name, sizeof name);
     knurl_surface_desc_init(&desc, sizeof desc);
-    mesh_describe(data, &mesh);
     grating_describe(s->grating, &material);
     desc.name = name;
     desc.mesh = &mesh;
@@ -69,7 +75,15 @@ static knurl_result put(const device *d, surface *s, const mesh_data *data, cons
         }
         desc.axis[i] = (double)axis;
     }
-    return *id ? knurl_scene_replace_surface(scene, *id, &desc) : knurl_scene_add_surface(scene, &desc, id);
+    const int fits = geometry_read(follow_parent(s), at->rest, &data);
+    knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
+    if (fits && data.index_count == 0) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles");
+    }
+    mesh_describe(&data, &mesh);
+    result = result ? result : add_or_replace(scene, &desc, id);
+    mesh_end(&data);
+    return result;
 }
 
 static int can_be_felt(const surface *s) {
@@ -82,7 +96,6 @@ void follow_put(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
     const knurl_surface_id before = s->ids[d->slot];
-    mesh_data data;
     knurl_session_pose at;
     s->moved &= others;
     s->changed &= others;
@@ -100,16 +113,12 @@ void follow_put(device *d, surface *s) {
         follow_remove(d, s);
         return;
     }
-    const int fits = geometry_read(follow_parent(s), at.rest, &data);
-    const knurl_result result = !fits ? knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with")
-                                : data.index_count == 0 ? knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles")
-                                                        : put(d, s, &data, &at);
-    mesh_end(&data);
-    if (result) {
+    if (follow_describe(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
         complain(d, s);
         follow_remove(d, s);
         return;
     }
+    explain_keep(s, NULL);
     knurl_session_way *way = &s->ways[d->slot];
     if (!before) {
         memset(way, 0, sizeof *way);

@@ -5,6 +5,7 @@
 #include "signals.h"
 #include "watch.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static int init(void *self) {
@@ -16,23 +17,35 @@ static int init(void *self) {
 }
 
 static void finish(void *self) {
-    gd.variant_destroy(&((surface *)self)->held);
+    surface *s = self;
+    gd.variant_destroy(&s->held);
+    gd.variant_destroy(&s->watched);
+    free(s->explanation);
 }
 
 static void make_anew(void *self) {
     surface *s = self;
     s->made_anew = ALL_SLOTS;
     surface_mark(s);
-}
-
-static void explain_again(const surface *s) {
-    gd_call(gd_method.Node_update_configuration_warnings, s->base.object, NULL, NULL);
+    if (gd_is_in_editor()) {
+        explain_again(&s->base);
+    }
 }
 
 static void get_grating(void *self, void *result) {
     const surface *s = self;
     if (s->grating) {
         gd.ref_set_object(result, s->grating->base.object);
+    }
+}
+
+/* In the editor its warnings change with its grating. */
+static void follow_grating(const surface *s, const grating *given) {
+    if (s->grating && s->grating != given) {
+        gd_disconnect(s->grating->base.object, "changed", s->base.object, "update_configuration_warnings");
+    }
+    if (given && s->grating != given) {
+        gd_connect(given->base.object, "changed", s->base.object, "update_configuration_warnings");
     }
 }
 
@@ -44,6 +57,9 @@ static void set_grating(void *self, const void *value) {
     if (object && !given) {
         gd_error("KnurlSurface", "KnurlSurface.grating: expected a KnurlGrating, found another object");
         return;
+    }
+    if (gd_is_in_editor()) {
+        follow_grating(s, given);
     }
     gd.variant_destroy(&s->held);
     if (object) {
@@ -57,7 +73,7 @@ static void set_grating(void *self, const void *value) {
     s->grating = given;
     s->changed = ALL_SLOTS;
     surface_mark(s);
-    explain_again(s);
+    explain_again(&s->base);
 }
 
 /* For the first device that feels it. */
@@ -80,16 +96,7 @@ static void get_warnings(void *self, const void *const *arguments, void *result)
     static char text[8192];
     (void)arguments;
     explain_surface(self, text, sizeof text);
-    for (char *line = text, *end; *line; line = end) {
-        gd_string string;
-        int64_t failed = 0;
-        const void *given[1] = {&string};
-        end = line + strcspn(line, "\n");
-        end += *end == '\n' ? (*end = '\0', 1) : 0;
-        gd.string_new_with_utf8_chars(&string, line);
-        gd_builtin.PACKED_STRING_ARRAY_append(result, given, &failed, 1);
-        gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
-    }
+    explain_give(text, result);
 }
 
 static void is_touched(void *self, const void *const *arguments, void *result) {
@@ -107,6 +114,10 @@ static void update_mesh(void *self, const void *const *arguments, void *result) 
     (void)arguments;
     (void)result;
     unwatch_mesh(s); /* it may be another one */
+    s->meshes_seen++;
+    if (gd_is_in_editor()) {
+        watch_mesh(s);
+    }
     make_anew(s);
 }
 
@@ -115,6 +126,9 @@ static void enter(surface *s) {
     s->is_leaving = 0;
     if (!s->is_listed) {
         surface_list(s);
+    }
+    if (gd_is_in_editor()) {
+        watch_mesh(s);
     }
     make_anew(s);
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
@@ -152,11 +166,12 @@ static void notify(void *self, int32_t what) {
     surface *s = self;
     switch (what) {
     case GD_ENTER_TREE:
-        if (!gd_is_in_editor()) {
-            enter(s);
-        }
+        enter(s);
         break;
     case GD_TRANSFORM_CHANGED:
+        if (gd_is_in_editor()) {
+            explain_again(&s->base);
+        }
         s->moved = ALL_SLOTS;
         gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &s->by_physics);
         surface_mark(s);

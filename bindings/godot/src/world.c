@@ -2,6 +2,7 @@
 #include "world.h"
 
 device *devices[DEVICE_SLOTS];
+device *placed_devices;
 surface *surfaces;
 static surface *last_surface;
 surface *marked_surfaces;

@@ -19,19 +19,23 @@ typedef struct surface {
     struct surface *next, *previous;          /* of those in a tree */
     gd_variant watched;                       /* the mesh whose changes are followed, or nil */
     GDExtensionObjectPtr watched_parent;      /* the node whose changes are followed, or null */
-    uint8_t is_listed;                        /* 1: among `surfaces` */
-    uint8_t is_leaving;                       /* 1: out of the tree since the last frame; it may come back at once */
-    uint8_t is_dying;                         /* 1: being freed */
-    uint8_t moved, changed, made_anew;        /* masks: which running device has yet to be told */
-    uint8_t by_physics;                       /* 1: a step of the physics moved it last */
-    uint8_t flat;                             /* mask: scaled to nothing, so not in that device's scene */
-    knurl_surface_id ids[DEVICE_SLOTS];       /* in each running device's scene, or 0 */
+    uint64_t meshes_seen;                     /* how often its mesh has changed */
+    uint64_t explained;                       /* what `explanation` was found for, hashed; 0: nothing yet */
+    char *explanation;  /* in the editor: what its devices would say; in a game: why it is not felt; or null */
+    uint8_t is_listed;  /* 1: among `surfaces` */
+    uint8_t is_leaving; /* 1: out of the tree since the last frame; it may come back at once */
+    uint8_t is_dying;   /* 1: being freed */
+    uint8_t moved, changed, made_anew;  /* masks: which running device has yet to be told */
+    uint8_t by_physics;                 /* 1: a step of the physics moved it last */
+    uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
+    knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */
     knurl_session_way ways[DEVICE_SLOTS];
     double rest[DEVICE_SLOTS][9]; /* scale that is baked in */
 } surface;
 
 typedef struct device {
     gd_instance base;
+    struct device *next_placed; /* of those in a tree */
     char *uri, *stroke;
     double rate, workspace_scale;
     uint8_t autostart, reconnect, clamp;
@@ -62,6 +66,9 @@ void surface_unlist(surface *s);
 extern surface *marked_surfaces;
 void surface_mark(surface *s);
 void surface_unmark(surface *s);
+
+/* Devices in a tree, running or not, by next_placed. */
+extern device *placed_devices;
 
 /* Running devices, or null. */
 extern device *devices[DEVICE_SLOTS];

@@ -27,6 +27,7 @@ func probe() -> void:
 		probe_button(stage)
 		probe_gizmo(stage.get_node("KnurlDevice"))
 		await probe_warnings(stage.get_node("KnurlSurface"))
+		await probe_limits(stage)
 		checks.equal(
 			stage.get_node("KnurlDevice").get("running"), false, "no device runs in the editor"
 		)
@@ -75,3 +76,60 @@ func probe_warnings(surface: Node) -> void:
 		func(label: Node) -> bool: return (label as Label).text == warning
 	)
 	checks.equal(labels.size(), 1, "the inspector shows '%s'" % warning)
+
+
+## No device runs here: surfaces are held against the presets of those that stand in the scene.
+func probe_limits(stage: Node) -> void:
+	var device: Node3D = ClassDB.instantiate(&"KnurlDevice")
+	device.device = "touch"
+	stage.add_child(device)
+	var mesh := MeshInstance3D.new()
+	var plane := PlaneMesh.new()
+	plane.size = Vector2(0.05, 0.05)
+	mesh.mesh = plane
+	var surface: Node3D = ClassDB.instantiate(&"KnurlSurface")
+	var grating: Resource = ClassDB.instantiate(&"KnurlGrating")
+	grating.stiffness = 300.0
+	grating.amplitude = 0.0001
+	surface.grating = grating
+	mesh.add_child(surface)
+	stage.add_child(mesh)
+	mesh.position = device.position
+	checks.equal(Array(warnings_of(surface, device)), [], "nothing of what is well")
+	grating.stiffness = 100000.0
+	checks.check("N/m" in " ".join(warnings_of(surface, device)), "too stiff for a Touch")
+	grating.stiffness = 300.0
+	mesh.position.x += 5.0
+	checks.check(
+		"outside of the device's workspace" in " ".join(warnings_of(surface, device)),
+		"out of reach of a Touch"
+	)
+	device.workspace_scale = 100.0
+	checks.check(
+		not "outside" in " ".join(warnings_of(surface, device)), "a larger workspace reaches it"
+	)
+	device.workspace_scale = 1.0
+	mesh.position.x -= 5.0
+	var can := CylinderMesh.new()
+	can.top_radius = 0.05
+	can.bottom_radius = 0.05
+	can.height = 0.01
+	mesh.mesh = can
+	grating.spatial_frequency = Vector2(700, 700)
+	checks.check("along v" in " ".join(surface.get_warnings()), "stretches along v are told as well")
+	device.device = "tuch"
+	checks.check(
+		"expected auto, fake" in " ".join(device.get_warnings()), "a misspelt device"
+	)
+	mesh.free()
+	device.free()
+	await get_tree().process_frame
+
+
+## Those that name a device.
+func warnings_of(surface: Node, device: Node) -> PackedStringArray:
+	var found: PackedStringArray = []
+	for line: String in surface.get_warnings():
+		if line.begins_with(String(device.name) + ":"):
+			found.append(line)
+	return found
