@@ -126,6 +126,13 @@ warnings) # what a wrong tag says when the editor imports it
     play 120 "${headless[@]}" --path . --import
     grep -F "WARNING: Knurl: wrong_tag: material 'Hard' (0): knurl_stiffness: expected a number > 0 (N/m), found -1" "$log"
     ;;
+hints) # names that the importer makes bodies, shapes and regions of
+    new_project
+    cp "$here/cases/hints.gltf" "$project/"
+    play 120 "${headless[@]}" --path . --import
+    grep -F "WARNING: Knurl: hints: Floor: its name's import hint leaves no triangles to feel" "$log"
+    play_script "$case" "${headless[@]}"
+    ;;
 editor) # the plugin's parts, in the editor's process
     new_project
     mkdir -p "$project/addons/probe"

@@ -6,6 +6,7 @@ extends EditorPlugin
 const FOLDER := "res://addons/knurl/"
 
 var _gizmo: EditorNode3DGizmoPlugin
+var _post_import: EditorScenePostImportPlugin
 var _inspector: EditorInspectorPlugin
 var _button: Button
 # The scripts below name Knurl's classes, so they are loaded only where those are there.
@@ -22,6 +23,8 @@ func _enter_tree() -> void:
 	_gltf = load(FOLDER + "import.gd")
 	_overlay = load(FOLDER + "overlay.gd")
 	_gltf.register()
+	_post_import = load(FOLDER + "post_import.gd").new()
+	add_scene_post_import_plugin(_post_import)
 	_gizmo = load(FOLDER + "gizmo.gd").new()
 	add_node_3d_gizmo_plugin(_gizmo)
 	_inspector = load(FOLDER + "inspector.gd").new()
@@ -50,6 +53,7 @@ func _exit_tree() -> void:
 	_button.queue_free()
 	remove_inspector_plugin(_inspector)
 	remove_node_3d_gizmo_plugin(_gizmo)
+	remove_scene_post_import_plugin(_post_import)
 	_gltf.unregister()
 
 

@@ -1,0 +1,49 @@
+@tool
+extends EditorScenePostImportPlugin
+## Names with a hint ([code]-rigid[/code], [code]-colonly[/code], ...) make the importer put another
+## node where a tagged mesh was. This hangs the mesh's [KnurlSurface] below what is left of it, or
+## says that nothing is.
+
+const ADVICE := (
+	"its name's import hint leaves no triangles to feel: "
+	+ "give the mesh another name, or tag one beside it"
+)
+
+
+func _post_process(scene: Node) -> void:
+	for surface: Node in scene.find_children("*", "KnurlSurface", true, true):
+		var parent: Node = surface.get_parent()
+		if _can_be_felt(parent):
+			continue
+		var left: Node = _find_left(parent)
+		surface.owner = null
+		parent.remove_child(surface)
+		if left == null:
+			push_warning("Knurl: %s: %s: %s" % [scene.name, parent.name, ADVICE])
+			surface.free()
+			continue
+		left.add_child(surface, true)
+		surface.owner = scene
+		if left is CollisionShape3D and surface.axis == Vector3.ZERO:
+			push_warning(
+				(
+					"Knurl: %s: %s: a collision shape has no UVs: add an axis to the tag"
+					% [scene.name, parent.name]
+				)
+			)
+
+
+static func _can_be_felt(node: Node) -> bool:
+	return (
+		node is MeshInstance3D
+		or node is CollisionShape3D and node.shape is ConcavePolygonShape3D
+	)
+
+
+## The mesh below a node that has taken its place, or its triangles.
+static func _find_left(node: Node) -> Node:
+	for type: String in ["MeshInstance3D", "CollisionShape3D"]:
+		for child: Node in node.get_children():
+			if child.is_class(type) and _can_be_felt(child):
+				return child
+	return null
