@@ -9,8 +9,14 @@ void knurl_board_take(const knurl_tick_output *output, void *user) {
     knurl_board *b = user;
     knurl_board_tick tick;
     memcpy(tick.hip, output->hip, sizeof tick.hip);
+    memcpy(tick.velocity, output->hip_velocity, sizeof tick.velocity);
     memcpy(tick.proxy, output->proxy, sizeof tick.proxy);
     memcpy(tick.force, output->force, sizeof tick.force);
+    for (int i = 0; i < 3; i++) {
+        b->impulse[i] += b->period * output->force[i];
+    }
+    memcpy(tick.impulse, b->impulse, sizeof tick.impulse);
+    tick.depth = output->depth;
     tick.height = output->height;
     tick.temporal_frequency = output->temporal_frequency;
     tick.surface = output->surface;

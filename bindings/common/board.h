@@ -8,8 +8,9 @@
 enum { KNURL_BOARD_TICKS = KNURL_SESSION_HISTORY, KNURL_BOARD_CHANGES = 64 };
 
 typedef struct knurl_board_tick {
-    double hip[3], proxy[3], force[3]; /* scene axes */
-    double height, temporal_frequency;
+    double hip[3], velocity[3], proxy[3], force[3]; /* scene axes */
+    double impulse[3];                              /* N s: of all forces so far */
+    double depth, height, temporal_frequency;
     knurl_surface_id surface;
     uint64_t tick; /* of the HIP, counted from 1 */
     uint64_t sent; /* ticks so far: with those that had no position there are more of the HIP */
@@ -24,7 +25,9 @@ typedef struct knurl_board {
     uint64_t changes, changed[KNURL_BOARD_CHANGES];
     /* the haptic thread's */
     knurl_surface_id last;
-    double *forces; /* or null: three a tick, for knurl_session_play() */
+    double period;     /* s: of a tick */
+    double impulse[3]; /* N s */
+    double *forces;    /* or null: three a tick, for knurl_session_play() */
     uint64_t force_count, force_capacity;
     /* the game thread's */
     uint64_t seen; /* changes */

@@ -29,7 +29,7 @@ static int look(const knurl_session *s, knurl_board_tick *sent) {
     if (sent->tick > 0 && !knurl_scene_get_tick(s->scene, 0, &now, NULL) && now.flags & KNURL_TICK_ABSENT) {
         memset(sent->force, 0, sizeof sent->force);
         memcpy(sent->proxy, sent->hip, sizeof sent->proxy);
-        sent->height = sent->temporal_frequency = 0.0;
+        sent->depth = sent->height = sent->temporal_frequency = 0.0;
         sent->surface = 0;
     }
     return sent->tick > 0;
@@ -174,6 +174,7 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
         return;
     }
     knurl_board_tick sent;
+    knurl_hip_counts counts;
     memset(state, 0, sizeof *state);
     if (!session->runs) {
         return;
@@ -183,10 +184,16 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
     state->surface = session->touched;
     state->buttons = session->buttons;
     state->overruns = session->overruns;
+    memset(&counts, 0, sizeof counts);
     if (look(session, &sent)) {
+        (void)knurl_scene_get_tick(session->scene, 0, NULL, &counts);
         memcpy(state->hip, sent.hip, sizeof state->hip);
         memcpy(state->proxy, sent.proxy, sizeof state->proxy);
         memcpy(state->force, sent.force, sizeof state->force);
+        memcpy(state->velocity, sent.velocity, sizeof state->velocity);
+        memcpy(state->impulse, sent.impulse, sizeof state->impulse);
+        state->ridges = 0.5 * counts.half_cycles_crossed;
+        state->depth = sent.depth;
         state->height = sent.height;
         state->temporal_frequency = sent.temporal_frequency;
         state->in_contact = sent.surface != 0;

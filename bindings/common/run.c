@@ -26,15 +26,38 @@ static knurl_result check(const knurl_session_desc *d) {
     return knurl_workspace_check(&d->workspace);
 }
 
+/* The first device that is connected and can be used. */
+static knurl_result open_any(knurl_session *session) {
+    enum { MOST = 16 };
+    knurl_device_listing *found = calloc(MOST, sizeof *found);
+    if (!found) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "no memory to list devices in");
+    }
+    const uint32_t count = knurl_device_list(found, MOST);
+    knurl_result result =
+        knurl_fail(KNURL_ERROR_DEVICE_NOT_READY, "auto: expected a device that is connected, found none; %s",
+                   count > 0 ? found[0].reason : "no driver is built in");
+    for (uint32_t i = 0; i < count && i < MOST && result; i++) {
+        if (!found[i].reason[0] && strncmp(found[i].uri, "fake", 4) != 0) {
+            result = knurl_device_open(found[i].uri, &session->device);
+        }
+    }
+    free(found);
+    return result;
+}
+
 static knurl_result open_device(knurl_session *session, const char *device) {
     char unknown[512];
+    if (strcmp(device, "auto") == 0) {
+        return open_any(session);
+    }
     if (strcmp(device, "mouse") == 0) {
         return knurl_mouse_open(&session->mouse, &session->device);
     }
     const knurl_result result = knurl_device_open(device, &session->device);
     if (result == KNURL_ERROR_UNKNOWN) { /* it does not know what is known here */
         (void)snprintf(unknown, sizeof unknown, "%s", knurl_error_message());
-        return knurl_fail(result, "%s; or mouse, which the game moves", unknown);
+        return knurl_fail(result, "%s; or mouse, which the game moves; or auto", unknown);
     }
     return result;
 }
@@ -90,6 +113,7 @@ static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
     desc.update_rate_hz = session->desc.update_rate_hz;
     desc.tick_callback = knurl_board_take;
     desc.user = &session->board;
+    session->board.period = 1.0 / desc.update_rate_hz;
     desc.reconnect = session->desc.reconnect;
     desc.heartbeat_s = heartbeat_s;
     return knurl_loop_create(&desc, &session->loop);

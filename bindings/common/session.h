@@ -24,8 +24,9 @@ typedef struct knurl_session_desc {
     uint32_t reconnect;        /**< 1 (default): a lost device is looked for again; 0: losing it ends the run */
     uint32_t clamp;            /**< 1 (default): walls beyond what the device can do are felt at what it can */
     uint32_t reserved;         /**< 0 */
-    const char *device;        /**< UTF-8: a URI of knurl_device_open(), default "fake"; or "mouse": no device, the game
-                                    moves the HIP with knurl_session_move_hip() */
+    const char *device;        /**< UTF-8: a URI of knurl_device_open(), default "fake"; or "auto": the first that is
+                                    connected; or "mouse": no device, the game moves the HIP with
+                                    knurl_session_move_hip() */
     const char *stroke;        /**< of a fake device's hand, over the scene's first surface: a name that
                                     knurl_stroke_from_name() knows; "" (default): it stands still at the origin */
     double update_rate_hz;     /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
@@ -48,6 +49,11 @@ typedef struct knurl_session_state {
     uint32_t running;          /**< 1: the haptic thread runs */
     uint32_t in_contact;       /**< 1: something is touched, told or not */
     uint32_t paused;           /**< 1: as knurl_session_set_paused() had it */
+    double velocity[3];        /**< m/s: of the HIP */
+    double depth;              /**< m: how deep the HIP is in what is touched; negative among a grating's crests */
+    double impulse[3];         /**< N s: the sum of all forces over time since the start: what is touched has got the
+                                    opposite of what came in since the last look */
+    double ridges;             /**< passed since the start, of all surfaces touched */
 } knurl_session_state;
 
 /** What happened. */

@@ -362,3 +362,38 @@ TEST(a_frame_ends_however_many_faults_there_are) {
     assert_int_equal(knurl_session_next_event(s, &event), 1);
     knurl_session_destroy(s);
 }
+
+/* 0.4 N for 0.1 s, and a hand that slides at 50 mm/s: what a body that is touched gets, and a game may ask for. */
+TEST(state_tells_impulse_velocity_and_depth) {
+    static const double rows[8] = {0.0, 0.0, 0.0, -0.001, 1.0, 0.05, 0.0, -0.001};
+    const knurl_session_desc desc = describe("fake", "");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    open_session(s, &desc);
+    begin(s);
+    s->board.period = 1e-3;
+    press(s, 0.0, 0.0);
+    step(s, 300);
+    const knurl_session_state before = state_of(s);
+    CHECK_CLOSE(before.depth, 0.001, 1e-4);
+    step(s, 100);
+    const knurl_session_state after = state_of(s);
+    CHECK_CLOSE(after.impulse[2] - before.impulse[2], 0.001 * STIFFNESS * 0.1, 1e-4);
+    CHECK_CLOSE(after.impulse[0] - before.impulse[0], 0.0, 1e-9);
+    assert_int_equal(knurl_fake_set_trace(s->device, rows, 2), KNURL_OK);
+    step(s, 500);
+    CHECK_CLOSE(state_of(s).velocity[0], 0.05, 0.005);
+    knurl_session_destroy(s);
+}
+
+/* Whatever is connected to the machine that tests. */
+TEST(auto_is_what_is_connected_or_says_that_nothing_is) {
+    const knurl_session_desc desc = describe("auto", "");
+    knurl_session *s = make_session();
+    if (knurl_session_open(s, &desc)) {
+        check_message("auto: expected a device that is connected");
+    } else {
+        assert_non_null(knurl_session_get_device(s));
+    }
+    knurl_session_destroy(s);
+}

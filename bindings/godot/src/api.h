@@ -50,6 +50,7 @@
     X(ClassdbRegisterExtensionClassMethod, classdb_register_extension_class_method)                                    \
     X(ClassdbRegisterExtensionClassProperty, classdb_register_extension_class_property)                                \
     X(ClassdbRegisterExtensionClassSignal, classdb_register_extension_class_signal)                                    \
+    X(ClassdbRegisterExtensionClassIntegerConstant, classdb_register_extension_class_integer_constant)                 \
     X(ClassdbUnregisterExtensionClass, classdb_unregister_extension_class)
 
 /* Engine methods: class, method, and the hash of its signature out of extension_api.json; all are the same in 4.3 and
@@ -89,7 +90,8 @@
     X(PACKED_VECTOR2_ARRAY, size, 3173160232)                                                                          \
     X(PACKED_VECTOR3_ARRAY, size, 3173160232)                                                                          \
     X(PACKED_STRING_ARRAY, append, 816187996)                                                                          \
-    X(ARRAY, size, 3173160232)
+    X(ARRAY, size, 3173160232)                                                                                         \
+    X(ARRAY, append, 3316032543)
 
 typedef struct gd_interface {
 #define GD_FIELD(type, name) GDExtensionInterface##type name;

@@ -52,6 +52,12 @@ typedef struct gd_signal_row {
     gd_argument arguments[2];
 } gd_signal_row;
 
+/* A named number; of one enum's, one after another. */
+typedef struct gd_constant_row {
+    const char *of, *name;
+    int64_t value;
+} gd_constant_row;
+
 struct gd_class {
     const char *name, *base;
     size_t size;             /* of an instance, which is zeroed before init() */
@@ -65,6 +71,8 @@ struct gd_class {
     uint32_t method_count;
     const gd_signal_row *signals;
     uint32_t signal_count;
+    const gd_constant_row *constants;
+    uint32_t constant_count;
 };
 
 enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_RESOURCE_TYPE = 17 };

@@ -3,11 +3,13 @@
 
 #include "explain.h"
 #include "follow.h"
+#include "serve.h"
 #include "signals.h"
 
+#include <stdio.h>
 #include <string.h>
 
-int64_t device_fail(const char *where, knurl_result result) {
+static int64_t error_of(knurl_result result) {
     enum {
         FAILED = 1,
         UNAVAILABLE = 2,
@@ -19,7 +21,6 @@ int64_t device_fail(const char *where, knurl_result result) {
         CANT_CONNECT = 25,
         INVALID_PARAMETER = 31
     };
-    gd_error(where, "%s: %s", where, knurl_error_message());
     switch (result) {
     case KNURL_ERROR_ARGUMENT:
     case KNURL_ERROR_UNKNOWN:
@@ -42,6 +43,11 @@ int64_t device_fail(const char *where, knurl_result result) {
     default:
         return FAILED;
     }
+}
+
+int64_t device_fail(const char *where, knurl_result result) {
+    gd_error(where, "%s: %s", where, knurl_error_message());
+    return error_of(result);
 }
 
 static knurl_result take_slot(device *d) {
@@ -123,8 +129,25 @@ void device_release(device *d) {
     }
 }
 
+/* Opens and runs. warning: 512 bytes. */
+static knurl_result run(device *d, char *warning) {
+    knurl_result result = device_prepare(d);
+    if (!result) {
+        knurl_session_set_paused(d->session, d->paused || d->tree_paused);
+    }
+    result = result ? result : knurl_session_start(d->session, warning, 512);
+    if (!result) {
+        d->runs = 1;
+        d->ridges = 0.0;
+        memset(d->impulse, 0, sizeof d->impulse);
+        explain_start();
+    }
+    return result;
+}
+
 int64_t device_start(device *d) {
     enum { OK = 0, UNAVAILABLE = 2 };
+    char warning[512] = "";
     d->wants_start = 0;
     if (d->runs) {
         return OK;
@@ -133,23 +156,38 @@ int64_t device_start(device *d) {
         gd_error("KnurlDevice.start", "KnurlDevice.start: devices run in a running game, not in the editor");
         return UNAVAILABLE;
     }
-    char warning[512];
-    knurl_result result = device_prepare(d);
-    if (!result) {
-        knurl_session_set_paused(d->session, d->paused || d->tree_paused);
-    }
-    result = result ? result : knurl_session_start(d->session, warning, sizeof warning);
+    const knurl_result result = run(d, warning);
     if (result) {
         const int64_t error = device_fail("KnurlDevice.start", result);
         device_release(d);
         return error;
     }
-    d->runs = 1;
-    explain_start();
     if (warning[0]) {
         gd_warning("KnurlDevice.start", "KnurlDevice: %s", warning);
     }
     return OK;
+}
+
+/* A start of its own: what fails is a signal, and an error once for all that is tried in a row. */
+static void start_by_itself(device *d) {
+    char text[1024];
+    char warning[512] = "";
+    d->wants_start = 0;
+    const knurl_result result = d->runs ? KNURL_OK : run(d, warning);
+    if (!result) {
+        d->has_failed = 0;
+        return;
+    }
+    (void)snprintf(text, sizeof text, "%s", knurl_error_message());
+    const int64_t error = error_of(result);
+    device_release(d);
+    if (!d->has_failed) {
+        gd_error("KnurlDevice", "KnurlDevice: %s", text);
+        d->has_failed = 1;
+        signals_tell_failure(d, error, text);
+    }
+    d->wants_start = d->retry > 0.0;
+    d->retries_in = d->retry;
 }
 
 void device_stop(device *d) {
@@ -177,14 +215,52 @@ static void tell_time(device *d) {
     (void)knurl_session_tell_time(d->session, KNURL_SESSION_STEPS, d->steps_time);
 }
 
+/* What is touched gets the opposite of the forces that the hand got since the last frame, as its body's impulse. */
+static void react(device *d, const knurl_session_state *state) {
+    const surface *s = d->touched_node ? gd_instance_of(d->touched_node, &surface_class) : NULL;
+    GDExtensionObjectPtr body = s && s->reaction ? follow_parent(s) : NULL;
+    float impulse[3];
+    float arm[3];
+    knurl_session_pose at;
+    while (body && !gd_cast(body, "RigidBody3D")) {
+        GDExtensionObjectPtr parent = NULL;
+        gd_call(gd_method.Node_get_parent, body, NULL, &parent);
+        body = parent;
+    }
+    if (body && follow_pose(body, &at)) {
+        for (int i = 0; i < 3; i++) {
+            impulse[i] = (float)(d->impulse[i] - state->impulse[i]);
+            arm[i] = (float)(state->proxy[i] - at.position[i]);
+        }
+        const gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_VECTOR3, impulse),
+                                         gd_wrap(GDEXTENSION_VARIANT_TYPE_VECTOR3, arm)};
+        gd_variant result = gd_call_named(body, "apply_impulse", arguments, 2);
+        gd.variant_destroy(&result);
+    }
+    memcpy(d->impulse, state->impulse, sizeof d->impulse);
+}
+
+static void tell_state(device *d) {
+    knurl_session_state state;
+    knurl_session_get_state(d->session, &state);
+    if (state.ticks > 0) {
+        react(d, &state);
+        signals_tell_ridges(d, state.ridges);
+    }
+}
+
 void device_process(device *d) {
-    if (d->wants_start) {
-        (void)device_start(d);
+    double delta = 0.0;
+    gd_call(gd_method.Node_get_process_delta_time, d->base.object, NULL, &delta);
+    d->retries_in -= delta;
+    if (d->wants_start && d->retries_in <= 0.0) {
+        start_by_itself(d);
     }
     if (d->runs) {
         tell_time(d);
         follow_all(d);
         knurl_session_update(d->session);
+        tell_state(d);
         while (signals_tell(d)) {
             device_stop(d);
         }

@@ -86,6 +86,8 @@ static void notify(void *self, int32_t what) {
     case GD_ENTER_TREE:
         place(d);
         if (!gd_is_in_editor()) {
+            d->has_failed = 0;
+            d->retries_in = 0.0;
             d->wants_start = d->autostart; /* in the first frame, when all of the scene is there */
             set_processing(d, 1);
         }
@@ -157,6 +159,25 @@ static void get_temporal_frequency(void *self, void *value) {
 
 static void get_height(void *self, void *value) {
     *(double *)value = look(self).height;
+}
+
+static void get_velocity(void *self, void *value) {
+    const knurl_session_state state = look(self);
+    give_vector(state.velocity, value);
+}
+
+static void get_depth(void *self, void *value) {
+    *(double *)value = look(self).depth;
+}
+
+static void get_buttons(void *self, void *value) {
+    *(int64_t *)value = (int64_t)look(self).buttons;
+}
+
+static void get_touched(void *self, const void *const *arguments, void *result) {
+    const device *d = self;
+    (void)arguments;
+    memcpy(result, &d->touched_node, sizeof d->touched_node);
 }
 
 static void get_device_name(void *self, void *value) {
@@ -259,6 +280,7 @@ static const gd_property properties[] = {
     {"workspace_scale", FLOAT, offsetof(device, workspace_scale), 0.001, 100.0, 0.001, "or_greater,exp", 0, NULL, NULL,
      explain_anew},
     {.name = "autostart", .type = BOOL, .offset = offsetof(device, autostart)},
+    {"retry", FLOAT, offsetof(device, retry), 0.0, 60.0, 0.1, "or_greater,suffix:s", 0, NULL, NULL, NULL},
     {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},
     {.name = "clamp", .type = BOOL, .offset = offsetof(device, clamp)},
     {.name = "stroke",
@@ -272,6 +294,9 @@ static const gd_property properties[] = {
     {.name = "force", .type = VECTOR3, .get = get_force},
     {.name = "running", .type = BOOL, .get = get_running},
     {.name = "in_contact", .type = BOOL, .get = get_in_contact},
+    {.name = "velocity", .type = VECTOR3, .get = get_velocity},
+    {.name = "depth", .type = FLOAT, .get = get_depth},
+    {.name = "buttons", .type = INT, .get = get_buttons},
     {.name = "temporal_frequency", .type = FLOAT, .get = get_temporal_frequency},
     {.name = "height", .type = FLOAT, .get = get_height},
     {.name = "device_name", .type = STRING, .get = get_device_name},
@@ -282,6 +307,8 @@ static const gd_property properties[] = {
 static const gd_method_row methods[] = {
     {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, get_warnings, 0, {{NULL}}},
     {"start", INT, start, 0, {{NULL}}},
+    {"list_devices", GDEXTENSION_VARIANT_TYPE_ARRAY, status_list, 0, {{NULL}}},
+    {"get_touched_surface", OBJECT, get_touched, 0, {{NULL}}},
     {"stop", NOTHING, stop, 0, {{NULL}}},
     {"move_hip", NOTHING, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
     {"get_history", FLOATS, get_history, 1, {{"count", INT, NULL}}},
@@ -294,7 +321,14 @@ static const gd_signal_row signals[] = {
     {"contact_started", 1, {{"surface", OBJECT, "KnurlSurface"}}},
     {"contact_ended", 1, {{"surface", OBJECT, "KnurlSurface"}}},
     {"button_changed", 2, {{"index", INT, NULL}, {"pressed", BOOL, NULL}}},
+    {"start_failed", 2, {{"error", INT, NULL}, {"text", STRING, NULL}}},
     {"fault", 2, {{"code", INT, NULL}, {"text", STRING, NULL}}},
+};
+
+static const gd_constant_row constants[] = {
+#define FAULT_ROW(code, number, name, text, unit) {"Fault", &#code[sizeof "KNURL_" - 1], number},
+    KNURL_FAULTS(FAULT_ROW)
+#undef FAULT_ROW
 };
 
 const gd_class device_class = {
@@ -311,4 +345,6 @@ const gd_class device_class = {
     .method_count = sizeof methods / sizeof *methods,
     .signals = signals,
     .signal_count = sizeof signals / sizeof *signals,
+    .constants = constants,
+    .constant_count = sizeof constants / sizeof *constants,
 };

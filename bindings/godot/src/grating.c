@@ -48,6 +48,14 @@ static const gd_property properties[] = {
      GD_HINT_ENUM, NULL, NULL, changed},
 };
 
+static const gd_constant_row constants[] = {
+    {"Method", "METHOD_DEFAULT", KNURL_METHOD_DEFAULT},
+    {"Method", "METHOD_S1", KNURL_S1},
+    {"Method", "METHOD_S2", KNURL_S2},
+    {"Method", "METHOD_LOCKED", KNURL_LOCKED},
+    {"Method", "METHOD_AREA", KNURL_AREA},
+};
+
 const gd_class grating_class = {
     .name = "KnurlGrating",
     .base = "Resource",
@@ -56,4 +64,6 @@ const gd_class grating_class = {
     .finish = finish,
     .properties = properties,
     .property_count = sizeof properties / sizeof *properties,
+    .constants = constants,
+    .constant_count = sizeof constants / sizeof *constants,
 };

@@ -147,6 +147,16 @@ static void register_signal(const gd_class *class, const gd_signal_row *signal) 
     gd_name_end(&class_name);
 }
 
+static void register_constant(const gd_class *class, const gd_constant_row *constant) {
+    gd_name class_name = gd_name_new(class->name);
+    gd_name of = gd_name_new(constant->of);
+    gd_name name = gd_name_new(constant->name);
+    gd.classdb_register_extension_class_integer_constant(gd_library, &class_name, &of, &name, constant->value, 0);
+    gd_name_end(&name);
+    gd_name_end(&of);
+    gd_name_end(&class_name);
+}
+
 void gd_register(const gd_class *class) {
     GDExtensionClassCreationInfo3 info;
     gd_name name = gd_name_new(class->name);
@@ -176,6 +186,9 @@ void gd_register(const gd_class *class) {
     }
     for (uint32_t i = 0; i < class->signal_count; i++) {
         register_signal(class, &class->signals[i]);
+    }
+    for (uint32_t i = 0; i < class->constant_count; i++) {
+        register_constant(class, &class->constants[i]);
     }
     gd_name_end(&base);
     gd_name_end(&name);

@@ -184,7 +184,7 @@ static void give_result(GDExtensionVariantType type, gd_value *value, GDExtensio
         return;
     }
     gd_types[type].to_variant(to, value);
-    if (type == GDEXTENSION_VARIANT_TYPE_OBJECT && value->object) {
+    if (type == GDEXTENSION_VARIANT_TYPE_OBJECT && gd_cast(value->object, "RefCounted")) {
         uint8_t was_last;
         gd_call(gd_method.RefCounted_unreference, value->object, NULL, &was_last); /* the Variant holds one now */
     }

@@ -10,10 +10,13 @@ static GDExtensionObjectPtr node_of(const device *d, knurl_surface_id id) {
     return NULL;
 }
 
-static void emit_contact(const device *d, const char *signal, GDExtensionObjectPtr node) {
+/* The device says it of the surface, and the surface of the device. */
+static void emit_contact(const device *d, const char *signal, const char *own, GDExtensionObjectPtr node) {
     gd_variant argument;
     if (node) {
+        const gd_variant by = gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &d->base.object);
         argument = gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &node);
+        gd_emit(node, own, &by, 1);
     } else {
         gd.variant_new_nil(&argument); /* a surface of a file */
     }
@@ -26,14 +29,36 @@ void signals_end_contact(device *d) {
         const GDExtensionObjectPtr node = d->touched_node;
         d->touched = 0;
         d->touched_node = NULL;
-        emit_contact(d, "contact_ended", node);
+        emit_contact(d, "contact_ended", "released", node);
     }
 }
 
 static void start_contact(device *d, knurl_surface_id id) {
     d->touched = id;
     d->touched_node = node_of(d, id);
-    emit_contact(d, "contact_started", d->touched_node);
+    emit_contact(d, "contact_started", "touched", d->touched_node);
+}
+
+void signals_tell_ridges(device *d, double ridges) {
+    const int64_t count = (int64_t)(ridges - d->ridges);
+    if (count > 0 && d->touched_node) {
+        const gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &d->base.object),
+                                         gd_wrap(GDEXTENSION_VARIANT_TYPE_INT, &count)};
+        d->ridges += (double)count;
+        gd_emit(d->touched_node, "ridges_passed", arguments, 2);
+    } else if (count > 0) {
+        d->ridges = ridges;
+    }
+}
+
+void signals_tell_failure(const device *d, int64_t error, const char *why) {
+    gd_string string;
+    gd.string_new_with_utf8_chars(&string, why);
+    gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_INT, &error),
+                               gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING, &string)};
+    gd_emit(d->base.object, "start_failed", arguments, 2);
+    gd.variant_destroy(&arguments[1]);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
 }
 
 static void change_button(const device *d, const knurl_session_event *event) {

@@ -1,6 +1,9 @@
 /* KnurlDevice.get_status(): everything that counts, in one Dictionary. SPDX-License-Identifier: MIT */
 #include "status.h"
 
+#include <knurl/device.h>
+
+#include <stdlib.h>
 #include <string.h>
 
 static void number(void *dictionary, const char *key, double value) {
@@ -79,4 +82,34 @@ void status_tell(void *self, const void *const *arguments, void *result) {
         tell_device(knurl_session_get_device(d->session), result);
         tell_hip(knurl_session_get_scene(d->session), result);
     }
+}
+
+static void add_text(void *dictionary, const char *key, const char *text) {
+    gd_string string;
+    gd.string_new_with_utf8_chars(&string, text);
+    gd_dictionary_set(dictionary, key, GDEXTENSION_VARIANT_TYPE_STRING, &string);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
+}
+
+void status_list(void *self, const void *const *arguments, void *result) {
+    enum { MOST = 32 };
+    knurl_device_listing *found = calloc(MOST, sizeof *found);
+    const uint32_t count = found ? knurl_device_list(found, MOST) : 0;
+    (void)self;
+    (void)arguments;
+    for (uint32_t i = 0; i < count && i < MOST; i++) {
+        gd_value dictionary;
+        int64_t ignored = 0;
+        gd_types[GDEXTENSION_VARIANT_TYPE_DICTIONARY].make(&dictionary, NULL);
+        add_text(&dictionary, "device", found[i].uri);
+        add_text(&dictionary, "name", found[i].name);
+        add_text(&dictionary, "reason", found[i].reason);
+        truth(&dictionary, "usable", found[i].reason[0] == '\0');
+        gd_variant wrapped = gd_wrap(GDEXTENSION_VARIANT_TYPE_DICTIONARY, &dictionary);
+        const void *given[1] = {&wrapped};
+        gd_builtin.ARRAY_append(result, given, &ignored, 1);
+        gd.variant_destroy(&wrapped);
+        gd_types[GDEXTENSION_VARIANT_TYPE_DICTIONARY].end(&dictionary);
+    }
+    free(found);
 }

@@ -7,4 +7,7 @@
 
 void status_tell(void *self, const void *const *arguments, void *result);
 
+/* See KnurlDevice.list_devices(). */
+void status_list(void *self, const void *const *arguments, void *result);
+
 #endif

@@ -206,6 +206,7 @@ static const gd_property properties[] = {
      .type = GDEXTENSION_VARIANT_TYPE_BOOL,
      .offset = offsetof(surface, enabled),
      .changed = make_anew},
+    {.name = "reaction", .type = GDEXTENSION_VARIANT_TYPE_BOOL, .offset = offsetof(surface, reaction)},
 };
 
 static const gd_method_row methods[] = {
@@ -213,6 +214,14 @@ static const gd_method_row methods[] = {
     {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, get_warnings, 0, {{NULL}}},
     {"update_mesh", GDEXTENSION_VARIANT_TYPE_NIL, update_mesh, 0, {{NULL}}},
     {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, is_touched, 0, {{NULL}}},
+};
+
+static const gd_signal_row signals[] = {
+    {"touched", 1, {{"device", GDEXTENSION_VARIANT_TYPE_OBJECT, "KnurlDevice"}}},
+    {"released", 1, {{"device", GDEXTENSION_VARIANT_TYPE_OBJECT, "KnurlDevice"}}},
+    {"ridges_passed",
+     2,
+     {{"device", GDEXTENSION_VARIANT_TYPE_OBJECT, "KnurlDevice"}, {"count", GDEXTENSION_VARIANT_TYPE_INT, NULL}}},
 };
 
 const gd_class surface_class = {
@@ -227,4 +236,6 @@ const gd_class surface_class = {
     .property_count = sizeof properties / sizeof *properties,
     .methods = methods,
     .method_count = sizeof methods / sizeof *methods,
+    .signals = signals,
+    .signal_count = sizeof signals / sizeof *signals,
 };

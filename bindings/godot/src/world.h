@@ -13,7 +13,7 @@ typedef struct surface {
     gd_instance base;
     gd_variant held; /* keeps the grating's reference */
     grating *grating;
-    uint8_t double_sided, enabled;
+    uint8_t double_sided, enabled, reaction;
     float axis[3];
     struct surface *next_marked, **marked_at; /* the link that leads here; or null: not marked */
     struct surface *next, *previous;          /* of those in a tree */
@@ -40,6 +40,11 @@ typedef struct device {
     double rate, workspace_scale;
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */
+    double retry;        /* s after which a start of its own that failed is tried again; 0: never */
+    double retries_in;   /* s */
+    uint8_t has_failed;  /* 1: the latest start of its own did, and that was told */
+    double impulse[3];   /* N s: of the haptic thread's forces, as far as bodies have got it */
+    double ridges;       /* passed, as told */
     uint8_t runs;
     uint8_t paused, tree_paused; /* by the game; by the tree, as the engine tells */
     int slot;                    /* -1: does not run */

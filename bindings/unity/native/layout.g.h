@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "0902ada9a5a716a8"
+#define KNURL_UNITY_INTERFACE "396fd06848bafa50"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -342,7 +342,7 @@
     FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
     FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
     FIELD(knurl_session_desc, workspace, "workspace", 48, 112) \
-    STRUCT(knurl_session_state, 128) \
+    STRUCT(knurl_session_state, 192) \
     FIELD(knurl_session_state, hip, "hip", 0, 24) \
     FIELD(knurl_session_state, proxy, "proxy", 24, 24) \
     FIELD(knurl_session_state, force, "force", 48, 24) \
@@ -355,6 +355,10 @@
     FIELD(knurl_session_state, running, "running", 116, 4) \
     FIELD(knurl_session_state, in_contact, "in_contact", 120, 4) \
     FIELD(knurl_session_state, paused, "paused", 124, 4) \
+    FIELD(knurl_session_state, velocity, "velocity", 128, 24) \
+    FIELD(knurl_session_state, depth, "depth", 152, 8) \
+    FIELD(knurl_session_state, impulse, "impulse", 160, 24) \
+    FIELD(knurl_session_state, ridges, "ridges", 184, 8) \
     STRUCT(knurl_session_event, 24) \
     FIELD(knurl_session_event, kind, "kind", 0, 4) \
     FIELD(knurl_session_event, code, "code", 4, 4) \

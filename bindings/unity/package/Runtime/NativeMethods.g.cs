@@ -503,6 +503,10 @@ namespace Knurl
         public uint running;
         public uint in_contact;
         public uint paused;
+        public fixed double velocity[3];
+        public double depth;
+        public fixed double impulse[3];
+        public double ridges;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -591,7 +595,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "0902ada9a5a716a8";
+        internal const string Interface = "396fd06848bafa50";
 
         internal const string Version = "0.1.0";
 
