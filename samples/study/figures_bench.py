@@ -1,33 +1,36 @@
-"""What a tick takes against triangles: the JSON of `knurl bench --json`, kept as bench.json. Drawn by figures.py.
+"""What a tick takes against triangles: the JSON of `knurl bench --json`, kept as bench.json; and release by release.
+Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
+import json
+import os
+
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import NullLocator
 
-from style import ACCENT, GREY, INK, PALE, RULE, SOFT, heading, say
+from style import ACCENT, GREY, INK, PALE, RULE, SOFT, heading, open_input, say
 
 MESHES = ("mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m")
 FEELS = (("", "with grating", ACCENT, "o"), ("_smooth", "smooth", SOFT, "s"),
          ("_friction", "grating and friction", INK, "D"))
 PLACES = {"plane": 4, "moving": 25, "surfaces_10k": 160}  # where the log axis has scenes that are no single mesh
-# CHAI3D 3.3, measured elsewhere, not here, as noted in November 2026: 2 vCPUs at 2.5 GHz, -O2 -march=native, SCHED_FIFO,
-# pinned, device I/O excluded, two runs of 1e6 ticks (paced: 20,000), the same stroke. Triangles, then from the least that
-# was noted without texture to the most with it, ns.
-CHAI3D_MEDIAN = ((1e3, 2200, 3800), (1e4, 4200, 6800), (1e5, 19000, 23000))
-CHAI3D_P99 = ((1e3, 13000, 14000), (1e4, 17000, 24000), (1e5, 63000, 73000))
-CHAI3D_PACED_MEDIAN = ((1e3, 11000, 13000), (1e4, 14000, 19000), (1e5, 27000, 31000))
-CHAI3D_PACED_P99 = ((1e3, 35000, 36000), (1e4, 43000, 46000), (1e5, 101000, 106000))
-
+# CHAI3D 3.3 at -O3 -march=native, measured in November 2026 on 2 vCPUs AMD EPYC (Zen 4), shared, in one process with
+# Knurl and in turns with it, 5 to 7 rounds, on the same sheets with the same stroke. Triangles (a plane: 2), then ns: its
+# fastest textured path (cAlgorithmFingerProxy::computeForces() alone), then what its examples do each tick.
+CHAI3D_MEDIAN = ((4, 242, 661), (1e3, 506, 928), (1e4, 595, 1034), (1e5, 1479, 2111), (1e6, 3989, 4478))
+CHAI3D_PACED_MEDIAN = ((4, 2600, 5400), (1e3, 5000, 8800), (1e5, 9400, 12100), (1e6, 24000, 27000))
+CHAI3D_PACED_P99 = ((4, 5900), (1e3, 9800), (1e5, 36000), (1e6, 284000))  # its fastest path; no p99 was kept of the other
 
 def band(ax, points, label, **style):
-    x, low, high = zip(*points)
-    ax.fill_between(x, low, high, color=RULE, alpha=0.55, lw=0, zorder=1)
-    middle = [(a * b) ** 0.5 for a, b in zip(low, high)]
-    ax.plot(x, middle, color=GREY, lw=1, zorder=1, **style)
-    say(ax, label, x[-1], middle[-1], "left", "center", 8, GREY, 6, 0, "data")
+    """From the fastest path, a line, to the other."""
+    x, low, *high = zip(*points)
+    if high:
+        ax.fill_between(x, low, high[0], color=RULE, alpha=0.55, lw=0, zorder=1)
+    ax.plot(x, low, color=GREY, lw=1, zorder=1, **style)
+    say(ax, label, x[-2], low[-2], "right", "bottom", 8, GREY, -4, 5, "data")
 
 
 def number(ns):
@@ -88,11 +91,12 @@ def draw_bench(data, folder):
             f"the timer's {data['timer_ns']:g} ns taken off", 0.07)
     about = f"one HIP, {shortest(cases):,.0f} to {max(case['ticks'] for case in data['cases']):,.0f} ticks warm, " \
             f"{cases.get('paced_plane', {}).get('ticks', 0):,.0f} paced"
-    for ax, key, title, reference, cold in ((axes[0], "p50_ns", "Median", CHAI3D_MEDIAN, CHAI3D_PACED_MEDIAN),
-                                            (axes[1], "p99_ns", "99th percentile", CHAI3D_P99, CHAI3D_PACED_P99)):
+    for ax, key, title, references in (
+            (axes[0], "p50_ns", "Median", (("warm", CHAI3D_MEDIAN), ("paced", CHAI3D_PACED_MEDIAN))),
+            (axes[1], "p99_ns", "99th percentile", (("paced", CHAI3D_PACED_P99),))):
         frame(ax, title, about)
-        band(ax, reference, "warm")
-        band(ax, cold, "paced", ls=(0, (2, 2)))
+        for label, points in references:
+            band(ax, points, label, ls=(0, (2, 2)) if label == "paced" else "-")
         warm(ax, cases, key)
         paced(ax, cases, key)
     axes[1].tick_params(labelleft=False)
@@ -100,14 +104,49 @@ def draw_bench(data, folder):
     handles = [Line2D([], [], color=colour, marker=mark, ms=5, mew=0, lw=1.4, label=f"{label}, warm")
                for _, label, colour, mark in shown]
     handles += [Line2D([], [], ls="", marker="o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5,
-                       label="with grating, paced at 1 kHz: cold caches"),
-                Patch(color=RULE, label="CHAI3D 3.3, elsewhere")]
+                       label="with grating, in a loop at 1 kHz"),
+                Patch(color=RULE, label="CHAI3D 3.3, November 2026")]
     figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.06, 0.055), ncol=len(handles), frameon=False,
                   fontsize=8.5, labelcolor=INK, handlelength=1.6, columnspacing=1.3, handletextpad=0.5)
-    figure.text(0.07, 0.028, "CHAI3D 3.3 (with and without texture): measured elsewhere, 2 vCPUs at 2.5 GHz, noted in November "
-                "2026; reference lines, no ratio is claimed.", color=GREY, fontsize=8.5)
+    figure.text(0.07, 0.028, "CHAI3D 3.3 with texture, from its fastest path (the line) to what its examples do each tick: "
+                "2 vCPUs AMD EPYC (Zen 4), November 2026.\nReference lines of that machine and day; in a loop: from the "
+                "position read to the force written.", color=GREY, fontsize=8.5, va="center")
     figure.subplots_adjust(left=0.07, right=0.985, top=0.82, bottom=0.225, wspace=0.05)
     return figure
 
 
-FIGURES = {"bench": draw_bench}
+HISTORY = ("plane", "plane_locked", "mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m", "surfaces_10k", "moving",
+           "paced_plane_cold", "paced_plane", "paced_mesh_100k_cold", "paced_mesh_100k")
+
+
+def draw_history(data, folder):
+    """Each release's results, a file each, in the order in which they came."""
+    results = []
+    for name in data["releases"]:
+        with open_input(os.path.join(folder, f"{name}.json")) as file:
+            results.append(json.load(file))
+    figure, axes = plt.subplots(1, 2, figsize=(10, 6.4), sharey=True)
+    heading(figure, "What a tick took, release by release", f"{results[-1]['machine']}, shared; {results[-1]['measured']}; "
+            "ns, the timer taken off; a name times the same in every release", 0.07)
+    tables = [{case["case"]: case for case in result["cases"]} for result in results]
+    for ax, key, title in ((axes[0], "p50_ns", "Median"), (axes[1], "p99_ns", "99th percentile")):
+        labels = []
+        for name in HISTORY:
+            points = [(i, table[name][key]) for i, table in enumerate(tables) if name in table]
+            paced_row = name.startswith("paced_")
+            ax.plot(*zip(*points), marker="o", ms=4, mew=0, lw=1.4, color=ACCENT if paced_row else INK)
+            labels.append((points[-1][1], f"{name.replace('_', ' ')}  {number(points[-1][1])}"))
+        y = 0.0
+        for at, text in sorted(labels):  # each a line's height above the one below it
+            y = max(at, 1.13 * y)
+            say(ax, text, len(results) - 1, y, "left", "center", 8, INK, 8, 0, "data")
+        ax.set(yscale="log", xlim=(-0.2, len(results) - 0.1), title=title)
+        ax.set_xticks(range(len(results)), data["releases"])
+        ax.set_yticks([1e2, 1e3, 1e4], ["100 ns", "1 µs", "10 µs"])
+        ax.yaxis.set_minor_locator(NullLocator())
+        ax.grid(True, axis="y", color=PALE, lw=0.8, zorder=0)
+    figure.subplots_adjust(left=0.07, right=0.83, top=0.84, bottom=0.07, wspace=0.5)
+    return figure
+
+
+FIGURES = {"bench": draw_bench, "bench_history": draw_history}
