@@ -39,13 +39,13 @@ enum {
     BENCH_MOVING
 };
 
-/* How its surface feels. */
+/* What its surface is like. */
 enum { BENCH_TEXTURED, BENCH_SMOOTH, BENCH_FRICTIONAL };
 
 typedef struct bench_case {
     const char *name;
     int shape;          /**< BENCH_FOAW to _MOVING */
-    int feel;           /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
+    int finish;         /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
     int32_t method;     /**< KNURL_S1, _S2, _LOCKED or _AREA */
     uint32_t triangles; /**< BENCH_MESH: about as many */
     uint32_t hips;      /**< HIPs that tick at once: the first is timed, the others are ticked in turn beside it */

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WARM(name, shape, feel, method, triangles) {name, shape, feel, method, triangles, 1, BENCH_WARM, 0}
-#define FOAW(name, shape, feel, method, triangles) {name, shape, feel, method, triangles, 1, BENCH_WARM, 1}
+#define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0}
+#define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1}
 #define MESH(name, triangles)                                                                                          \
     WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_S2, triangles),                                                       \
         WARM(name "_locked", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, triangles),                                     \

@@ -18,9 +18,9 @@ static void make_material(const bench_case *c, knurl_material_desc *m) {
     knurl_material_desc_init(m, sizeof *m);
     m->method = c->method;
     m->stiffness = BENCH_STIFFNESS;
-    m->spatial_frequency[0] = c->feel == BENCH_SMOOTH ? 0.0 : 1.0 / BENCH_PERIOD;
-    m->amplitude = c->feel == BENCH_SMOOTH ? 0.0 : BENCH_AMPLITUDE;
-    m->friction = c->feel == BENCH_FRICTIONAL ? BENCH_FRICTION : 0.0;
+    m->spatial_frequency[0] = c->finish == BENCH_SMOOTH ? 0.0 : 1.0 / BENCH_PERIOD;
+    m->amplitude = c->finish == BENCH_SMOOTH ? 0.0 : BENCH_AMPLITUDE;
+    m->friction = c->finish == BENCH_FRICTIONAL ? BENCH_FRICTION : 0.0;
 }
 
 static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, const double position[3], double half_x,
