@@ -1,6 +1,8 @@
 /* The contenders of the tradeoff. SPDX-License-Identifier: MIT */
 #include "contender.h"
 
+#include "grating_metrics.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,11 +65,11 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
 
 /* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
 static double cycles_of(study_rendering *r, const knurl_grating_output *output) {
-    if (output->event != KNURL_NO_EVENT) {
+    if (study_plays_event(&r->grating, &r->state, output)) {
         const double cycles = r->state.event.kind == KNURL_EVENT_MIXED ? 2.4 : 1.0;
         return cycles / r->state.event.length;
     }
-    return r->grating.method != KNURL_S2 && output->height * r->last < 0.0 ? 0.5 : 0.0;
+    return r->grating.method != KNURL_S2 && output->turned ? 0.5 : 0.0;
 }
 
 double study_rendering_tick(study_rendering *r) {

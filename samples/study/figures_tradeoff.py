@@ -1,4 +1,4 @@
-"""The chart of cost against accuracy: study `tradeoff`. Drawn by figures.py.
+"""Every point of cost against accuracy, a panel an error: study `tradeoff`. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -29,25 +29,6 @@ def read(folder, table):
     return [{key: value if key in text else float(value) for key, value in row.items()} for row in rows]
 
 
-def pareto(points):
-    """Those that nothing beats in both cost and error, by cost."""
-    front, best = [], float("inf")
-    for x, y in sorted(points):
-        if y < best:
-            front.append((x, y))
-            best = y
-    return front
-
-
-def draw_front(axes, rows, key, colour, style):
-    points = [(row["ns_second"] / 1e3, max(row[key], FLOOR)) for row in rows if row[key] == row[key]]
-    front = pareto(points)
-    if front:
-        xs, ys = zip(*front)
-        right = max(row["ns_second"] for row in rows) / 1e3
-        axes.step(list(xs) + [right], list(ys) + [ys[-1]], where="post", color=colour, lw=1.1, ls=style, zorder=1)
-
-
 def draw_panel(axes, rows, colours, key, title, about):
     for row in rows:
         if row[key] != row[key]:
@@ -57,9 +38,6 @@ def draw_panel(axes, rows, colours, key, title, about):
         axes.scatter(row["ns_second"] / 1e3, max(row[key], FLOOR), marker=MARKERS[row["velocity"]],
                      s=SIZES.get(row["rate_hz"], 60), facecolor=colour if real else "white", edgecolor=colour,
                      linewidth=1.1, alpha=0.9, zorder=3, clip_on=False)
-    draw_front(axes, [row for row in rows if row["positions"] == "none"], key, GREY, ":")
-    real = [row for row in rows if row["positions"] == "0.055mm" and row["velocity"] != "ideal"]
-    draw_front(axes, real, key, INK, "-")
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -83,10 +61,8 @@ def legend(figure, rows, colours):
              Line2D([], [], marker="o", ls="", color=GREY, label="from 0.055 mm, or no positions")]
     rates = [Line2D([], [], marker="o", ls="", color=GREY, markersize=SIZES[r] ** 0.5 * 0.8, label=f"{r / 1000:g} kHz")
              for r in SIZES]
-    fronts = [Line2D([], [], color=INK, lw=1.1, label="Pareto front, from 0.055 mm"),
-              Line2D([], [], color=GREY, lw=1.1, ls=":", label="Pareto front, temporal")]
     blank = Line2D([], [], ls="", label=" ")
-    columns = [methods + [blank] + rates, shapes + [blank] + fills + [blank] + fronts]
+    columns = [methods + [blank] + rates, shapes + [blank] + fills]
     height = max(len(column) for column in columns)
     handles = [handle for column in columns for handle in column + [blank] * (height - len(column))]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.70, 0.40), ncol=len(columns), frameon=False,
@@ -97,13 +73,13 @@ def draw_tradeoff(data, folder):
     rows = read(folder, data["table"])
     later = [m for m in dict.fromkeys(row["method"] for row in rows) if m not in METHODS]
     colours = {**METHODS, **dict(zip(later, OTHERS))}
-    figure, grid = plt.subplots(2, 3, figsize=(14, 8.6))
+    figure, grid = plt.subplots(2, 3, figsize=(14, 8.6), sharex=True, sharey=True)
     for axes, (key, title, about) in zip(grid.flat, PANELS):
         draw_panel(axes, rows, colours, key, title, about)
     grid[1, 2].axis("off")
     for axes in grid.flat[2:5]:
         axes.set_xlabel("µs of one core for a second of rendering", color=INK)
-    figure.suptitle("What each method costs, and what it buys", x=0.05, ha="left", fontsize=15, weight="bold",
+    figure.suptitle("Every method, rate and estimator: cost in time, and each error", x=0.05, ha="left", fontsize=15, weight="bold",
                     color=INK)
     figure.text(0.05, 0.925, f"steady scans of a 1 mm grating, {data['from_hz']:g} to {data['to_hz']:g} Hz · "
                 f"{data['machine']} · empty tick {data['empty_tick_ns']:.1f} ns taken off", color=GREY, fontsize=9)

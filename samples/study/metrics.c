@@ -101,8 +101,7 @@ double study_line_amplitude(const study_signal *signal, size_t line) {
     return 2.0 * hypot(re, im) / (double)n * fabs(sinc((double)line / (double)n));
 }
 
-/* |DFT| / length for lines 0 to length - 1, in single precision; free it. Null where memory is not to be had. */
-static double *magnitudes(const study_signal *signal) {
+double *study_magnitudes(const study_signal *signal) {
     const size_t n = signal->length;
     kiss_fft_cfg plan = kiss_fft_alloc((int)n, 0, NULL, NULL);
     kiss_fft_cpx *in = malloc(n * sizeof *in);
@@ -128,7 +127,7 @@ static double *magnitudes(const study_signal *signal) {
 }
 
 int study_dominant(const study_signal *signal, study_line *line) {
-    double *bins = magnitudes(signal);
+    double *bins = study_magnitudes(signal);
     size_t best_line = 1;
     double best = 0.0;
     for (size_t k = 1; bins && k <= signal->length / 2; k++) {
@@ -177,7 +176,7 @@ double study_spurious(const study_signal *signal, double frequency) {
     if (fundamental < 1.0 || fabs(cycles - fundamental) > 1e-6 * cycles) {
         return 1.0; /* the period holds no whole number of true cycles: no line of it is the true one */
     }
-    double *bins = magnitudes(signal);
+    double *bins = study_magnitudes(signal);
     double true_power = 0.0;
     for (size_t q = 1; bins && q <= 20001;
          q += 2) { /* beyond f_h/2 the hold's images, where a square wave has harmonics */

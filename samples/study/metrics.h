@@ -46,6 +46,9 @@ double study_rms(const study_signal *signal);
  * sinc. line: 1, 2, ...; beyond length/2 these are the hold's images. */
 double study_line_amplitude(const study_signal *signal, size_t line);
 
+/** |DFT| / length for lines 0 to length - 1, in single precision; free it. Null where memory is not to be had. */
+double *study_magnitudes(const study_signal *signal);
+
 /** The strongest line up to f_h/2. The FFT (KissFFT, single precision) finds it, study_line_amplitude() measures it; of
  * lines that are equal to 1e-5 the lowest is taken. Returns 0 where memory is not to be had. */
 int study_dominant(const study_signal *signal, study_line *line);

@@ -14,13 +14,19 @@ from matplotlib.colors import LinearSegmentedColormap
 
 INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
 # Each method its colour, in every figure; S1 and S2 are kin of T1 and T3.
-METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "locked": "#a03c78"}
+METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "locked": "#a03c78", "area": "#2f6fd0"}
 SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
 STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
          "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
          "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
          "axes.titlesize": 9.5, "axes.titlelocation": "left", "axes.formatter.useoffset": False, "figure.dpi": 160,
          "path.simplify": False}
+
+
+# What differs on a page in dark colours, for figures that take their colours from here.
+DARK = {"figure.facecolor": "#0d1117", "axes.facecolor": "#0d1117", "savefig.facecolor": "#0d1117",
+        "text.color": "#e6edf3", "axes.labelcolor": "#e6edf3", "axes.edgecolor": "#5b6670", "xtick.color": "#aab4bd",
+        "ytick.color": "#aab4bd"}
 
 
 class BadInput(Exception):

@@ -4,6 +4,7 @@
 #include "contender.h"
 #include "cost.h"
 #include "machine.h"
+#include "steady.h"
 #include "study.h"
 
 #include <math.h>
@@ -16,6 +17,8 @@
 #define WHOLE       28
 #define EXPERIMENT  12
 #define FREQUENCIES (WHOLE + EXPERIMENT)
+#define SHAPE_HZ    290.0
+#define SHAPE_TICKS 20
 
 /* Means over the frequencies. */
 typedef struct accuracy {
@@ -27,6 +30,13 @@ typedef struct accuracy {
     double drift;           /* |played / crossed cycles - 1|; NaN for temporal methods */
     double dropout;         /* share of crossed cycles never played; NaN for temporal methods */
     double strokes;         /* drift in strokes, not a mean over frequencies; NaN for temporal methods */
+    /* of spatial methods; see steady.h */
+    double push, push_worst;
+    double frequency_worst;
+    double level;      /* |level / (4/pi) - 1| of the ticks */
+    double level_held; /* the same of what is held from tick to tick */
+    double unevenness, unevenness_worst;
+    double folded, folded_worst; /* spurious power below f_h/2: what a method does, not the hold */
 } accuracy;
 
 static double frequency_at(size_t i) {
@@ -72,6 +82,28 @@ static int render(const study_contender *c, double frequency, study_signal *sign
     return made;
 }
 
+/* sin(pi x)/(pi x): what a hold over a tick leaves of a line of x cycles a tick. */
+static double sinc(double x) {
+    return sin(PI * x) / (PI * x);
+}
+
+static int add_steady(const study_contender *c, double frequency, const study_signal *signal, accuracy *sum) {
+    steady_metrics m = {NAN, NAN, NAN, NAN};
+    if (c->method->spatial && !steady_measure(signal->values, signal->length, c->update_rate_hz, frequency, &m)) {
+        return 0;
+    }
+    const double ideal = 4.0 / PI;
+    sum->push += m.push;
+    sum->push_worst = fmax(sum->push_worst, m.push);
+    sum->level += fabs(m.level / ideal - 1.0);
+    sum->level_held += fabs(m.level / ideal * sinc(frequency / c->update_rate_hz) - 1.0);
+    sum->unevenness += m.unevenness;
+    sum->unevenness_worst = fmax(sum->unevenness_worst, m.unevenness);
+    sum->folded += m.spurious;
+    sum->folded_worst = fmax(sum->folded_worst, m.spurious);
+    return 1;
+}
+
 static int measure_one(const study_contender *c, double frequency, accuracy *sum) {
     study_signal signal;
     study_line line;
@@ -79,7 +111,7 @@ static int measure_one(const study_contender *c, double frequency, accuracy *sum
     if (!render(c, frequency, &signal, &played)) {
         return 0;
     }
-    const int found = study_dominant(&signal, &line);
+    const int found = study_dominant(&signal, &line) && add_steady(c, frequency, &signal, sum);
     if (found) {
         const double error = fabs(line.frequency - frequency) / frequency;
         const double crossed = frequency * (double)scan_length(c, frequency) / c->update_rate_hz;
@@ -88,6 +120,7 @@ static int measure_one(const study_contender *c, double frequency, accuracy *sum
         sum->net += fabs(study_net(&signal));
         sum->net_worst = fmax(sum->net_worst, fabs(study_net(&signal)));
         sum->frequency_error += error;
+        sum->frequency_worst = fmax(sum->frequency_worst, error);
         sum->beyond_jnd += error > 0.38;
         sum->spurious += isnan(spurious) ? 1.0 : spurious; /* what does not vary is no vibration at all */
         sum->drift += fabs(ratio - 1.0);
@@ -117,8 +150,9 @@ static double measure_strokes(const study_contender *c) {
 }
 
 static int measure(const study_contender *c, accuracy *mean) {
-    double *const parts[] = {&mean->net,      &mean->frequency_error, &mean->beyond_jnd,
-                             &mean->spurious, &mean->drift,           &mean->dropout};
+    double *const parts[] = {&mean->net,        &mean->frequency_error, &mean->beyond_jnd, &mean->spurious,
+                             &mean->drift,      &mean->dropout,         &mean->push,       &mean->level,
+                             &mean->level_held, &mean->unevenness,      &mean->folded};
     memset(mean, 0, sizeof *mean);
     for (size_t i = 0; i < FREQUENCIES; i++) {
         if (!measure_one(c, frequency_at(i), mean)) {
@@ -143,10 +177,27 @@ static void print_text(FILE *f, const study_contender *c) {
 
 static void print_row(FILE *f, const study_contender *c, const study_cost *cost, double instructions,
                       const accuracy *a) {
-    const double cells[] = {cost->ns_median,    cost->ns_p99,  cost->ns_median * c->update_rate_hz,
-                            instructions,       a->net,        a->net_worst,
-                            a->frequency_error, a->beyond_jnd, a->spurious,
-                            a->drift,           a->dropout,    a->strokes};
+    const double cells[] = {cost->ns_median,
+                            cost->ns_p99,
+                            cost->ns_median * c->update_rate_hz,
+                            instructions,
+                            a->net,
+                            a->net_worst,
+                            a->frequency_error,
+                            a->beyond_jnd,
+                            a->spurious,
+                            a->drift,
+                            a->dropout,
+                            a->strokes,
+                            a->push,
+                            a->push_worst,
+                            a->frequency_worst,
+                            a->level,
+                            a->level_held,
+                            a->unevenness,
+                            a->unevenness_worst,
+                            a->folded,
+                            a->folded_worst};
     print_text(f, c);
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
         fputc(',', f);
@@ -163,7 +214,8 @@ static int print_rows(FILE *f) {
     }
     fputs(
         "method,rate_hz,velocity,positions,ns_tick,ns_tick_p99,ns_second,instructions_tick,net,net_worst,frequency_error,beyond_jnd,"
-        "spurious,drift,dropout,strokes\n",
+        "spurious,drift,dropout,strokes,push,push_worst,frequency_worst,level,level_held,unevenness,unevenness_worst,folded,"
+        "folded_worst\n",
         f);
     for (size_t i = 0; study_contender_at(i, &c); i++) {
         accuracy mean;
@@ -177,6 +229,27 @@ static int print_rows(FILE *f) {
         study_progress("tradeoff", (double)(i + 1) / (double)count);
     }
     return 0;
+}
+
+/* What a method plays at 1 kHz from 0.055 mm positions, at a frequency that no whole ticks are a cycle of. */
+static void print_shapes(json_writer *json) {
+    study_contender c;
+    json_open(json, "shapes", '{');
+    json_number(json, "hz", SHAPE_HZ);
+    for (size_t i = 0; study_contender_at(i, &c); i++) {
+        double heights[SHAPE_TICKS];
+        study_rendering r;
+        const int foaw = !c.method->uses_velocity || c.velocity == STUDY_FOAW;
+        if (!c.method->spatial || c.update_rate_hz != 1000.0 || c.resolution == 0.0 || !foaw ||
+            study_rendering_start(&r, &c, SHAPE_HZ)) {
+            continue;
+        }
+        for (int k = -100; k < SHAPE_TICKS; k++) {
+            heights[k > 0 ? k : 0] = study_rendering_tick(&r);
+        }
+        json_numbers(json, c.method->name, heights, SHAPE_TICKS, 1);
+    }
+    json_close(json, '}');
 }
 
 static int print_about(const char *folder) {
@@ -201,6 +274,22 @@ static int print_about(const char *folder) {
     return out_keep(&file);
 }
 
+/* The one panel: the same table, with how each method looks. */
+static int print_panel(const char *folder) {
+    out_file file;
+    json_writer json;
+    if (study_open(&file, folder, "speed_accuracy.json")) {
+        return 1;
+    }
+    json_start(&json, file.stream, 1);
+    json_open(&json, NULL, '{');
+    json_string(&json, "study", "speed_accuracy");
+    json_string(&json, "table", "tradeoff.csv");
+    print_shapes(&json);
+    json_close(&json, '}');
+    return out_keep(&file);
+}
+
 int study_tradeoff(const char *folder) {
     out_file file;
     if (study_open(&file, folder, "tradeoff.csv")) {
@@ -210,5 +299,5 @@ int study_tradeoff(const char *folder) {
         out_discard(&file);
         return 1;
     }
-    return out_keep(&file) || print_about(folder);
+    return out_keep(&file) || print_about(folder) || print_panel(folder);
 }

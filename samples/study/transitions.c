@@ -10,19 +10,26 @@
 #define STIFFNESS 700.0  /* N/m */
 #define DEPTH     0.001  /* m: below every trough */
 #define SPEED     0.2    /* m/s: 5 ticks a cycle */
+#define FAST      0.47   /* m/s */
 #define EDGE      0.02   /* m: where the other surface begins */
 #define BEFORE    100    /* ticks; and up to 9 more, so that it happens anywhere in an event */
 #define PHASES    10
 #define AFTER     45 /* ticks: before it comes to the other surface by itself */
 #define QUANTUM   0.055e-3
+#define METHODS   3
 
-enum { REVERSAL, STOP, LIFT_OFF, OTHER_SURFACE, OTHER_MATERIAL, FLICKER, TRANSITIONS };
+enum { REVERSAL, STOP, LIFT_OFF, OTHER_SURFACE, OTHER_MATERIAL, FLICKER, FASTER, TRANSITIONS };
 
-static const char *const names[TRANSITIONS] = {
-    "reversal", "stop", "lift-off for 5 ticks", "another surface", "another material", "rest on an edge, flickering"};
+static const char *const names[TRANSITIONS] = {"reversal",
+                                               "stop",
+                                               "lift-off for 5 ticks",
+                                               "another surface",
+                                               "another material",
+                                               "rest on an edge, flickering",
+                                               "20 ticks at 470 Hz"};
 
 typedef struct outcome {
-    double settled; /* ms until the height is what it stays: 0 (S2), the position's (locked) */
+    double settled; /* ms until the height is what it stays: 0 (S2), the position's (locked, area) */
     double step;    /* the largest change of height in a tick in contact, A */
     double left;    /* the largest sum of an event that was played to its end, A ticks */
     double force;   /* N: of the first tick after lift-off */
@@ -34,6 +41,7 @@ static void place(int transition, int tick, int happens, double *x, double *z, d
     *speed = SPEED;
     *z = -DEPTH;
     *x = EDGE + step * (tick - happens) - (transition == OTHER_SURFACE ? 0.5 * step : 0.5 * EDGE);
+    *x -= transition == FASTER ? 0.25 * EDGE : 0.0;
     if (tick < happens) {
         return;
     }
@@ -45,6 +53,9 @@ static void place(int transition, int tick, int happens, double *x, double *z, d
         *x -= step * (tick - happens);
     } else if (transition == LIFT_OFF && tick < happens + 5) {
         *z = 0.005;
+    } else if (transition == FASTER) { /* area's events take over */
+        *speed = tick - happens < 20 ? FAST : SPEED;
+        *x += (FAST - SPEED) / 1000.0 * (tick - happens < 20 ? tick - happens : 20);
     } else if (transition == FLICKER) { /* a quantum either side of the edge at EDGE/2 + 1/4 cycle */
         *speed = 0.0;
         *x = 0.5 * EDGE + 0.25 / FS + QUANTUM * (tick % 2 ? 0.5 : -0.5);
@@ -100,10 +111,11 @@ typedef struct watch {
     knurl_surface_id surface; /* who leaves one has lifted off it */
 } watch;
 
-static void judge(const knurl_tick_output *out, int since, watch *w, outcome *o) {
+/* AREA tells ridges, most of which are no events that sum to nothing: is_area leaves the sums out. */
+static void judge(const knurl_tick_output *out, int since, int is_area, watch *w, outcome *o) {
     if (out->contacts && w->contacts) {
         o->step = fmax(o->step, fabs(out->height - w->height) / AMPLITUDE);
-        if (out->surface == w->surface && out->event != w->event && w->event != KNURL_NO_EVENT) {
+        if (!is_area && out->surface == w->surface && out->event != w->event && w->event != KNURL_NO_EVENT) {
             o->left = fmax(o->left, fabs(w->sum) / AMPLITUDE);
         }
     }
@@ -111,7 +123,7 @@ static void judge(const knurl_tick_output *out, int since, watch *w, outcome *o)
     if (since == 0 && !out->contacts) {
         o->force = sqrt(out->force[0] * out->force[0] + out->force[1] * out->force[1] + out->force[2] * out->force[2]);
     }
-    if (since > 0 && out->height != w->height) {
+    if (since > 0 && fabs(out->height - w->height) > 1e-9 * AMPLITUDE) {
         o->settled = fmax(o->settled, since);
     }
     w->height = out->height;
@@ -135,7 +147,7 @@ static knurl_result run(int32_t method, int transition, int phase, FILE *csv, ou
         input.has_velocity = 1;
         result = transition == OTHER_MATERIAL && tick == happens ? change_material(scene, left, method) : KNURL_OK;
         result = result ? result : knurl_scene_tick(scene, 0, &input, &out);
-        judge(&out, tick - happens, &w, o);
+        judge(&out, tick - happens, method == KNURL_AREA, &w, o);
         if (phase == 3 && tick >= happens - 20 && tick < happens + 40) {
             fprintf(csv, "%s,\"%s\",%d,", knurl_method_name(method), names[transition], tick - happens);
             out_number(csv, out.contacts ? out.height / AMPLITUDE : 0.0);
@@ -168,7 +180,7 @@ static void print_row(json_writer *json, int32_t method, int transition, const o
 }
 
 static int write_all(FILE *csv, json_writer *json, void *user) {
-    static const int32_t methods[] = {KNURL_S2, KNURL_LOCKED};
+    static const int32_t methods[METHODS] = {KNURL_S2, KNURL_LOCKED, KNURL_AREA};
     (void)user;
     fputs("method,transition,tick,height\n", csv);
     json_string(json, "study", "transitions");
@@ -177,14 +189,14 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     printf(
         "| what happens in an event | method | the height rests after | largest step | left of events played to their end (A ticks) | force after |\n"
         "|---|---|---|---|---|---|\n");
-    for (int i = 0; i < 2 * TRANSITIONS; i++) {
+    for (int i = 0; i < METHODS * TRANSITIONS; i++) {
         outcome o = {0.0, 0.0, 0.0, 0.0};
         for (int phase = 0; phase < PHASES; phase++) {
-            if (run(methods[i % 2], i / 2, phase, csv, &o)) {
+            if (run(methods[i % METHODS], i / METHODS, phase, csv, &o)) {
                 return tool_error(2, "study: transitions: %s", knurl_error_message());
             }
         }
-        print_row(json, methods[i % 2], i / 2, &o);
+        print_row(json, methods[i % METHODS], i / METHODS, &o);
     }
     json_close(json, ']');
     return 0;

@@ -98,6 +98,25 @@ TEST(locked_grid) {
     assert_between(100.0 - 600.0 / 58.0, 100.0, measure("locked_grid"));
 }
 
+/* The rms of a sampled sine of 0.45 f_h over 12.5 ms, which is 11.25 half cycles of its beat, and the first tick. */
+TEST(area_wavers) {
+    assert_between(1.0, 10.0, measure("area_wavers"));
+}
+
+/* Four ticks of +g, +g, -g, -g with g = 1/sinc(1/4): sqrt(2) g = pi/2, over 4/pi. */
+TEST(area_level) {
+    const double pi = 3.141592653589793;
+    CHECK_CLOSE(measure("area_level"), 100.0 * (pi * pi / 8.0 - 1.0), 1e-6);
+}
+
+TEST(area_lags) {
+    CHECK_CLOSE(measure("area_lags"), 0.5, 0.01); /* of a ms: the first tick has no way */
+}
+
+TEST(area_loop) {
+    CHECK_CLOSE(measure("area_loop"), 31.0 - 2.0 * (10.3 + 5.1), 1e-9);
+}
+
 TEST(difference) {
     CHECK_CLOSE(measure("difference"), 0.055e-3 * 1000.0 * 1000.0, 1e-6);
 }

@@ -2,6 +2,8 @@
  * description. SPDX-License-Identifier: MIT */
 #include "support/area.h"
 
+#include <stdlib.h>
+
 #define RATE 1000.0
 #define FS   1000.0 /* cycles/m */
 
@@ -124,8 +126,9 @@ TEST(slow_it_is_s1_and_its_signs_are_those_of_the_ways_middle) {
  * and ten phases are one to a cycle of 10 ticks, so it takes a number that has no factor with such cycles. */
 TEST(steady_scans_neither_push_nor_drift_nor_droop) {
     enum { PHASES = 11 };
-    static const double rates[] = {1000.0, 2000.0};
-    for (size_t r = 0; r < COUNT_OF(rates); r++) {
+    static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
+    const size_t count = getenv("KNURL_LONG") ? COUNT_OF(rates) : 2;
+    for (size_t r = 0; r < count; r++) {
         const int ticks = (int)rates[r];
         for (int f = 20; f <= 450; f++) {
             double line[2] = {0.0, 0.0};

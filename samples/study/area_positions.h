@@ -1,0 +1,10 @@
+/* What the method AREA is given, for study `area`. SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_AREA_POSITIONS_H
+#define KNURL_STUDY_AREA_POSITIONS_H
+
+#include "json.h"
+
+/** Raw positions or a filtered way, for each encoder and rate; prints its table. 0, or 1 without memory. */
+int area_positions(json_writer *json);
+
+#endif

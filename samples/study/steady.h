@@ -1,0 +1,20 @@
+/* What a hand gets of a steady scan: what pushes, how even and how strong it is, what is not the ridges'. Of the
+ * heights as they are told, tick by tick: the hold's images above f_h/2 are the same for every method.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_STUDY_STEADY_H
+#define KNURL_STUDY_STEADY_H
+
+#include <stddef.h>
+
+typedef struct steady_metrics {
+    double push;       /**< the mean over blocks of 50 ms (to whole cycles) of |mean height|: what a hand integrates */
+    double level;      /**< the line at the frequency; a square wave of 1 has 4/pi */
+    double unevenness; /**< standard deviation over mean of the rms in windows of 12.5 ms */
+    double spurious;   /**< share of the varying power below f_h/2 that is further than a quarter of the frequency from
+                            every odd multiple of it */
+} steady_metrics;
+
+/** Measures `ticks` heights at update rate `rate`, scanned at `frequency` Hz. 0: no memory, or no 50 ms of it. */
+int steady_measure(const double *heights, size_t ticks, double rate, double frequency, steady_metrics *found);
+
+#endif
