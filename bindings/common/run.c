@@ -51,6 +51,11 @@ static knurl_result open_device(knurl_session *session, const char *device) {
     if (strcmp(device, "auto") == 0) {
         return open_any(session);
     }
+    if (strncmp(device, "touch", strlen("touch")) == 0 && strstr(device, "library=")) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "device 'touch': an engine's scene may come from anybody, so it cannot name "
+                          "a library to run: expected no ?library=; set KNURL_HD_LIBRARY instead");
+    }
     if (strcmp(device, "mouse") == 0) {
         return knurl_mouse_open(&session->mouse, &session->device);
     }

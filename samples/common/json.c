@@ -6,12 +6,34 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Of a character of two or three bytes that does something to a terminal, its code: C1 controls, separators of lines,
+ * marks that turn the direction of reading. 0: it may be printed. */
+static unsigned escaped(const char *text) {
+    const unsigned char *u = (const unsigned char *)text;
+    if (u[0] == 0xc2 && u[1] >= 0x80 && u[1] <= 0x9f) {
+        return u[1];
+    }
+    if (u[0] == 0xd8 && u[1] == 0x9c) {
+        return 0x61c;
+    }
+    const unsigned code = u[0] == 0xe2 && u[1] >= 0x80 && u[1] <= 0x81 && u[2] >= 0x80
+                              ? 0x2000u + ((u[1] & 1u) << 6) + (u[2] & 0x3fu)
+                              : 0;
+    return code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069)
+               ? code
+               : 0;
+}
+
 static void print_text(FILE *stream, const char *text) {
     fputc('"', stream);
     for (const char *c = text; *c; c++) {
-        if (*c == '"' || *c == '\\') {
+        const unsigned code = escaped(c);
+        if (code) {
+            fprintf(stream, "\\u%04x", code);
+            c += code < 0x800 ? 1 : 2;
+        } else if (*c == '"' || *c == '\\') {
             fprintf(stream, "\\%c", *c);
-        } else if ((unsigned char)*c < 0x20) {
+        } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
             fprintf(stream, "\\u%04x", (unsigned)(unsigned char)*c);
         } else {
             fputc(*c, stream);

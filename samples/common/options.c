@@ -17,9 +17,7 @@ int tool_error(int code, const char *format, ...) {
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++) { /* one line, whatever a name holds */
-        *c = (unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c;
-    }
+    (void)knurl_text_line(text, sizeof text, text); /* whatever a name holds */
     fprintf(stderr, "%s: %s\n", tool_name, text);
     return code;
 }

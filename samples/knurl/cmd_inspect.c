@@ -125,7 +125,7 @@ int cmd_inspect(int argc, char **argv) {
     print_scene(&json, scene, &device, report.skipped);
     tool_warn(scene);
     if (knurl_scene_get_surface_count(scene) == 0) {
-        fprintf(stderr, "knurl: hint: %s: %s\n", path, hint);
+        (void)tool_error(TOOL_OK, "hint: %s: %s", path, hint);
     }
     knurl_scene_destroy(scene);
     return TOOL_OK;

@@ -326,9 +326,20 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_close(&json, '}');
 }
 
+/* After the load: until then a signal simply ends the program, for no output is there yet. */
+static void catch_signals(void) {
+    struct sigaction action;
+    (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a run by the ramp */
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_signal;
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+}
+
 static int perform(run *r) {
     knurl_loop_stats stats;
     int code = load(r);
+    catch_signals();
     code = code == TOOL_OK ? open_device(r) : code;
     code = code == TOOL_OK ? make_loop(r) : code;
     if (code != TOOL_OK) {
@@ -372,12 +383,6 @@ int cmd_run(int argc, char **argv) {
     memset(&r, 0, sizeof r);
     int code = read_options(argc, argv, &r.options);
     if (code == TOOL_OK) {
-        struct sigaction action;
-        (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a run by the ramp */
-        memset(&action, 0, sizeof action);
-        action.sa_handler = on_signal;
-        (void)sigaction(SIGINT, &action, NULL);
-        (void)sigaction(SIGTERM, &action, NULL);
         code = perform(&r);
     }
     knurl_loop_destroy(r.loop);

@@ -1,6 +1,8 @@
 /* CSV input: a header, then numbers. SPDX-License-Identifier: MIT */
 #include "tool.h"
 
+#include "in.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -93,7 +95,8 @@ static int read_rows(const char *path, FILE *stream, const char *const *names, t
     uint64_t line_number = 0;
     uint64_t capacity = 0;
     int code = TOOL_OK;
-    while (code == TOOL_OK && getline(&line, &size, stream) != -1) {
+    int too_long = 0;
+    while (code == TOOL_OK && in_line(stream, &line, &size, &too_long) != -1) {
         line_number++;
         if (line_number == 1) {
             code = read_header(path, line, names, table->columns, columns);
@@ -103,6 +106,10 @@ static int read_rows(const char *path, FILE *stream, const char *const *names, t
         }
     }
     free(line);
+    if (too_long) {
+        code = tool_error(TOOL_FAILURE, "%s: line %llu: expected at most 65536 bytes, found more", path,
+                          (unsigned long long)line_number + 1);
+    }
     if (code == TOOL_OK && ferror(stream)) {
         code = tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
     }
@@ -116,9 +123,10 @@ static int read_rows(const char *path, FILE *stream, const char *const *names, t
 int tool_read_csv(const char *path, const char *const *names, uint32_t count, tool_table *table) {
     memset(table, 0, sizeof *table);
     table->columns = count;
-    FILE *stream = fopen(path, "r");
+    const char *why = "";
+    FILE *stream = in_open(path, &why);
     if (!stream) {
-        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
+        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, why);
     }
     out_protect_stream(stream);
     const int code = read_rows(path, stream, names, table);
@@ -131,11 +139,13 @@ int tool_read_csv(const char *path, const char *const *names, uint32_t count, to
 }
 
 int tool_csv_has(const char *path, const char *name) {
-    FILE *stream = fopen(path, "r");
+    const char *why = "";
+    FILE *stream = in_open(path, &why);
     char *line = NULL;
     size_t size = 0;
     int found = 0;
-    if (stream && getline(&line, &size, stream) != -1) {
+    int too_long = 0;
+    if (stream && in_line(stream, &line, &size, &too_long) != -1) {
         char *cells[MAX_COLUMNS];
         const uint32_t count = split(line, cells);
         found = column_of(cells, count, name) >= 0;

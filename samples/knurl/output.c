@@ -3,7 +3,9 @@
 
 #include <string.h>
 
-void tool_print_cell(FILE *stream, const char *text) {
+void tool_print_cell(FILE *stream, const char *name) {
+    char text[1024];
+    (void)knurl_text_line(text, sizeof text, name); /* standard output may be a terminal */
     if (!strpbrk(text, ",\"\r\n")) {
         fputs(text, stream);
         return;

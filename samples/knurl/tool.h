@@ -15,7 +15,7 @@
 /* --- output (output.c) --- */
 
 /* A CSV cell, quoted where it must be (RFC 4180). */
-void tool_print_cell(FILE *stream, const char *text);
+void tool_print_cell(FILE *stream, const char *name);
 
 /* A line on stderr for each limit of HIP 0's device that a surface exceeds. */
 void tool_warn(const knurl_scene *scene);

@@ -66,6 +66,27 @@ TEST(a_library_is_loaded_by_a_path_in_utf8) {
     assert_true(DeleteFileW(WIDE_NAME)); /* no one holds it any more */
 }
 
+/* A planted library: LoadLibrary() would take it out of the current folder. */
+TEST(a_bare_name_is_not_looked_for_in_the_current_folder) {
+    char why[256] = "";
+    (void)CreateDirectoryA(KNURL_TEST_TMP "/planted", NULL);
+    assert_true(SetCurrentDirectoryA(KNURL_TEST_TMP "/planted"));
+    assert_true(CopyFileA(KNURL_TEST_LIBRARY, "knurl_planted.dll", FALSE));
+    assert_null(knurl_system_load_library("knurl_planted.dll", why, sizeof why));
+    assert_true(strlen(why) > 5);
+    assert_null(knurl_system_load_library("./knurl_planted.dll", why, sizeof why));
+    assert_non_null(strstr(why, "expected an absolute path or a bare name"));
+    assert_null(knurl_system_load_library("C:knurl_planted.dll", why, sizeof why));
+    HMODULE taken = LoadLibraryA("knurl_planted.dll"); /* it is there, and good */
+    assert_non_null(taken);
+    (void)FreeLibrary(taken);
+    knurl_library *system = knurl_system_load_library("version.dll", why, sizeof why);
+    assert_non_null(system);
+    knurl_system_unload_library(system);
+    (void)DeleteFileA("knurl_planted.dll");
+    (void)SetCurrentDirectoryA(KNURL_TEST_TMP);
+}
+
 TEST(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line) {
     static const char *const paths[] = {"C:/none/" NAME, KNURL_TEST_ASSETS "/plate_1d.glb", "bad \xC3\x28.dll"};
     for (size_t i = 0; i < COUNT_OF(paths); i++) {

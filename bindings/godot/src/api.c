@@ -1,6 +1,8 @@
 /* The engine's functions and values, see api.h. SPDX-License-Identifier: MIT */
 #include "api.h"
 
+#include <knurl/base.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -127,6 +129,7 @@ void gd_error(const char *where, const char *format, ...) {
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    (void)knurl_text_line(text, sizeof text, text);
     gd.print_error_with_message("Knurl", text, where, "knurl", 0, 1);
 }
 
@@ -136,6 +139,7 @@ void gd_warning(const char *where, const char *format, ...) {
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    (void)knurl_text_line(text, sizeof text, text);
     gd.print_warning_with_message("Knurl", text, where, "knurl", 0, 1);
 }
 

@@ -86,7 +86,14 @@ KNURL_API const char *knurl_result_string(knurl_result result);
  * call on this thread; "" before the first. [any thread] */
 KNURL_API const char *knurl_error_message(void);
 
-/** Sets this thread's error message (printf style, at most 1023 bytes; control characters become spaces; null for
+/** Copies text that somebody else wrote (names, paths, a file's words) as one line that a terminal or a log can be
+ * given: control characters and line ends become spaces; C1 controls, what turns the direction of reading, and bytes
+ * that are no UTF-8 become '?'. Every message of this library has gone through it. to: `size` bytes, the caller's; what
+ * does not fit is cut off between characters; may be `from`. Returns the length without the final 0. [any thread, never
+ * from a tick] */
+KNURL_API size_t knurl_text_line(char *to, size_t size, const char *from);
+
+/** Sets this thread's error message (printf style, at most 1023 bytes; as knurl_text_line() leaves it; null for
  * none) and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick]
  */
 KNURL_API knurl_result knurl_fail(knurl_result code, const char *format, ...) KNURL_PRINTF(2, 3);

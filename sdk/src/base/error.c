@@ -49,17 +49,63 @@ knurl_result knurl_fail_static(knurl_result code, const char *sentence) {
 #pragma clang diagnostic pop
 #endif
 
+/* --- lines for terminals and logs --- */
+
+/* The code point that valid UTF-8 begins with here, and its bytes; 0 bytes: it is none. */
+static uint32_t code_point(const unsigned char *at, size_t *bytes) {
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    const size_t length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3 : at[0] >> 3 == 30 ? 4 : 0;
+    uint32_t code = length == 1 ? at[0] : length ? at[0] & (0x7fu >> length) : 0;
+    for (size_t i = 1; i < length; i++) {
+        if (at[i] >> 6 != 2) {
+            *bytes = 0;
+            return 0;
+        }
+        code = code << 6 | (at[i] & 0x3fu);
+    }
+    const int valid = length && code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
+    *bytes = valid ? length : 0;
+    return code;
+}
+
+/* What moves a cursor, begins an escape, ends a line or turns what is read the other way: C0, DEL, C1, the separators
+ * of lines and paragraphs, the bidirectional marks, embeddings, overrides and isolates, and the byte order mark. */
+static int is_harmful(uint32_t code) {
+    return code < 0x20 || (code >= 0x7f && code <= 0x9f) || code == 0x61c || code == 0x200e || code == 0x200f ||
+           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfeff;
+}
+
+size_t knurl_text_line(char *to, size_t size, const char *from) {
+    size_t length = 0;
+    if (KNURL_IS_NULL(to) || KNURL_IS_NULL(from) || size == 0) {
+        return 0;
+    }
+    const unsigned char *at = (const unsigned char *)from;
+    while (*at) {
+        size_t bytes;
+        const uint32_t code = code_point(at, &bytes);
+        const int kept = bytes > 0 && !is_harmful(code);
+        const size_t taken = bytes ? bytes : 1;
+        const size_t written = kept ? bytes : 1;
+        if (length + written >= size) {
+            break;
+        }
+        for (size_t i = 0; i < written; i++) {
+            to[length++] = kept ? (char)at[i] : bytes && code < 0x80 ? ' ' : '?';
+        }
+        at += taken;
+    }
+    to[length] = '\0';
+    return length;
+}
+
 knurl_result knurl_fail(knurl_result code, const char *format, ...) {
     char text[sizeof formatted]; /* built apart, so that the old message may be one of the arguments */
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format ? format : "no reason was given", arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++) { /* one line, whatever a file's names hold */
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) {
-            *c = ' ';
-        }
-    }
+    (void)knurl_text_line(text, sizeof text, text); /* whatever a file's names hold */
     memcpy(formatted, text, sizeof text);
     latest = formatted;
     return code;

@@ -53,7 +53,9 @@ int knurl_system_on_exit(const knurl_exit_actions *actions, int faults_recover);
 intptr_t knurl_system_take_node(const char *path);
 void knurl_system_give_back_node(intptr_t node);
 
-/* Libraries that are loaded at run time. Null: `why` says what the system says. */
+/* Libraries that are loaded at run time. path: an absolute path, or a bare name, which is looked for where the system
+ * keeps libraries (on Windows also beside the program), and never in the current folder or along the PATH. Null: `why`
+ * says what the system says. */
 typedef struct knurl_library knurl_library;
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size);
 void knurl_system_unload_library(knurl_library *library);

@@ -166,6 +166,10 @@ void knurl_system_give_back_node(intptr_t node) {
 }
 
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {
+    if (path[0] != '/' && strchr(path, '/')) { /* below whatever folder is the current one */
+        (void)snprintf(why, why_size, "expected an absolute path or a bare name");
+        return NULL;
+    }
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library) {
         const char *told = dlerror();

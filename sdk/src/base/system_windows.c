@@ -270,6 +270,14 @@ void knurl_system_give_back_node(intptr_t node) {
     }
 }
 
+/* C:\... or \\server\...; slashes are turned, for the loader wants them so. */
+static int is_absolute(wchar_t *path) {
+    for (wchar_t *c = path; *c; c++) {
+        *c = *c == L'/' ? L'\\' : *c;
+    }
+    return (path[0] && path[1] == L':' && path[2] == L'\\') || (path[0] == L'\\' && path[1] == L'\\');
+}
+
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {
     wchar_t wide[1024];
     DWORD before = 0;
@@ -277,8 +285,14 @@ knurl_library *knurl_system_load_library(const char *path, char *why, size_t why
         explain(GetLastError(), why, why_size);
         return NULL;
     }
+    const int absolute = is_absolute(wide);
+    if (!absolute && wcspbrk(wide, L"\\:")) {
+        (void)snprintf(why, why_size, "expected an absolute path or a bare name");
+        return NULL;
+    }
     (void)SetThreadErrorMode(SEM_FAILCRITICALERRORS, &before); /* no message box */
-    HMODULE library = LoadLibraryW(wide);
+    HMODULE library = LoadLibraryExW(
+        wide, NULL, LOAD_LIBRARY_SEARCH_DEFAULT_DIRS | (absolute ? (DWORD)LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR : 0));
     if (!library) {
         explain(GetLastError(), why, why_size);
     }

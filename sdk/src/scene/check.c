@@ -24,8 +24,10 @@ void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
  * is cut off. */
 static void say(const inspection *on, uint32_t limit, const char *sentence, const char *advice) {
     const size_t length = strlen(on->check->message);
-    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%.40s': %s; %s",
-                   length > 0 ? "\n" : "", on->name, sentence,
+    char name[44];
+    (void)knurl_text_line(name, sizeof name, on->name);
+    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%s': %s; %s",
+                   length > 0 ? "\n" : "", name, sentence,
                    on->clamped && limit < KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
     on->check->exceeded |= limit;
 }

@@ -2,6 +2,7 @@
 #include "support/close.h"
 #include "support/fake.h"
 
+#include <locale.h>
 #include <stdio.h>
 
 static knurl_device_info info_of(const char *uri) {
@@ -182,5 +183,28 @@ TEST(a_light_device_in_a_stiff_hand_stays_where_it_is_held) {
         (void)read_one(device);
     }
     CHECK_CLOSE(truth_of(device).position[1], -0.001, 1e-6);
+    knurl_device_close(device);
+}
+
+/* A host may have set its user's locale, in which strtod() wants a comma. */
+TEST(numbers_are_read_alike_in_every_locale) {
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "ru_RU.UTF-8", "es_ES.UTF-8"};
+    const char *taken = NULL;
+    for (size_t i = 0; i < sizeof names / sizeof *names && !taken; i++) {
+        taken = setlocale(LC_ALL, names[i]);
+    }
+    if (!taken) {
+        print_message("skipped: no locale with a comma in its numbers is installed\n");
+        skip();
+    }
+    knurl_device *device = NULL;
+    knurl_device_info info;
+    const knurl_result result = knurl_device_open("fake:?preset=falcon&max_force=7.25", &device);
+    (void)setlocale(LC_ALL, "C");
+    assert_int_equal(result, KNURL_OK);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_true(info.max_force == 7.25);
+    assert_true(info.workspace_max[0] < 0.06); /* the Falcon's, not the Touch's 0.08 */
     knurl_device_close(device);
 }

@@ -95,7 +95,7 @@ TEST(what_is_wrong_is_refused_in_words_that_name_file_line_key_expected_and_foun
                {"length_b = inf", {"length_b", "expected a number", "'inf'"}},
                {"length_b =", {"length_b", "expected a number", "''"}},
                {"length_b = 0.2 m", {"length_b", "0.01 to 1 m", "'0.2 m'"}},
-               {"length_b", {"line 1", "key = value", "'length_b'"}},
+               {"root:$6$salt$hash", {"line 1", "key = value", "found no '='"}},
                {"= 5", {"line 1", "expected a key of name, vendor", "''"}},
                {"Length_b = 0.2", {"line 1", "length_c", "'Length_b'"}},
                {"mass = 1\nmass = 1", {"line 2: mass", "once", "again"}},

@@ -1,8 +1,9 @@
 /* What follows "fake:". SPDX-License-Identifier: MIT */
 #include "device/fake/fake_uri.h"
 
+#include "device/number.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct key {
@@ -40,16 +41,12 @@ const char *knurl_fake_keys(void) {
 }
 
 static knurl_result set_value(const key *k, const char *text, size_t length, knurl_fake_settings *settings) {
-    char copy[64] = "";
-    char *end = copy;
-    if (length < sizeof copy) {
-        memcpy(copy, text, length);
-    }
-    const double value = strtod(copy, &end);
+    double value = 0.0;
+    const int is_number = knurl_number(text, length, &value); /* whatever the host's locale */
     const int real = k->offset != offsetof(knurl_fake_settings, delay) &&
                      k->offset != offsetof(knurl_fake_settings, seed) &&
                      k->offset != offsetof(knurl_fake_settings, exact);
-    if (end == copy || *end || !knurl_is_within(value, k->least, k->greatest) || !(real || value == floor(value))) {
+    if (!is_number || !knurl_is_within(value, k->least, k->greatest) || !(real || value == floor(value))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'",
                           k->name, real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit,
                           (int)length, text);
@@ -101,10 +98,10 @@ static knurl_result set_preset(const char *text, size_t length, knurl_fake_setti
     for (size_t i = 0; i < sizeof presets / sizeof *presets; i++) {
         if (strlen(presets[i].name) == length && strncmp(presets[i].name, text, length) == 0) {
             *settings = defaults;
-            (void)set_pairs(presets[i].options, settings);
+            const knurl_result result = set_pairs(presets[i].options, settings);
             settings->preset = (int32_t)i;
             settings->resolution_named = 0; /* by the preset, not for a trace */
-            return KNURL_OK;
+            return result;
         }
     }
     return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: preset: expected touch, falcon or ideal, found '%.*s'",

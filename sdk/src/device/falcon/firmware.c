@@ -1,10 +1,10 @@
 /* Setting a Falcon up, and loading its firmware. Read knurl_falcon_prepare() first. SPDX-License-Identifier: MIT */
 #include "device/falcon/firmware.h"
 
+#include "base/regular_file.h"
 #include "base/system.h"
 #include "device/falcon/frame.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -177,9 +177,11 @@ static knurl_result load(const knurl_falcon_transport *t, const uint8_t *image, 
 
 /* The file's bytes, KNURL_FALCON_IMAGE_MOST + 1 at most. */
 static knurl_result read_image(const char *path, uint8_t *image, size_t *size) {
-    FILE *file = fopen(path, "rb");
+    char why[160];
+    uint64_t there = 0;
+    FILE *file = knurl_regular_open(NULL, path, &there, why, sizeof why);
     if (!file) {
-        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s': %s", path, strerror(errno));
+        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s': %s", path, why);
     }
     const size_t got = fread(image, 1, KNURL_FALCON_IMAGE_MOST + 1, file);
     const int failed = ferror(file);

@@ -1,6 +1,7 @@
 /* The geometry file. SPDX-License-Identifier: MIT */
 #include "device/rawhid/geometry.h"
 
+#include "base/regular_file.h"
 #include "device/number.h"
 
 #include <errno.h>
@@ -121,8 +122,8 @@ static knurl_result set_number(const spot *s, const key *k, word text, knurl_raw
 static knurl_result set_line(spot *s, word line, knurl_rawhid_geometry *geometry) {
     const char *equals = memchr(line.at, '=', line.length);
     if (!equals) {
-        return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: expected key = value, found '%.*s'", s->file, s->line,
-                          shown(line), line.at);
+        /* what it holds instead is not told: a URI may name any file, and logs are read by others */
+        return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: expected key = value, found no '='", s->file, s->line);
     }
     const word name = trim(line.at, (size_t)(equals - line.at));
     const word value = trim(equals + 1, line.length - (size_t)(equals + 1 - line.at));
@@ -202,9 +203,11 @@ knurl_result knurl_rawhid_geometry_parse(const char *where, const char *text, si
 }
 
 knurl_result knurl_rawhid_geometry_load(const char *path, knurl_rawhid_geometry *geometry) {
-    FILE *file = fopen(path, "rb");
+    char why[160];
+    uint64_t there = 0;
+    FILE *file = knurl_regular_open(NULL, path, &there, why, sizeof why);
     if (!file) {
-        return knurl_fail(KNURL_ERROR_IO, "geometry file '%s': could not be opened: %s", path, strerror(errno));
+        return knurl_fail(KNURL_ERROR_IO, "geometry file '%s': could not be opened: %s", path, why);
     }
     char *text = malloc(KNURL_RAWHID_FILE_ROOM + 1);
     const size_t size = text ? fread(text, 1, KNURL_RAWHID_FILE_ROOM + 1, file) : 0;

@@ -1,6 +1,7 @@
 /* Finds and loads the HD library. SPDX-License-Identifier: MIT */
 #include "device/touch/hd_load.h"
 
+#include "base/regular_file.h"
 #include "base/system.h"
 
 #include <stdio.h>
@@ -58,13 +59,15 @@ static void look_for_machine(const char *path, char *why, size_t why_size) {
     unsigned char head[20] = {0};
     char place[PATH_ROOM + 16];
     (void)snprintf(place, sizeof place, "%s%.500s", strchr(path, '/') ? "" : "/usr/lib/", path);
-    FILE *file = fopen(place, "rb");
+    char unread[64];
+    uint64_t there = 0;
+    FILE *file = knurl_regular_open(NULL, place, &there, unread, sizeof unread);
     const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
     if (file) {
         (void)fclose(file);
     }
     const int machine = head[5] == 2 ? 256 * head[18] + head[19] : 256 * head[19] + head[18]; /* EI_DATA: big-endian */
-    if (got == sizeof head && memcmp(head, "\177ELF", 4) == 0 && ELF_MACHINE && machine != ELF_MACHINE) {
+    if (got == sizeof head && memcmp(head, "\177ELF", 4) == 0 && ELF_MACHINE != 0 && machine != ELF_MACHINE) {
         (void)snprintf(why, why_size, "it is for another processor: ELF machine %d, expected %d", machine, ELF_MACHINE);
     }
 }
