@@ -8,7 +8,7 @@ import unittest
 import package
 
 ASSEMBLIES = {  # the folder, the assembly, what it may refer to
-    "Runtime": ("Knurl.Haptics", []),
+    "Runtime": ("Knurl.Haptics", ["Unity.InputSystem"]),  # where the project has it
     "Editor": ("Knurl.Haptics.Editor", ["Knurl.Haptics"]),
     "Tests/Runtime": ("Knurl.Haptics.Tests", ["Knurl.Haptics"]),
     "Tests/Editor": ("Knurl.Haptics.Editor.Tests", ["Knurl.Haptics", "Knurl.Haptics.Editor"]),

@@ -46,6 +46,15 @@ namespace Knurl.Editing
             }
         }
 
+        /// <summary>What the Project window shows of it, presets included.</summary>
+        public override Texture2D RenderStaticPreview(string assetPath, Object[] subAssets, int width, int height)
+        {
+            var picture = new Texture2D(width, height, TextureFormat.RGBA32, false);
+            picture.SetPixels32(Thumbnail.Draw((KnurlGrating)target, width, height));
+            picture.Apply();
+            return picture;
+        }
+
         void Take(KnurlGrating preset)
         {
             if (target == null)

@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace Knurl.Editing
 {
@@ -13,18 +14,37 @@ namespace Knurl.Editing
     {
         const string Objects = "GameObject/Knurl/";
         const string NewDevice = Objects + "Haptic Device";
+        const string NewCursor = Objects + "Haptic Cursor";
         const string AddSurface = Objects + "Add Surface To Selection";
         const string AddTagged = Objects + "Add Surfaces From glTF Tags";
         const string ReadTags = "Assets/Knurl/Read Tags";
         const int Priority = 10; // among the kinds of objects
 
+        /// <summary>Its box about the selected surfaces, where there are any.</summary>
         [MenuItem(NewDevice, false, Priority)]
         static void MakeDevice(MenuCommand command)
         {
+            Vector3 middle;
+            bool isAbout = Placing.FindSelectedSurfaces(out middle);
             var made = new GameObject("Haptic Device", typeof(KnurlDevice));
-            GameObjectUtility.SetParentAndAlign(made, command.context as GameObject);
-            Undo.RegisterCreatedObjectUndo(made, "Create Haptic Device");
-            Selection.activeObject = made;
+            Placing.Place(made, isAbout ? null : command.context as GameObject);
+            if (isAbout)
+            {
+                made.transform.position = middle;
+            }
+        }
+
+        /// <summary>To be seen in the game: a ball where a device feels.</summary>
+        [MenuItem(NewCursor, false, Priority)]
+        static void MakeCursor(MenuCommand command)
+        {
+            const float diameter = 0.004f; // m
+            GameObject made = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            Object.DestroyImmediate(made.GetComponent<Collider>());
+            made.name = "Haptic Cursor";
+            made.transform.localScale = diameter * Vector3.one;
+            made.AddComponent<KnurlCursor>();
+            Placing.Place(made, command.context as GameObject);
         }
 
         [MenuItem(AddSurface, false, Priority + 1)]

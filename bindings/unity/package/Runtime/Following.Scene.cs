@@ -127,6 +127,46 @@ namespace Knurl
             }
         }
 
+        /// <summary>The plane that touches the middle of the nearest surface which a ray meets there. Where it meets none,
+        /// the plane stays as it is known, or is the first surface's. False where there is none.</summary>
+        internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)
+        {
+            knurl_surface_info info;
+            float nearest = float.PositiveInfinity;
+            NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
+            for (int i = 0; i < count; i++)
+            {
+                float distance;
+                if (followers[i].id == 0 || NativeMethods.knurl_scene_get_surface_info(scene, followers[i].id, &info)
+                    != NativeMethods.KNURL_OK)
+                {
+                    continue;
+                }
+                var own = new Plane(Axes.ToUnity(info.anchor_normal), Axes.ToUnity(info.anchor));
+                bool isMet = own.Raycast(ray, out distance) && distance < nearest && IsInside(&info, ray.GetPoint(distance));
+                if (isMet || !isKnown)
+                {
+                    plane = own;
+                    isKnown = true;
+                    nearest = isMet ? distance : nearest;
+                }
+            }
+            return isKnown;
+        }
+
+        static bool IsInside(knurl_surface_info* info, Vector3 point)
+        {
+            const double margin = 0.001; // m: flat bounds have no thickness
+            double* at = stackalloc double[3];
+            Axes.ToScene(point, at);
+            bool isInside = true;
+            for (int i = 0; i < 3; i++)
+            {
+                isInside &= at[i] >= info->bounds_min[i] - margin && at[i] <= info->bounds_max[i] + margin;
+            }
+            return isInside;
+        }
+
         /// <summary>Whether it went well.</summary>
         static bool Tell(KnurlSurface surface, int result)
         {

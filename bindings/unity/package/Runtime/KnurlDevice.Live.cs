@@ -172,6 +172,11 @@ namespace Knurl
             get { return isRunning ? workspace : WorkspaceHere(); }
         }
 
+        internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)
+        {
+            return isRunning && following.FindPlane(ray, ref plane, isKnown);
+        }
+
         internal int CountTriangles(KnurlSurface surface)
         {
             return isRunning ? following.CountTriangles(surface) : 0;

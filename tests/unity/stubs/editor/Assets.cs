@@ -55,6 +55,11 @@ namespace UnityEditor
             return found.ToArray();
         }
 
+        public static string[] FindAssets(string filter)
+        {
+            return FindAssets(filter == "t:Prefab" ? "t:GameObject" : filter, new[] { "Assets" });
+        }
+
         public static string MoveAsset(string from, string to)
         {
             foreach (string path in new List<string>(Assets.Keys))
@@ -294,12 +299,65 @@ namespace UnityEditor
 
     public static class GameObjectUtility
     {
+        public static void EnsureUniqueNameForSibling(GameObject self) { }
         public static void SetParentAndAlign(GameObject child, GameObject parent)
         {
             if (parent != null)
             {
                 child.transform.SetParent(parent.transform, false);
             }
+        }
+    }
+
+    public static class PlayerSettings
+    {
+        public static bool stripUnusedMeshComponents { get; set; }
+    }
+
+    /// Looks at its pivot.
+    public sealed class SceneView
+    {
+        public static SceneView lastActiveSceneView { get; set; }
+        public Vector3 pivot { get; set; }
+        public void MoveToView(Transform target) { target.position = pivot; }
+    }
+
+    namespace SceneManagement
+    {
+        public static class StageUtility
+        {
+            /// The root of the prefab that a test says is open; it becomes the parent.
+            public static GameObject Open;
+            public static void PlaceGameObjectInCurrentStage(GameObject gameObject)
+            {
+                if (Open != null)
+                {
+                    gameObject.transform.SetParent(Open.transform);
+                }
+            }
+        }
+    }
+
+    namespace Build
+    {
+        public interface IOrderedCallback
+        {
+            int callbackOrder { get; }
+        }
+
+        public interface IPreprocessBuildWithReport : IOrderedCallback
+        {
+            void OnPreprocessBuild(Reporting.BuildReport report);
+        }
+
+        public interface IProcessSceneWithReport : IOrderedCallback
+        {
+            void OnProcessScene(UnityEngine.SceneManagement.Scene scene, Reporting.BuildReport report);
+        }
+
+        namespace Reporting
+        {
+            public sealed class BuildReport : UnityEngine.Object { }
         }
     }
 

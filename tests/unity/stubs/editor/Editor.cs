@@ -107,6 +107,12 @@ namespace UnityEditor
 
         public virtual void OnInspectorGUI() { DrawDefaultInspector(); }
         public virtual bool RequiresConstantRepaint() { return false; }
+        public virtual Texture2D RenderStaticPreview(string assetPath, UnityEngine.Object[] subAssets, int width,
+            int height)
+        {
+            return null;
+        }
+
         public void Repaint() { }
 
         public bool DrawDefaultInspector()

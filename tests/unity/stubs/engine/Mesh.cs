@@ -21,6 +21,15 @@ namespace UnityEngine
             UInt32
         }
 
+        public enum ShaderPropertyType
+        {
+            Color,
+            Vector,
+            Float,
+            Range,
+            Texture
+        }
+
         public enum CompareFunction
         {
             Disabled,
@@ -240,5 +249,17 @@ namespace UnityEngine
             get { return sharedMesh; }
             set { sharedMesh = value; }
         }
+    }
+}
+
+namespace UnityEngine.SceneManagement
+{
+    /// What a test makes it.
+    public struct Scene
+    {
+        public string Path;
+        public GameObject[] Roots;
+        public string path { get { return Path; } }
+        public GameObject[] GetRootGameObjects() { return Roots; }
     }
 }

@@ -138,7 +138,8 @@ namespace UnityEngine
 
         public static GameObject CreatePrimitive(PrimitiveType type)
         {
-            GameObject made = new GameObject(type.ToString(), typeof(MeshFilter), typeof(MeshRenderer));
+            GameObject made = new GameObject(type.ToString(), typeof(MeshFilter), typeof(MeshRenderer),
+                typeof(Collider));
             if (type == PrimitiveType.Quad)
             {
                 made.GetComponent<MeshFilter>().sharedMesh = new Mesh
@@ -389,7 +390,10 @@ namespace UnityEngine
     /// Of every name there is one, without properties.
     public class Shader : Object
     {
+        public Rendering.ShaderPropertyType[] Properties = new Rendering.ShaderPropertyType[0]; // a test's
         public static Shader Find(string name) { return new Shader { held = name }; }
+        public int GetPropertyCount() { return Properties.Length; }
+        public Rendering.ShaderPropertyType GetPropertyType(int propertyIndex) { return Properties[propertyIndex]; }
     }
 
     public class Texture : Object
@@ -444,6 +448,7 @@ namespace UnityEngine
     }
 
     public class MeshRenderer : Renderer { }
+    public class Collider : Component { }
 
     public enum RigidbodyInterpolation
     {

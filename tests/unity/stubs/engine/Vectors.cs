@@ -199,6 +199,12 @@ namespace UnityEngine
         public Vector3 min { get { return center - extents; } }
         public Vector3 max { get { return center + extents; } }
         public void SetMinMax(Vector3 low, Vector3 high) { extents = (high - low) * 0.5f; center = low + extents; }
+        public void Encapsulate(Bounds other)
+        {
+            Encapsulate(other.min);
+            Encapsulate(other.max);
+        }
+
         public void Encapsulate(Vector3 point) { SetMinMax(Vector3.Min(min, point), Vector3.Max(max, point)); }
         public bool Contains(Vector3 p) { return Vector3.Min(p, min).Equals(min) && Vector3.Max(p, max).Equals(max); }
     }

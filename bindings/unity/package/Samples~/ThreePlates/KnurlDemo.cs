@@ -13,19 +13,12 @@ namespace Knurl.Samples
         [SerializeField, Tooltip("Of the fake device's hand, over the first plate: line, sweep, circle, press or rest")]
         string stroke = "sweep";
 
-        const float Hover = 0.004f; // m above the plates while the button is up
-        const float Deepest = 0.002f; // m
-        const float Step = 0.0001f; // m a notch of the wheel
         const float Ball = 0.003f; // m: the cursor's diameter
         static readonly Vector3 WorkspaceCentre = new Vector3(0f, 0.02f, 0f); // a Touch reaches 60 mm below it
         static readonly Vector3 Eye = new Vector3(0f, 0.17f, -0.13f);
 
-        Camera eye;
         KnurlDevice haptic;
         KnurlPlot plot;
-        Transform hip;
-        Transform proxy;
-        float depth = 0.0006f; // m that the mouse's button presses
         string fault = "";
 
         /// <summary>The device that feels the plates.</summary>
@@ -37,11 +30,11 @@ namespace Knurl.Samples
         void Start()
         {
             KnurlPlates.Make(transform);
-            eye = PlaceCamera();
-            hip = MakeBall("HIP", new Color(1f, 0.62f, 0.2f), Ball);
-            proxy = MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball);
+            PlaceCamera();
             plot = new KnurlPlot();
             haptic = MakeDevice();
+            MakeBall("HIP", new Color(1f, 0.62f, 0.2f), Ball, true);
+            MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball, false);
             haptic.fault.AddListener((code, text) => fault = code < 32 ? text : ""); // from 32 on it is well again
             if (!haptic.StartDevice() && device != "mouse") // it said why
             {
@@ -68,11 +61,12 @@ namespace Knurl.Samples
             made.Device = device;
             made.Stroke = stroke;
             made.Autostart = false;
+            holder.AddComponent<KnurlMouse>(); // counts where the device is the mouse
             holder.SetActive(true);
             return made;
         }
 
-        Camera PlaceCamera()
+        void PlaceCamera()
         {
             Camera found = Camera.main;
             if (found == null)
@@ -82,41 +76,23 @@ namespace Knurl.Samples
             found.nearClipPlane = 0.01f; // all of this is the size of a hand
             found.transform.position = transform.TransformPoint(Eye);
             found.transform.rotation = transform.rotation * Quaternion.LookRotation(-Eye, Vector3.up);
-            return found;
         }
 
-        Transform MakeBall(string title, Color color, float diameter)
+        void MakeBall(string title, Color color, float diameter, bool showsHip)
         {
             GameObject made = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             made.name = title;
             made.transform.SetParent(transform, false);
             made.transform.localScale = diameter * Vector3.one;
             made.GetComponent<Renderer>().material.color = color;
-            return made.transform;
+            var cursor = made.AddComponent<KnurlCursor>();
+            cursor.Device = haptic;
+            cursor.ShowsHip = showsHip;
         }
 
         void Update()
         {
-            if (haptic.Running && haptic.Device == "mouse")
-            {
-                MoveWithMouse();
-            }
-            hip.position = haptic.HipPosition;
-            proxy.position = haptic.ProxyPosition;
-            proxy.gameObject.SetActive(haptic.InContact);
             plot.Draw(haptic);
-        }
-
-        /// <summary>The HIP hovers over what the pointer is on, and presses while the left button is down.</summary>
-        void MoveWithMouse()
-        {
-            depth = Mathf.Clamp(depth + Step * KnurlPointer.Notches, Step, Deepest);
-            Ray ray = eye.ScreenPointToRay(KnurlPointer.Position);
-            float distance;
-            if (new Plane(transform.up, transform.position).Raycast(ray, out distance))
-            {
-                haptic.MoveHip(ray.GetPoint(distance) + (KnurlPointer.Pressed ? -depth : Hover) * transform.up);
-            }
         }
 
         void OnGUI()

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 using UnityEngine;
-#if ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
+#if KNURL_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
 using UnityEngine.InputSystem;
 #endif
 
-namespace Knurl.Samples
+namespace Knurl
 {
     /// <summary>The mouse, by whichever input system the project has.</summary>
-    internal static class KnurlPointer
+    internal static class Pointer
     {
-#if ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
+#if KNURL_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
         /// <summary>Pixels from the window's lower left.</summary>
         internal static Vector3 Position
         {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+using System.Linq;
+using UnityEditor;
+using UnityEditor.SceneManagement;
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    /// <summary>Where new objects go: where Unity's own do, or where the selected surfaces are.</summary>
+    internal static class Placing
+    {
+        /// <summary>Below parent; without one in the stage that is open (a scene, a prefab), where the scene view looks.
+        /// Can be undone; selects it.</summary>
+        internal static void Place(GameObject made, GameObject parent)
+        {
+            if (parent != null)
+            {
+                GameObjectUtility.SetParentAndAlign(made, parent);
+            }
+            else
+            {
+                StageUtility.PlaceGameObjectInCurrentStage(made);
+                if (SceneView.lastActiveSceneView != null)
+                {
+                    SceneView.lastActiveSceneView.MoveToView(made.transform);
+                }
+            }
+            GameObjectUtility.EnsureUniqueNameForSibling(made);
+            Undo.RegisterCreatedObjectUndo(made, "Create " + made.name);
+            Selection.activeGameObject = made;
+        }
+
+        /// <summary>The middle of the selected surfaces; false where none is selected.</summary>
+        internal static bool FindSelectedSurfaces(out Vector3 middle)
+        {
+            Renderer[] felt = Selection.gameObjects.Where(each => each.GetComponent<KnurlSurface>() != null)
+                .Select(each => each.GetComponent<Renderer>()).Where(drawn => drawn != null).ToArray();
+            Bounds bounds = felt.Length > 0 ? felt[0].bounds : new Bounds();
+            foreach (Renderer each in felt)
+            {
+                bounds.Encapsulate(each.bounds);
+            }
+            middle = bounds.center;
+            return felt.Length > 0;
+        }
+    }
+}

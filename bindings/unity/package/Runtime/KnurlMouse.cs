@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl
+{
+    /// <summary>The mouse as a stylus, for those who have none: moves the device "mouse" over the surface under the
+    /// pointer. The left button presses, the wheel sets how deep. On a curved surface it moves over the plane that touches
+    /// the middle of it. Main thread.</summary>
+    [AddComponentMenu("Knurl/Knurl Mouse")]
+    [DisallowMultipleComponent]
+    [RequireComponent(typeof(KnurlDevice))]
+    public sealed class KnurlMouse : MonoBehaviour
+    {
+        const float Step = 0.0001f; // m a notch of the wheel
+
+        [SerializeField, Tooltip("Which camera the pointer looks through. None: the main camera.")]
+        Camera eye;
+
+        [SerializeField, Min(0f), Tooltip("How high the HIP hovers while the button is up. m")]
+        float hover = 0.004f;
+
+        [SerializeField, Min(0f), Tooltip("How deep the left button presses; the wheel changes it. m")]
+        float depth = 0.0006f;
+
+        KnurlDevice device;
+        Plane plane; // over which it moved in the latest frame
+        bool hasPlane;
+
+        /// <summary>Which camera the pointer looks through; null, the default: the main camera.</summary>
+        public Camera Eye
+        {
+            get { return eye; }
+            set { eye = value; }
+        }
+
+        /// <summary>How high the HIP hovers while the button is up (m). Default 0.004.</summary>
+        public float Hover
+        {
+            get { return hover; }
+            set { hover = value; }
+        }
+
+        /// <summary>How deep the left button presses (m); the wheel changes it, up to 2 mm. Default 0.0006.</summary>
+        public float Depth
+        {
+            get { return depth; }
+            set { depth = value; }
+        }
+
+        void Reset()
+        {
+            GetComponent<KnurlDevice>().Device = "mouse";
+        }
+
+        void Update()
+        {
+            device = device == null ? GetComponent<KnurlDevice>() : device;
+            Camera looking = eye == null ? Camera.main : eye;
+            if (!device.Running || device.Device != "mouse" || looking == null)
+            {
+                return;
+            }
+            depth = Pointer.Notches == 0f ? depth : Mathf.Clamp(depth + Step * Pointer.Notches, Step, 20f * Step);
+            Ray ray = looking.ScreenPointToRay(Pointer.Position);
+            hasPlane |= device.FindPlane(ray, ref plane, hasPlane);
+            float distance;
+            if (hasPlane && plane.Raycast(ray, out distance))
+            {
+                device.MoveHip(ray.GetPoint(distance) + (Pointer.Pressed ? -depth : hover) * plane.normal);
+            }
+        }
+    }
+}
