@@ -2,6 +2,9 @@
 # Packs the Unity package with the libraries that were built: OUT_DIR/com.knurl.haptics, a folder to be added from disk
 # or committed to a branch for git URLs, and OUT_DIR/com.knurl.haptics-VERSION.tgz, the same as a tarball.
 # A Linux library that wants a newer glibc than 2.31 (Ubuntu 20.04's) is refused, or with --any-glibc told.
+# KNURL_URL: the https address of the repository, for the manifest's documentationUrl and so on; without it there are none.
+# KNURL_UNITY_ORGANIZATION: the id of a Unity organization: the tarball is signed for it with Unity's `upm`, whose
+# credentials are the caller's. Unity 6.3 and later warn of tarballs that are not signed.
 # usage: package.sh [--any-glibc] OUT_DIR LIBRARY...
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -66,7 +69,23 @@ for system in Linux Windows; do # no library, no meta for it
         rm -rf "$stage/$name/Plugins/$system" "$stage/$name/Plugins/$system.meta"
     fi
 done
+if [ -n "${KNURL_URL:-}" ]; then
+    python3 - "$stage/$name/package.json" "$KNURL_URL" <<'PY'
+import json
+import sys
+
+path, url = sys.argv[1], sys.argv[2].rstrip("/").removesuffix(".git")
+with open(path, encoding="utf-8") as file:
+    manifest = json.load(file)
+below = url + "/blob/main/bindings/unity/package/"
+manifest.update(documentationUrl=below + "Documentation~/com.knurl.haptics.md", changelogUrl=below + "CHANGELOG.md",
+                licensesUrl=below + "LICENSE.md", repository={"type": "git", "url": url + ".git"})
+with open(path, "w", encoding="utf-8", newline="\n") as file:
+    file.write(json.dumps(manifest, indent=2, ensure_ascii=False) + "\n")
+PY
+fi
 "$here/metas.py" --check --packed "$stage/$name" >/dev/null
+"$here/validate.py" ${KNURL_URL:+--published} "$stage/$name"
 find "$stage/$name" -type f -exec chmod 644 {} +
 find "$stage/$name" -type d -exec chmod 755 {} +
 
@@ -74,8 +93,15 @@ find "$stage/$name" -type d -exec chmod 755 {} +
 tar -C "$stage" --transform "s,^$name,package,S" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
     --numeric-owner --format=ustar -cf "$stage/tar" "$name"
 gzip -n -9 <"$stage/tar" >"$stage/tgz"
+signed=unsigned
+if [ -n "${KNURL_UNITY_ORGANIZATION:-}" ]; then
+    command -v upm >/dev/null || { echo "package: KNURL_UNITY_ORGANIZATION is set, and Unity's upm is not here to sign with" >&2; exit 1; }
+    upm pack "$stage/$name" --organization-id "$KNURL_UNITY_ORGANIZATION" --destination "$stage/upm"
+    mv "$stage/upm/$name-$version.tgz" "$stage/tgz"
+    signed=signed
+fi
 [ ! -e "$out/$name" ] || mv "$out/$name" "$stage/old"
 mv "$stage/$name" "$out/$name"
 mv "$stage/tgz" "$out/$name-$version.tgz"
 libraries=$(find "$out/$name/Plugins" -type f ! -name '*.meta' -printf '%f\n' | sort | paste -sd ' ')
-echo "package: $out/$name-$version.tgz holds $libraries"
+echo "package: $out/$name-$version.tgz, $signed, holds $libraries"

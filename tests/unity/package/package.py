@@ -12,6 +12,7 @@ PACKAGE = os.path.join(UNITY, "package")
 
 sys.path.insert(0, UNITY)
 import metas  # noqa: E402  pylint: disable=wrong-import-position,unused-import
+import validate  # noqa: E402  pylint: disable=wrong-import-position,unused-import
 
 
 def read(*path):

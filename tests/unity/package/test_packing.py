@@ -11,7 +11,7 @@ import time
 import unittest
 
 import package
-from package import metas
+from package import metas, validate
 
 REQUIRED = [  # by Unity's manual, "Package layout"
     "package.json",
@@ -52,8 +52,9 @@ def make_libraries(case):
     return holder.name
 
 
-def pack(out, *libraries, program=os.path.join(package.UNITY, "package.sh")):
-    return subprocess.run([program, out, *libraries], capture_output=True, text=True, check=False)
+def pack(out, *libraries, program=os.path.join(package.UNITY, "package.sh"), **more):
+    environment = {**os.environ, **more}
+    return subprocess.run([program, out, *libraries], capture_output=True, text=True, check=False, env=environment)
 
 
 def paths_in(out):
@@ -191,11 +192,55 @@ class Packing(package.InFolder):
         self.assertEqual(done.returncode, 0)
         self.assertIn("found ones of 2.32: packed all the same", done.stderr)
 
+    def test_addresses_are_written_where_they_are_known(self):
+        url = "https://example.com/knurl"
+        self.assertEqual(pack(self.out, self.linux, KNURL_URL=url + ".git").stderr, "")
+        manifest = json.loads(package.read(self.stem, "package.json"))
+        self.assertEqual(manifest["repository"], {"type": "git", "url": url + ".git"})
+        for key in validate.ADDRESSES:
+            path = manifest[key].removeprefix(url + "/blob/main/")
+            self.assertTrue(os.path.isfile(os.path.join(package.ROOT, path)), path)
+        self.assertIn("expected an https address", pack(self.out, self.linux, KNURL_URL="knurl").stderr)
+
+    def test_it_is_signed_where_there_are_the_means(self):
+        done = pack(self.out, self.linux, KNURL_UNITY_ORGANIZATION="42", PATH="/usr/bin:/bin")
+        self.expect_nothing_made(done, "Unity's upm is not here to sign with")
+        self.write('#!/bin/sh\nmkdir "$6"; echo "$1 $(basename "$2") $3 $4 $5" >"$6/com.knurl.haptics-'
+                   + package.version() + '.tgz"\n', "upm")  # a stand-in that says what it was told
+        os.chmod(os.path.join(self.folder, "upm"), 0o755)
+        done = pack(self.out, self.linux, KNURL_UNITY_ORGANIZATION="42", PATH=self.folder + ":" + os.environ["PATH"])
+        self.assertIn(".tgz, signed, holds", done.stdout)
+        self.assertEqual(package.read(self.tarball), "pack com.knurl.haptics --organization-id 42 --destination\n")
+        self.assertIn(".tgz, unsigned, holds", pack(self.out, self.linux).stdout)
+
+    def git(self, *arguments):
+        command = ["git", "-C", self.folder, "-c", "user.name=a", "-c", "user.email=a@example.com", *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+    def test_a_branch_holds_the_package_with_its_libraries_at_its_root(self):
+        self.pack_both()
+        self.git("init", "-q", "-b", "main")
+        self.write("*.so\n*.dll\n", ".gitignore")
+        self.git("add", ".gitignore")
+        self.git("commit", "-q", "-m", "first")
+        command = [os.path.join(package.UNITY, "branch.sh"), self.stem, "upm"]
+        names = {"GIT_AUTHOR_NAME": "a", "GIT_AUTHOR_EMAIL": "a@example.com", "GIT_COMMITTER_NAME": "a",
+                 "GIT_COMMITTER_EMAIL": "a@example.com"}
+        for sentence in ("upm is com.knurl.haptics " + package.version(), "holds this package already"):
+            done = subprocess.run(command, cwd=self.folder, env={**os.environ, **names}, capture_output=True, text=True,
+                                  check=True)
+            self.assertIn(sentence, done.stdout)
+        there = [os.path.relpath(os.path.join(folder, name), self.stem)
+                 for folder, _, files in os.walk(self.stem) for name in files]
+        self.assertEqual(sorted(self.git("-c", "core.quotepath=off", "ls-tree", "-r", "--name-only", "upm").splitlines()),
+                         sorted(there))
+        self.assertEqual(self.git("ls-tree", "--name-only", "main"), ".gitignore\n")
+
     def copy_of_sources(self):
         """What package.sh reads, to be broken."""
         unity = os.path.join(self.folder, "bindings", "unity")
         package.copy_of_package(os.path.join(unity, "package"))
-        for name in ("metas.py", "package.sh"):
+        for name in ("metas.py", "package.sh", "validate.py"):
             shutil.copy(os.path.join(package.UNITY, name), unity)
         headers = os.path.join("sdk", "include", "knurl")
         os.makedirs(os.path.join(self.folder, headers))
