@@ -30,6 +30,7 @@ IMPORTERS = {
     ".asset": "NativeFormatImporter",
     ".so": "PluginImporter",
     ".dll": "PluginImporter",
+    ".unity": "DefaultImporter",
 }
 BODIES = {
     "MonoImporter": "  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
@@ -40,9 +41,12 @@ PLAIN_BODY = "  externalObjects: {}\n"
 TAIL = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 
 
+SAMPLES = "Samples~"  # what is below each of its folders is copied into projects, with its metas
+
+
 def is_ignored(name):
     """What Unity does not look at: hidden files, and folders and files that end in ~."""
-    return name.startswith(".") or name.endswith("~") or name.lower().endswith(".tmp")
+    return name.startswith(".") or (name.endswith("~") and name != SAMPLES) or name.lower().endswith(".tmp")
 
 
 def walk(package):
@@ -52,7 +56,7 @@ def walk(package):
         inner[:] = sorted(name for name in inner if not is_ignored(name))
         below = os.path.relpath(folder, package).replace(os.sep, "/")
         below = "" if below == "." else below + "/"
-        folders.update(below + name for name in inner)
+        folders.update(below + name for name in inner if name != SAMPLES and below != SAMPLES + "/")
         for name in names:
             if not is_ignored(name):
                 (metas if name.endswith(".meta") else files).add(below + name)

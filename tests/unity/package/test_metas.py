@@ -100,10 +100,14 @@ class Faults(package.InFolder):
         self.expect("wrong platforms: expected Any off, Editor (Windows) and Standalone Win64 on, CPU x86_64")
 
     def test_what_unity_does_not_look_at_needs_no_meta(self):
-        os.makedirs(os.path.join(self.root, "Samples~", "More"))
-        self.write("", self.root, "Samples~", "More", "More.cs")
+        os.makedirs(os.path.join(self.root, "Documentation~", "More"))
+        self.write("", self.root, "Documentation~", "More", "More.cs")
         self.write("", self.root, ".hidden")
         self.expect()
+
+    def test_what_a_sample_brings_has_metas(self):
+        os.remove(os.path.join(self.root, "Samples~", "ThreePlates", "KnurlDemo.cs.meta"))
+        self.expect("Samples~/ThreePlates/KnurlDemo.cs: missing")
 
     def test_a_file_of_an_unknown_kind_is_refused_when_metas_are_written(self):
         self.write("", self.root, "Runtime", "picture.tga")
