@@ -117,7 +117,6 @@ static way move(const knurl_grating *g, knurl_grating_state *s, const double pos
     const double from = fs[along] * s->held + 0.25;
     const double length = fs[along] * follow(s, place, position ? g->resolution : 0.0, &turned);
     const double to = fs[along] * s->held + 0.25; /* forwards it rises a quarter cycle before a crest */
-    s->moving = s->moving && !turned;
     if (!is_grid || begins) {
         s->phase = s->direction < 0 ? 0.5 - to : to;
     } else {
