@@ -1,6 +1,6 @@
 /* The method AREA on grids: three ways to take a mean, over all directions; and where it is worst, by search.
  * SPDX-License-Identifier: MIT */
-#include "area_positions.h"
+#include "area_parts.h"
 #include "gratings.h"
 #include "metrics.h"
 #include "steady.h"
@@ -239,7 +239,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     json_string(json, "study", "area");
     json_string(json, "table", "area.csv");
     return write_directions(csv, json) || search("push", 1, json) || search("unevenness", 0, json) ||
-           area_positions(json);
+           area_positions(json) || area_steady(json);
 }
 
 int study_area(const char *folder) {

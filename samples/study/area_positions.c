@@ -1,6 +1,6 @@
 /* What the method AREA is given: raw positions, or a way that a velocity carries on and positions draw back.
  * SPDX-License-Identifier: MIT */
-#include "area_positions.h"
+#include "area_parts.h"
 
 #include "gratings.h"
 #include "steady.h"
