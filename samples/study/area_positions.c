@@ -59,9 +59,11 @@ int area_positions(json_writer *json) {
         const double quantum = quanta[i / 4];
         steady_metrics mean[2] = {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}};
         for (int n = 0; n < 2 * FREQUENCIES * STARTS; n++) {
-            const double frequency = 20.0 * pow(450.0 / 20.0, (double)(n / 2 / STARTS) / (FREQUENCIES - 1));
+            const int at = n / 2 / STARTS;
+            const int begin = n / 2 % STARTS;
+            const double frequency = 20.0 * pow(450.0 / 20.0, (double)at / (FREQUENCIES - 1));
             steady_metrics found;
-            if (!scan(rates[i % 4], quantum, n % 2, frequency, n / 2 % STARTS / (double)STARTS + 0.013, &found)) {
+            if (!scan(rates[i % 4], quantum, n % 2, frequency, (double)begin / STARTS + 0.013, &found)) {
                 return 1;
             }
             mean[n % 2].spurious += found.spurious / (FREQUENCIES * STARTS);

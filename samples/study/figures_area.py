@@ -7,18 +7,20 @@ import numpy as np
 
 from style import GREY, INK, METHODS, RULE, heading, read_table, say
 
-PANELS = (("push", "mean force over 50 ms (A)", (0, 0.2)), ("level", "level of the ridges' line (A; 4/\u03c0 is meant)", (0.6, 1.6)),
+PANELS = (("push", "mean force over 50 ms (A)", (0, 0.2)),
+          ("level", "level of the ridges' line (A; 4/\u03c0 is meant)", (0.6, 1.6)),
           ("unevenness", "wavering: CV of the rms in 12.5 ms", (0, 0.15)),
           ("spurious", "false tones: share of the power below $f_h/2$", (0, 0.4)))
 CANDIDATES = {"point": ("Eq. 11 at a point (S1)", METHODS["S1"], "-"), "place": ("its mean along the way", GREY, "-"),
-              "way": ("mean over Eq. 12's way", METHODS["locked"], "--"), "axis": ("mean along an axis (area)", METHODS["area"], "-")}
+              "way": ("mean over Eq. 12's way", METHODS["locked"], "--"),
+              "axis": ("mean along an axis (area)", METHODS["area"], "-")}
 
 
 def draw_area(data, folder):
     table = read_table(folder, data["table"])
     figure, grid = plt.subplots(2, 3, figsize=(13, 6.6))
-    heading(figure, "Area, beside the others", "steady speeds at 1 kHz over 1 mm ridges, exact positions, means of five starts; "
-            "right: a 1 mm checkerboard at 150 mm/s, over direction", 0.05)
+    heading(figure, "Area, beside the others", "steady speeds at 1 kHz over 1 mm ridges, exact positions, "
+            "means of five starts; right: a 1 mm checkerboard at 150 mm/s, over direction", 0.05)
     for ax, (key, title, limits) in zip((grid[0, 0], grid[0, 1], grid[1, 0], grid[1, 1]), PANELS):
         for row in data["steady"]:
             ax.plot(row["hz"], row[key], color=METHODS[row["method"]], lw=1.3, label=row["method"], clip_on=True)
@@ -28,7 +30,8 @@ def draw_area(data, folder):
     grid[0, 1].axhline(4 / np.pi, color=INK, lw=0.7, ls=(0, (4, 3)))
     say(grid[1, 0], "area hands over to events", 460, 0.14, "right", "center", 8, GREY, -4, 0, "data")
     grid[0, 0].legend(frameon=False, loc="upper left", labelcolor=INK)
-    for ax, key, title in ((grid[0, 2], "share", "share of the strongest line"), (grid[1, 2], "push", "mean force over 50 ms (A)")):
+    for ax, key, title in ((grid[0, 2], "share", "share of the strongest line"),
+                           (grid[1, 2], "push", "mean force over 50 ms (A)")):
         for name, (label, colour, style) in CANDIDATES.items():
             pick = table["candidate"] == name
             angles = np.unique(table["angle_deg"][pick])

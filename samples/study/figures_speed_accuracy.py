@@ -46,7 +46,8 @@ def draw_line(ax, method, points, colour):
     ax.plot(xs, ys, color=colour, lw=2.6, zorder=4, solid_capstyle="round")
     ax.plot(xs, ys, "o", color=colour, ms=7, zorder=5)
     for x, y, rate in zip(xs, ys, rates):
-        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, 8 if method in ("S2", "locked") else -16),
+        above = method in ("S2", "locked")
+        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, 8 if above else -16),
                     textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6)
     noticed = [f"{name} {size:.2g}×" for size, name in found[0] if size >= 0.995]
     place = PLACES.get(method, (26, 6))
@@ -80,8 +81,9 @@ def draw_speed_accuracy(data, folder):
         if velocity in ("none", "foaw"):
             draw_line(ax, method, points, colour)
         else:
-            ax.plot([x for x, *_ in points], [found[0][0] for _, found, _ in points], color=colour, lw=1, alpha=0.4, ls=(0, (4, 2)) if velocity == "lowpass" else (0, (1, 1.5)),
-                    zorder=2)
+            dashes = (0, (4, 2)) if velocity == "lowpass" else (0, (1, 1.5))
+            ax.plot([x for x, *_ in points], [sizes[0][0] for _, sizes, _ in points], color=colour, lw=1, alpha=0.4,
+                    ls=dashes, zorder=2)
     ax.set(xscale="log", yscale="log", ylim=(LOW, HIGH), xlim=(0.16, 18))
     for axis, marks in ((ax.xaxis, (0.2, 0.5, 1, 2, 5, 10)), (ax.yaxis, (0.3, 1, 3, 10, 30))):
         axis.set_major_locator(FixedLocator(marks))
@@ -92,9 +94,9 @@ def draw_speed_accuracy(data, folder):
     ax.set_ylabel("its worst error ÷ the least that a hand notices", fontsize=12)
     figure.text(0.02, 0.945, "Which method, at which rate, for what cost, and how it fails", fontsize=17,
                 fontweight="bold", va="center")
-    figure.text(0.02, 0.882, "ridges of 1 mm through an encoder of 0.055 mm, the worst of 20 to 480 Hz and of strokes from rest; "
-                "at the names: what is noticed at 1 kHz,\nin sizes at which it is · faint: the speed by a low pass (dashed) "
-                "or by differences (dotted)", fontsize=10.5, color=ink, alpha=0.75, va="center")
+    figure.text(0.02, 0.882, "ridges of 1 mm through an encoder of 0.055 mm, the worst of 20 to 480 Hz and of "
+                "strokes from rest; at the names: what is noticed at 1 kHz,\nin sizes at which it is · faint: the speed by "
+                "a low pass (dashed) or by differences (dotted)", fontsize=10.5, color=ink, alpha=0.75, va="center")
     shapes = data["shapes"]
     figure.text(0.755, 0.815, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=ink, alpha=0.75)
     for place, method in enumerate(name for name in ABOUT if name in shapes):

@@ -79,8 +79,8 @@ def draw_tradeoff(data, folder):
     grid[1, 2].axis("off")
     for axes in grid.flat[2:5]:
         axes.set_xlabel("µs of one core for a second of rendering", color=INK)
-    figure.suptitle("Every method, rate and estimator: cost in time, and each error", x=0.05, ha="left", fontsize=15, weight="bold",
-                    color=INK)
+    figure.suptitle("Every method, rate and estimator: cost in time, and each error", x=0.05, ha="left", fontsize=15,
+                    weight="bold", color=INK)
     figure.text(0.05, 0.925, f"steady scans of a 1 mm grating, {data['from_hz']:g} to {data['to_hz']:g} Hz · "
                 f"{data['machine']} · empty tick {data['empty_tick_ns']:.1f} ns taken off", color=GREY, fontsize=9)
     legend(figure, rows, colours)
