@@ -62,15 +62,17 @@ TEST(what_is_no_number_is_not_counted) {
     }
 }
 
-/* Thousands of cycles in a tick: one tick of height 0 that is told, and then the mean of the way at the new place. */
+/* Thousands of cycles in a tick, whatever the velocity makes of it: one tick of height 0 that is told, and then the
+ * mean of the way at the new place. */
 TEST(a_teleport_is_one_tick_of_nothing) {
     static const double jumps[] = {1234.5, -1234.5, 3.00037, -3.00037};
-    for (size_t i = 0; i < 2 * COUNT_OF(jumps); i++) {
+    for (size_t i = 0; i < 4 * COUNT_OF(jumps); i++) {
+        const double jump = jumps[i / 4];
         area_walk w = area_on(FS, i % 2 ? 500.0 : 0.0, RATE);
         double x = 0.0123456;
         for (int k = 0; k < 100; k++) {
-            x += 0.1e-3 + (k == 50 ? jumps[i / 2] : 0.0);
-            const double height = area_x(&w, x, 0.1);
+            x += 0.1e-3 + (k == 50 ? jump : 0.0);
+            const double height = area_x(&w, x, k == 50 && i & 2 ? 0.1 + jump * RATE : 0.1);
             assert_int_equal(w.out.saturated, k == 50);
             if (k == 50) {
                 CHECK_SAME(height, 0.0);
@@ -80,6 +82,16 @@ TEST(a_teleport_is_one_tick_of_nothing) {
                 CHECK_CLOSE(height, area_x(&fresh, x, 0.1), k == 51 ? 2.0L * A : 1e-6L * A); /* 51: back again */
             }
         }
+    }
+}
+
+/* FOAW's velocity is thousands of cycles a tick for up to 15 ms after a jump. */
+TEST(after_a_teleport_a_velocity_that_has_not_come_down_begins_no_event) {
+    area_walk w = area_on(FS, 0.0, RATE);
+    for (int k = 0; k < 100; k++) {
+        const double x = 1e-4 * k + (k < 50 ? 0.0 : 0.7);
+        (void)area_x(&w, x, k >= 50 && k < 65 ? 47.0 : 0.1);
+        assert_true(w.state.event.length == 0);
     }
 }
 

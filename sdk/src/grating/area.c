@@ -139,7 +139,9 @@ __attribute__((noinline)) static double step(const knurl_grating *g, knurl_grati
     const double lowest = (s->moving ? EVENTS_UNTIL : EVENTS_FROM) * rate;
     double height;
     output->saturated |= !(w.length < 1.0);
-    if (knurl_locked_play(g, s, before, before - frequency / rate, frequency, lowest, &height)) {
+    /* events begin where the way is as fast as the velocity says: an estimate is far off for a while after a jump */
+    if (((w.length > 0.5 * EVENTS_UNTIL && w.length < 1.0) || s->moving || s->playing) &&
+        knurl_locked_play(g, s, before, before - frequency / rate, frequency, lowest, &height)) {
         return height;
     }
     s->next_tick = 0;
