@@ -21,7 +21,6 @@ const WARM_UP_FRAMES := 5  # late, for shaders are compiled; a device's force is
 func _ready() -> void:
 	_add_handle()
 	$Hud.name_meshes()
-	$Mouse.add_shapes()
 	Overlay.set_shown(self, true)
 	if _is_drawn_by_cpu():
 		_draw_coarsely(true)

@@ -165,6 +165,13 @@ demo) # the sample, its stroke and its picture
     grep -E '^stroke: [1-9][0-9]{2,} ticks, [0-9]+ overruns, in contact: true$' "$log"
     [ "$(head -c 8 "$project/shot.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ]
     ;;
+toys) # the sample in which things move: a roller turns under the finger, a marble and a drawer are pushed
+    "$root/bindings/godot/demo.sh" "$library" "$project"
+    play 60 xvfb-do godot --path . --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720 res://toys.tscn -- \
+        --play --shot "$project/shot.png"
+    # 0.02 m x 1 rad/s x 500 ridges/m = 10 ridges a second, of the game's, which a slow machine stretches
+    grep -E '^toys: ([5-9]|1[0-5]) ridges a second, marble [1-9][0-9]* mm, drawer [1-9][0-9]* mm$' "$log"
+    ;;
 pointer) # the sample, felt with the mouse
     "$root/bindings/godot/demo.sh" "$library" "$project"
     play_script "$case" xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720
