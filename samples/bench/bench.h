@@ -13,7 +13,7 @@
 #define BENCH_SECONDS        0.3   /* of one case at the most, so that the whole run ends within 40 s */
 #define BENCH_BATCH          64    /* ticks between two readings of the clock, where single ones are not told */
 #define BENCH_FRAME_RATE     120.0 /* Hz: how often a game moves what moves */
-#define BENCH_TIMER_READINGS 100000
+#define BENCH_TIMER_READINGS 10000
 
 #define BENCH_STIFFNESS  800.0    /* N/m: as CHAI3D was measured */
 #define BENCH_DEPTH      0.001    /* m */
