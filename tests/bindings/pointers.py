@@ -84,6 +84,9 @@ VALUES = {
     "out double *": "f->out",
     "warning char *": "f->text",
     "text char *": "f->text",
+    "to char *": "f->text",
+    "size size_t": "sizeof f->text",
+    "from const char *": '"text"',
 }
 
 # Parameters that may be null, each for a reason that its function's comment gives.
