@@ -32,6 +32,7 @@ static struct {
     UMockdevTestbed *bed;
     UMockdevIoctlBase *handler;
     int is_gone;
+    int is_realtime; /* umockdev's thread */
     int64_t first_frame;
     request queue[QUEUE];
     int count;
@@ -181,6 +182,10 @@ static gboolean on_ioctl(UMockdevIoctlBase *base, UMockdevIoctlClient *client, g
     (void)base;
     (void)user;
     int code = -ENODEV;
+    if (!it.is_realtime) { /* a device does not wait for other programs; without the right to it, it does */
+        (void)knurl_system_make_realtime();
+        it.is_realtime = 1;
+    }
     knurl_system_mutex_lock(&it.lock);
     if (it.e.sim.frames > 0 && it.first_frame == 0) {
         it.first_frame = knurl_system_now_ns();

@@ -49,7 +49,7 @@ static void dispatch(falcon_fake *fake) {
         memcpy(fake->queue[at].bytes, packet + 2, count);
         fake->queue[at].count = count;
         fake->queue[at].taken = 0;
-        fake->queue[at].due = knurl_system_now_ns() + (fake->fault == DOUBLE_LATE ? LATE_NS : 0);
+        fake->queue[at].due = knurl_system_now_ns() + (fake->fault == DOUBLE_LATE ? LATE_NS : fake->late_ns);
     }
 }
 
@@ -101,6 +101,7 @@ static int fake_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *co
         const int is_gone = fake->is_gone;
         const int hangs = fake->fault == DOUBLE_HANG;
         const int found = !is_gone && !hangs && fetch(fake, packet, count);
+        const int64_t stall_until = fake->stall_until;
         knurl_system_mutex_unlock(&fake->lock);
         const int64_t now = knurl_system_now_ns();
         if (is_gone || found) {
@@ -111,6 +112,7 @@ static int fake_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *co
         }
         if (!hangs && now - begin >= STATUS_NS) {
             *count = 2;
+            knurl_system_sleep_until_ns(stall_until);
             return KNURL_FALCON_DONE;
         }
         knurl_system_sleep_until_ns(now + NAP_NS);

@@ -18,7 +18,9 @@ typedef struct falcon_fake {
     int is_gone; /* whoever has it open has lost it */
     int denied;  /* 1: opening it is not permitted */
     uint32_t opens, closes;
-    int64_t limp_at; /* ns since when its motors get no force; 0: they get one */
+    int64_t limp_at;     /* ns since when its motors get no force; 0: they get one */
+    int64_t late_ns;     /* so late come the answers to frames from now on */
+    int64_t stall_until; /* a read that finds no data returns no earlier: its thread was not run */
     uint64_t random;
     struct {
         int64_t due;

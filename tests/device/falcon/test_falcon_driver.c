@@ -352,6 +352,39 @@ TEST(late_answers_are_no_positions) {
     close_fake(device);
 }
 
+/* A millimetre from where the grip was when the frames were sent whose answers come during 40 ms without the thread. */
+static void check_stall(int ms_before, uint32_t unanswered, int64_t late_ns) {
+    int good = 0;
+    begin();
+    falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
+    knurl_device *device = open_ready();
+    knurl_system_mutex_lock(&fake.lock);
+    fake.late_ns = 25000000;
+    knurl_system_mutex_unlock(&fake.lock);
+    (void)run(device, ms_before, no_force);
+    knurl_system_mutex_lock(&fake.lock);
+    assert_int_equal(fake.held, unanswered);
+    fake.late_ns = late_ns;
+    fake.stall_until = knurl_system_now_ns() + 40000000;
+    falcon_sim_put(&fake.sim, 0.001, 0.0, 0.0);
+    knurl_system_mutex_unlock(&fake.lock);
+    (void)run(device, 39, no_force);
+    for (int i = 0; i < 30; i++) {
+        const outcome o = run(device, 1, no_force);
+        good += o.good;
+        if (o.good) {
+            CHECK_CLOSE(o.newest.position[0], 0.001, 0.0002); /* half a count a leg, as above */
+        }
+    }
+    assert_true(good > 0);
+    close_fake(device);
+}
+
+TEST(answers_that_came_while_the_thread_stood_still_are_no_positions) {
+    check_stall(18, 4, 0);
+    check_stall(2, 1, 6000000); /* nor while the next one has not come */
+}
+
 TEST(random_bytes_are_counted_and_make_no_position) {
     int others = 0;
     begin();

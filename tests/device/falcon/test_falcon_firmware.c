@@ -168,4 +168,32 @@ TEST(a_request_that_the_chip_refuses_is_named) {
     plug_out();
 }
 
+static uint32_t pieces_read;
+
+/* Two answers: all of the first and three bytes of the second, then the rest. */
+static int read_pieces(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms) {
+    static const char answers[] = "<AAAAAAAAAAAAqA><AAAAAAAAAAAAqA>"; /* homed, at the middle of the encoders' range */
+    const size_t at = pieces_read == 0 ? 0 : 19;
+    const size_t size = pieces_read == 0 ? 19 : 13;
+    (void)self;
+    (void)timeout_ms;
+    if (pieces_read == 2) {
+        return KNURL_FALCON_NOTHING;
+    }
+    memcpy(packet + KNURL_FALCON_STATUS, answers + at, size);
+    *count = KNURL_FALCON_STATUS + size;
+    pieces_read++;
+    return KNURL_FALCON_DONE;
+}
+
+/* Else the driver would begin in the middle of an answer, and report it as corrupt. */
+TEST(an_answer_whose_beginning_was_taken_in_is_taken_in_to_its_end) {
+    plug_in();
+    transport.read = read_pieces;
+    pieces_read = 0;
+    assert_int_equal(knurl_falcon_prepare(&transport, ""), KNURL_OK);
+    assert_int_equal(pieces_read, 2);
+    plug_out();
+}
+
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -4,6 +4,7 @@
 #include "support/process.h"
 
 #include "base/system.h"
+#include "device/falcon/frame.h"
 #include "device/falcon/transport.h"
 #include "device/port.h"
 
@@ -106,6 +107,31 @@ TEST(short_packets_change_nothing) {
     run_until(device, 100, 0.0);
     assert_int_equal(reported(device, KNURL_FAULT_CORRUPT), 0);
     knurl_device_close(device);
+    falcon_emulated_stop();
+}
+
+/* Ten answers in packets of 6 bytes, 27 in all, none of which is read before the last frame has been sent. */
+TEST(answers_that_wait_to_be_read_are_all_there) {
+    static const int16_t none[3] = {0, 0, 0};
+    falcon_emulation setup = {0};
+    knurl_falcon_transport transport;
+    knurl_falcon_decoder decoder = {0};
+    uint8_t bytes[KNURL_FALCON_PACKET];
+    uint32_t answers = 0;
+    setup.is_split = 1;
+    plug_in(&setup);
+    assert_int_equal(knurl_falcon_usb.open(NULL, &transport), KNURL_OK);
+    assert_int_equal(transport.control(transport.self, 3, 2), KNURL_FALCON_DONE); /* the firmware's baud rate */
+    knurl_falcon_encode(none, KNURL_FALCON_HOMING, bytes);
+    for (int i = 0; i < 10; i++) {
+        assert_int_equal(transport.write(transport.self, bytes, KNURL_FALCON_FRAME_BYTES, 10000), KNURL_FALCON_DONE);
+    }
+    for (size_t count = 0; answers < 10;) {
+        assert_int_equal(transport.read(transport.self, bytes, &count, 10000), KNURL_FALCON_DONE);
+        answers += knurl_falcon_decode(&decoder, bytes + KNURL_FALCON_STATUS, count - KNURL_FALCON_STATUS);
+    }
+    assert_int_equal(decoder.bad_bytes, 0);
+    transport.close(transport.self);
     falcon_emulated_stop();
 }
 

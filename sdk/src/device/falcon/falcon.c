@@ -34,6 +34,8 @@
 #define MOST_OWED 4
 #define QUIET_NS  30000000
 
+#define MOST_PACKETS 16 /* that are taken in at once; the rest waits for the next exchange */
+
 typedef struct falcon {
     knurl_device base;
     knurl_falcon_bus bus;
@@ -113,28 +115,43 @@ static void count_bad(falcon *f, uint32_t frames) {
     knurl_store_relaxed(&f->bad_bytes, knurl_load_relaxed(&f->bad_bytes) + bad);
 }
 
-/* Takes in what comes until every frame is answered or the time is over. *frames: answers. KNURL_FALCON_. */
+/* Takes in the next packet. *frames: answers. KNURL_FALCON_. */
+static int take_in(falcon *f, uint32_t timeout_ms, uint32_t *frames) {
+    uint8_t packet[KNURL_FALCON_PACKET];
+    size_t size = 0;
+    const int outcome = f->transport.read(f->transport.self, packet, &size, timeout_ms);
+    if (outcome == KNURL_FALCON_DONE && size > KNURL_FALCON_STATUS) {
+        const uint32_t found =
+            knurl_falcon_decode(&f->decoder, packet + KNURL_FALCON_STATUS, size - KNURL_FALCON_STATUS);
+        *frames += found;
+        f->owed -= found < f->owed ? found : f->owed;
+        f->heard_at = knurl_system_now_ns();
+        count_bad(f, found);
+    }
+    return outcome;
+}
+
+/* Takes in what has come since the latest exchange: once the next frame is sent, it would pass for its answer. */
+static int catch_up(falcon *f, uint32_t *frames) {
+    int outcome = KNURL_FALCON_DONE;
+    for (int i = 0; i < MOST_PACKETS && outcome == KNURL_FALCON_DONE; i++) {
+        outcome = take_in(f, 0, frames);
+    }
+    return outcome;
+}
+
+/* Takes in what comes until every frame is answered or the time is over. *frames: answers more. KNURL_FALCON_. */
 static int receive(falcon *f, int64_t deadline, uint32_t *frames) {
-    do {
-        uint8_t packet[KNURL_FALCON_PACKET];
-        size_t size = 0;
+    while (f->owed > 0) {
         const int64_t left = deadline - knurl_system_now_ns();
         if (left <= 0) {
             return KNURL_FALCON_NOTHING;
         }
-        const int outcome = f->transport.read(f->transport.self, packet, &size, (uint32_t)(left / 1000000) + 1);
+        const int outcome = take_in(f, (uint32_t)(left / 1000000) + 1, frames);
         if (outcome == KNURL_FALCON_GONE) {
             return outcome;
         }
-        if (outcome == KNURL_FALCON_DONE && size > KNURL_FALCON_STATUS) {
-            const uint32_t found =
-                knurl_falcon_decode(&f->decoder, packet + KNURL_FALCON_STATUS, size - KNURL_FALCON_STATUS);
-            *frames += found;
-            f->owed -= found < f->owed ? found : f->owed;
-            f->heard_at = knurl_system_now_ns();
-            count_bad(f, found);
-        }
-    } while (f->owed > 0);
+    }
     return KNURL_FALCON_DONE;
 }
 
@@ -188,13 +205,20 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     falcon *f = of(device);
     uint32_t frames = 0;
     const int64_t begin = knurl_system_now_ns();
+    const int was_held_up = (double)(begin - f->exchanged_at) > 1e9 * KNURL_LINK_PATIENCE;
     mind_the_guard(f, begin);
+    int outcome = catch_up(f, &frames);
+    if (was_held_up) { /* what came meanwhile may be as old as that */
+        frames = 0;
+    }
     if (f->is_behind && begin - f->heard_at > QUIET_NS) { /* what has not come by now will not */
         f->is_behind = 0;
         f->owed = 0;
     }
-    const int listen = f->is_behind && is_zero(force) && !f->is_pushing;
-    int outcome = listen ? KNURL_FALCON_DONE : send(f, force);
+    if (outcome != KNURL_FALCON_GONE) {
+        const int listen = f->is_behind && is_zero(force) && !f->is_pushing;
+        outcome = listen ? KNURL_FALCON_DONE : send(f, force);
+    }
     if (outcome == KNURL_FALCON_DONE) {
         outcome = receive(f, begin + EXCHANGE_MS * 1000000, &frames);
     }

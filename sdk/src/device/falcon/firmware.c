@@ -82,10 +82,12 @@ static int receive(const knurl_falcon_transport *t, int64_t deadline, uint8_t *b
     }
 }
 
-/* Sends frames without force until one is answered. KNURL_FALCON_. */
+/* Sends frames without force until one is answered; the beginning of another answer may have come with its end, and the
+ * rest of that belongs to it too. KNURL_FALCON_. */
 static int probe(const knurl_falcon_transport *t) {
     static const int16_t none[3] = {0, 0, 0};
     knurl_falcon_decoder decoder = {0};
+    uint32_t answers = 0;
     uint8_t frame[KNURL_FALCON_FRAME_BYTES];
     knurl_falcon_encode(none, KNURL_FALCON_HOMING | KNURL_FALCON_RED, frame);
     for (int i = 0; i < PROBES; i++) {
@@ -93,14 +95,15 @@ static int probe(const knurl_falcon_transport *t) {
         size_t count = 0;
         const int64_t deadline = after_ms(PROBE_MS);
         int outcome = t->write(t->self, frame, sizeof frame, PROBE_MS);
-        while (outcome == KNURL_FALCON_DONE) {
+        while (outcome == KNURL_FALCON_DONE && (answers == 0 || decoder.count > 0)) {
             outcome = receive(t, deadline, bytes, &count);
-            if (outcome == KNURL_FALCON_DONE && knurl_falcon_decode(&decoder, bytes, count) > 0) {
-                return KNURL_FALCON_DONE;
-            }
+            answers += outcome == KNURL_FALCON_DONE ? knurl_falcon_decode(&decoder, bytes, count) : 0;
         }
         if (outcome == KNURL_FALCON_GONE) {
             return outcome;
+        }
+        if (answers > 0) {
+            return KNURL_FALCON_DONE;
         }
     }
     return KNURL_FALCON_NOTHING;

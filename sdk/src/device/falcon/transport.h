@@ -23,7 +23,7 @@ typedef struct knurl_falcon_transport {
     int (*control)(void *self, uint8_t request, uint16_t value);
     /* Hands bytes over, KNURL_FALCON_PACKET at most. */
     int (*write)(void *self, const uint8_t *bytes, size_t count, uint32_t timeout_ms);
-    /* The oldest packet that has not been read yet. */
+    /* The oldest packet that has not been read yet; with a time of 0, of those that have come. */
     int (*read)(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms);
     void (*close)(void *self);
     /* For the guard process: a descriptor to be closed by the caller, -1 where there is none, and the USB endpoint that

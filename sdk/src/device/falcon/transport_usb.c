@@ -39,7 +39,7 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #define END_OUT      0x02
 #define REQUEST_TYPE 0x40
 #define CONTROL_MS   1000
-#define ROOM         16u  /* packets that have come and were not read yet; the oldest give way */
+#define ROOM         16u  /* packets that have come and were not read yet; while it is full, none is asked for */
 #define CLOSE_MS     1000 /* for what is under way to end */
 
 /* What is loaded of libusb. */
@@ -106,10 +106,6 @@ typedef struct usb {
 } usb;
 
 static void keep(usb *u, const unsigned char *bytes, int count) {
-    if (u->held == ROOM) {
-        u->first = (u->first + 1) % ROOM;
-        u->held--;
-    }
     const uint32_t at = (u->first + u->held++) % ROOM;
     u->packets[at].count = (size_t)count;
     memcpy(u->packets[at].bytes, bytes, (size_t)count);
@@ -123,7 +119,8 @@ static void LIBUSB_CALL on_in(struct libusb_transfer *transfer) {
         if (transfer->actual_length > (int)KNURL_FALCON_STATUS) {
             keep(u, u->in_bytes, transfer->actual_length);
         }
-        u->is_in_pending = lib.submit_transfer(transfer) == 0; /* else the next read tries, and sees why */
+        /* else the next read or write tries, and sees why */
+        u->is_in_pending = u->held < ROOM && lib.submit_transfer(transfer) == 0;
     }
 }
 
@@ -161,7 +158,7 @@ static int usb_control(void *self, uint8_t request, uint16_t value) {
 }
 
 static int begin_in(usb *u) {
-    if (u->is_in_pending || u->is_gone) {
+    if (u->is_in_pending || u->is_gone || u->held == ROOM) {
         return u->is_gone ? KNURL_FALCON_GONE : KNURL_FALCON_DONE;
     }
     libusb_fill_bulk_transfer(u->in, u->handle, END_IN, u->in_bytes, sizeof u->in_bytes, on_in, u, 0);
@@ -198,12 +195,12 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
 static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms) {
     usb *u = self;
     const int64_t deadline = after_ms(timeout_ms);
-    while (u->held == 0) {
+    for (int was_asked = 0; u->held == 0; was_asked = 1) { /* at least once, for what the system has already */
         const int outcome = begin_in(u);
         if (outcome != KNURL_FALCON_DONE) {
             return outcome;
         }
-        if (knurl_system_now_ns() >= deadline) {
+        if (was_asked && knurl_system_now_ns() >= deadline) {
             return KNURL_FALCON_NOTHING;
         }
         wait_for_events(u, deadline);
