@@ -95,7 +95,7 @@ TEST(without_an_image_the_sentence_says_how_to_name_one) {
 TEST(an_image_that_cannot_be_had_is_named) {
     plug_in();
     falcon_sim_forget_firmware(&fake.sim, 2000, 0);
-    check_fails("/nowhere/image.bin", KNURL_ERROR_IO, "/nowhere/image.bin|No such file");
+    check_fails("/nowhere/image.bin", KNURL_ERROR_IO, "/nowhere/image.bin|no such file");
     check_fails(tool_path(""), KNURL_ERROR_IO, tool_path(""));
     (void)write_image(KNURL_FALCON_IMAGE_LEAST - 1);
     check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|1024 to 65536|found 1023");
