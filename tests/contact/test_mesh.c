@@ -114,13 +114,13 @@ TEST(hierarchy_of_triangles_with_one_centre_is_sound) {
     probe_free(&p);
 }
 
-/* Triangles along each axis, each 16 times smaller and nearer than the one before: every split can part off one only.
- */
+/* Triangles along each axis, each 8 times smaller and nearer than the one before, down to some nanometres: every split
+ * can part off few only. */
 TEST(hierarchy_of_ever_smaller_triangles_keeps_its_depth) {
     const uint32_t levels = 50;
     shape tail = shape_new(9 * levels, 9 * levels, 0);
     for (uint32_t i = 0; i < 3 * levels; i++) {
-        const double size = ldexp(1.0, 100 - 4 * (int)(i / 3));
+        const double size = ldexp(1.0, 120 - 3 * (int)(i / 3));
         double corners[3][3] = {{0.0}};
         for (uint32_t k = 0; k < 3; k++) {
             corners[k][i % 3] = k == 1 ? 1.25 * size : size;

@@ -166,7 +166,7 @@ static knurl_result edit(knurl_scene *scene, knurl_surface_id id, int kind, shap
 }
 
 /* The force that the edit makes, 1 mm deep in a plane at 0. */
-static const double AFTER[5] = {0.8, 0.8, 0.4 + 0.6, 0.4 + 0.6, 0.0};
+static const double AFTER[5] = {0.8, 0.8, 0.6, 0.6, 0.0};
 
 /* Edits with one request refused: 1 where that made it fail. */
 static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {

@@ -222,9 +222,11 @@ TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
     knurl_scene_destroy(scene);
 }
 
-static knurl_scene *stack_of_planes(int count, int double_sided) {
+/* With crests that reach 1 mm, a HIP above them all is in contact with each. */
+static knurl_scene *stack_of_planes(int count, int double_sided, double amplitude) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
+    set_grating(&parts, KNURL_S1, 100.0, 0.0, amplitude);
     parts.desc.double_sided = (uint32_t)double_sided;
     for (int i = 0; i < count; i++) { /* 0.1 mm apart, the uppermost last */
         parts.desc.position[2] = -0.0001 * (count - 1 - i);
@@ -237,13 +239,26 @@ static knurl_scene *stack_of_planes(int count, int double_sided) {
 
 TEST(more_surfaces_than_slots_are_flagged) {
     for (int count = 1; count <= 6; count++) {
-        knurl_scene *scene = stack_of_planes(count, 0);
-        (void)tick_at(scene, 0.0, 0.0, 0.001);
-        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.002);
+        knurl_scene *scene = stack_of_planes(count, 0, 0.001);
+        (void)tick_at(scene, 0.0, 0.0, 0.003);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0001);
         const int touched = count < KNURL_CONTACTS_MAX ? count : KNURL_CONTACTS_MAX;
         assert_int_equal(out.contacts, touched);
         assert_int_equal((out.flags & KNURL_TICK_CONTACTS_FULL) != 0, count > KNURL_CONTACTS_MAX);
-        assert_int_equal(tick_at(scene, 0.0, 0.0, 0.001).flags, 0);
+        assert_int_equal(tick_at(scene, 0.0, 0.0, 0.003).flags, 0);
+        knurl_scene_destroy(scene);
+    }
+}
+
+/* What a HIP has been outside of stays outside: below the topmost plane it meets no other. */
+TEST(of_planes_on_top_of_each_other_the_topmost_holds) {
+    for (int count = 1; count <= 6; count++) {
+        knurl_scene *scene = stack_of_planes(count, 0, 0.0);
+        (void)tick_at(scene, 0.0, 0.0, 0.001);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.002);
+        assert_int_equal(out.contacts, 1);
+        CHECK_CLOSE(out.depth, 0.002, 1e-15L);
+        assert_true(out.surface == knurl_scene_get_surface(scene, (uint32_t)count - 1));
         knurl_scene_destroy(scene);
     }
 }
@@ -255,14 +270,15 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
     surface_parts plane = surface_plane();
     knurl_scene *scene = empty_scene(1);
     parts.desc.axis[0] = 1.0;
+    set_grating(&plane, KNURL_S1, 100.0, 0.0, 0.001);
     for (int i = 0; i < 4; i++) {
         (void)add_surface(scene, &plane);
     }
     (void)add_surface(scene, &parts);
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    (void)tick_at(scene, 0.0, 0.0, 0.001);
-    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
+    (void)tick_at(scene, 0.0, 0.0, 0.002);
+    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0005);
     assert_int_equal(out.contacts, 4);
     assert_int_equal(out.flags, KNURL_TICK_CONTACT);
     knurl_scene_destroy(scene);
@@ -271,11 +287,12 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
 
 TEST(surfaces_left_in_the_same_tick_are_all_left) {
     for (int count = 1; count <= KNURL_CONTACTS_MAX; count++) {
-        knurl_scene *scene = stack_of_planes(count, 1);
-        (void)tick_at(scene, 0.0, 0.0, 0.001);
-        assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, count);
+        knurl_scene *scene = stack_of_planes(count, 1, 0.001);
+        (void)tick_at(scene, 0.0, 0.0, 0.003);
+        assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0005).contacts, count);
+        (void)tick_at(scene, 0.0, 0.0, -0.001);
         for (int k = 0; k < 2; k++) { /* lifted off: nothing pulls it back down from behind */
-            const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.001);
+            const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.003);
             assert_int_equal(out.contacts, 0);
             CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
         }

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "3cca11d355cfb15d"
+#define KNURL_UNITY_INTERFACE "2a7aa185e7391a1f"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -245,7 +245,7 @@
     FIELD(knurl_tick_output, tick, "tick", 208, 8) \
     FIELD(knurl_tick_output, flags, "flags", 216, 4) \
     FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
-    STRUCT(knurl_hip_counts, 112) \
+    STRUCT(knurl_hip_counts, 120) \
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
@@ -260,6 +260,7 @@
     FIELD(knurl_hip_counts, heat, "heat", 88, 8) \
     FIELD(knurl_hip_counts, half_cycles_crossed, "half_cycles_crossed", 96, 8) \
     FIELD(knurl_hip_counts, half_cycles_played, "half_cycles_played", 104, 8) \
+    FIELD(knurl_hip_counts, squeezed_ticks, "squeezed_ticks", 112, 8) \
     STRUCT(knurl_surface_check, 1064) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \

@@ -173,7 +173,9 @@ enum {
     KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
     KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
     KNURL_TICK_PASSIVITY = 256,    /**< the wall was softened because the HIP kept bouncing in it, unasked */
-    KNURL_TICK_ABSENT = 512        /**< there was no position, as the input said */
+    KNURL_TICK_ABSENT = 512,       /**< there was no position, as the input said */
+    KNURL_TICK_SQUEEZED = 1024     /**< a surface moved over the HIP's proxy, which another kept from giving way: the
+                                        one that moved does not hold the HIP any more */
 };
 
 /** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */
@@ -216,6 +218,7 @@ typedef struct knurl_hip_counts {
                                       metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
                                       of S1 and S2 in metres; without a grating none */
     uint64_t half_cycles_played; /**< half cycles that began after others: sign changes of the rendered heights */
+    uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -348,12 +351,14 @@ KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint3
                                                  knurl_surface_check *check);
 
 /** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B
- * vn) along n for each surface in contact, and friction across it). A HIP that is pressed in and slides off one surface
- * is held by the next, where that lies at most 10 um higher or anywhere below, and the crack between them is crossed
- * within 5 ms. Of more than 32 surfaces about one place some may be overlooked (KNURL_TICK_CONTACTS_FULL says so).
- * Bounded time; no heap, lock, system call, clock, log or file, whatever other threads edit meanwhile. `output` is
- * always filled in, with a zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed,
- * or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip, null or a handle that is none).
+ * vn) along n for each surface in contact, and friction across it). A HIP that is pressed in is held by every face that
+ * its proxy has not gone through from the front, at most three at once, whichever surface each belongs to; each is felt
+ * as deep as it holds the proxy back. What lies below the first surface met is not felt. Slid off one surface, a HIP is
+ * held by the next, where that lies at most 1 mm higher or anywhere below, and a crack between them is crossed within
+ * 5 ms; one of 0.1 um is none. Of more than 32 surfaces about one place some may be overlooked
+ * (KNURL_TICK_CONTACTS_FULL says so). Bounded time; no heap, lock, system call, clock, log or file, whatever other
+ * threads edit meanwhile. `output` is always filled in, with a zero force where the result is not KNURL_OK. Errors:
+ * KNURL_ERROR_STATE (not committed, or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip, null or a handle that is none).
  * [haptic thread, one a HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output) KNURL_NONBLOCKING;

@@ -44,6 +44,12 @@ static inline void vec3_cross(const double a[3], const double b[3], double out[3
     out[2] = z;
 }
 
+static inline double vec3_distance2(const double a[3], const double b[3]) {
+    double way[3];
+    vec3_sub(a, b, way);
+    return vec3_dot(way, way);
+}
+
 static inline double vec3_length(const double a[3]) {
     return sqrt(vec3_dot(a, a));
 }

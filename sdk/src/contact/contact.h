@@ -43,6 +43,36 @@ typedef struct knurl_contact {
     double weights[3];  /* mesh: barycentric coordinates of the proxy */
     uint32_t triangle;  /* mesh: which; plane: 0 */
     knurl_facet *facet; /* mesh: that triangle's; null where none is kept */
+    int32_t unsure; /* set without contact, too. 1: the HIP may have passed a face of this shape, by its rim, a seam or
+                       another part; whether it has, a cast tells */
 } knurl_contact;
+
+/* What is asked of a cast: where a straight way first goes through a face, from its front. */
+typedef struct knurl_cast {
+    double from[3];
+    double to[3];
+    int32_t double_sided;
+} knurl_cast;
+
+/* Faces reach beyond their edges by a shape's seam, so that no way leads between two that touch. */
+typedef struct knurl_cast_hit {
+    double share;      /* of the way, 0 to 1 */
+    double height;     /* m: of the way's beginning above the face */
+    double point[3];   /* of the face */
+    double normal[3];  /* unit, of the face, towards the way's beginning */
+    uint32_t triangle; /* mesh: which; plane: 0 */
+    int32_t side;      /* +1: from the front; -1: from behind (double-sided) */
+} knurl_cast_hit;
+
+/* m: a way may begin so far behind a face and still go through it. Twice the height that proxies rest at. */
+#define KNURL_CAST_SLACK 2e-9
+
+/* m: what is smaller is no surface: its directions would be noise. */
+#define KNURL_EXTENT_MIN 1e-9
+
+/* Two surfaces that run side by side within this (m) touch, and within this share of their size: what rounding leaves
+ * of positions in single precision after a few steps of somebody's modelling. */
+#define KNURL_SEAM       1e-7
+#define KNURL_SEAM_SHARE 1e-6
 
 #endif

@@ -44,6 +44,8 @@ typedef struct knurl_mesh {
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     int32_t double_sided;    /* 1: there were reversed twins */
+    double seam;             /* m: edges that run side by side within this touch */
+    uint32_t touching;       /* pairs of triangles that touch other than along an edge that they share */
     int32_t has_axis;        /* 1: x runs along this axis, not by tangents or uvs */
     double axis[3];          /* unit */
     double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */

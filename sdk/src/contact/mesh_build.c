@@ -3,8 +3,10 @@
 #include "contact/mesh_build.h"
 
 #include "base/vec3.h"
+#include "contact/contact.h"
 #include "contact/mesh_adjacency.h"
 #include "contact/mesh_frame.h"
+#include "contact/mesh_touch.h"
 #include "contact/seeded_hash.h"
 #include "contact/weld.h"
 
@@ -32,7 +34,8 @@ static knurl_result weld(draft *d) {
     return d->welds ? knurl_mesh_weld(d->heap, d->desc, 0, d->welds) : KNURL_ERROR_MEMORY;
 }
 
-/* Whether a triangle is thicker than float's own resolution; thinner, its normal would be noise. */
+/* Whether a triangle is longer than KNURL_EXTENT_MIN and thicker than float's own resolution; thinner, its normal would
+ * be noise. */
 static int has_area(const draft *d, const uint32_t corners[3]) {
     double p[3][3];
     double edges[3][3];
@@ -48,7 +51,7 @@ static int has_area(const draft *d, const uint32_t corners[3]) {
     vec3_cross(edges[0], edges[1], normal);
     const double longest =
         fmax(fmax(vec3_dot(edges[0], edges[0]), vec3_dot(edges[1], edges[1])), vec3_dot(edges[2], edges[2]));
-    return vec3_dot(normal, normal) > 1e-12 * longest * longest;
+    return longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_dot(normal, normal) > 1e-12 * longest * longest;
 }
 
 /* The welded corners of a triangle, the lowest first, the others in the same turn. */
@@ -217,6 +220,19 @@ static knurl_result copy_vertices(draft *d) {
     return KNURL_OK;
 }
 
+/* What edges that were meant to meet may be apart: by the mesh's size, and by how far from the origin its positions are
+ * rounded. */
+static double seam_of(const knurl_mesh *mesh) {
+    double size2 = 0.0;
+    double farthest = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double low = (double)mesh->nodes[0].min[axis], high = (double)mesh->nodes[0].max[axis];
+        size2 += (high - low) * (high - low);
+        farthest = fmax(farthest, fmax(fabs(low), fabs(high)));
+    }
+    return fmax(KNURL_SEAM, KNURL_SEAM_SHARE * sqrt(size2)) + ldexp(farthest, -22);
+}
+
 static knurl_result build_mesh(draft *d) {
     knurl_result result = weld(d);
     result = result ? result : keep_triangles(d);
@@ -225,6 +241,8 @@ static knurl_result build_mesh(draft *d) {
     result = result ? result : copy_vertices(d);
     result = result ? result : knurl_mesh_link(d->heap, d->mesh, d->welded, d->welded_count);
     if (!result) {
+        d->mesh->seam = seam_of(d->mesh);
+        d->mesh->touching = knurl_mesh_count_touching(d->mesh);
         knurl_mesh_measure_uvs(d->mesh);
     }
     knurl_heap_free(d->heap, d->welds);

@@ -83,13 +83,14 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
         }
         last = met;
         knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);
-        knurl_mesh_walk(mesh, query->hip, met, &closest);
+        (void)knurl_mesh_walk(mesh, query->hip, met, &closest);
         if (!set_contact(mesh, met, &closest, &part)) {
             break;
         }
         if (part.z <= 0.0) {
             *side = met;
             *c = part;
+            c->unsure = 1;
             return 1;
         }
     }
@@ -98,6 +99,7 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
     }
     *side = last;
     *c = part;
+    c->unsure = 1;
     return 1;
 }
 
@@ -117,11 +119,12 @@ static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_q
     knurl_contact other;
     knurl_closest_point closest;
     const double off = off_boundary(boundary, at);
+    c->unsure = 1;
     vec3_madd(boundary->point, 1.0, at, at);
     if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), &other)) {
         knurl_closest_on_triangle(mesh, other.triangle, query->hip, &closest);
         if (vec3_dot(closest.normal, boundary->normal) > 0.0) {
-            knurl_mesh_walk(mesh, query->hip, *side, &closest);
+            (void)knurl_mesh_walk(mesh, query->hip, *side, &closest);
             if (set_contact(mesh, *side, &closest, c) && is_contact(mesh, query, reach, side, c)) {
                 return 1;
             }
@@ -145,7 +148,7 @@ static int find_closest(const knurl_mesh *mesh, const double hip[3], double radi
     int found = 0;
     if (state->side != 0) {
         knurl_closest_on_triangle(mesh, state->triangle, hip, closest);
-        knurl_mesh_walk(mesh, hip, state->side, closest);
+        (void)knurl_mesh_walk(mesh, hip, state->side, closest);
         found = closest->distance2 <= radius * radius;
         radius = found ? sqrt(closest->distance2) * (1.0 - 1e-9) : radius;
     }
@@ -166,8 +169,9 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
         return 0;
     }
     knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);
-    knurl_mesh_walk(mesh, query->hip, side, &closest);
+    c->unsure |= knurl_mesh_walk(mesh, query->hip, side, &closest) | (mesh->touching > 0);
     if (!contact_at(mesh, query, reach, &closest, &side, c)) {
+        c->unsure = 1;
         return 0;
     }
     state->side = side;
@@ -221,7 +225,7 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
     }
     knurl_closest_on_triangle(mesh, state->triangle, query->hip, &closest);
     if (closest.feature != 7) {
-        knurl_mesh_walk(mesh, query->hip, state->side, &closest);
+        c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, &closest);
     }
     const int held = contact_at(mesh, query, reach, &closest, &state->side, c);
     if (facet && held && closest.feature == 7 && c->triangle == closest.triangle && c->triangle == state->triangle) {
@@ -234,13 +238,17 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                        knurl_contact *contact) {
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* fmax() is a call */
-    const int held = state->inside ? hold_contact(mesh, query, reach, state, contact)
-                                   : begin_contact(mesh, query, reach, state, contact);
+    const int32_t was_inside = state->inside;
+    contact->unsure = 0;
+    const int held = was_inside ? hold_contact(mesh, query, reach, state, contact)
+                                : begin_contact(mesh, query, reach, state, contact);
     if (!held || contact->z > reach) {
+        contact->unsure |= was_inside & (!held | (mesh->touching > 0));
         memset(state, 0, sizeof *state);
         return 0;
     }
     state->inside = contact->z <= KNURL_ON_SURFACE;
+    contact->unsure |= (was_inside | state->inside) & (mesh->touching > 0);
     state->triangle = contact->triangle;
     return 1;
 }

@@ -266,7 +266,7 @@ static void jump_to_nearest(const knurl_mesh *mesh, const double p[3], int32_t s
     }
 }
 
-void knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_closest_point *closest) {
+int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_closest_point *closest) {
     knurl_closest_point points[2];
     const knurl_closest_point *here = closest;
     int capped = 0;
@@ -277,9 +277,11 @@ void knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, kn
     if (here != closest) {
         *closest = *here;
     }
-    if (capped || steps == MAX_STEPS || is_caught(mesh, closest, side)) {
+    const int jumps = capped || steps == MAX_STEPS || is_caught(mesh, closest, side);
+    if (jumps) {
         jump_to_nearest(mesh, p, side, closest);
     }
+    return jumps;
 }
 
 /* Where the triangles round the feature do not agree, the angle-weighted normal decides: its dot product with the

@@ -34,9 +34,16 @@ void knurl_plane_from_rectangle(const double half_extents[2], const double axis[
     plane->map[0][0] = plane->map[1][1] = 1.0;
     knurl_plane_set_stretch(plane, 1.0);
     plane->has_coordinates = 1;
+    knurl_plane_set_seam(plane);
     if (axis) {
         set_axis(axis, plane);
     }
+}
+
+void knurl_plane_set_seam(knurl_plane *plane) {
+    const double size =
+        plane->half_extents[0] > plane->half_extents[1] ? plane->half_extents[0] : plane->half_extents[1];
+    plane->seam = plane->flatness + (KNURL_SEAM > KNURL_SEAM_SHARE * size ? KNURL_SEAM : KNURL_SEAM_SHARE * size);
 }
 
 /* By counting the edges that a ray along x crosses: even outside, odd inside. An edge owns its lower end but not its
@@ -64,7 +71,57 @@ int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
     return covers(plane, p);
 }
 
-/* The side that the HIP shares_feature from, or 0: through the plane between two ticks, or within reach of it. */
+/* 1 where an edge of the outline is no farther than the seam. */
+static int is_near_outline(const knurl_plane *plane, const double p[2]) {
+    for (uint32_t i = 0; i < plane->edge_count; i++) {
+        const double *from = plane->outline[i].from;
+        const double along[2] = {plane->outline[i].to[0] - from[0], plane->outline[i].to[1] - from[1]};
+        const double to[2] = {p[0] - from[0], p[1] - from[1]};
+        const double share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+        const double t = share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0; /* of an edge without a length: 0 */
+        const double off[2] = {to[0] - t * along[0], to[1] - t * along[1]};
+        if (off[0] * off[0] + off[1] * off[1] <= plane->seam * plane->seam) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int knurl_plane_cast(const knurl_plane *plane, const knurl_cast *cast, knurl_cast_hit *hit) {
+    const double rise = cast->to[2] - cast->from[2];
+    const int side = rise < 0.0 ? 1 : -1;
+    hit->height = side * cast->from[2];
+    if (rise == 0.0 || (side < 0 && !cast->double_sided) || hit->height < -KNURL_CAST_SLACK ||
+        side * cast->to[2] >= 0.0) {
+        return 0;
+    }
+    const double share = -cast->from[2] / rise;
+    hit->share = share > 0.0 ? share : 0.0;
+    for (int i = 0; i < 2; i++) {
+        hit->point[i] = cast->from[i] + hit->share * (cast->to[i] - cast->from[i]);
+        hit->normal[i] = 0.0;
+        if (!(fabs(hit->point[i]) <= plane->half_extents[i] + plane->seam)) {
+            return 0;
+        }
+    }
+    hit->point[2] = 0.0;
+    hit->normal[2] = hit->side = side;
+    hit->triangle = 0;
+    return !plane->outline || within_outline(plane, hit->point) || is_near_outline(plane, hit->point);
+}
+
+void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
+                      knurl_contact *contact) {
+    state->inside = 1;
+    state->side = hit->side;
+    state->triangle = 0;
+    contact->proxy[0] = point[0];
+    contact->proxy[1] = point[1];
+    contact->proxy[2] = contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
+    contact->triangle = 0;
+}
+
+/* The side that the HIP comes from, or 0: through the plane between two ticks, or within reach of it. */
 static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
@@ -98,15 +155,17 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
                         knurl_contact *contact) {
     const double *hip = query->hip;
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
+    contact->unsure = 0;
     if (!state->inside) { /* a HIP in front may go through at any tick */
         state->side = begin_side(plane, query, reach, &state->inside);
     }
     const double z = hip[2] * state->side;
-    state->inside = z <= KNURL_ON_SURFACE;
     if (state->side == 0 || z > reach || !covers(plane, hip)) {
+        contact->unsure = state->inside; /* through it, and beyond its rim */
         memset(state, 0, sizeof *state);
         return 0;
     }
+    state->inside = z <= KNURL_ON_SURFACE;
     contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
     contact->proxy[1] = hip[1];
     contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;

@@ -27,6 +27,7 @@ typedef struct knurl_plane {
     double map[2][3];       /* surface coordinates from the front: c_i = map[i][0] px + map[i][1] py + map[i][2], m */
     double stretch[2][3];   /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
     double flatness;        /* m: how far the vertices lie off the plane or, those left out of it, off the outline */
+    double seam;            /* m: farther beyond its edges a cast misses it */
     double inside[2]; /* a point of the plane: its origin; where a hole or an edge is there, the middle of a triangle */
     knurl_edge *outline; /* closed loops, in any order; null: the bounding rectangle is the outline */
     uint8_t *members;    /* band by band: its edges */
@@ -50,10 +51,10 @@ void knurl_plane_from_rectangle(const double half_extents[2], const double axis[
 /* null is allowed */
 void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane);
 
-/* The band that a y within the bounds is in: never a lower one for a higher y. */
+/* The band that a y is in, whatever it is: never a lower one for a higher y. */
 static inline int knurl_plane_band(const knurl_plane *plane, double y) {
-    const int band = (int)((y + plane->half_extents[1]) * plane->bands_per_metre);
-    return band < KNURL_OUTLINE_BANDS ? band : KNURL_OUTLINE_BANDS - 1;
+    const double band = (y + plane->half_extents[1]) * plane->bands_per_metre;
+    return !(band > 0.0) ? 0 : band < KNURL_OUTLINE_BANDS ? (int)band : KNURL_OUTLINE_BANDS - 1;
 }
 
 /* 1 for a point (of z = 0) within the outline. On an edge: 1 on a rectangle's, either on another's. Allowed in a tick.
@@ -66,6 +67,16 @@ uint64_t knurl_plane_bytes(const knurl_plane *plane);
  * state. Allowed in a tick. */
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) KNURL_NONBLOCKING;
+
+/* 1 and a hit where a way goes through the plane, not later than a `share` of 1. Allowed in a tick. */
+int knurl_plane_cast(const knurl_plane *plane, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING;
+
+/* Contact at a point of the plane, its normal and z left to the caller. Allowed in a tick. */
+void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
+                      knurl_contact *contact) KNURL_NONBLOCKING;
+
+/* Sets the seam, by the plane's size and how far it is off what was given. */
+void knurl_plane_set_seam(knurl_plane *plane);
 
 /* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
  * not turned by the material's orientation). Allowed in a tick. */

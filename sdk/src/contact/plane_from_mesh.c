@@ -128,6 +128,7 @@ static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, 
     } else if (make_bands(heap, plane)) {
         return KNURL_ERROR_MEMORY;
     }
+    knurl_plane_set_seam(plane);
     find_inside(sheet, middle, plane);
     plane->triangle_count = sheet->count;
     plane->dropped = sheet->dropped;

@@ -4,6 +4,7 @@
 #include "base/base.h"
 #include "base/vec3.h"
 #include "contact/mesh_build.h"
+#include "contact/mesh_cast.h"
 #include "contact/mesh_contact.h"
 #include "contact/mesh_query.h"
 #include "contact/plane_from_mesh.h"
@@ -25,6 +26,16 @@ void knurl_mesh_desc_init(knurl_mesh_desc *desc, uint32_t size) {
 static int plane_contact(const void *plane, const knurl_contact_query *query, knurl_contact_state *state,
                          knurl_contact *contact) KNURL_NONBLOCKING {
     return knurl_plane_contact(plane, query, state, contact);
+}
+
+static int plane_cast(const void *plane, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING {
+    return knurl_plane_cast(plane, cast, hit);
+}
+
+static void plane_rest(const void *plane, const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
+                       knurl_contact *contact) KNURL_NONBLOCKING {
+    (void)plane;
+    knurl_plane_rest(hit, point, state, contact);
 }
 
 static int plane_rates(const void *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
@@ -62,14 +73,23 @@ static void plane_destroy(knurl_heap *heap, void *plane) {
     knurl_plane_destroy(heap, plane);
 }
 
-static const knurl_shape_functions plane_functions = {plane_contact, plane_rates,       plane_anchor,
-                                                      plane_facts,   plane_other_users, plane_destroy};
+static const knurl_shape_functions plane_functions = {plane_contact, plane_cast,  plane_rest,        plane_rates,
+                                                      plane_anchor,  plane_facts, plane_other_users, plane_destroy};
 
 /* --- the mesh's --- */
 
 static int mesh_contact(const void *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) KNURL_NONBLOCKING {
     return knurl_mesh_contact(mesh, query, state, contact);
+}
+
+static int mesh_cast(const void *mesh, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING {
+    return knurl_mesh_cast(mesh, cast, hit);
+}
+
+static void mesh_rest(const void *mesh, const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
+                      knurl_contact *contact) KNURL_NONBLOCKING {
+    knurl_mesh_rest(mesh, hit, point, state, contact);
 }
 
 static int mesh_rates(const void *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
@@ -102,8 +122,8 @@ static void mesh_destroy(knurl_heap *heap, void *mesh) {
     knurl_mesh_destroy(heap, mesh);
 }
 
-static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_rates,       mesh_anchor,
-                                                     mesh_facts,   mesh_other_users, mesh_destroy};
+static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_cast,  mesh_rest,        mesh_rates,
+                                                     mesh_anchor,  mesh_facts, mesh_other_users, mesh_destroy};
 
 /* --- creation --- */
 
@@ -117,6 +137,7 @@ static void set_plane(knurl_shape *shape, knurl_plane *plane) {
     }
     shape->has_coordinates = plane->has_coordinates;
     shape->double_sided = plane->double_sided;
+    shape->seam = plane->seam;
 }
 
 static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
@@ -131,11 +152,13 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
     }
     shape->has_coordinates = mesh->uvs || axis;
     shape->double_sided = mesh->double_sided;
+    shape->seam = mesh->seam;
 }
 
 static knurl_result check_extent(const char *key, double value) {
-    if (!(value > 0.0 && knurl_is_finite(value))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number > 0 (m), found %g", key, value);
+    if (!(value >= KNURL_EXTENT_MIN && knurl_is_finite(value))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number, at least 1e-9 (m), found %g", key,
+                          value);
     }
     return KNURL_OK;
 }

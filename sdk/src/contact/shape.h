@@ -7,25 +7,17 @@
 #include "base/heap.h"
 #include "contact/mesh_frame.h"
 #include "contact/plane.h"
+#include "contact/shape_facts.h"
 
 #include <knurl/contact.h>
 
-/* What a shape came to be. */
-typedef struct knurl_shape_facts {
-    const char *model;       /* static */
-    uint64_t bytes;          /* of the heap */
-    uint32_t triangle_count; /* of the mesh it was given as, without those left out; 0: it was given as a plane */
-    uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
-    uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
-    double error;            /* m: how far the model is off what was given */
-    double stretch[2][3];    /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
-} knurl_shape_facts;
-
-/* What every kind of shape can do. geometry: a shape's. Shared descriptions stand at knurl_shape_contact() and below.
- */
+/* What every kind of shape can do, geometry being its own: descriptions stand at knurl_shape_contact() and below. */
 typedef struct knurl_shape_functions {
     int (*contact)(const void *geometry, const knurl_contact_query *query, knurl_contact_state *state,
                    knurl_contact *contact) KNURL_NONBLOCKING;
+    int (*cast)(const void *geometry, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING;
+    void (*rest)(const void *geometry, const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
+                 knurl_contact *contact) KNURL_NONBLOCKING;
     int (*rates)(const void *geometry, const knurl_contact *contact, const double velocity[3], double rates[2],
                  double *steepest) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
@@ -40,6 +32,7 @@ typedef struct knurl_shape {
     const knurl_plane *plane; /* the same where it is a plane, else null: its frame is shorter than a call */
     double low[3];            /* bounds, m */
     double high[3];
+    double seam;             /* m: a cast misses what is farther beyond its edges */
     int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres say where on a grating a point is */
     int32_t double_sided;    /* 1: it was given with both sides of every triangle */
     const char *why;         /* static: why this model */
@@ -82,6 +75,18 @@ static inline void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shap
 static inline int knurl_shape_contact(const knurl_shape *shape, const knurl_contact_query *query,
                                       knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING {
     return shape->functions->contact(shape->geometry, query, state, contact);
+}
+
+/* 1 and the first hit of a way. Allowed in a tick. */
+static inline int knurl_shape_cast(const knurl_shape *shape, const knurl_cast *cast,
+                                   knurl_cast_hit *hit) KNURL_NONBLOCKING {
+    return shape->functions->cast(shape->geometry, cast, hit);
+}
+
+/* Contact at a point of the face that was hit: state and contact, but for normal and z. Allowed in a tick. */
+static inline void knurl_shape_rest(const knurl_shape *shape, const knurl_cast_hit *hit, const double point[3],
+                                    knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING {
+    shape->functions->rest(shape->geometry, hit, point, state, contact);
 }
 
 /* The surface's tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and where on the

@@ -2,6 +2,7 @@
 #include "contact/sheet.h"
 
 #include "base/vec3.h"
+#include "contact/contact.h"
 #include "contact/seeded_hash.h"
 #include "contact/weld.h"
 
@@ -37,7 +38,7 @@ static int area_of(const knurl_mesh_desc *d, uint64_t triangle, double area[3]) 
         longest = fmax(longest, vec3_dot(edges[k], edges[k]));
     }
     vec3_cross(edges[0], edges[1], area);
-    return vec3_length(area) > 1e-6 * longest;
+    return longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_length(area) > 1e-6 * longest;
 }
 
 /* Vertices to lay a plane through: those listed, or all those marked. */

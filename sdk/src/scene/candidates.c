@@ -118,10 +118,48 @@ void knurl_candidates_update(knurl_candidates *c, const knurl_broad_phase *phase
     }
 }
 
+static void pose_at(const knurl_motion *motion, double time, knurl_pose *pose) {
+    if (knurl_motion_is_over(motion, time)) {
+        *pose = motion->end;
+    } else {
+        knurl_motion_at(motion, time, pose);
+    }
+}
+
+void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motion, const knurl_hip_clock *clock,
+                           const knurl_pose **now, const knurl_pose **before) {
+    const int is_over = knurl_motion_is_over(motion, clock->time);
+    const int was_seen = candidate->placed + 1 == clock->tick;
+    const int stands = is_over && candidate->settled == motion && candidate->settled_start == motion->start_time;
+    if (stands && candidate->settled_tick < clock->tick && (was_seen || candidate->placed == clock->tick)) {
+        candidate->placed = clock->tick;
+        *now = *before = &motion->end;
+        return;
+    }
+    if (candidate->placed != clock->tick) { /* not yet in this tick */
+        if (!was_seen) {
+            pose_at(motion, clock->previous_time, &candidate->poses[candidate->latest]);
+        }
+        candidate->latest ^= 1;
+        pose_at(motion, clock->time, &candidate->poses[candidate->latest]);
+        if (candidate->has_previous && candidate->jumps != motion->jumps) { /* what it passed is not touched */
+            candidate->poses[candidate->latest ^ 1] = candidate->poses[candidate->latest];
+        }
+        candidate->placed = clock->tick;
+        candidate->settled = is_over ? motion : NULL;
+        candidate->settled_start = motion->start_time;
+        candidate->settled_tick = clock->tick;
+    }
+    *now = &candidate->poses[candidate->latest];
+    *before = &candidate->poses[candidate->latest ^ 1];
+}
+
 int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
     for (int i = 0; i < 3; i++) {
-        const double low = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
-        const double high = path->from[i] < path->to[i] ? path->to[i] : path->from[i];
+        const double from = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
+        const double to = path->from[i] < path->to[i] ? path->to[i] : path->from[i];
+        const double low = path->proxy[i] < from ? path->proxy[i] : from;
+        const double high = path->proxy[i] > to ? path->proxy[i] : to;
         if (high < (double)candidate->box[i] - margin || low > (double)candidate->box[3 + i] + margin) {
             return 0;
         }
@@ -141,16 +179,17 @@ static double gap(const knurl_candidate *candidate, const double p[3]) {
     return widest;
 }
 
-void knurl_candidates_measure(knurl_candidates *c, const double position[3], int again) {
+void knurl_candidates_measure(knurl_candidates *c, const double position[3], const double proxy[3], int again) {
     double distance = again || c->overflow ? -1.0 : HUGE_VAL;
     for (int i = 0; i < 3; i++) {
         distance = fmin(distance, fmin(position[i] - c->low[i], c->high[i] - position[i]));
     }
     for (uint32_t i = 0; i < c->count; i++) {
         if (!c->list[i].in_contact) {
-            distance = fmin(distance, gap(&c->list[i], position));
+            distance = fmin(distance, fmin(gap(&c->list[i], position), gap(&c->list[i], proxy)));
         }
     }
     c->clearance.distance = distance - ROUNDING;
     vec3_copy(position, c->clearance.at);
+    vec3_copy(proxy, c->clearance.proxy);
 }

@@ -7,6 +7,8 @@
 #include "base/vec3.h"
 #include "contact/facet.h"
 #include "scene/broad_phase.h"
+#include "scene/hip_clock.h"
+#include "scene/pose.h"
 #include "scene/wall.h"
 
 /* Surfaces near a HIP that are looked at in a tick, at most. */
@@ -28,12 +30,19 @@ typedef struct knurl_candidate {
     float box[6];     /* scene axes; outside it there is no contact */
     double anchor[3]; /* friction: where the HIP sticks, shape's frame */
     knurl_facet facet;
+    const knurl_motion *settled; /* what stood still, when it had begun, and from which tick on; or null */
+    double settled_start;
+    uint64_t settled_tick;
+    uint64_t placed;     /* the tick at which it was seen last; 0: none */
+    uint32_t latest;     /* its pose then, of these: this tick's and the last one's, whatever has moved it between */
+    knurl_pose poses[2]; /* of the shape's frame, scene */
 } knurl_candidate;
 
 /* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of
- * what it is in contact with. */
+ * what it is in contact with; nor does its proxy, no farther from `proxy`. */
 typedef struct knurl_clearance {
     double at[3];
+    double proxy[3];
     double distance; /* below 0: unknown */
 } knurl_clearance;
 
@@ -52,10 +61,11 @@ typedef struct knurl_candidates {
 typedef struct knurl_hip_path {
     const double *from; /* scene, m; at a first tick: `to` */
     const double *to;
-    double depth;   /* m: of the deepest contact at the latest tick; 0 without */
-    double time;    /* s */
-    int is_first;   /* 1: a first tick */
-    int everything; /* 1: look at every surface at every tick (KNURL_FULL_SEARCH) */
+    const double *proxy; /* scene, m: at the last tick */
+    double depth;        /* m: of the deepest contact at the latest tick; 0 without */
+    double time;         /* s */
+    int is_first;        /* 1: a first tick */
+    int everything;      /* 1: look at every surface at every tick (KNURL_FULL_SEARCH) */
 } knurl_hip_path;
 
 /* Empties the list. */
@@ -75,12 +85,25 @@ static inline int knurl_candidates_are_clear(const knurl_candidates *c, const kn
            (c->version == knurl_load_acquire(&phase->version));
 }
 
-/* 1: a path comes into the candidate's box, or within `margin` (m) of it. */
+/* 1: nor does a proxy that is at p now. */
+static inline int knurl_candidates_are_clear_of(const knurl_candidates *c, const double p[3]) {
+    const knurl_clearance *clear = &c->clearance;
+    return (fabs(p[0] - clear->proxy[0]) < clear->distance) & (fabs(p[1] - clear->proxy[1]) < clear->distance) &
+           (fabs(p[2] - clear->proxy[2]) < clear->distance);
+}
+
+/* The poses of a candidate's frame at this tick and at the last: as they were seen then, if they were. One and the same
+ * where it stands still. Valid in this tick, while the list stays as it is. */
+void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motion, const knurl_hip_clock *clock,
+                           const knurl_pose **now, const knurl_pose **before) KNURL_NONBLOCKING;
+
+/* 1: a path, with its proxy, comes into the candidate's box, or within `margin` (m) of it. */
 int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path,
                            double margin) KNURL_NONBLOCKING;
 
-/* The clearance at a position, from the candidates that are not in contact. again: 1 where the next tick has to look at
- * all of them in any case. */
-void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], int again) KNURL_NONBLOCKING;
+/* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick
+ * has to look at all of them in any case. */
+void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], const double proxy[3],
+                              int again) KNURL_NONBLOCKING;
 
 #endif

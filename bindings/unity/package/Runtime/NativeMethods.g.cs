@@ -368,6 +368,7 @@ namespace Knurl
         public double heat;
         public double half_cycles_crossed;
         public ulong half_cycles_played;
+        public ulong squeezed_ticks;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -595,7 +596,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "3cca11d355cfb15d";
+        internal const string Interface = "2a7aa185e7391a1f";
 
         internal const string Version = "0.1.0";
 
@@ -732,6 +733,7 @@ namespace Knurl
         internal const int KNURL_TICK_HEAT = 128;
         internal const int KNURL_TICK_PASSIVITY = 256;
         internal const int KNURL_TICK_ABSENT = 512;
+        internal const int KNURL_TICK_SQUEEZED = 1024;
         internal const int KNURL_LIMIT_STABILITY = 1;
         internal const int KNURL_LIMIT_STIFFNESS = 2;
         internal const int KNURL_LIMIT_AMPLITUDE = 4;

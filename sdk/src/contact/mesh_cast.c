@@ -1,0 +1,103 @@
+/* A way through a triangle mesh. Unlike the search for a crossing (mesh_query) it knows lengths: a triangle reaches
+ * beyond its edges by so many metres, whatever its size, and a way begins on a face that it is no farther behind than
+ * rounding puts it. SPDX-License-Identifier: MIT */
+#include "contact/mesh_cast.h"
+
+#include "contact/closest_point.h"
+
+/* 1 where a point of the triangle's plane is no farther than `seam` beyond any edge, nor beyond the triangle's box: at
+ * a sliver's tips the edges alone would let it reach far. inside: as knurl_closest_on_edges(), of b and c. */
+static int is_near_triangle(const double corners[3][3], const double p[3], const double inside[2], double area2,
+                            double seam) {
+    double bc[3], ac[3], ab[3];
+    vec3_sub(corners[2], corners[1], bc);
+    vec3_sub(corners[2], corners[0], ac);
+    vec3_sub(corners[1], corners[0], ab);
+    const double size = seam * sqrt(area2);
+    if (!(inside[0] >= -size * vec3_length(ac) && inside[1] >= -size * vec3_length(ab) &&
+          area2 - inside[0] - inside[1] >= -size * vec3_length(bc))) {
+        return 0;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double a = corners[0][axis], b = corners[1][axis], c = corners[2][axis];
+        const double low = a < b ? a : b, high = a < b ? b : a;
+        if (p[axis] < (low < c ? low : c) - seam || p[axis] > (high > c ? high : c) + seam) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* 1 where a way goes through a triangle before `hit`, which is replaced. */
+static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, knurl_cast_hit *hit) {
+    double corners[3][3], ab[3], ac[3], normal[3], from[3], way[3], across[3], point[3];
+    knurl_mesh_corners(mesh, triangle, corners);
+    vec3_sub(corners[1], corners[0], ab);
+    vec3_sub(corners[2], corners[0], ac);
+    vec3_cross(ab, ac, normal);
+    vec3_sub(cast->from, corners[0], from);
+    vec3_sub(cast->to, cast->from, way);
+    const double before = vec3_dot(from, normal);
+    const double rise = vec3_dot(way, normal);
+    const int side = rise < 0.0 ? 1 : -1;
+    const double area2 = vec3_dot(normal, normal);
+    const int misses = side * (before + rise) >= 0.0 || (side < 0 && !cast->double_sided) || rise == 0.0;
+    if (misses || (side * before < 0.0 && before * before > KNURL_CAST_SLACK * KNURL_CAST_SLACK * area2)) {
+        return 0;
+    }
+    const double share = side * before > 0.0 ? -before / rise : 0.0;
+    if (!(share < hit->share)) {
+        return 0;
+    }
+    vec3_madd(cast->from, share, way, point);
+    vec3_madd(from, share, way, from);
+    vec3_cross(normal, from, across);
+    const double inside[2] = {vec3_dot(across, ac), -vec3_dot(across, ab)};
+    if (!(inside[0] >= 0.0 && inside[1] >= 0.0 && inside[0] + inside[1] <= area2) &&
+        !is_near_triangle((const double (*)[3])corners, point, inside, area2, mesh->seam)) {
+        return 0;
+    }
+    const double size = sqrt(area2);
+    hit->share = share;
+    hit->height = side * before / size;
+    hit->triangle = triangle;
+    hit->side = side;
+    vec3_copy(point, hit->point);
+    vec3_scale(side / size, normal, hit->normal);
+    return 1;
+}
+
+int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_hit *hit) {
+    uint32_t stack[KNURL_BVH_DEPTH_MAX];
+    uint32_t top = 0;
+    const double margin = mesh->seam + KNURL_CAST_SLACK;
+    hit->share = 1.5;
+    stack[top++] = 0;
+    while (top > 0) {
+        const uint32_t index = stack[--top];
+        const knurl_bvh_node *node = &mesh->nodes[index];
+        if (!knurl_bvh_overlaps(node, cast->from, cast->to, margin)) {
+            continue;
+        }
+        for (uint32_t i = 0; i < node->count; i++) {
+            (void)cast_at(mesh, node->first + i, cast, hit);
+        }
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            stack[top++] = index + 1;
+        }
+    }
+    return hit->share < 1.5;
+}
+
+void knurl_mesh_rest(const knurl_mesh *mesh, const knurl_cast_hit *hit, const double point[3],
+                     knurl_contact_state *state, knurl_contact *contact) {
+    knurl_closest_point closest;
+    knurl_closest_on_triangle(mesh, hit->triangle, point, &closest);
+    vec3_copy(closest.point, contact->proxy);
+    vec3_copy(closest.weights, contact->weights);
+    contact->triangle = hit->triangle;
+    state->inside = 1;
+    state->side = hit->side;
+    state->triangle = hit->triangle;
+}

@@ -1,0 +1,16 @@
+/* Where a way goes through a triangle mesh, edges and seams included. Everything here may run in a tick.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_CAST_H
+#define KNURL_SRC_MESH_CAST_H
+
+#include "contact/contact.h"
+#include "contact/mesh.h"
+
+/* 1 and the first hit of a way: every triangle reaches beyond its edges by the mesh's seam. */
+int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING;
+
+/* Contact at a point of the triangle that was hit, its normal and z left to the caller. */
+void knurl_mesh_rest(const knurl_mesh *mesh, const knurl_cast_hit *hit, const double point[3],
+                     knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING;
+
+#endif

@@ -1,0 +1,234 @@
+/* Each triangle against those whose boxes come near: most are told apart by a plane through a face or an edge of one of
+ * the two. SPDX-License-Identifier: MIT */
+#include "contact/mesh_touch.h"
+
+#include "base/vec3.h"
+#include "contact/closest_point.h"
+
+/* A leaf's triangles are looked at so many at a time. */
+#define LEAF_MAX 8
+
+/* A triangle with the planes that bound it: its own and one through each edge; unit, edge planes outwards. */
+typedef struct bounded {
+    double corners[3][3];
+    double normal[3];
+    double sides[3][3]; /* sides[k]: of the edge opposite corner k */
+    uint32_t triangle;
+    int has_rim;
+} bounded;
+
+/* Whether no one triangle goes on beyond some edge. */
+static int has_rim(const knurl_mesh *mesh, uint32_t triangle) {
+    const uint32_t *opposite = &mesh->opposite[3 * (size_t)triangle];
+    return (opposite[0] & 3) == 3 || (opposite[1] & 3) == 3 || (opposite[2] & 3) == 3;
+}
+
+static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
+    knurl_triangle t;
+    knurl_mesh_triangle(mesh, triangle, &t);
+    b->triangle = triangle;
+    b->has_rim = has_rim(mesh, triangle);
+    vec3_copy(t.normal, b->normal);
+    for (int k = 0; k < 3; k++) {
+        double edge[3];
+        vec3_copy(t.corners[k], b->corners[k]);
+        vec3_sub(t.corners[(k + 2) % 3], t.corners[(k + 1) % 3], edge);
+        vec3_cross(edge, t.normal, b->sides[k]);
+        (void)vec3_normalise(b->sides[k]);
+    }
+}
+
+/* 1 where some of a triangle's planes has all of a triangle's corners but `shared` (3: none) beyond it. */
+static int is_beyond(const bounded *b, const double corners[3][3], int shared, double seam) {
+    int above = 1, below = 1, beside[3] = {1, 1, 1};
+    for (int i = 0; i < 3; i++) {
+        double to[3];
+        if (i == shared) {
+            continue;
+        }
+        vec3_sub(corners[i], b->corners[0], to);
+        const double height = vec3_dot(to, b->normal);
+        above &= height > seam;
+        below &= height < -seam;
+        beside[1] &= vec3_dot(to, b->sides[1]) > seam; /* the first corner is on the edges opposite the others */
+        beside[2] &= vec3_dot(to, b->sides[2]) > seam;
+        vec3_sub(corners[i], b->corners[1], to);
+        beside[0] &= vec3_dot(to, b->sides[0]) > seam;
+    }
+    return above | below | beside[0] | beside[1] | beside[2];
+}
+
+/* Squared distance of two segments (Ericson 2005, section 5.1.9). */
+static double segments_distance2(const double a[3], const double b[3], const double c[3], const double d[3]) {
+    double ab[3], cd[3], ca[3], off[3];
+    vec3_sub(b, a, ab);
+    vec3_sub(d, c, cd);
+    vec3_sub(a, c, ca);
+    const double ab2 = vec3_dot(ab, ab), cd2 = vec3_dot(cd, cd), dot = vec3_dot(ab, cd);
+    const double ab_ca = vec3_dot(ab, ca), cd_ca = vec3_dot(cd, ca);
+    const double det = ab2 * cd2 - dot * dot;
+    double s = det > 0.0 ? (dot * cd_ca - ab_ca * cd2) / det : 0.0;
+    s = s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0;
+    double t = (dot * s + cd_ca) / cd2;
+    if (!(t >= 0.0 && t <= 1.0)) {
+        t = t > 1.0 ? 1.0 : 0.0;
+        s = (t * dot - ab_ca) / ab2;
+        s = s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0;
+    }
+    vec3_madd(ca, s, ab, off);
+    vec3_madd(off, -t, cd, off);
+    return vec3_dot(off, off);
+}
+
+/* Whether an edge comes within the seam of a triangle. */
+static int edge_touches(const knurl_mesh *mesh, const double from[3], const double to[3], const bounded *b) {
+    const double seam2 = mesh->seam * mesh->seam;
+    knurl_closest_point closest;
+    double heights[2], way[3], at[3];
+    const double *const ends[2] = {from, to};
+    for (int i = 0; i < 2; i++) {
+        double offset[3];
+        knurl_closest_on_triangle(mesh, b->triangle, ends[i], &closest);
+        vec3_sub(ends[i], b->corners[0], offset);
+        heights[i] = vec3_dot(offset, b->normal);
+        if (closest.distance2 <= seam2) {
+            return 1;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        if (segments_distance2(from, to, b->corners[k], b->corners[(k + 1) % 3]) <= seam2) {
+            return 1;
+        }
+    }
+    if ((heights[0] > 0.0) == (heights[1] > 0.0)) {
+        return 0;
+    }
+    vec3_sub(to, from, way);
+    vec3_madd(from, heights[0] / (heights[0] - heights[1]), way, at);
+    knurl_closest_on_triangle(mesh, b->triangle, at, &closest);
+    return closest.distance2 <= seam2;
+}
+
+/* Which corner of each is in one place, of how many. */
+static int shared_corners(const double a[3][3], const double b[3][3], int shared[2]) {
+    int count = 0;
+    shared[0] = shared[1] = 3;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double *p = a[i], *q = b[k];
+            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
+                shared[0] = i;
+                shared[1] = k;
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
+/* Any edge of one that does not end in the corner that they share. */
+static int edges_touch(const knurl_mesh *mesh, const bounded *a, int shared, const bounded *b) {
+    for (int k = 0; k < 3; k++) {
+        const int from = (k + 1) % 3, to = (k + 2) % 3; /* the edge opposite k */
+        if ((shared == 3 || shared == k) && edge_touches(mesh, a->corners[from], a->corners[to], b)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Whether two triangles touch. The second one's planes are only worked out where the first one's do not tell. */
+static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, const double corners[3][3]) {
+    bounded b;
+    int shared[2];
+    const int count = shared_corners((const double (*)[3])a->corners, corners, shared);
+    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* inside of a fan that is whole */
+        return 0;
+    }
+    const int beyond = is_beyond(a, corners, shared[1], mesh->seam);
+    if (count == 0 && beyond) {
+        return 0;
+    }
+    bound(mesh, triangle, &b);
+    if (count == 0) {
+        return !is_beyond(&b, (const double (*)[3])a->corners, 3, mesh->seam) &&
+               (edges_touch(mesh, a, 3, &b) || edges_touch(mesh, &b, 3, a));
+    }
+    return (!beyond && edges_touch(mesh, &b, shared[1], a)) ||
+           (!is_beyond(&b, (const double (*)[3])a->corners, shared[0], mesh->seam) &&
+            edges_touch(mesh, a, shared[0], &b));
+}
+
+static int boxes_meet(const double a[3][3], const double b[3][3], double seam) {
+    for (int axis = 0; axis < 3; axis++) {
+        const double a0 = a[0][axis], a1 = a[1][axis], a2 = a[2][axis];
+        const double b0 = b[0][axis], b1 = b[1][axis], b2 = b[2][axis];
+        const double a_low = a0 < a1 ? (a0 < a2 ? a0 : a2) : (a1 < a2 ? a1 : a2);
+        const double a_high = a0 > a1 ? (a0 > a2 ? a0 : a2) : (a1 > a2 ? a1 : a2);
+        const double b_low = b0 < b1 ? (b0 < b2 ? b0 : b2) : (b1 < b2 ? b1 : b2);
+        const double b_high = b0 > b1 ? (b0 > b2 ? b0 : b2) : (b1 > b2 ? b1 : b2);
+        if (a_low > b_high + seam || b_low > a_high + seam) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The touching pairs of a leaf's triangles and another's (of those, with higher numbers). */
+static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_bvh_node *leaf) {
+    uint32_t pairs = 0;
+    for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
+        double corners[3][3];
+        knurl_mesh_corners(mesh, i, corners);
+        for (uint32_t k = 0; k < count && own[k].triangle < i; k++) {
+            pairs += boxes_meet((const double (*)[3])own[k].corners, (const double (*)[3])corners, mesh->seam) &&
+                     touch(mesh, &own[k], i, (const double (*)[3])corners);
+        }
+    }
+    return pairs;
+}
+
+/* The same with all leaves that come near. */
+static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf) {
+    uint32_t stack[KNURL_BVH_DEPTH_MAX];
+    uint32_t top = 0;
+    uint32_t pairs = 0;
+    bounded own[LEAF_MAX];
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = (double)leaf->min[axis];
+        high[axis] = (double)leaf->max[axis];
+    }
+    for (uint32_t first = leaf->first; first < leaf->first + leaf->count; first += LEAF_MAX) {
+        const uint32_t left = leaf->first + leaf->count - first;
+        const uint32_t count = left < LEAF_MAX ? left : LEAF_MAX;
+        for (uint32_t k = 0; k < count; k++) {
+            bound(mesh, first + k, &own[k]);
+        }
+        stack[top++] = 0;
+        while (top > 0) {
+            const uint32_t index = stack[--top];
+            const knurl_bvh_node *node = &mesh->nodes[index];
+            if (!knurl_bvh_overlaps(node, low, high, mesh->seam)) {
+                continue;
+            }
+            if (node->count == 0) {
+                stack[top++] = node->first;
+                stack[top++] = index + 1;
+            } else if (node->first >= leaf->first) {
+                pairs += count_pairs(mesh, own, count, node);
+            }
+        }
+    }
+    return pairs;
+}
+
+uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh) {
+    uint32_t pairs = 0;
+    for (uint32_t i = 0; i < mesh->node_count; i++) {
+        if (mesh->nodes[i].count > 0) {
+            pairs += count_of_leaf(mesh, &mesh->nodes[i]);
+        }
+    }
+    return pairs;
+}

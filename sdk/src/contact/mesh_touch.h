@@ -1,0 +1,12 @@
+/* Where a mesh meets itself other than along shared edges: T-junctions, seams whose two sides have vertices of their
+ * own, parts that go through each other. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_TOUCH_H
+#define KNURL_SRC_MESH_TOUCH_H
+
+#include "contact/mesh.h"
+
+/* How many pairs of a mesh's triangles come within its seam of one another other than at an edge or a vertex that they
+ * share. The mesh has its hierarchy, positions and seam. */
+uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh);
+
+#endif

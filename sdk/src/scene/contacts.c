@@ -1,0 +1,58 @@
+/* Contacts begin and end. SPDX-License-Identifier: MIT */
+#include "scene/contacts.h"
+
+#include <string.h>
+
+/* s that a HIP may be behind another before it takes over its time: it has not ticked for a while. */
+#define MAX_LAG 0.05
+
+void knurl_contacts_end(knurl_candidate *candidate) {
+    candidate->in_contact = 0;
+    memset(&candidate->contact, 0, sizeof candidate->contact);
+    knurl_wall_end(&candidate->guard);
+}
+
+void knurl_contacts_catch_up(knurl_contacts *c, const knurl_motion *motion) {
+    if (motion->start_time - c->clock.time > MAX_LAG) {
+        knurl_store_double(&c->clock.time, motion->start_time);
+        c->clock.previous_time = motion->start_time - c->clock.period;
+    }
+}
+
+const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index, knurl_candidate *candidate) {
+    const knurl_surface_data *surface =
+        candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
+    if (!surface || candidate->generation != surface->generation) {
+        if (!surface || candidate->in_contact) {
+            knurl_contacts_end(candidate);
+        }
+        candidate->generation = surface ? surface->generation : candidate->generation;
+        candidate->has_previous = 0;
+    }
+    return surface;
+}
+
+int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knurl_surface_data *surface,
+                       const knurl_record *record, const knurl_pose *pose, const knurl_touched *touched) {
+    if (c->active_count == KNURL_CONTACTS_MAX) {
+        knurl_contacts_end(candidate);
+        return 0;
+    }
+    knurl_active_contact *a = &c->active[c->active_count++];
+    a->surface = surface;
+    a->record = record;
+    a->pose = pose;
+    a->candidate = candidate;
+    a->contact = touched->contact;
+    a->begins = !candidate->in_contact;
+    if (a->begins) {
+        memset(&candidate->grating, 0, sizeof candidate->grating);
+        candidate->facet.side = 0;
+        knurl_wall_begin(&candidate->guard, c->felt);
+    }
+    candidate->contact = touched->state;
+    candidate->in_contact = 1;
+    knurl_pose_to_parent(a->pose, a->contact.proxy, candidate->proxy);
+    knurl_pose_turn_to_parent(a->pose, a->contact.normal, candidate->normal);
+    return 1;
+}

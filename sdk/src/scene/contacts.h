@@ -1,0 +1,79 @@
+/* The contacts of one HIP: what is kept of them from tick to tick, and how they begin and end. What a HIP is in contact
+ * with is found in contact_update. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_CONTACTS_H
+#define KNURL_SRC_CONTACTS_H
+
+#include "base/atomic.h"
+#include "scene/obstacles.h"
+
+/* m: how much higher a surface may go on, with nothing between the two parts, and still take a HIP over. */
+#define KNURL_STEP_HEIGHT 1e-3
+
+/* s that a HIP may be between two surfaces: beyond what a seam bridges, a tick may fall into a crack. */
+#define KNURL_SLIP_SECONDS 0.005
+
+/* One surface that the HIP is in contact with in this tick. */
+typedef struct knurl_active_contact {
+    const knurl_surface_data *surface;
+    const knurl_record *record;
+    knurl_candidate *candidate; /* what is kept of it from tick to tick, with the contact's proxy and normal */
+    const knurl_pose *pose;     /* of the shape's frame, now */
+    knurl_contact contact;      /* shape's frame */
+    int32_t begins;             /* 1: it was not in contact at the last tick */
+} knurl_active_contact;
+
+/* A HIP that was pressed into a surface and has come off its rim. */
+typedef struct knurl_slip {
+    double time;     /* s: when; below 0: it has not, or is held again */
+    double proxy[3]; /* where it was held last, scene */
+    double normal[3];
+    double felt; /* m: the depth that was felt there */
+} knurl_slip;
+
+/* What a shape says to a HIP in one tick. */
+typedef struct knurl_touched {
+    int32_t held;
+    knurl_contact_state state;
+    knurl_contact contact;
+} knurl_touched;
+
+/* Of one HIP, from tick to tick. */
+typedef struct knurl_contacts {
+    knurl_hip_clock clock;
+    double previous[3]; /* HIP position at the last tick, scene */
+    double depth;       /* at the latest tick: m, how deep it was pressed in; 0: it was not */
+    double proxy[3];    /* and where its proxy was, scene: outside of every surface, */
+    double normal[3];   /* and which way it was held */
+    uint32_t pressed;   /* surfaces that held it; 0: none, and the proxy is the HIP */
+    double felt;        /* m: the depth that was felt */
+    int32_t has_previous;
+    knurl_slip slip;
+    int32_t everything;                              /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */
+    knurl_active_contact active[KNURL_CONTACTS_MAX]; /* in this tick; what they point to is gone after it */
+    uint32_t active_count;
+    knurl_candidates candidates;
+} knurl_contacts;
+
+/* The candidate's surface, or null where it was taken out; another may be in its place since, and then the contact has
+ * ended. */
+const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index,
+                                                 knurl_candidate *candidate) KNURL_NONBLOCKING;
+
+/* 1 for a while after the HIP has come off a rim. */
+static inline int knurl_contacts_have_slipped(const knurl_contacts *c) {
+    return c->clock.time - c->slip.time < KNURL_SLIP_SECONDS && c->slip.time >= 0.0;
+}
+
+/* No contact any more. */
+void knurl_contacts_end(knurl_candidate *candidate) KNURL_NONBLOCKING;
+
+/* One more contact of this tick; pose: of the shape's frame, now. 0 where there is no room: it is looked at again in
+ * the next tick. */
+int knurl_contacts_add(knurl_contacts *contacts, knurl_candidate *candidate, const knurl_surface_data *surface,
+                       const knurl_record *record, const knurl_pose *pose,
+                       const knurl_touched *touched) KNURL_NONBLOCKING;
+
+/* A HIP that has not ticked for a while takes over the time of a surface that moves. */
+void knurl_contacts_catch_up(knurl_contacts *contacts, const knurl_motion *motion) KNURL_NONBLOCKING;
+
+#endif

@@ -1,0 +1,24 @@
+/* A HIP's time. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_HIP_CLOCK_H
+#define KNURL_SRC_HIP_CLOCK_H
+
+#include "base/atomic.h"
+#include "base/finite.h"
+
+/* A HIP's time. It may be behind other HIPs' that have ticked more often. */
+typedef struct knurl_hip_clock {
+    double time; /* atomic: s, scene time after the latest tick */
+    double previous_time;
+    double period; /* s */
+    uint64_t tick; /* from 1 on */
+} knurl_hip_clock;
+
+/* One period on. */
+static inline void knurl_hip_clock_advance(knurl_hip_clock *clock) {
+    const double time = clock->time + clock->period;
+    clock->previous_time = clock->time;
+    clock->tick++;
+    knurl_store_double(&clock->time, time);
+}
+
+#endif

@@ -1,0 +1,12 @@
+/* Contact where several surfaces are near a HIP, or one that meets itself: its proxy is held by every face that it has
+ * not gone through from the front, whichever surface the face belongs to. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_JOINT_CONTACT_H
+#define KNURL_SRC_JOINT_CONTACT_H
+
+#include "scene/contacts.h"
+
+/* Finds the contacts with what a path comes near. Adds to *flags: KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED. */
+void knurl_joint_contact(knurl_contacts *contacts, const knurl_broad_index *index, const knurl_hip_path *path,
+                         uint32_t *flags) KNURL_NONBLOCKING;
+
+#endif

@@ -1,0 +1,92 @@
+/* Ways among surfaces, each looked at in its own frame. SPDX-License-Identifier: MIT */
+#include "scene/obstacles.h"
+
+void knurl_obstacle_set(knurl_obstacle *o, knurl_candidate *candidate, const knurl_surface_data *surface,
+                        const knurl_record *record, const knurl_hip_clock *clock) {
+    o->candidate = candidate;
+    o->surface = surface;
+    o->record = record;
+    knurl_candidate_place(candidate, &record->motion, clock, &o->pose, &o->before);
+}
+
+int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const double to[3], double room) {
+    const knurl_shape *shape = &o->surface->shape;
+    const double margin = room + o->record->reach + shape->seam + KNURL_CAST_SLACK;
+    double before[3], now[3];
+    knurl_pose_to_own(o->before, from, before);
+    knurl_pose_to_own(o->pose, to, now);
+    for (int i = 0; i < 3; i++) {
+        const double low = shape->low[i] - margin, high = shape->high[i] + margin;
+        if (((now[i] < low) & (before[i] < low)) | ((now[i] > high) & (before[i] > high))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The candidate's box is that of its surface, with its crests and room; faces reach beyond it by a seam. */
+static int is_beside(const knurl_obstacle *o, const double from[3], const double to[3]) {
+    const float *box = o->candidate->box;
+    const double margin = o->surface->shape.seam + KNURL_CAST_SLACK;
+    for (int i = 0; i < 3; i++) {
+        const double low = from[i] < to[i] ? from[i] : to[i];
+        const double high = from[i] < to[i] ? to[i] : from[i];
+        if (high < (double)box[i] - margin || low > (double)box[3 + i] + margin) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int cast_between(const knurl_obstacle *o, const knurl_pose *before, const double from[3], const double to[3],
+                        knurl_cast_hit *hit) {
+    knurl_cast cast;
+    if (is_beside(o, from, to)) {
+        return 0;
+    }
+    knurl_pose_to_own(before, from, cast.from);
+    knurl_pose_to_own(o->pose, to, cast.to);
+    cast.double_sided = o->surface->double_sided;
+    return knurl_shape_cast(&o->surface->shape, &cast, hit);
+}
+
+uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                              knurl_cast_hit *hit) {
+    uint32_t first = KNURL_NO_OBSTACLE;
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        const knurl_obstacle *o = &obstacles->list[i];
+        knurl_cast_hit found;
+        if (cast_between(o, o->pose, from, to, &found) && (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {
+            first = i;
+            *hit = found;
+        }
+    }
+    return first;
+}
+
+int knurl_obstacle_meets(const knurl_obstacle *o, const double from[3], const double to[3], knurl_cast_hit *hit) {
+    return cast_between(o, o->before, from, to, hit);
+}
+
+int knurl_obstacles_let_pass(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                             uint32_t except) {
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        const knurl_obstacle *o = &obstacles->list[i];
+        knurl_cast_hit hit;
+        if (i != except && cast_between(o, o->pose, from, to, &hit)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int knurl_obstacles_let_pass_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                                    uint32_t except) {
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        knurl_cast_hit hit;
+        if (i != except && knurl_obstacle_meets(&obstacles->list[i], from, to, &hit)) {
+            return 0;
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,56 @@
+/* The surfaces near a HIP as they stand in one tick, and what a way among them runs into. SPDX-License-Identifier: MIT
+ */
+#ifndef KNURL_SRC_OBSTACLES_H
+#define KNURL_SRC_OBSTACLES_H
+
+#include "scene/candidates.h"
+#include "scene/surface.h"
+
+/* One surface at one tick. */
+typedef struct knurl_obstacle {
+    knurl_candidate *candidate;
+    const knurl_surface_data *surface;
+    const knurl_record *record;
+    const knurl_pose *pose;   /* of the shape's frame, now */
+    const knurl_pose *before; /* a tick ago; the same where it stands still */
+} knurl_obstacle;
+
+typedef struct knurl_obstacles {
+    uint32_t count;
+    int32_t moving; /* 1: some move in the tick */
+    knurl_obstacle list[KNURL_CANDIDATES_MAX];
+} knurl_obstacles;
+
+/* No obstacle. */
+#define KNURL_NO_OBSTACLE UINT32_MAX
+
+/* A surface as it stands in a tick, and stood in the last. */
+void knurl_obstacle_set(knurl_obstacle *obstacle, knurl_candidate *candidate, const knurl_surface_data *surface,
+                        const knurl_record *record, const knurl_hip_clock *clock) KNURL_NONBLOCKING;
+
+/* 1 where it stands elsewhere than at the HIP's last tick without having moved there. */
+static inline int knurl_obstacle_has_jumped(const knurl_obstacle *o) {
+    return o->candidate->has_previous && o->candidate->jumps != o->record->motion.jumps;
+}
+
+/* 1 where a way in the tick, or what is within `room` (m) of its ends, comes as near to the shape's own bounds as its
+ * crests reach: a box that turns with the surface is tighter than the scene's. */
+int knurl_obstacle_is_near(const knurl_obstacle *obstacle, const double from[3], const double to[3],
+                           double room) KNURL_NONBLOCKING;
+
+/* Which obstacle a way (scene, m) first runs into; all stand where they are now. Returns its number and the hit in its
+ * frame, or KNURL_NO_OBSTACLE. */
+uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                              knurl_cast_hit *hit) KNURL_NONBLOCKING;
+
+/* 1 where one obstacle, which may move during the tick, is run into on a way: the hit, in its frame. */
+int knurl_obstacle_meets(const knurl_obstacle *obstacle, const double from[3], const double to[3],
+                         knurl_cast_hit *hit) KNURL_NONBLOCKING;
+
+/* 1 where nothing but `except` is run into on a way: of all as they stand, or with what they move in the tick. */
+int knurl_obstacles_let_pass(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                             uint32_t except) KNURL_NONBLOCKING;
+int knurl_obstacles_let_pass_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                                    uint32_t except) KNURL_NONBLOCKING;
+
+#endif

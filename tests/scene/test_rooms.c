@@ -1,0 +1,258 @@
+/* Presses and strokes at random in rooms at random, against what is known of the rooms' solids: a HIP that is inside
+ * one is held, its proxy is outside of all of them, and its force is what the proxy's distance says at most.
+ * SPDX-License-Identifier: MIT */
+#include "scene/rooms.h"
+
+#include <stdio.h>
+
+#define K         400.0 /* N/m */
+#define TICK      0.001 /* s */
+#define REACH     0.008 /* m: as far from its proxy a hand goes at most */
+#define TOLERANCE 2e-6  /* m: rounding of corners to floats, on solids of 0.2 m, and seams */
+
+/* What came of the presses. */
+typedef struct tally {
+    long presses, ticks, lost, inside, unbounded;
+    double deepest; /* m: a proxy in a solid */
+    double ratio;   /* of a force to its bound */
+    long corners[KNURL_CONTACTS_MAX + 1];
+} tally;
+
+/* What moves in a room. */
+enum { NOTHING, EVERYTHING, ONE_SOLID };
+
+/* A hand in a room. */
+typedef struct visit {
+    knurl_scene *scene;
+    const room *place;
+    double amplitude;
+    double at[3];
+    double velocity[3];
+    uint64_t seed, first_seed;
+    int form;
+    int moving;
+    laid surfaces;
+    double moved[3];         /* m: where what moves is now, */
+    double from[3], goal[3]; /* on its way from one place to the next, */
+    int phase;               /* so many ticks of FRAME */
+    int squeezed;
+    tally *sum;
+} visit;
+
+/* A game's frame: ticks from one place to the next. */
+#define FRAME 8
+
+/* One tick, at whose end what moves is a step further. */
+static knurl_tick_output tick_in(visit *v, const double at[3]) {
+    if (v->moving != NOTHING && v->phase == 0) {
+        memcpy(v->from, v->goal, sizeof v->from);
+        for (int i = 0; i < 3; i++) {
+            v->goal[i] = fmax(-0.005, fmin(0.005, v->from[i] + random_between(&v->seed, -0.0005, 0.0005)));
+        }
+        for (uint32_t i = 0; i < v->surfaces.count; i++) {
+            pose p = v->surfaces.poses[i];
+            add3(p.position, 1.0, v->goal, p.position);
+            if (v->surfaces.moves[i]) {
+                move_to(v->scene, knurl_scene_get_surface(v->scene, i), &p, FRAME * TICK);
+            }
+        }
+    }
+    const knurl_tick_output out = tick_at(v->scene, at[0], at[1], at[2]);
+    if (v->moving != NOTHING) {
+        v->phase = v->phase % FRAME + 1;
+        for (int i = 0; i < 3; i++) {
+            v->moved[i] = v->from[i] + v->phase * (v->goal[i] - v->from[i]) / FRAME;
+        }
+        v->phase %= FRAME;
+    }
+    v->squeezed |= (out.flags & KNURL_TICK_SQUEEZED) != 0;
+    return out;
+}
+
+static void complain(const visit *v, const knurl_tick_output *out, const char *what, double value) {
+    if (getenv("KNURL_ROOMS_TELL")) {
+        (void)printf("room %llu form %d press %ld: %s %g at %.9g %.9g %.9g, proxy %.9g %.9g %.9g normal %.3g %.3g "
+                     "%.3g, %u contacts\n",
+                     (unsigned long long)v->first_seed, v->form, v->sum->presses, what, value, out->hip[0], out->hip[1],
+                     out->hip[2], out->proxy[0], out->proxy[1], out->proxy[2], out->normal[0], out->normal[1],
+                     out->normal[2], (unsigned)out->contacts);
+    }
+}
+
+/* One tick, held against the solids. Returns 0 where it failed. */
+static int tick_and_check(visit *v, knurl_tick_output *out) {
+    tally *t = v->sum;
+    *out = tick_in(v, v->at);
+    const double depth = -room_distance(v->place, v->at, v->moved);
+    const double proxy = -room_distance(v->place, out->proxy, v->moved);
+    const double force = length3(out->force);
+    const double bound = out->contacts * K * (v->amplitude + distance3(out->hip, out->proxy) + TOLERANCE);
+    /* between ridges each of up to three faces is felt a wave's height later */
+    const double first_felt = 2.0 * TOLERANCE + 2.0 * v->amplitude;
+    const int lost = depth > 2.0 * TOLERANCE &&
+                     (out->contacts == 0 || (distance3(out->hip, out->proxy) > first_felt && !(force > 0.0)));
+    const int inside = proxy > TOLERANCE && !lost;
+    if (v->squeezed && (lost || inside)) { /* told: between two solids that close there is no way out */
+        return 0;
+    }
+    const int unbounded = !(force <= bound + 1e-12);
+    t->ticks++;
+    t->corners[out->contacts]++;
+    t->deepest = inside ? fmax(t->deepest, proxy) : t->deepest;
+    t->ratio = bound > 0.0 ? fmax(t->ratio, force / bound) : t->ratio;
+    t->lost += lost;
+    t->inside += inside;
+    t->unbounded += unbounded;
+    if (lost || inside || unbounded) {
+        complain(v, out,
+                 lost     ? "lost, m deep"
+                 : inside ? "proxy inside, m"
+                          : "force, N",
+                 lost     ? depth
+                 : inside ? proxy
+                          : force);
+    }
+    return !(lost || inside || unbounded);
+}
+
+/* Somewhere outside of everything. */
+static void find_start(visit *v) {
+    do {
+        for (int i = 0; i < 3; i++) {
+            v->at[i] = random_between(&v->seed, v->place->low[i], v->place->high[i]);
+        }
+    } while (room_distance(v->place, v->at, v->moved) < 0.001);
+}
+
+/* Without contact towards an edge of some solid, which is where things go wrong; in contact anywhere, but rather in. */
+static void turn_at_random(visit *v, const knurl_tick_output *out, double speed) {
+    const solid *s = &v->place->solids[random_integer(&v->seed, 0, v->place->count - 1)];
+    const face *f = &s->faces[random_integer(&v->seed, 0, s->count - 1)];
+    const int k = (int)random_integer(&v->seed, 0, f->count - 1);
+    const double share = random_between(&v->seed, -0.1, 1.1);
+    random_direction(&v->seed, v->velocity);
+    if (out->contacts == 0) {
+        double aim[3];
+        for (int i = 0; i < 3; i++) {
+            aim[i] = f->corners[k][i] + share * (f->corners[(k + 1) % f->count][i] - f->corners[k][i]) +
+                     0.002 * v->velocity[i] - v->at[i];
+        }
+        add3(aim, 0.0, aim, v->velocity);
+    } else {
+        add3(v->velocity, -random_between(&v->seed, 0.0, 1.0), out->normal, v->velocity);
+    }
+    const double scale = speed / (length3(v->velocity) + 1e-9);
+    for (int i = 0; i < 3; i++) {
+        v->velocity[i] *= scale;
+    }
+}
+
+/* From outside into something, about in it, no farther from the proxy than a hand goes. */
+static void press(visit *v) {
+    knurl_tick_output out;
+    v->sum->presses++;
+    v->squeezed = 0;
+    find_start(v);
+    assert_int_equal(knurl_scene_configure_hip(v->scene, 0, NULL), KNURL_OK);
+    configure_plainly(v->scene, 0);
+    if (!tick_and_check(v, &out)) {
+        return;
+    }
+    turn_at_random(v, &out, random_between(&v->seed, 0.3, 1.0));
+    for (int k = 0; k < 80; k++) {
+        if (k % 20 == 19) {
+            turn_at_random(v, &out, random_between(&v->seed, 0.02, out.contacts ? 0.4 : 1.0));
+        }
+        double next[3];
+        add3(v->at, TICK, v->velocity, next);
+        if (distance3(next, out.proxy) > REACH && distance3(next, out.proxy) > distance3(v->at, out.proxy)) {
+            turn_at_random(v, &out, 0.1);
+            continue;
+        }
+        for (int i = 0; i < 3; i++) {
+            v->at[i] = fmin(v->place->high[i], fmax(v->place->low[i], next[i]));
+        }
+        if (!tick_and_check(v, &out)) {
+            return;
+        }
+    }
+}
+
+static void visit_room(uint64_t seed, int form, int moving, int presses, tally *sum) {
+    uint64_t random = seed;
+    room place = random_room(&random);
+    for (int i = 0; i < place.count; i++) {
+        place.solids[i].moves = moving == EVERYTHING || (moving == ONE_SOLID && i == place.count - 1);
+    }
+    visit v;
+    memset(&v, 0, sizeof v);
+    v.place = &place;
+    v.seed = seed + 1;
+    v.first_seed = seed;
+    v.form = form;
+    v.moving = moving;
+    v.sum = sum;
+    surface_parts parts = surface_plane();
+    if (random_integer(&random, 0, 3) == 0) {
+        v.amplitude = 0.0002;
+        set_grating(&parts, KNURL_S1, 500.0, 0.0, v.amplitude);
+    }
+    v.scene = empty_scene(1);
+    configure_plainly(v.scene, 0);
+    put_room(&v.surfaces, v.scene, &random, &place, form, &parts.material);
+    assert_int_equal(knurl_scene_commit(v.scene), KNURL_OK);
+    for (int i = 0; i < presses; i++) {
+        press(&v);
+    }
+    knurl_scene_destroy(v.scene);
+}
+
+static void tell(const tally *t, const char *what) {
+    (void)printf(
+        "%s: %ld presses, %ld ticks (%ld, %ld, %ld, %ld with 1 to 4 contacts); %ld lost, %ld proxies inside by up "
+        "to %g m, %ld forces beyond their bound, of which the greatest share was %.6f\n",
+        what, t->presses, t->ticks, t->corners[1], t->corners[2], t->corners[3], t->corners[4], t->lost, t->inside,
+        t->deepest, t->unbounded, t->ratio);
+}
+
+static void check_rooms(int form, int moving, const char *what) {
+    const char *longer = getenv("KNURL_LONG");
+    const char *given = getenv("KNURL_ROOMS"); /* 5000 are a million presses on what stands still */
+    const int rooms = given ? atoi(given) : longer ? 1000 : 12;
+    tally sum;
+    memset(&sum, 0, sizeof sum);
+    for (int i = 0; i < rooms; i++) {
+        visit_room(1000 + 10 * (uint64_t)i, form, moving, 50, &sum);
+    }
+    tell(&sum, what);
+    assert_int_equal(sum.lost, 0);
+    assert_int_equal(sum.inside, 0);
+    assert_int_equal(sum.unbounded, 0);
+}
+
+TEST(rooms_of_meshes_hold) {
+    check_rooms(ROOM_MESHES, NOTHING, "meshes");
+}
+
+TEST(rooms_of_one_mesh_hold) {
+    check_rooms(ROOM_ONE_MESH, NOTHING, "one mesh");
+}
+
+TEST(rooms_of_planes_hold) {
+    check_rooms(ROOM_PLANES, NOTHING, "planes");
+}
+
+TEST(rooms_of_planes_and_meshes_hold) {
+    check_rooms(ROOM_MIXED, NOTHING, "planes and meshes");
+}
+
+TEST(rooms_that_move_hold) {
+    check_rooms(ROOM_MESHES, EVERYTHING, "meshes that all move");
+    check_rooms(ROOM_ONE_MESH, EVERYTHING, "one mesh that moves");
+    check_rooms(ROOM_PLANES, EVERYTHING, "planes that all move");
+}
+
+TEST(rooms_in_which_one_solid_moves_hold) {
+    check_rooms(ROOM_MESHES, ONE_SOLID, "meshes, one of which moves");
+    check_rooms(ROOM_PLANES, ONE_SOLID, "planes, some of which move");
+}
