@@ -361,6 +361,51 @@ namespace Knurl.Tests
             Assert.That(moving, Is.GreaterThan(frames / 2), "of " + frames);
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void ABodyIsPushedByWhatTheHandFeelsWhereItIsToBe(bool reacts)
+        {
+            KnurlSurface s = MakeSmooth(Plate());
+            Rigidbody body = s.gameObject.AddComponent<Rigidbody>();
+            s.Reaction = reacts;
+            KnurlDevice d = StartPressing();
+            Until(() => d.InContact && IsAbout(d.Force.y, 0.4f), "pressed");
+            long ticks = d.Ticks;
+            body.Impulse = Vector3.zero;
+            Until(() => reacts ? body.Impulse.y < -0.04f : d.Ticks > ticks + 200, "0.4 N for 0.1 s");
+            Assert.AreEqual(0f, body.Impulse.x, 1e-4f);
+            Assert.AreEqual(!reacts, body.Impulse == Vector3.zero);
+        }
+
+        [Test]
+        public void ADeviceSaysWhatIsWrongWithIt()
+        {
+            KnurlDevice d = MakeDevice("fake", "sweep");
+            Assert.AreEqual(new string[0], d.GetWarnings());
+            d.Device = "touch";
+            d.WorkspaceScale = 0f;
+            Assert.AreEqual(2, d.GetWarnings().Length);
+        }
+
+        [Test]
+        public void AStartThatFailsIsToldOnceAndTriedAgain()
+        {
+            KnurlDevice d = MakeDevice("nothing");
+            var told = new List<string>();
+            d.startFailed.AddListener((code, text) => told.Add(text));
+            d.Autostart = true;
+            d.Retry = 0.01f;
+            ExpectError("nothing");
+            Player.Frames(20);
+            Assert.AreEqual(1, told.Count);
+            Contains(told[0], "nothing");
+            d.Device = "fake";
+            Until(() => d.Running, "tried again");
+            d.StopDevice();
+            Player.Frames(20);
+            Assert.IsFalse(d.Running);
+        }
+
         sealed class Mover : MonoBehaviour
         {
             internal Vector3 Step;

@@ -22,6 +22,7 @@ namespace Knurl.Tests
         {
             { "start", "StartDevice" }, // Start is a message of Unity's
             { "stop", "StopDevice" },
+            { "get_touched_surface", "Touched" },
             { "get_triangle_count", "TriangleCount" },
             { "is_touched", "IsTouched" },
             { "enabled", "enabled" } // Behaviour's
@@ -113,7 +114,7 @@ namespace Knurl.Tests
         {
             List<string> signals = Reference(typeof(KnurlDevice)).Element("signals").Elements("signal")
                 .Select(s => Name((string)s.Attribute("name"))).ToList();
-            Assert.AreEqual(4, signals.Count);
+            Assert.AreEqual(5, signals.Count);
             foreach (string signal in signals)
             {
                 FieldInfo field = typeof(KnurlDevice).GetField(char.ToLowerInvariant(signal[0]) + signal.Substring(1));

@@ -9,11 +9,15 @@ namespace Knurl.Editing
     [CustomEditor(typeof(KnurlDevice)), CanEditMultipleObjects]
     internal sealed class DeviceInspector : Editor
     {
-        internal static readonly string[] Devices = { "fake", "mouse", "touch", "falcon", "rawhid" };
+        internal static readonly string[] Devices = { "auto", "fake", "mouse", "touch", "falcon", "rawhid" };
         internal static readonly string[] Strokes = { "", "line", "sweep", "circle", "press", "rest" };
 
-        static readonly string[] Events = { "contactStarted", "contactEnded", "buttonChanged", "fault" };
-        static readonly GUIContent Device = new GUIContent("Device", "fake (a simulated hand), mouse (a script " +
+        static readonly string[] Events =
+        {
+            "contactStarted", "contactEnded", "buttonChanged", "fault", "startFailed",
+        };
+
+        static readonly GUIContent Device = new GUIContent("Device", "auto (the first that is connected), fake (a simulated hand), mouse (a script " +
             "calls MoveHip), touch, touch:NAME, falcon, rawhid, rawhid:VID:PID; options follow as ?key=value&...");
         static readonly GUIContent Known = new GUIContent("Known devices", "Puts one of these into the field above");
         static readonly GUIContent Stroke = new GUIContent("Stroke", "What the fake device's hand does over the " +
@@ -22,6 +26,8 @@ namespace Knurl.Editing
         static readonly GUIContent Scale = new GUIContent("Workspace Scale", "Metres of the scene per metre that " +
             "the device moves. Walls feel stiffer by as much");
         static readonly GUIContent Autostart = new GUIContent("Autostart", "Whether it starts in its first frame");
+        static readonly GUIContent Retry = new GUIContent("Retry (s)", "After so many seconds a start by Autostart that " +
+            "failed is tried again; 0: it is not");
         static readonly GUIContent Reconnect = new GUIContent("Reconnect", "Whether a device that was lost is " +
             "looked for again; otherwise losing it stops this component");
         static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
@@ -51,6 +57,7 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("rate"), Rate);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("workspaceScale"), Scale);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("autostart"), Autostart);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("retry"), Retry);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("paused"), Paused);
@@ -60,6 +67,10 @@ namespace Knurl.Editing
                 EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
             }
             serializedObject.ApplyModifiedProperties();
+            foreach (string warning in ((KnurlDevice)target).GetWarnings())
+            {
+                EditorGUILayout.HelpBox(warning, MessageType.Warning);
+            }
             if (!serializedObject.isEditingMultipleObjects && EditorApplication.isPlaying)
             {
                 ShowState((KnurlDevice)target);

@@ -17,6 +17,9 @@ namespace Knurl.Editing
         static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
             "(0, 0, 0): the mesh's UVs, else its tangents");
 
+        static readonly GUIContent Reaction = new GUIContent("Reaction", "Whether the nearest Rigidbody at or above it is " +
+            "pushed by the opposite of what the hand feels");
+
         string[] warnings = new string[0];
         double lookAgain;
 
@@ -28,6 +31,7 @@ namespace Knurl.Editing
             DrawGratings();
             EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("reaction"), Reaction);
             if (EditorGUI.EndChangeCheck())
             {
                 lookAgain = 0.0;

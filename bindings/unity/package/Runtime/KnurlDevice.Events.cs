@@ -96,6 +96,18 @@ namespace Knurl
             }
         }
 
+        void TellStartFailed(KnurlException failure)
+        {
+            try
+            {
+                startFailed.Invoke(failure.Code, failure.Message);
+            }
+            catch (Exception e)
+            {
+                Debug.LogException(e, this);
+            }
+        }
+
         unsafe void TellFault(int code, double value)
         {
             const int size = 256;

@@ -13,6 +13,9 @@ namespace Knurl
         [NonSerialized] bool hasFiles;
         [NonSerialized] bool isPaused; // by the application
         [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
+        [NonSerialized] bool hasFailed; // to start by itself
+        [NonSerialized] float retryAt; // s, unscaled
+        [NonSerialized] Vector3 impulse; // N s: of the run, as of the latest frame
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
         [NonSerialized] Matrix4x4 workspace; // of the run: it stays where it was at the start
@@ -23,29 +26,55 @@ namespace Knurl
         /// <returns>Whether it runs. An error that says why not goes to the console.</returns>
         public bool StartDevice()
         {
-            isNew = false;
-            if (isRunning)
+            hasFailed = false;
+            KnurlException failure = TryStart();
+            if (failure != null)
             {
-                return true;
+                Complain("start", failure.Message);
             }
+            return isRunning;
+        }
+
+        /// <summary>Null where it runs.</summary>
+        KnurlException TryStart()
+        {
+            isNew = false;
             try
             {
-                Demand();
-                Open();
-                Begin();
+                if (!isRunning)
+                {
+                    Demand();
+                    Open();
+                    Begin();
+                    impulse = Vector3.zero;
+                }
+                return null;
             }
             catch (KnurlException e)
             {
-                Complain("start", e.Message);
                 Release();
+                return e;
             }
-            return isRunning;
+        }
+
+        /// <summary>By itself: a failure is told once, however often it is tried again.</summary>
+        void StartByItself()
+        {
+            KnurlException failure = TryStart();
+            bool isFirst = failure != null && !hasFailed;
+            hasFailed = failure != null;
+            retryAt = Time.unscaledTime + retry;
+            if (isFirst)
+            {
+                Complain("start", failure.Message);
+                TellStartFailed(failure);
+            }
         }
 
         /// <summary>Ramps the force down and closes the device. Twice is fine.</summary>
         public void StopDevice()
         {
-            isNew = false;
+            isNew = hasFailed = false;
             if (isRunning)
             {
                 Release();
@@ -176,17 +205,19 @@ namespace Knurl
         {
             isPaused = false; // the end of a pause may have come while nobody was told
             isNew = true;
+            hasFailed = false;
         }
 
         /// <summary>It starts in its first frame: all of the scene is there then, and settings that a script gives to a
         /// component that it has just added count.</summary>
         void Update()
         {
-            if (isNew && autostart)
-            {
-                StartDevice();
-            }
+            bool isDue = isNew || (hasFailed && retry > 0f && Time.unscaledTime >= retryAt);
             isNew = false;
+            if (isDue && autostart && !isRunning)
+            {
+                StartByItself();
+            }
         }
 
         /// <summary>A game that stands still is a pause, however that was asked for.</summary>
@@ -208,7 +239,23 @@ namespace Knurl
                 NativeMethods.knurl_unity_update(session);
                 TellTime();
                 following.Follow();
+                React();
                 TellEvents();
+            }
+        }
+
+        /// <summary>The body of what is touched gets the opposite of the forces that the hand got since the last
+        /// frame.</summary>
+        unsafe void React()
+        {
+            knurl_session_state state = GetState();
+            Vector3 now = Axes.ToUnity(state.impulse);
+            Vector3 given = impulse - now;
+            impulse = now;
+            Rigidbody body = touched != null && touched.Reaction ? touched.GetComponentInParent<Rigidbody>() : null;
+            if (body != null && given != Vector3.zero)
+            {
+                body.AddForceAtPosition(given, Axes.ToUnity(state.proxy), ForceMode.Impulse);
             }
         }
 

@@ -71,6 +71,62 @@ namespace Knurl
             get { return (float)GetState().temporal_frequency; }
         }
 
+        /// <summary>How fast the haptic interaction point moves (m/s, global).</summary>
+        public unsafe Vector3 Velocity
+        {
+            get
+            {
+                knurl_session_state state = GetState();
+                return Axes.ToUnity(state.velocity);
+            }
+        }
+
+        /// <summary>How deep the device is in what it touches (m).</summary>
+        public float Depth
+        {
+            get { return (float)GetState().depth; }
+        }
+
+        /// <summary>The device's buttons that are pressed, a bit each, as of the latest frame.</summary>
+        public int Buttons
+        {
+            get { return (int)GetState().buttons; }
+        }
+
+        /// <summary>What is wrong with how it is set up: a sentence each. Empty where all is well.</summary>
+        public string[] GetWarnings()
+        {
+            var warnings = new List<string>();
+            if (Library.Check() != null)
+            {
+                warnings.Add(Library.Check());
+            }
+            if (!(workspaceScale > 0f))
+            {
+                warnings.Add("Its workspace scale is not above 0: it cannot start.");
+            }
+            if (!string.IsNullOrEmpty(stroke) && !(device ?? "").StartsWith("fake", StringComparison.Ordinal))
+            {
+                warnings.Add("It has a stroke, which only the device fake has a hand for.");
+            }
+            return warnings.ToArray();
+        }
+
+        /// <summary>The devices that drivers find now, with why those that cannot be opened cannot. Takes a
+        /// while.</summary>
+        public static unsafe KnurlDeviceListing[] ListDevices()
+        {
+            Library.Demand();
+            const int most = 16;
+            knurl_device_listing* found = stackalloc knurl_device_listing[most];
+            var listed = new KnurlDeviceListing[Math.Min(most, NativeMethods.knurl_device_list(found, most))];
+            for (int i = 0; i < listed.Length; i++)
+            {
+                listed[i] = new KnurlDeviceListing(&found[i]);
+            }
+            return listed;
+        }
+
         /// <summary>Ticks since the start.</summary>
         public long Ticks
         {

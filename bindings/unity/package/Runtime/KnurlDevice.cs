@@ -14,7 +14,7 @@ namespace Knurl
     [DisallowMultipleComponent]
     public sealed partial class KnurlDevice : MonoBehaviour
     {
-        [SerializeField, Tooltip("Which device: fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
+        [SerializeField, Tooltip("Which device: auto (the first that is connected), fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
             + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as all "
             + "settings do.")]
         string device = "fake";
@@ -32,6 +32,10 @@ namespace Knurl
 
         [SerializeField, Tooltip("Whether it starts in its first frame.")]
         bool autostart = true;
+
+        [SerializeField, Min(0f), Tooltip("Seconds after which a start by Autostart that failed is tried again; 0: it is "
+            + "not. s")]
+        float retry;
 
         [SerializeField, Tooltip("Whether a device that was lost is looked for again; otherwise losing it stops this "
             + "component.")]
@@ -59,7 +63,11 @@ namespace Knurl
         /// above), with a sentence.</summary>
         public KnurlFaultEvent fault = new KnurlFaultEvent();
 
-        /// <summary>Which device: fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
+        /// <summary>A start by <see cref="Autostart"/> failed, with the error's code (<see cref="KnurlException.Code"/>) and
+        /// sentence. Told once, however often <see cref="Retry"/> has it tried again.</summary>
+        public KnurlFaultEvent startFailed = new KnurlFaultEvent();
+
+        /// <summary>Which device: auto (the first that is connected), fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
         /// rawhid:VID:PID; or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the
         /// next start on, as all settings do, and is checked there.</summary>
         public string Device
@@ -96,6 +104,14 @@ namespace Knurl
         {
             get { return autostart; }
             set { autostart = value; }
+        }
+
+        /// <summary>Seconds after which a start by <see cref="Autostart"/> that failed is tried again, for players who plug
+        /// their device in later; 0, the default: it is not.</summary>
+        public float Retry
+        {
+            get { return retry; }
+            set { retry = value; }
         }
 
         /// <summary>Whether a device that was lost is looked for again; otherwise losing it stops this component.

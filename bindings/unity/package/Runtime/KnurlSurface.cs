@@ -26,6 +26,10 @@ namespace Knurl
             + "mesh's UVs, else its tangents; a mesh that has neither needs an axis.")]
         Vector3 axis;
 
+        [SerializeField, Tooltip("Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand "
+            + "feels.")]
+        bool reaction;
+
         // As counted in Made and Felt.
         [NonSerialized] KnurlGrating latestGrating;
         [NonSerialized] Vector3 latestAxis;
@@ -57,6 +61,15 @@ namespace Knurl
         {
             get { return axis; }
             set { axis = value; Made++; Remember(); }
+        }
+
+        /// <summary>Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand feels. Its
+        /// momentum is the hand's, so light bodies fly: some hundred grams and some drag keep them in hand. Default
+        /// false.</summary>
+        public bool Reaction
+        {
+            get { return reaction; }
+            set { reaction = value; }
         }
 
         /// <summary>How many triangles are felt with the first device that feels it; 0 while no running device

@@ -457,9 +457,23 @@ namespace UnityEngine
         Extrapolate
     }
 
-    /// Does not move.
+    public enum ForceMode
+    {
+        Force = 0,
+        Impulse = 1,
+        VelocityChange = 2,
+        Acceleration = 5
+    }
+
+    /// Does not move; keeps the impulses that it is given.
     public sealed class Rigidbody : Component
     {
+        public Vector3 Impulse;
+        public void AddForceAtPosition(Vector3 force, Vector3 position, ForceMode mode)
+        {
+            Impulse += mode == ForceMode.Impulse ? force : force * Time.fixedDeltaTime;
+        }
+
         public RigidbodyInterpolation interpolation { get; set; }
         public bool isKinematic { get; set; }
     }
