@@ -258,6 +258,27 @@ TEST(an_unhomed_device_is_red_and_limp_until_it_is_homed) {
     close_fake(device);
 }
 
+/* 8 ms are shorter than the link's patience, so that reads go on all the time; the motors had no force in them. */
+TEST(a_homing_that_is_lost_for_a_moment_does_not_end_in_the_full_force_at_once) {
+    const double force[3] = {1.0, 0.0, 0.0};
+    begin();
+    falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
+    knurl_device *device = open_ready();
+    (void)run(device, 30, force);
+    CHECK_CLOSE(falcon_fake_look(&fake).force[0], 1.0, 0.02);
+    falcon_fake_inject(&fake, DOUBLE_UNHOMED);
+    assert_int_equal(run(device, 8, force).not_ready, 0);
+    assert_true(is_limp());
+    falcon_fake_inject(&fake, DOUBLE_WELL);
+    (void)run(device, 5, force);
+    assert_true(is_limp());
+    assert_true(knurl_device_is_halted(device)); /* for which a loop ramps */
+    knurl_device_release_halt(device);
+    (void)run(device, 5, force);
+    CHECK_CLOSE(falcon_fake_look(&fake).force[0], 1.0, 0.02);
+    close_fake(device);
+}
+
 TEST(buttons_are_told) {
     begin();
     knurl_device *device = open_ready();

@@ -166,6 +166,7 @@ static int locate(falcon *f, knurl_device_sample *sample) {
         }
         f->is_unhomed = 1;
         f->has_position = 0;
+        knurl_device_halt(&f->base); /* without it the motors get no force: what comes next begins with a ramp */
         return KNURL_LINK_NO_POSITION;
     }
     f->is_unhomed = 0;
