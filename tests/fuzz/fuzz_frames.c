@@ -1,0 +1,34 @@
+/* What devices send: frames of a Falcon in packets of any size, reports of a raw HID device. SPDX-License-Identifier:
+ * MIT
+ */
+#include "fuzz.h"
+
+#include "device/falcon/frame.h"
+#include "device/rawhid/report.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    supply s = {data, size};
+    knurl_falcon_decoder decoder;
+    uint64_t given = 0;
+    uint64_t frames = 0;
+    memset(&decoder, 0, sizeof decoder);
+    while (s.left > 0) {
+        const size_t wanted = 1 + take_byte(&s) % 64;
+        const size_t count = wanted < s.left ? wanted : s.left;
+        uint8_t *packet = malloc(count ? count : 1);
+        EXPECT(packet != NULL);
+        memcpy(packet, s.at, count);
+        frames += knurl_falcon_decode(&decoder, packet, count);
+        given += count;
+        free(packet);
+        s.at += count;
+        s.left -= count;
+        EXPECT(decoder.count < KNURL_FALCON_FRAME_BYTES);
+        EXPECT(frames * KNURL_FALCON_FRAME_BYTES + decoder.count + decoder.bad_bytes == given);
+    }
+    knurl_rawhid_in in;
+    for (size_t report_bytes = 0; report_bytes <= 64; report_bytes += 16) {
+        (void)knurl_rawhid_parse(data, size, report_bytes, &in);
+    }
+    return 0;
+}
