@@ -57,6 +57,8 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, int
     json_number(json, "bytes", (double)info->bytes);
     json_string(json, "why", info->why);
     json_number(json, "model_error", info->model_error);
+    json_number(json, "seam", info->seam);
+    json_number(json, "touching_pairs", (double)info->touching_pairs);
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
     print_material(json, &info->material);

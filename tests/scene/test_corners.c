@@ -368,6 +368,21 @@ TEST(a_triangle_of_no_size_beside_the_hip_is_no_surface) {
     shape_free(&tiny);
 }
 
+TEST(a_mesh_that_touches_itself_is_told) {
+    for (int parts = 1; parts <= 2; parts++) {
+        shape s = groove(0.5, parts);
+        surface_parts mesh = surface_shape(&s);
+        knurl_surface_info info;
+        knurl_scene *scene = scene_of(&mesh);
+        knurl_surface_info_init(&info, sizeof info);
+        assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
+        assert_int_equal(info.touching_pairs > 0, parts > 1);
+        assert_true(info.seam >= 1e-7 && info.seam < 1e-6);
+        knurl_scene_destroy(scene);
+        shape_free(&s);
+    }
+}
+
 /* --- steps --- */
 
 /* A floor whose next tile lies `rise` higher, with nothing between the two: what is dragged along steps up. */

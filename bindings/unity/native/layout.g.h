@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "2a7aa185e7391a1f"
+#define KNURL_UNITY_INTERFACE "ad65bb54e91f9752"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -197,7 +197,7 @@
     FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
     FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
     FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
-    STRUCT(knurl_surface_info, 360) \
+    STRUCT(knurl_surface_info, 376) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -220,6 +220,8 @@
     FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
     FIELD(knurl_surface_info, axis, "axis", 312, 24) \
     FIELD(knurl_surface_info, stretch_y, "stretch_y", 336, 24) \
+    FIELD(knurl_surface_info, seam, "seam", 360, 8) \
+    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 368, 8) \
     STRUCT(knurl_tick_input, 72) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \

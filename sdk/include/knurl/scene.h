@@ -145,6 +145,9 @@ typedef struct knurl_surface_info {
     uint32_t reserved;            /**< 0 */
     double axis[3];               /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];          /**< as stretch, along y */
+    double seam;                  /**< m: edges that run side by side within this touch: by the size and float32 */
+    uint64_t touching_pairs; /**< of a mesh's triangles, other than along an edge that they share: T-junctions, seams,
+                                  parts that go through each other. There a tick takes longer; 0: a clean mesh */
 } knurl_surface_info;
 
 /** What a device says at one tick. */

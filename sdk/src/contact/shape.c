@@ -59,6 +59,7 @@ static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
                                     .triangle_count = plane->triangle_count,
                                     .dropped = plane->dropped,
                                     .reversed_twins = plane->reversed_twins,
+                                    .seam = plane->seam,
                                     .error = plane->flatness};
     *facts = made;
     memcpy(facts->stretch, plane->stretch, sizeof facts->stretch);
@@ -108,6 +109,8 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .triangle_count = mesh->triangle_count,
                               .dropped = mesh->dropped,
                               .reversed_twins = mesh->reversed_twins,
+                              .seam = mesh->seam,
+                              .touching = mesh->touching,
                               .error = 0.0}; /* meshes are given as floats, and kept as they are given */
     memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;

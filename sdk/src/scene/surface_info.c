@@ -52,6 +52,8 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->dropped_triangles = facts.dropped;
     info->reversed_twins = facts.reversed_twins;
     info->model_error = facts.error;
+    info->seam = facts.seam;
+    info->touching_pairs = facts.touching;
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
                   facts.bytes / knurl_shape_users(&surface->shape);

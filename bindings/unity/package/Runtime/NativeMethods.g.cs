@@ -316,6 +316,8 @@ namespace Knurl
         public uint reserved;
         public fixed double axis[3];
         public fixed double stretch_y[3];
+        public double seam;
+        public ulong touching_pairs;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -596,7 +598,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "2a7aa185e7391a1f";
+        internal const string Interface = "ad65bb54e91f9752";
 
         internal const string Version = "0.1.0";
 
