@@ -13,19 +13,17 @@
 FILE *in_open(const char *path, const char **why) {
     struct stat found;
     const int handle = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); /* does not wait for a writer */
-    if (handle < 0 || fstat(handle, &found) != 0) {
-        *why = strerror(errno);
-    } else if (!S_ISREG(found.st_mode) && !S_ISFIFO(found.st_mode)) {
-        *why = S_ISDIR(found.st_mode) ? "expected a file, found a directory" : "expected a file, found a device";
-    } else if (fcntl(handle, F_SETFL, 0) != 0) { /* reading waits for what a writer still has to say */
-        *why = strerror(errno);
-    } else {
+    const int is_open = handle >= 0 && fstat(handle, &found) == 0;
+    const int is_good = is_open && (S_ISREG(found.st_mode) || S_ISFIFO(found.st_mode));
+    if (is_good && fcntl(handle, F_SETFL, 0) == 0) { /* reading waits for what a writer still has to say */
         FILE *stream = fdopen(handle, "r");
         if (stream) {
             return stream;
         }
-        *why = strerror(errno);
     }
+    *why = !is_open || is_good      ? strerror(errno)
+           : S_ISDIR(found.st_mode) ? "expected a file, found a directory"
+                                    : "expected a file, found a device";
     if (handle >= 0) {
         (void)close(handle);
     }

@@ -3,6 +3,8 @@
 #include "support/close.h"
 #include "support/tool.h"
 
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
 static void check_says(process *p, int code, const char *sentence) {
     assert_int_equal(p->exit_code, code);
     assert_non_null(strstr(p->err, sentence));
@@ -31,7 +33,7 @@ TEST(a_fifo_that_nobody_writes_to_is_not_waited_for) {
     process p = RUN_TOOL("scan", "--method", "S1", "--fs", "1000,0", "--amplitude", "1e-4", "--in", tool_path("fifo"));
     check_says(&p, 1, "expected a header and at least one row, found nothing");
     (void)snprintf(uri, sizeof uri, "rawhid:?geometry=%s", tool_path("fifo"));
-    p = RUN_TOOL("run", KNURL_TEST_ASSETS "/plate_1d.glb", "--device", uri);
+    p = RUN_TOOL("run", plate, "--device", uri);
     check_says(&p, 1, "expected a regular file, found a special file");
     assert_int_equal(remove(tool_path("fifo")), 0);
 }
@@ -40,7 +42,7 @@ TEST(a_file_that_is_no_geometry_is_not_told_on) {
     char uri[1200];
     write_text(tool_path("secret"), "root:$6$salt$hash:19000:0\n");
     (void)snprintf(uri, sizeof uri, "rawhid:?geometry=%s", tool_path("secret"));
-    process p = RUN_TOOL("run", KNURL_TEST_ASSETS "/plate_1d.glb", "--device", uri);
+    process p = RUN_TOOL("run", plate, "--device", uri);
     assert_null(strstr(p.err, "$6$"));
     check_says(&p, 1, "line 1: expected key = value");
 }

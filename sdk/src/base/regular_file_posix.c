@@ -1,6 +1,4 @@
 /* Regular files on POSIX systems. SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "base/regular_file.h"
 
 #include <errno.h>
