@@ -6,6 +6,7 @@
 #include "gltf/builder.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace builder {
 
@@ -110,8 +111,8 @@ struct Bomb {
     std::string bytes;
 };
 
-inline std::vector<Bomb> bombs() {
-    std::vector<Bomb> all;
+/** What many nodes or primitives show. */
+inline void add_crowds(std::vector<Bomb> &all) {
     File file = sparse_mesh(size_t{1} << 22U);
     file.nodes = showing(4000, false);
     all.push_back({"4,000 nodes show one accessor without a bufferView", file.glb()});
@@ -142,14 +143,16 @@ inline std::vector<Bomb> bombs() {
         primitives += std::string(i ? "," : "") + R"({"material":0,"attributes":{"POSITION":0},"indices":)" +
                       std::to_string(corners) + "}";
     }
-    std::vector<uint16_t> order;
-    for (uint16_t i = 0; i < 3002; ++i)
-        order.push_back(i);
+    std::vector<uint16_t> order(3002);
+    std::iota(order.begin(), order.end(), uint16_t{0});
     parts.view(order);
     parts.meshes = R"({"primitives":[)" + primitives + "]}";
     all.push_back({"3,000 primitives with a triangle each out of 100,000 vertices", parts.glb()});
+}
 
-    file = quad();
+/** Long lists of what nothing needs, and lists that just fit. */
+inline void add_lists(std::vector<Bomb> &all) {
+    File file = quad();
     file.accessors += repeated(",0", 500000);
     all.push_back({"500,000 unused accessors", file.glb()});
     file = quad();
@@ -183,6 +186,12 @@ inline std::vector<Bomb> bombs() {
                    text.substr(0, text.size() - 1) + R"(,"x":[)" + listed(R"({"":0})", 130000) + "]}"});
     all.push_back({"24,000 flat triangles apart from each other", plain(scattered_triangles(24000, false)).glb()});
     all.push_back({"24,000 flat triangles over each other", plain(scattered_triangles(24000, true)).glb()});
+}
+
+inline std::vector<Bomb> bombs() {
+    std::vector<Bomb> all;
+    add_crowds(all);
+    add_lists(all);
     return all;
 }
 

@@ -172,7 +172,7 @@ class Maker {
     }
 
     /// The first that shows a shape makes it.
-    knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc &surface, const std::string &where) {
+    knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc surface, const std::string &where) {
         const Frame &frame = plans_[i].frame;
         const tinygltf::Primitive &from = primitive(model_.filtered.primitives[i]);
         Geometry geometry = read_geometry(model_, from, where);
