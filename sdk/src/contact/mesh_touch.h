@@ -6,7 +6,7 @@
 #include "contact/mesh.h"
 
 /* How many pairs of a mesh's triangles come within its seam of one another other than at an edge or a vertex that they
- * share. The mesh has its hierarchy, positions and seam. */
+ * share; of a mesh where that would take long, at least so many. The mesh has its hierarchy, positions and seam. */
 uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh);
 
 #endif
