@@ -307,6 +307,25 @@ TEST(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar) {
     knurl_scene_destroy(scene);
 }
 
+TEST(surface_that_comes_back_round_a_hip_is_not_touched_before_the_hip_comes_again) {
+    for (int ticks = 1; ticks < 4; ticks++) { /* between taking it out and putting it back */
+        surface_parts parts = surface_plane();
+        knurl_scene *scene = open_scene(1);
+        const knurl_surface_id id = add_surface(scene, &parts);
+        assert_true(press(scene, 0.0, -0.001).force[2] > 0.1);
+        assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+        for (int i = 0; i < ticks; i++) {
+            assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, 0);
+        }
+        (void)add_surface(scene, &parts);
+        for (int i = 0; i < 20; i++) {
+            assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, 0);
+        }
+        assert_true(press(scene, 0.0, -0.001).force[2] > 0.1);
+        knurl_scene_destroy(scene);
+    }
+}
+
 TEST(below_a_surface_that_is_taken_out_the_next_one_holds) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = open_scene(1);

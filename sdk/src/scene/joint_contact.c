@@ -282,6 +282,15 @@ static void slip_off(knurl_contacts *c, const double hip[3]) {
     }
 }
 
+/* 1 where a surface that held the HIP is still there. One that was taken out has no rim to come off. */
+static int has_holder(const meeting *m) {
+    int has = 0;
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        has |= m->near.list[i].candidate->contact.inside;
+    }
+    return has;
+}
+
 /* All faces near, at once. */
 static void settle(meeting *m, uint32_t *flags) {
     knurl_contacts *c = m->contacts;
@@ -292,7 +301,7 @@ static void settle(meeting *m, uint32_t *flags) {
     collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* no farther from the HIP than it is now */
     knurl_god_object_push(&g, &m->near);
     knurl_god_object_follow(&g, &m->near, m->hip);
-    if (g.faces.count == 0 && c->pressed) {
+    if (g.faces.count == 0 && c->pressed && has_holder(m)) {
         slip_off(c, m->hip);
     }
     if (g.faces.count == 0 && knurl_contacts_have_slipped(c)) {
