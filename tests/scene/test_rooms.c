@@ -119,7 +119,7 @@ static int tick_and_check(visit *v, knurl_tick_output *out) {
 static void find_start(visit *v) {
     do {
         for (int i = 0; i < 3; i++) {
-            v->at[i] = random_between(&v->seed, v->place->low[i], v->place->high[i]);
+            v->at[i] = v->moved[i] + random_between(&v->seed, v->place->low[i], v->place->high[i]);
         }
     } while (room_distance(v->place, v->at, v->moved) < 0.001);
 }
