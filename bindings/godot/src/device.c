@@ -1,6 +1,7 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
 #include "device.h"
 
+#include "describe.h"
 #include "explain.h"
 #include "follow.h"
 #include "serve.h"
@@ -64,7 +65,7 @@ static knurl_result take_slot(device *d) {
 /* Where the node stands, the workspace is; its scale is a property, not the node's. */
 static knurl_result place(device *d) {
     knurl_session_pose at;
-    if (!follow_pose(d->base.object, &at)) {
+    if (!describe_pose(d->base.object, &at)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "expected a transform with axes, found one that is scaled to nothing");
     }
     knurl_workspace_init(&d->workspace);
@@ -218,7 +219,7 @@ static void tell_time(device *d) {
 /* What is touched gets the opposite of the forces that the hand got since the last frame, as its body's impulse. */
 static void react(device *d, const knurl_session_state *state) {
     const surface *s = d->touched_node ? gd_instance_of(d->touched_node, &surface_class) : NULL;
-    GDExtensionObjectPtr body = s && s->reaction ? follow_parent(s) : NULL;
+    GDExtensionObjectPtr body = s && s->reaction ? describe_parent(s) : NULL;
     float impulse[3];
     float arm[3];
     knurl_session_pose at;
@@ -227,7 +228,7 @@ static void react(device *d, const knurl_session_state *state) {
         gd_call(gd_method.Node_get_parent, body, NULL, &parent);
         body = parent;
     }
-    if (body && follow_pose(body, &at)) {
+    if (body && describe_pose(body, &at)) {
         for (int i = 0; i < 3; i++) {
             impulse[i] = (float)(d->impulse[i] - state->impulse[i]);
             arm[i] = (float)(state->proxy[i] - at.position[i]);

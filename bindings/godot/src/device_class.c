@@ -1,6 +1,7 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "explain.h"
+#include "said.h"
 #include "status.h"
 #include "trace.h"
 
@@ -50,8 +51,8 @@ static void pause(void *self) {
 static void explain_anew(void *self) {
     const device *d = self;
     if (gd_is_in_editor()) {
-        explain_again(&d->base);
-        explain_all_again();
+        said_again(&d->base);
+        said_all_again();
     }
 }
 
@@ -77,7 +78,7 @@ static void get_warnings(void *self, const void *const *arguments, void *result)
     char text[512];
     (void)arguments;
     explain_device(self, text, sizeof text);
-    explain_give(text, result);
+    said_give(text, result);
 }
 
 static void notify(void *self, int32_t what) {

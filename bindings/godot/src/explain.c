@@ -1,9 +1,10 @@
 /* Why surfaces cannot be felt, or not as asked for. SPDX-License-Identifier: MIT */
 #include "explain.h"
 
-#include "follow.h"
+#include "describe.h"
 #include "geometry.h"
 #include "preview.h"
+#include "said.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -96,7 +97,7 @@ static void say_world(const surface *s, const device *d, char *text, size_t size
 /* What its nodes say. */
 static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
     say_away(s, text, size);
-    say_bends(follow_parent(s), text, size);
+    say_bends(describe_parent(s), text, size);
     say_scale(at, text, size);
     for (const device *d = placed_devices; d; d = d->next_placed) {
         say_world(s, d, text, size);
@@ -123,7 +124,7 @@ void explain_surface(surface *s, char *text, size_t size) {
     char why[4096];
     uint8_t is_inside = 0;
     knurl_session_pose at;
-    geometry_refuse(follow_parent(s), text, size);
+    geometry_refuse(describe_parent(s), text, size);
     const int has_shape = text[0] == '\0';
     gd_call(gd_method.Node_is_inside_tree, s->base.object, NULL, &is_inside);
     if (!s->grating) {
@@ -132,7 +133,7 @@ void explain_surface(surface *s, char *text, size_t size) {
     if (!is_inside) {
         return;
     }
-    if (!follow_pose(s->base.object, &at)) {
+    if (!describe_pose(s->base.object, &at)) {
         say(text, size, "It is scaled to nothing.");
         return;
     }
@@ -162,7 +163,7 @@ void explain_device(const device *d, char *text, size_t size) {
         (void)snprintf(text, size, "Its device is '%s': expected auto, fake, touch, falcon, rawhid or mouse.", uri);
     }
     gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
-    if (is_inside && !follow_pose(d->base.object, &at)) {
+    if (is_inside && !describe_pose(d->base.object, &at)) {
         say(text, size, "It is scaled to nothing: its workspace has no axes.");
     } else if (is_inside && fabs(at.rest[0] - 1.0) + fabs(at.rest[4] - 1.0) + fabs(at.rest[8] - 1.0) > 1e-3) {
         say(text, size, "Its node is scaled, which does not count: its workspace goes by workspace_scale.");
@@ -181,7 +182,7 @@ void explain_start(void) {
             const int length = (int)(end - line);
             end += *end == '\n';
             if (told++ < MOST_WARNINGS) {
-                gd_node_name(follow_parent(s), name, sizeof name);
+                gd_node_name(describe_parent(s), name, sizeof name);
                 gd_warning("KnurlSurface", "KnurlSurface of '%s': %.*s", name, length, line);
             }
         }
@@ -189,36 +190,5 @@ void explain_start(void) {
     if (told > MOST_WARNINGS) {
         gd_warning("KnurlSurface", "KnurlSurface: %u further warnings: see get_warnings()",
                    (unsigned)(told - MOST_WARNINGS));
-    }
-}
-
-void explain_keep(surface *s, const char *text) {
-    free(s->explanation);
-    s->explanation = text ? malloc(strlen(text) + 1) : NULL;
-    if (s->explanation) {
-        memcpy(s->explanation, text, strlen(text) + 1);
-    }
-}
-
-void explain_again(const gd_instance *node) {
-    gd_call(gd_method.Node_update_configuration_warnings, node->object, NULL, NULL);
-}
-
-void explain_all_again(void) {
-    for (const surface *s = surfaces; s; s = s->next) {
-        explain_again(&s->base);
-    }
-}
-
-void explain_give(char *text, void *strings) {
-    for (char *line = text, *end; *line; line = end) {
-        gd_string string;
-        int64_t failed = 0;
-        const void *given[1] = {&string};
-        end = line + strcspn(line, "\n");
-        end += *end == '\n' ? (*end = '\0', 1) : 0;
-        gd.string_new_with_utf8_chars(&string, line);
-        gd_builtin.PACKED_STRING_ARRAY_append(strings, given, &failed, 1);
-        gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
     }
 }

@@ -1,31 +1,13 @@
 /* Surfaces follow their nodes into the scenes of running devices. SPDX-License-Identifier: MIT */
 #include "follow.h"
 
-#include "explain.h"
+#include "describe.h"
 #include "geometry.h"
+#include "said.h"
 #include "watch.h"
 
 #include <stdio.h>
 #include <string.h>
-
-GDExtensionObjectPtr follow_parent(const surface *s) {
-    GDExtensionObjectPtr parent = NULL;
-    gd_call(gd_method.Node_get_parent, s->base.object, NULL, &parent);
-    return parent;
-}
-
-int follow_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
-    gd_transform transform;
-    double matrix[12];
-    gd_call(gd_method.Node3D_get_global_transform, node, NULL, &transform);
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            matrix[4 * i + j] = (double)transform.basis[i][j];
-        }
-        matrix[4 * i + 3] = (double)transform.origin[i];
-    }
-    return (int)knurl_session_split_pose(matrix, pose);
-}
 
 /* So many errors are told a frame; of the rest, how many there are. */
 enum { MOST_ERRORS = 3 };
@@ -34,9 +16,9 @@ static void complain(device *d, surface *s) {
     char name[128];
     char sentence[1024];
     (void)snprintf(sentence, sizeof sentence, "It cannot be felt: %s.", knurl_error_message());
-    explain_keep(s, sentence);
+    said_keep(s, sentence);
     if (d->failures++ < MOST_ERRORS) {
-        gd_node_name(follow_parent(s), name, sizeof name);
+        gd_node_name(describe_parent(s), name, sizeof name);
         gd_error("KnurlSurface", "KnurlSurface of '%s': %s", name, knurl_error_message());
     }
 }
@@ -49,46 +31,9 @@ void follow_count_failures(device *d) {
     d->failures = 0;
 }
 
-static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *id) {
-    return *id ? knurl_scene_replace_surface(scene, *id, desc) : knurl_scene_add_surface(scene, desc, id);
-}
-
-knurl_result follow_describe(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
-    char name[128];
-    mesh_data data;
-    knurl_surface_desc desc;
-    knurl_mesh_desc mesh;
-    knurl_material_desc material;
-    gd_node_name(follow_parent(s), name, sizeof name);
-    knurl_surface_desc_init(&desc, sizeof desc);
-    grating_describe(s->grating, &material);
-    desc.name = name;
-    desc.mesh = &mesh;
-    desc.material = &material;
-    desc.double_sided = s->double_sided;
-    memcpy(desc.position, at->position, sizeof desc.position);
-    memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
-    for (int i = 0; i < 3; i++) { /* the axis is the mesh's: scaled like it */
-        float axis = 0.0F;
-        for (int j = 0; j < 3; j++) {
-            axis += (float)at->rest[3 * i + j] * s->axis[j];
-        }
-        desc.axis[i] = (double)axis;
-    }
-    const int fits = geometry_read(follow_parent(s), at->rest, &data);
-    knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
-    if (fits && data.index_count == 0) {
-        result = knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles");
-    }
-    mesh_describe(&data, &mesh);
-    result = result ? result : add_or_replace(scene, &desc, id);
-    mesh_end(&data);
-    return result;
-}
-
 static int can_be_felt(const surface *s) {
     char refusal[512];
-    geometry_refuse(follow_parent(s), refusal, sizeof refusal);
+    geometry_refuse(describe_parent(s), refusal, sizeof refusal);
     return s->enabled && s->grating && !s->is_leaving && !refusal[0];
 }
 
@@ -108,17 +53,17 @@ void follow_put(device *d, surface *s) {
         follow_remove(d, s);
         return;
     }
-    if (!follow_pose(s->base.object, &at)) {
+    if (!describe_pose(s->base.object, &at)) {
         s->flat |= bit;
         follow_remove(d, s);
         return;
     }
-    if (follow_describe(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
+    if (describe_surface(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
         complain(d, s);
         follow_remove(d, s);
         return;
     }
-    explain_keep(s, NULL);
+    said_keep(s, NULL);
     knurl_session_way *way = &s->ways[d->slot];
     if (!before) {
         memset(way, 0, sizeof *way);
@@ -139,7 +84,7 @@ void follow_remove(device *d, surface *s) {
 static void move(device *d, surface *s) {
     const int slot = d->slot;
     knurl_session_pose at;
-    if (!follow_pose(s->base.object, &at) || !knurl_session_same_rest(at.rest, s->rest[slot])) {
+    if (!describe_pose(s->base.object, &at) || !knurl_session_same_rest(at.rest, s->rest[slot])) {
         follow_put(d, s);
         return;
     }

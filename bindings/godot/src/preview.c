@@ -2,8 +2,8 @@
  * device with the real one's limits. For the editor. SPDX-License-Identifier: MIT */
 #include "preview.h"
 
-#include "explain.h"
-#include "follow.h"
+#include "describe.h"
+#include "said.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     key = hash(key, &s->meshes_seen, sizeof s->meshes_seen);
     for (const device *d = placed_devices; d; d = d->next_placed) {
         memset(&place, 0, sizeof place);
-        (void)follow_pose(d->base.object, &place);
+        (void)describe_pose(d->base.object, &place);
         key = hash(key, &place, sizeof place);
         key = hash(key, &d->rate, sizeof d->rate);
         key = hash(key, &d->workspace_scale, sizeof d->workspace_scale);
@@ -58,7 +58,7 @@ static knurl_result hold_against(const device *d, const char *preset, knurl_sess
     knurl_session_desc_init(&desc, sizeof desc);
     desc.device = preset;
     desc.update_rate_hz = d->rate;
-    if (follow_pose(d->base.object, &place)) {
+    if (describe_pose(d->base.object, &place)) {
         memcpy(desc.workspace.origin, place.position, sizeof place.position);
         memcpy(desc.workspace.rotation, place.rotation, sizeof place.rotation);
     }
@@ -74,7 +74,7 @@ static int explain(surface *s, const knurl_session_pose *at, const device *d, ch
     knurl_session *session = NULL;
     knurl_surface_id id = 0;
     knurl_result result = knurl_session_create(&session);
-    result = result ? result : follow_describe(s, knurl_session_get_scene(session), at, &id);
+    result = result ? result : describe_surface(s, knurl_session_get_scene(session), at, &id);
     if (result) {
         (void)snprintf(why, sizeof why, "It cannot be felt: %s.", knurl_error_message());
     } else if (d && !hold_against(d, preset_of(d), session)) {
@@ -105,6 +105,6 @@ void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_
             can_be_felt = explain(s, at, d, text, size);
         }
     }
-    explain_keep(s, text);
+    said_keep(s, text);
     s->explained = s->explanation ? key : 0;
 }

@@ -1,6 +1,7 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
 #include "explain.h"
 #include "follow.h"
+#include "said.h"
 #include "serve.h"
 #include "signals.h"
 #include "watch.h"
@@ -28,7 +29,7 @@ static void make_anew(void *self) {
     s->made_anew = ALL_SLOTS;
     surface_mark(s);
     if (gd_is_in_editor()) {
-        explain_again(&s->base);
+        said_again(&s->base);
     }
 }
 
@@ -73,7 +74,7 @@ static void set_grating(void *self, const void *value) {
     s->grating = given;
     s->changed = ALL_SLOTS;
     surface_mark(s);
-    explain_again(&s->base);
+    said_again(&s->base);
 }
 
 /* For the first device that feels it. */
@@ -96,7 +97,7 @@ static void get_warnings(void *self, const void *const *arguments, void *result)
     static char text[8192];
     (void)arguments;
     explain_surface(self, text, sizeof text);
-    explain_give(text, result);
+    said_give(text, result);
 }
 
 static void is_touched(void *self, const void *const *arguments, void *result) {
@@ -170,7 +171,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_TRANSFORM_CHANGED:
         if (gd_is_in_editor()) {
-            explain_again(&s->base);
+            said_again(&s->base);
         }
         s->moved = ALL_SLOTS;
         gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &s->by_physics);

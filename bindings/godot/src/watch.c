@@ -1,7 +1,7 @@
 /* A MeshInstance3D tells when it gets another mesh, and a mesh when it changes. SPDX-License-Identifier: MIT */
 #include "watch.h"
 
-#include "follow.h"
+#include "describe.h"
 #include "geometry.h"
 
 void unwatch_mesh(surface *s) {
@@ -20,7 +20,7 @@ void unwatch_mesh(surface *s) {
 
 void watch_mesh(surface *s) {
     gd_variant held;
-    const GDExtensionObjectPtr parent = follow_parent(s);
+    const GDExtensionObjectPtr parent = describe_parent(s);
     if (s->watched_parent || !gd_cast(parent, "MeshInstance3D")) {
         return;
     }

@@ -1,0 +1,62 @@
+/* What a surface is, as its nodes say. SPDX-License-Identifier: MIT */
+#include "describe.h"
+
+#include "geometry.h"
+
+#include <string.h>
+
+GDExtensionObjectPtr describe_parent(const surface *s) {
+    GDExtensionObjectPtr parent = NULL;
+    gd_call(gd_method.Node_get_parent, s->base.object, NULL, &parent);
+    return parent;
+}
+
+int describe_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
+    gd_transform transform;
+    double matrix[12];
+    gd_call(gd_method.Node3D_get_global_transform, node, NULL, &transform);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            matrix[4 * i + j] = (double)transform.basis[i][j];
+        }
+        matrix[4 * i + 3] = (double)transform.origin[i];
+    }
+    return (int)knurl_session_split_pose(matrix, pose);
+}
+
+static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *id) {
+    return *id ? knurl_scene_replace_surface(scene, *id, desc) : knurl_scene_add_surface(scene, desc, id);
+}
+
+knurl_result describe_surface(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
+    char name[128];
+    mesh_data data;
+    knurl_surface_desc desc;
+    knurl_mesh_desc mesh;
+    knurl_material_desc material;
+    gd_node_name(describe_parent(s), name, sizeof name);
+    knurl_surface_desc_init(&desc, sizeof desc);
+    grating_describe(s->grating, &material);
+    desc.name = name;
+    desc.mesh = &mesh;
+    desc.material = &material;
+    desc.double_sided = s->double_sided;
+    memcpy(desc.position, at->position, sizeof desc.position);
+    memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
+    for (int i = 0; i < 3; i++) { /* the axis is the mesh's: scaled like it */
+        float axis = 0.0F;
+        for (int j = 0; j < 3; j++) {
+            axis += (float)at->rest[3 * i + j] * s->axis[j];
+        }
+        desc.axis[i] = (double)axis;
+    }
+    const int fits = geometry_read(describe_parent(s), at->rest, &data);
+    knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
+    if (fits && data.index_count == 0) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles");
+    }
+    mesh_describe(&data, &mesh);
+    result = result ? result : add_or_replace(scene, &desc, id);
+    mesh_end(&data);
+    return result;
+}

@@ -1,0 +1,36 @@
+/* Warnings: kept with their surface, and given to the editor. SPDX-License-Identifier: MIT */
+#include "said.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void said_keep(surface *s, const char *text) {
+    free(s->explanation);
+    s->explanation = text ? malloc(strlen(text) + 1) : NULL;
+    if (s->explanation) {
+        memcpy(s->explanation, text, strlen(text) + 1);
+    }
+}
+
+void said_again(const gd_instance *node) {
+    gd_call(gd_method.Node_update_configuration_warnings, node->object, NULL, NULL);
+}
+
+void said_all_again(void) {
+    for (const surface *s = surfaces; s; s = s->next) {
+        said_again(&s->base);
+    }
+}
+
+void said_give(char *text, void *strings) {
+    for (char *line = text, *end; *line; line = end) {
+        gd_string string;
+        int64_t failed = 0;
+        const void *given[1] = {&string};
+        end = line + strcspn(line, "\n");
+        end += *end == '\n' ? (*end = '\0', 1) : 0;
+        gd.string_new_with_utf8_chars(&string, line);
+        gd_builtin.PACKED_STRING_ARRAY_append(strings, given, &failed, 1);
+        gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
+    }
+}
