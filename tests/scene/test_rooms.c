@@ -218,7 +218,7 @@ static void tell(const tally *t, const char *what) {
 static void check_rooms(int form, int moving, const char *what) {
     const char *longer = getenv("KNURL_LONG");
     const char *given = getenv("KNURL_ROOMS"); /* 5000 are a million presses on what stands still */
-    const int rooms = given ? atoi(given) : longer ? 1000 : 12;
+    const int rooms = given ? (int)strtol(given, NULL, 10) : longer ? 1000 : 12;
     tally sum;
     memset(&sum, 0, sizeof sum);
     for (int i = 0; i < rooms; i++) {

@@ -32,8 +32,8 @@ static inline void knurl_counts_add(knurl_hip_counts *counts, const knurl_tick_o
 /* Some of the counts, from one member up to another. */
 static inline void knurl_snapshot_put(knurl_published *published, const knurl_hip_counts *counts, size_t from,
                                       size_t to) {
-    uint64_t *words = published->words + (offsetof(knurl_snapshot, counts) + from) / sizeof(uint64_t);
-    knurl_seqlock_put(words, (const char *)counts + from, to - from);
+    const size_t word = (offsetof(knurl_snapshot, counts) + from) / sizeof(uint64_t);
+    knurl_seqlock_put(&published->words[word], (const char *)counts + from, to - from);
 }
 
 /* A tick just counted. Counts of rare flags stand as they are where it has none. Never waits.
