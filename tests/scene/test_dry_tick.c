@@ -1,4 +1,4 @@
-/* A dry tick: nobody feels it, and nothing that a HIP does hangs on it. SPDX-License-Identifier: MIT */
+/* Dry ticks change neither the HIP nor any of its later ticks. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "support/scenes.h"
@@ -30,7 +30,7 @@ TEST(a_dry_tick_before_each_tick_changes_no_bit_of_any) {
     knurl_hip_counts counts[2];
     uint64_t contacts = 0;
     double last[3] = {0.0, 0.0, 0.0};
-    scratch = scenes[1]->hips[0];
+    knurl_hip_begin_dry(scenes[1], 0, &scratch);
     for (int i = 0; i < TICKS; i++) {
         knurl_tick_output out[2];
         knurl_tick_input input;
@@ -68,7 +68,7 @@ TEST(what_an_edit_takes_away_is_kept_while_a_dry_tick_may_read_it) {
     knurl_surface_id wall;
     knurl_scene *scene = make_scene(&wall);
     const double at[3] = {0.04, 0.0, 0.0149};
-    scratch = scene->hips[0];
+    knurl_hip_begin_dry(scene, 0, &scratch);
     for (int i = 0; i < 50; i++) {
         knurl_hip_dry_tick(scene, 0, &scratch, at);
     }
@@ -78,5 +78,30 @@ TEST(what_an_edit_takes_away_is_kept_while_a_dry_tick_may_read_it) {
     assert_int_equal(knurl_scene_remove_surface(scene, wall), KNURL_OK);
     knurl_hip_dry_tick(scene, 0, &scratch, at); /* under ASan: it is gone */
     assert_int_equal(scratch.contacts.active_count, 0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(dry_ticks_of_a_hip_that_is_in_contact_write_nothing_to_it) {
+    static knurl_hip scratch;
+    static knurl_hip before;
+    knurl_surface_id wall;
+    knurl_scene *scene = make_scene(&wall);
+    knurl_tick_input input;
+    knurl_tick_output output;
+    memset(&input, 0, sizeof input);
+    input.position[0] = 0.04;
+    for (int i = 0; i < 50; i++) {
+        input.position[2] = 0.016 - 0.00003 * i;
+        assert_int_equal(knurl_scene_tick(scene, 0, &input, &output), KNURL_OK);
+    }
+    assert_int_equal(scene->hips[0].contacts.active_count, 1);
+    before = scene->hips[0];
+    knurl_hip_begin_dry(scene, 0, &scratch);
+    for (int i = 0; i < 50; i++) {
+        const double beside[3] = {0.041, 0.0, 0.0145};
+        knurl_hip_dry_tick(scene, 0, &scratch, beside);
+    }
+    assert_int_equal(scratch.contacts.active_count, 1);
+    assert_memory_equal(&scene->hips[0], &before, sizeof before);
     knurl_scene_destroy(scene);
 }

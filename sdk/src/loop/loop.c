@@ -242,7 +242,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->game_lives = made->wanted = 1;
     made->max_force = facts.max_force;
     if (d.scene) {
-        made->scratch = d.scene->hips[d.hip];
+        knurl_hip_begin_dry(d.scene, d.hip, &made->scratch);
     }
     knurl_loop_init_heat(made, &facts);
     knurl_device_release_halt(d.device);

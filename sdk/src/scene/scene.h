@@ -51,9 +51,13 @@ int knurl_scene_is_destroyed(const knurl_scene *scene);
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                             knurl_tick_output *output) KNURL_NONBLOCKING;
 
-/* Brings what the claimed HIP's next tick will run and read into the cache: a tick at the latest position (device, m)
- * that nobody feels, on a scratch HIP: a copy of the HIP, which this has to itself from then on. It takes what a tick
- * takes that comes a millisecond after the latest one; the tick after it a fifth of that. */
+/* The scratch HIP of dry ticks: a copy of the claimed HIP that touches nothing, whose contacts share no memory with the
+ * HIP's. [game thread, while the HIP does not tick] */
+void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch);
+
+/* A dry tick: a tick at the latest position (device, m) on the scratch HIP, whose force is dropped. It brings what the
+ * claimed HIP's next tick will run and read into the cache. It takes as long as a tick with cold caches; the tick after
+ * it takes a fifth of that. */
 void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip, knurl_hip *scratch,
                         const double position[3]) KNURL_NONBLOCKING;
 

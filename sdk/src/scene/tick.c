@@ -228,6 +228,11 @@ static void fetch_hip(const knurl_hip *hip) {
                               hip->contacts.candidates.count * sizeof(knurl_candidate));
 }
 
+void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch) {
+    *scratch = scene->hips[hip];
+    knurl_contacts_reset(&scratch->contacts); /* its active contacts pointed to the HIP's own candidates */
+}
+
 void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip_index, knurl_hip *scratch, const double position[3]) {
     knurl_hip *hip = &scene->hips[hip_index];
     knurl_tick_input input;
