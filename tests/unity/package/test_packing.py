@@ -215,6 +215,7 @@ class Packing(package.InFolder):
         command = ["git", "-C", self.folder, "-c", "user.name=a", "-c", "user.email=a@example.com", *arguments]
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
+    @unittest.skipUnless(shutil.which("git"), "no git")
     def test_a_branch_holds_the_package_with_its_libraries_at_its_root(self):
         self.pack_both()
         self.git("init", "-q", "-b", "main")
