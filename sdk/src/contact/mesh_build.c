@@ -54,7 +54,7 @@ static int has_area(const draft *d, const uint32_t corners[3]) {
     return longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_dot(normal, normal) > 1e-12 * longest * longest;
 }
 
-/* The welded corners of a triangle, the lowest first, the others in the same turn. */
+/* The welded corners of a triangle, the lowest first, with the winding kept. */
 static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint32_t out[3]) {
     const uint32_t w[3] = {d->welds[corners[0]], d->welds[corners[1]], d->welds[corners[2]]};
     const int first = w[0] < w[1] ? (w[0] < w[2] ? 0 : 2) : (w[1] < w[2] ? 1 : 2);
@@ -69,8 +69,8 @@ static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
     rotate_lowest_first(d, &d->corners[3 * (size_t)triangle], own);
-    const int turn = own[1] < own[2]; /* the same slot for both turns */
-    uint64_t slot = knurl_seeded_hash_of(hash, own[0], own[turn ? 1 : 2], own[turn ? 2 : 1]) & mask;
+    const int ascending = own[1] < own[2]; /* the same slot for both windings */
+    uint64_t slot = knurl_seeded_hash_of(hash, own[0], own[ascending ? 1 : 2], own[ascending ? 2 : 1]) & mask;
     for (; table[slot] != 0; slot = (slot + 1) & mask) {
         uint32_t other[3];
         rotate_lowest_first(d, &d->corners[3 * (size_t)(table[slot] - 1)], other);

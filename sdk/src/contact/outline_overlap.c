@@ -25,7 +25,7 @@ static int winding_beside(const knurl_plane *plane, const knurl_edge *edge) {
     const int u = fabs(b[1] - a[1]) >= fabs(b[0] - a[0]) ? 0 : 1; /* the ray's axis */
     const int v = 1 - u;
     const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    const int turn = u == 0 ? 1 : -1;                /* along y, left and right change places */
+    const int sign = u == 0 ? 1 : -1;                /* along y, left and right change places */
     int winding = (b[v] > a[v]) == (u == 0) ? 1 : 0; /* by the edge itself, where the ray crosses it */
     for (uint32_t i = 0; i < plane->edge_count; i++) {
         const knurl_edge *e = &plane->outline[i];
@@ -33,7 +33,7 @@ static int winding_beside(const knurl_plane *plane, const knurl_edge *edge) {
         const int to_below = e->to[v] <= middle[v];
         if (e != edge && from_below != to_below &&
             middle[u] < e->from[u] + (middle[v] - e->from[v]) * (e->to[u] - e->from[u]) / (e->to[v] - e->from[v])) {
-            winding += from_below ? turn : -turn;
+            winding += from_below ? sign : -sign;
         }
     }
     return winding;

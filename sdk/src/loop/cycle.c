@@ -165,11 +165,11 @@ static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     vec3_scale(gain, loop->scene_force, scene_force);
     knurl_loop_add_heat(loop, gain);
     if (loop->desc.scene) {
-        knurl_scene_tell_force(loop->desc.scene, loop->desc.hip, scene_force, force);
+        knurl_scene_publish_force(loop->desc.scene, loop->desc.hip, scene_force, force);
     }
 }
 
-void knurl_loop_tell_none(knurl_loop *loop) {
+void knurl_loop_publish_zero_force(knurl_loop *loop) {
     double force[3];
     tell_force(loop, 0.0, force);
 }
@@ -204,7 +204,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = loop->desc.device;
     knurl_device_halt(device);
-    knurl_loop_tell_none(loop);
+    knurl_loop_publish_zero_force(loop);
     knurl_loop_end_heat(loop);
     if (knurl_port_may_hold_force(device)) { /* else it may play its last force for ever */
         (void)knurl_device_write(device, none);

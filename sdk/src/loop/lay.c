@@ -103,7 +103,7 @@ static int write_row(const layer *l, const knurl_walker *walker, double row[6]) 
     double above[3];
     knurl_pose_to_parent(&l->pose, walker->place, at);
     knurl_workspace_to_device(&l->workspace, at, row);
-    knurl_pose_turn_to_parent(&l->pose, walker->normal, at);
+    knurl_pose_vector_to_parent(&l->pose, walker->normal, at);
     knurl_workspace_vector_to_device(&l->workspace, at, row + 3);
     vec3_madd(row, HOVER, row + 3, above);
     for (int axis = 0; axis < 3; axis++) {
@@ -322,7 +322,7 @@ static int begin(layer *l) {
     vec3_sub(l->info.bounds_max, l->info.bounds_min, size);
     const double step = fmin(STEP * l->workspace.scale, 0.005 * vec3_length(size));
     knurl_pose_to_own(&l->pose, l->info.anchor, place);
-    knurl_pose_turn_to_own(&l->pose, l->info.anchor_normal, normal);
+    knurl_pose_vector_to_own(&l->pose, l->info.anchor_normal, normal);
     return step > 0.0 &&
            (knurl_walker_begin(&l->start, l->surface, step, place, normal) || begin_beside(l, step, place, normal));
 }

@@ -72,7 +72,7 @@ static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
         return; /* its last call came just now */
     }
     knurl_device_halt(device);
-    knurl_loop_tell_none(loop);
+    knurl_loop_publish_zero_force(loop);
     knurl_port_lose(device);
     if (!loop->desc.reconnect) {
         knurl_loop_end(loop, KNURL_LOOP_LOST);

@@ -100,7 +100,7 @@ int knurl_loop_is_abandoned(const knurl_loop *loop);
 int knurl_loop_cycle(knurl_loop *loop);
 
 /* Tells the scene that no force is sent any more. Where the haptic thread is, or while it cannot run. */
-void knurl_loop_tell_none(knurl_loop *loop);
+void knurl_loop_publish_zero_force(knurl_loop *loop);
 
 /* Lets go of the motors for good. The last that is done with a loop by its haptic thread. */
 void knurl_loop_end(knurl_loop *loop, int32_t state);

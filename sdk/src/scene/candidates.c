@@ -23,7 +23,7 @@ static const struct {
  * above it. */
 #define DEEPER 0.002
 
-/* m: taken off a clearance for the margin that knurl_candidate_is_met() is asked with, 1e-9, and for rounding. */
+/* m: taken off a clearance for the margin that knurl_candidate_is_near() is asked with, 1e-9, and for rounding. */
 #define ROUNDING 2e-9
 
 /* What remains near keeps its state; what is in contact stays whether its box is near or not. */
@@ -154,7 +154,7 @@ void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motio
     *before = &candidate->poses[candidate->latest ^ 1];
 }
 
-int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
+int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
     for (int i = 0; i < 3; i++) {
         const double from = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
         const double to = path->from[i] < path->to[i] ? path->to[i] : path->from[i];

@@ -98,8 +98,8 @@ void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motio
                            const knurl_pose **now, const knurl_pose **before) KNURL_NONBLOCKING;
 
 /* 1: a path, with its proxy, comes into the candidate's box, or within `margin` (m) of it. */
-int knurl_candidate_is_met(const knurl_candidate *candidate, const knurl_hip_path *path,
-                           double margin) KNURL_NONBLOCKING;
+int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_path *path,
+                            double margin) KNURL_NONBLOCKING;
 
 /* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick
  * has to look at all of them in any case. */

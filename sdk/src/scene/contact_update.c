@@ -43,7 +43,7 @@ static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, const d
     double proxy[3];
     double normal[3];
     knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
-    knurl_pose_turn_to_parent(a->pose, a->contact.normal, normal);
+    knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
     if (state.inside && !knurl_candidates_are_clear_of(&c->candidates, proxy)) {
         return 0;
     }
@@ -90,10 +90,11 @@ static void keep_proxy(knurl_contacts *c, const double position[3]) {
 static void look_around(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                         uint32_t *flags) {
     const uint32_t before = c->active_count;
-    c->felt = knurl_contacts_have_slipped(c) ? c->slip.felt : 0.0;
+    c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
     for (uint32_t i = 0; i < c->candidates.count && c->pressed; i++) {
         const knurl_candidate *candidate = &c->candidates.list[i];
-        c->felt = candidate->in_contact && candidate->guard.depth > c->felt ? candidate->guard.depth : c->felt;
+        c->ramped_depth = candidate->in_contact && candidate->guard.depth > c->ramped_depth ? candidate->guard.depth
+                                                                                            : c->ramped_depth;
     }
     knurl_joint_contact(c, index, path, flags);
     c->depth = 0.0;

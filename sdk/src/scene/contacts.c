@@ -48,11 +48,11 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);
         candidate->facet.side = 0;
-        knurl_wall_begin(&candidate->guard, c->felt);
+        knurl_wall_begin(&candidate->guard, c->ramped_depth);
     }
     candidate->contact = touched->state;
     candidate->in_contact = 1;
     knurl_pose_to_parent(a->pose, a->contact.proxy, candidate->proxy);
-    knurl_pose_turn_to_parent(a->pose, a->contact.normal, candidate->normal);
+    knurl_pose_vector_to_parent(a->pose, a->contact.normal, candidate->normal);
     return 1;
 }

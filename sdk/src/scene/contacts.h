@@ -27,7 +27,7 @@ typedef struct knurl_slip {
     double time;     /* s: when; below 0: it has not, or is held again */
     double proxy[3]; /* where it was held last, scene */
     double normal[3];
-    double felt; /* m: the depth that was felt there */
+    double ramped_depth; /* m: the depth there, as limited by the entry ramp */
 } knurl_slip;
 
 /* What a shape says to a HIP in one tick. */
@@ -40,12 +40,12 @@ typedef struct knurl_touched {
 /* Of one HIP, from tick to tick. */
 typedef struct knurl_contacts {
     knurl_hip_clock clock;
-    double previous[3]; /* HIP position at the last tick, scene */
-    double depth;       /* at the latest tick: m, how deep it was pressed in; 0: it was not */
-    double proxy[3];    /* and where its proxy was, scene: outside of every surface, */
-    double normal[3];   /* and which way it was held */
-    uint32_t pressed;   /* surfaces that held it; 0: none, and the proxy is the HIP */
-    double felt;        /* m: the depth that was felt */
+    double previous[3];  /* HIP position at the last tick, scene */
+    double depth;        /* at the latest tick: m, how deep it was pressed in; 0: it was not */
+    double proxy[3];     /* and where its proxy was, scene: outside of every surface, */
+    double normal[3];    /* and which way it was held */
+    uint32_t pressed;    /* surfaces that held it; 0: none, and the proxy is the HIP */
+    double ramped_depth; /* m: the depth as limited by the entry ramp: a contact that begins goes on from there */
     int32_t has_previous;
     knurl_slip slip;
     int32_t everything;                              /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */

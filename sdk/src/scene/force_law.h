@@ -29,9 +29,9 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
         double over[3];
         knurl_motion_velocity(motion, hip->clock->time, hip->clock->period, c->candidate->proxy, surface);
         vec3_sub(hip->velocity, surface, over);
-        knurl_pose_turn_to_own(c->pose, over, local);
+        knurl_pose_vector_to_own(c->pose, over, local);
     } else {
-        knurl_pose_turn_to_own(c->pose, hip->velocity, local);
+        knurl_pose_vector_to_own(c->pose, hip->velocity, local);
     }
 }
 
@@ -63,10 +63,10 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
 
 /* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
 static inline double normal_force(const knurl_wall *wall, double outwards) {
-    if (wall->felt >= wall->height) {
+    if (wall->z >= wall->height) {
         return 0.0;
     }
-    const double size = wall->stiffness * (wall->height - wall->felt) - wall->damping * outwards;
+    const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
     return size > 0.0 ? size : 0.0;
 }
 
@@ -74,7 +74,7 @@ static inline double normal_force(const knurl_wall *wall, double outwards) {
  * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
 static inline void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
     const double friction = c->record->material.friction;
-    const double hold = wall->felt < 0.0 ? -friction * wall->felt : 0.0; /* m: the spring's length that it can hold */
+    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: the spring's length that it can hold */
     double *anchor = c->candidate->anchor;
     double stretch[3] = {0.0, 0.0, 0.0};
     if (!c->begins && hold > 0.0) {
@@ -89,7 +89,7 @@ static inline void friction_force(const knurl_active_contact *c, const knurl_wal
     vec3_scale(wall->stiffness, stretch, tangential);
 }
 
-/* The force of one contact. wall: as it is to be felt; gets its height. */
+/* The force of one contact. wall: as limited by the protections; its height is set. */
 static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                                    knurl_contact_force *out) {
     double over[3];
@@ -105,10 +105,10 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
     if (c->record->material.friction > 0.0) {
         double tangential[3];
-        double turned[3];
+        double force[3];
         friction_force(c, wall, tangential);
-        knurl_pose_turn_to_parent(c->pose, tangential, turned);
-        vec3_madd(out->force, 1.0, turned, out->force);
+        knurl_pose_vector_to_parent(c->pose, tangential, force);
+        vec3_madd(out->force, 1.0, force, out->force);
     }
 }
 

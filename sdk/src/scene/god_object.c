@@ -18,7 +18,7 @@ static void set_face(const knurl_obstacles *obstacles, uint32_t obstacle, const 
                      knurl_active_face *face) {
     double point[3];
     const knurl_pose *pose = obstacles->list[obstacle].pose;
-    knurl_pose_turn_to_parent(pose, hit->normal, face->normal);
+    knurl_pose_vector_to_parent(pose, hit->normal, face->normal);
     knurl_pose_to_parent(pose, hit->point, point);
     face->rest = obstacles->list[obstacle].surface->shape.seam;
     face->offset = vec3_dot(point, face->normal) + face->rest;
@@ -68,14 +68,14 @@ static int can_hop(const knurl_obstacles *obstacles, const double from[3], const
     double up[3], down[3];
     vec3_madd(from, HOP_HEIGHT, from_normal, up);
     vec3_madd(to, HOP_HEIGHT, to_normal, down);
-    return knurl_obstacles_let_pass(obstacles, up, down, except) &&
-           knurl_obstacles_let_pass(obstacles, from, up, except) &&
-           knurl_obstacles_let_pass(obstacles, down, to, except);
+    return knurl_obstacles_are_clear(obstacles, up, down, except) &&
+           knurl_obstacles_are_clear(obstacles, from, up, except) &&
+           knurl_obstacles_are_clear(obstacles, down, to, except);
 }
 
 int knurl_god_object_can_go(const knurl_obstacles *obstacles, const double from[3], const double from_normal[3],
                             const double to[3], const double to_normal[3], uint32_t except) {
-    return knurl_obstacles_let_pass_moving(obstacles, from, to, except) ||
+    return knurl_obstacles_are_clear_moving(obstacles, from, to, except) ||
            (!obstacles->moving && can_hop(obstacles, from, from_normal, to, to_normal, except));
 }
 
@@ -113,12 +113,12 @@ void knurl_god_object_push(knurl_god_object *g, const knurl_obstacles *obstacles
         const knurl_obstacle *o = &obstacles->list[i];
         knurl_cast_hit hit;
         double point[3];
-        if (o->before == o->pose || !knurl_obstacle_meets(o, g->at, g->at, &hit)) {
+        if (o->before == o->pose || !knurl_obstacle_is_hit(o, g->at, g->at, &hit)) {
             continue;
         }
         vec3_madd(hit.point, o->surface->shape.seam, hit.normal, point);
         knurl_pose_to_parent(o->pose, point, point);
-        if (knurl_obstacles_let_pass(obstacles, g->at, point, i)) {
+        if (knurl_obstacles_are_clear(obstacles, g->at, point, i)) {
             vec3_copy(point, g->at);
         } else {
             g->squeezed = 1;
@@ -141,7 +141,7 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
     stop_before(g, &face, hip);
     vec3_madd(g->at, -3.0 * face.rest, face.normal, behind);
     /* who is in front of something on the way back is out in the open */
-    if (vec3_dot(face.normal, normal) < 0.5 || !knurl_obstacles_let_pass(obstacles, hip, behind, KNURL_NO_OBSTACLE)) {
+    if (vec3_dot(face.normal, normal) < 0.5 || !knurl_obstacles_are_clear(obstacles, hip, behind, KNURL_NO_OBSTACLE)) {
         vec3_copy(hip, g->at);
         return 0;
     }

@@ -31,7 +31,7 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
     wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
 }
 
-/* What falls is free: measured is from the nearest point on the way from no force to the latest one. */
+/* Falling force is not limited: the change is measured from the nearest point between no force and the latest one. */
 void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
@@ -46,14 +46,14 @@ void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[
     }
 }
 
-/* Of a force that the motors could play: ramps go from and to that. */
+/* The gain applies to the force after it is cut to what the motors can give, so that a ramp's full length is used. */
 void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) {
     const double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
     vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
 }
 
-void knurl_guard_sent(knurl_guard *guard, const double force[3]) {
+void knurl_guard_note_sent(knurl_guard *guard, const double force[3]) {
     vec3_copy(force, guard->force);
     knurl_heat_add(&guard->heat, vec3_dot(force, force));
 }

@@ -1,6 +1,6 @@
-/* The protections of a HIP: what keeps a hand, and a device's motors, from what a scene may ask for. In a tick: begin;
- * before and after each contact's force; then limit their sum. Pure computation, a few words of state. Units are the
- * scene's, so that a tick need not convert. SPDX-License-Identifier: MIT */
+/* The protections of a HIP: limits on what a scene may do to a hand and to a device's motors. A tick calls begin, then
+ * before and after around each contact's force, then limit on their sum. Pure computation. Units are the scene's, so
+ * that a tick need not convert. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_GUARD_H
 #define KNURL_SRC_GUARD_H
 
@@ -12,8 +12,8 @@
 /* Of one HIP. */
 typedef struct knurl_guard {
     double force[3]; /* N, scene: as sent at the latest tick */
-    double entry;    /* m that the felt depth may grow in a tick */
-    double slew;     /* N that the force may grow or turn in a tick */
+    double entry;    /* m that a depth may grow in a tick */
+    double slew;     /* N that the force may change in a tick, except where it falls */
     double gain;     /* on the force of this tick, 0 to 1 */
     int32_t clamp;   /* 1: within bounds */
     knurl_passivity passivity;
@@ -34,7 +34,7 @@ static inline void knurl_guard_clamp(const knurl_guard *guard, knurl_wall *wall)
     }
 }
 
-/* A tick begins, of whose force `attenuation` is not sent. */
+/* A tick begins. attenuation: the share of its force, 0 to 1, that will not be sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
     guard->gain = knurl_is_within(attenuation, 0.0, 1.0) ? 1.0 - attenuation : 0.0;
     if (guard->passivity.busy) {
@@ -42,22 +42,22 @@ static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
     }
 }
 
-/* The depth that is felt grows as a ramp; while no force is sent, it begins anew. */
+/* The entry ramp: limits how fast the depth grows. It starts again from 0 while no force is sent. */
 static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     const double most = wall->contact->depth + guard->entry;
     if (guard->gain == 0.0) {
         wall->contact->depth = 0.0;
         return;
     }
-    if (-wall->felt > most) {
+    if (-wall->z > most) {
         *flags |= KNURL_TICK_ENTRY;
-        wall->felt = -most;
+        wall->z = -most;
     }
-    wall->contact->depth = wall->felt < 0.0 ? -wall->felt : 0.0;
+    wall->contact->depth = wall->z < 0.0 ? -wall->z : 0.0;
 }
 
-/* Before a contact's force: its wall as it is to be felt. Bounded where that was asked for; its depth grows as a ramp;
- * and it is softer where it has shaken the hand by itself. */
+/* Before a contact's force: limits its wall. Stiffness and amplitude are clamped where that was asked for, the depth
+ * follows the entry ramp, and the wall is softened after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     knurl_guard_clamp(guard, wall);
     knurl_guard_enter(guard, wall, flags);
@@ -66,7 +66,8 @@ static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint
     }
 }
 
-/* After it: N, the step of this tick's texture, which is let through. What it moves of a hand is no shaking. */
+/* After the force: returns the texture's own step in this tick, N, which the slew limit allows. The step is told to the
+ * passivity controller, which must not take a hand that a texture moves for an unstable wall. */
 static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wall) {
     knurl_wall_state *contact = wall->contact;
     const double step = fabs(wall->height - contact->height);
@@ -78,13 +79,13 @@ static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wal
     return wall->stiffness * step;
 }
 
-/* What is rare: called by knurl_guard_limit(). most: N that the force may grow or turn by. */
+/* Rare cases, called by knurl_guard_limit(). most: N that the force may change by. */
 void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) KNURL_NONBLOCKING;
 void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
 
-/* The sum of all forces as it is sent, in place: what the attenuation leaves of it, within slew_rate of the latest but
- * for the textures' own steps (N) and what falls, within what the motors can do now. Returns its length, N; NaN or
- * infinite where the force was. */
+/* Limits the sum of all forces, in place: attenuation first, then the slew limit (the textures' own steps, N, and
+ * falling forces are exempt), then what the motors can do now. Returns its length, N; NaN or infinite where the force
+ * was. */
 static inline double knurl_guard_limit(knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
     double change[3];
     double free = guard->slew + steps;
@@ -110,10 +111,10 @@ static inline double knurl_guard_limit(knurl_guard *guard, double steps, double 
     return length;
 }
 
-/* A force was sent without a tick, for as long as a tick. */
-void knurl_guard_sent(knurl_guard *guard, const double force[3]) KNURL_NONBLOCKING;
+/* Counts a force that was sent for one period without a tick. */
+void knurl_guard_note_sent(knurl_guard *guard, const double force[3]) KNURL_NONBLOCKING;
 
-/* After a tick that is not to be trusted: no force was sent. The motors are as warm as they are. */
+/* After a tick with invalid input: no force was sent. The motors keep their heat. */
 void knurl_guard_reset(knurl_guard *guard) KNURL_NONBLOCKING;
 
 #endif

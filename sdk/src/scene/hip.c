@@ -107,7 +107,7 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
     made.guard.heat = hip->guard.heat; /* motors do not cool because a scene is set up */
     knurl_guard_init(&made.guard, d, &facts, made.workspace.scale);
     for (int i = 0; i < 9; i++) {
-        made.is_turned |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
+        made.is_rotated |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
     knurl_contacts_init(&made.contacts, 1.0 / facts.rate, time);
     replace(hip, &made);

@@ -10,9 +10,9 @@
 typedef struct knurl_hip {
     uint64_t pinned; /* atomic: the epoch in which the tick that runs began; 0: none runs */
     double rate;
-    double quantum;    /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
-    int32_t is_turned; /* 0: the workspace's rotation is 1, and is left out */
-    int32_t centred;   /* 1: the scene chooses the workspace at its commit */
+    double quantum;     /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
+    int32_t is_rotated; /* 0: the workspace's rotation is 1, and is left out */
+    int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;
     knurl_velocity velocity;
     knurl_guard guard;

@@ -40,7 +40,7 @@ static void collect(meeting *m, const knurl_hip_path *path, double room) {
         knurl_candidate *candidate = &c->candidates.list[i];
         knurl_obstacle *o = &m->near.list[m->near.count];
         const knurl_surface_data *surface = NULL;
-        if (candidate->in_contact || knurl_candidate_is_met(candidate, path, room)) {
+        if (candidate->in_contact || knurl_candidate_is_near(candidate, path, room)) {
             surface = knurl_contacts_surface(m->index, candidate);
         }
         if (surface) {
@@ -108,7 +108,7 @@ static void ask_reach(meeting *m, const knurl_obstacle *o, knurl_touched *touche
     }
     if (m->pressed > 0 && touched->held && touched->contact.z <= 2.0 * o->surface->shape.seam) {
         double normal[3];
-        knurl_pose_turn_to_parent(o->pose, touched->contact.normal, normal);
+        knurl_pose_vector_to_parent(o->pose, touched->contact.normal, normal);
         touched->held = vec3_dot(normal, m->normal) < 0.5;
     }
     if (!touched->held) {
@@ -125,7 +125,7 @@ static void set_proxy(meeting *m, uint32_t i) {
     const knurl_obstacle *o = &m->near.list[i];
     const knurl_contact *contact = &m->touched[i].contact;
     knurl_pose_to_parent(o->pose, contact->proxy, m->proxy);
-    knurl_pose_turn_to_parent(o->pose, contact->normal, m->normal);
+    knurl_pose_vector_to_parent(o->pose, contact->normal, m->normal);
     vec3_madd(m->proxy, o->surface->shape.seam, m->normal, m->proxy);
     m->pressed = 1;
 }
@@ -219,7 +219,7 @@ static void share(const meeting *m, const knurl_active_faces *faces, uint32_t ob
     const double depth = vec3_normalise(sum);
     knurl_pose_to_own(o->pose, m->proxy, own);
     knurl_shape_rest(&o->surface->shape, &most->hit, own, &touched->state, &touched->contact);
-    knurl_pose_turn_to_own(o->pose, sum, touched->contact.normal);
+    knurl_pose_vector_to_own(o->pose, sum, touched->contact.normal);
     touched->contact.z = depth < longest ? -depth : -longest;
     touched->contact.unsure = 0;
     touched->contact.facet = NULL;
@@ -264,8 +264,8 @@ static void find_next(meeting *m, knurl_god_object *g) {
     knurl_hip_path path = *m->path;
     path.proxy = above;
     collect(m, &path, sqrt(vec3_distance2(above, m->hip)));
-    if (knurl_obstacles_let_pass(&m->near, slip->proxy, up, KNURL_NO_OBSTACLE) &&
-        knurl_obstacles_let_pass(&m->near, up, above, KNURL_NO_OBSTACLE)) {
+    if (knurl_obstacles_are_clear(&m->near, slip->proxy, up, KNURL_NO_OBSTACLE) &&
+        knurl_obstacles_are_clear(&m->near, up, above, KNURL_NO_OBSTACLE)) {
         (void)knurl_god_object_step_down(g, &m->near, above, slip->normal, m->hip);
     }
 }
@@ -276,7 +276,7 @@ static void slip_off(knurl_contacts *c, const double hip[3]) {
     vec3_sub(hip, c->proxy, way);
     if (vec3_dot(way, c->normal) < -ROUNDING) {
         c->slip.time = c->clock.time;
-        c->slip.felt = c->felt;
+        c->slip.ramped_depth = c->ramped_depth;
         vec3_copy(c->proxy, c->slip.proxy);
         vec3_copy(c->normal, c->slip.normal);
     }
@@ -335,7 +335,7 @@ static void find_first(meeting *m) {
             continue;
         }
         set_proxy(m, i);
-        touched->held = knurl_obstacles_let_pass(&m->near, m->hip, m->proxy, i);
+        touched->held = knurl_obstacles_are_clear(&m->near, m->hip, m->proxy, i);
         pressed += (uint32_t)touched->held;
         if (touched->held && touched->contact.z < deepest) {
             deepest = touched->contact.z;

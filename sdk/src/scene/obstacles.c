@@ -64,12 +64,12 @@ uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double fro
     return first;
 }
 
-int knurl_obstacle_meets(const knurl_obstacle *o, const double from[3], const double to[3], knurl_cast_hit *hit) {
+int knurl_obstacle_is_hit(const knurl_obstacle *o, const double from[3], const double to[3], knurl_cast_hit *hit) {
     return cast_between(o, o->before, from, to, hit);
 }
 
-int knurl_obstacles_let_pass(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                             uint32_t except) {
+int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                              uint32_t except) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const knurl_obstacle *o = &obstacles->list[i];
         knurl_cast_hit hit;
@@ -80,11 +80,11 @@ int knurl_obstacles_let_pass(const knurl_obstacles *obstacles, const double from
     return 1;
 }
 
-int knurl_obstacles_let_pass_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                                    uint32_t except) {
+int knurl_obstacles_are_clear_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                                     uint32_t except) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         knurl_cast_hit hit;
-        if (i != except && knurl_obstacle_meets(&obstacles->list[i], from, to, &hit)) {
+        if (i != except && knurl_obstacle_is_hit(&obstacles->list[i], from, to, &hit)) {
             return 0;
         }
     }

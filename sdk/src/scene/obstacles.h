@@ -44,13 +44,13 @@ uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double fro
                               knurl_cast_hit *hit) KNURL_NONBLOCKING;
 
 /* 1 where one obstacle, which may move during the tick, is run into on a way: the hit, in its frame. */
-int knurl_obstacle_meets(const knurl_obstacle *obstacle, const double from[3], const double to[3],
-                         knurl_cast_hit *hit) KNURL_NONBLOCKING;
+int knurl_obstacle_is_hit(const knurl_obstacle *obstacle, const double from[3], const double to[3],
+                          knurl_cast_hit *hit) KNURL_NONBLOCKING;
 
 /* 1 where nothing but `except` is run into on a way: of all as they stand, or with what they move in the tick. */
-int knurl_obstacles_let_pass(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                             uint32_t except) KNURL_NONBLOCKING;
-int knurl_obstacles_let_pass_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                                    uint32_t except) KNURL_NONBLOCKING;
+int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                              uint32_t except) KNURL_NONBLOCKING;
+int knurl_obstacles_are_clear_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+                                     uint32_t except) KNURL_NONBLOCKING;
 
 #endif

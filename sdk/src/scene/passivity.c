@@ -1,4 +1,4 @@
-/* Swings in and out of a wall that neither a hand nor a texture makes. SPDX-License-Identifier: MIT */
+/* Finds swings in and out of a wall that neither a hand nor a texture causes. SPDX-License-Identifier: MIT */
 #include "scene/passivity.h"
 
 #include <math.h>
@@ -11,13 +11,13 @@
  * and a finer grid, 127 of them runaways, of 12 to 25 Hz). On flat walls a row came to 24 mm^2 in all 37 that ran away
  * and in none of 861 that rested; on gratings in 83 of 90, and in 32 of 6013 that were no runaways by the laboratory's
  * millimetre, of which 30 shook by more than half of it. */
-#define TURN    0.2e-3 /* m: what the depth comes back by is a turn: four quanta */
-#define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by 0.84 mm and more, arrivals soon by less */
-#define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
-#define FORGETS 0.985  /* of the largest swing, a swing: what was large on arrival and keeps dying has no row */
-#define AGAIN   0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
-#define ROW     4      /* swings: as many may be the arrival of a hand */
-#define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
+#define REVERSAL 0.2e-3 /* m that the depth must come back by to count as a reversal: four quanta */
+#define LEAST    0.7e-3 /* m: a smaller swing ends a row; runaways swing by 0.84 mm and more, arrivals soon by less */
+#define PERIOD   0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
+#define FORGETS  0.985  /* of the largest swing, a swing: what was large on arrival and keeps dying has no row */
+#define AGAIN    0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
+#define ROW      4      /* swings: as many may be the arrival of a hand */
+#define ENOUGH   24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
 
 /* A texture has not made a swing of which it moves no more than this share; nor one in which it crosses 0 more often
  * than it would if the HIP bounced off every other ridge: twice, or four times in and out again. */
@@ -50,13 +50,13 @@ static void end_row(knurl_passivity *p) {
     p->row = 0;
 }
 
-/* The depth has turned: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
+/* The depth reversed: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
  * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
-static void turn(knurl_passivity *p) {
+static void end_swing(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
     const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
-    const int asked = slow && p->moved > TEXTURE_SHARE * swing;
-    if (asked || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
+    const int by_texture = slow && p->moved > TEXTURE_SHARE * swing;
+    if (by_texture || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
         end_row(p);
     } else {
         const double largest = FORGETS * p->largest;
@@ -84,8 +84,8 @@ static void follow_depth(knurl_passivity *p) {
     p->ticks++;
     if (beyond > 0.0) {
         p->farthest = p->depth;
-    } else if (-beyond > TURN * p->unit) {
-        turn(p);
+    } else if (-beyond > REVERSAL * p->unit) {
+        end_swing(p);
     } else if (p->ticks > p->longest) { /* rests, or is off */
         end_row(p);
         p->ticks = (int32_t)p->longest;
@@ -112,7 +112,7 @@ void knurl_passivity_follow(knurl_passivity *p) {
 }
 
 void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags) {
-    const double depth = -wall->felt;
+    const double depth = -wall->z;
     p->depth = depth > p->depth ? depth : p->depth;
     p->busy = 1;
     if (p->alarmed && depth > 0.0) {

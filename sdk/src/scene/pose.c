@@ -13,9 +13,9 @@ static void mat3_product(const double a[9], const double b[9], double out[9]) {
 }
 
 void knurl_pose_settle(knurl_pose *pose) {
-    pose->is_turned = 0;
+    pose->is_rotated = 0;
     for (int i = 0; i < 9; i++) {
-        pose->is_turned |= pose->rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
+        pose->is_rotated |= pose->rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
 }
 
@@ -83,14 +83,14 @@ void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) 
     }
     const double s = elapsed(motion, time);
     double arm[3];
-    double turn[9];
+    double rotation[9];
     vec3_copy(motion->arm, arm);
     *pose = motion->start;
     if (motion->rate != 0.0) {
-        axis_to_matrix(motion->axis, motion->rate * s, turn);
-        mat3_mul(turn, motion->arm, arm);
-        mat3_product(turn, motion->start.rotation, pose->rotation);
-        pose->is_turned = 1;
+        axis_to_matrix(motion->axis, motion->rate * s, rotation);
+        mat3_mul(rotation, motion->arm, arm);
+        mat3_product(rotation, motion->start.rotation, pose->rotation);
+        pose->is_rotated = 1;
     }
     for (int i = 0; i < 3; i++) {
         pose->position[i] = motion->start.position[i] + s * motion->velocity[i] + (arm[i] - motion->arm[i]);

@@ -1,4 +1,4 @@
-/* Where a frame stands, and how it gets from one place to another in a given time. SPDX-License-Identifier: MIT */
+/* The pose of a frame, and its motion from one pose to another in a given time. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_POSE_H
 #define KNURL_SRC_POSE_H
 
@@ -11,16 +11,16 @@
 /* A frame in its parent's: parent = position + rotation * own. */
 typedef struct knurl_pose {
     double position[3];
-    int64_t is_turned;  /* 0: the rotation is 1, as it is for most of what is loaded, and is left out */
+    int64_t is_rotated; /* 0: the rotation is the identity, as it mostly is, and need not be computed */
     double rotation[9]; /* row-major */
 } knurl_pose;
 
-/* A way from one pose to another: its origin in a straight line, its turning at a constant rate. The frame that moves
- * may stand off the origin that it turns about. */
+/* A motion from one pose to another: the origin goes in a straight line and the frame rotates at a constant rate. The
+ * frame may stand off the origin that it rotates about. */
 typedef struct knurl_motion {
     double start_time;  /* s, scene time */
     double end_time;    /* not after start_time: it stands still */
-    uint64_t jumps;     /* moves in no time so far: what they passed is not touched */
+    uint64_t jumps;     /* jumps so far: what lies between is not touched */
     knurl_pose end;     /* where it stands from end_time on, exactly */
     knurl_pose start;   /* where it stood at start_time */
     double arm[3];      /* at start_time, from the origin to the frame, scene axes */
@@ -29,16 +29,16 @@ typedef struct knurl_motion {
     double rate;        /* rad/s about it */
 } knurl_motion;
 
-static inline void knurl_pose_turn_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
-    if (pose->is_turned) {
+static inline void knurl_pose_vector_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
+    if (pose->is_rotated) {
         mat3_mul_transposed(pose->rotation, parent, own);
     } else {
         vec3_copy(parent, own);
     }
 }
 
-static inline void knurl_pose_turn_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
-    if (pose->is_turned) {
+static inline void knurl_pose_vector_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
+    if (pose->is_rotated) {
         mat3_mul(pose->rotation, own, parent);
     } else {
         vec3_copy(own, parent);
@@ -48,16 +48,16 @@ static inline void knurl_pose_turn_to_parent(const knurl_pose *pose, const doubl
 static inline void knurl_pose_to_own(const knurl_pose *pose, const double parent[3], double own[3]) {
     double offset[3];
     vec3_sub(parent, pose->position, offset);
-    knurl_pose_turn_to_own(pose, offset, own);
+    knurl_pose_vector_to_own(pose, offset, own);
 }
 
 static inline void knurl_pose_to_parent(const knurl_pose *pose, const double own[3], double parent[3]) {
-    double turned[3];
-    knurl_pose_turn_to_parent(pose, own, turned);
-    vec3_madd(pose->position, 1.0, turned, parent);
+    double offset[3];
+    knurl_pose_vector_to_parent(pose, own, offset);
+    vec3_madd(pose->position, 1.0, offset, parent);
 }
 
-/* Sets is_turned from the rotation. */
+/* Sets is_rotated from the rotation. */
 void knurl_pose_settle(knurl_pose *pose);
 
 /* outer * inner: inner's frame in outer's parent. */
@@ -71,7 +71,7 @@ static inline int knurl_motion_is_over(const knurl_motion *motion, double time) 
 void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) KNURL_NONBLOCKING;
 
 /* The velocity, over the `period` that ends at `time`, of the point of the moving body that is then at `point` (scene,
- * m); 0 where most of the period was before the way or after it. Allowed in a tick. */
+ * m); 0 where most of the period lies before the motion or after it. Allowed in a tick. */
 void knurl_motion_velocity(const knurl_motion *motion, double time, double period, const double point[3],
                            double velocity[3]) KNURL_NONBLOCKING;
 

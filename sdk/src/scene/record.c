@@ -52,8 +52,8 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
                           "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }
     record->material = m;
-    record->turn[0] = cos(m.orientation);
-    record->turn[1] = sin(m.orientation);
+    record->cos_sin[0] = cos(m.orientation);
+    record->cos_sin[1] = sin(m.orientation);
     record->reach = smooth ? 0.0 : m.amplitude * crest(m.method);
     record->is_smooth = smooth;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;

@@ -11,7 +11,7 @@
 typedef struct knurl_record {
     knurl_retired retired;
     knurl_material_desc material; /* method resolved */
-    double turn[2];               /* cosine and sine of the orientation */
+    double cos_sin[2];            /* of the orientation */
     double reach;                 /* the highest crest: m in front of the surface where contact begins */
     int32_t has_grating;          /* 0: nothing to play, the stage is left out */
     int32_t is_smooth;            /* 1: neither ridges nor height */

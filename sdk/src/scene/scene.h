@@ -68,8 +68,8 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
 
 /* The force (N) that the loop sent without a tick, at its end: the latest tick's is told to be this one. Where the
  * HIP's haptic thread is, or after it has ended (motors.c). */
-void knurl_scene_tell_force(knurl_scene *scene, uint32_t hip, const double force[3],
-                            const double device_force[3]) KNURL_NONBLOCKING;
+void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3],
+                               const double device_force[3]) KNURL_NONBLOCKING;
 
 /* How warm the HIP's motors are (N^2, see knurl_heat_get()), and a force (its square, N^2) that they held for so many
  * ticks that nobody made. Where its haptic thread is, or while there is none (motors.c). */

@@ -96,9 +96,9 @@ static void add_box(const knurl_surface_data *surface, const knurl_pose *pose, d
         double centre = pose->position[row];
         double half = 0.0;
         for (int column = 0; column < 3; column++) {
-            const double turn = pose->rotation[3 * row + column];
-            centre += turn * 0.5 * (surface->shape.low[column] + surface->shape.high[column]);
-            half += fabs(turn) * 0.5 * (surface->shape.high[column] - surface->shape.low[column]);
+            const double cell = pose->rotation[3 * row + column];
+            centre += cell * 0.5 * (surface->shape.low[column] + surface->shape.high[column]);
+            half += fabs(cell) * 0.5 * (surface->shape.high[column] - surface->shape.low[column]);
         }
         low[row] = fmin(low[row], centre - half);
         high[row] = fmax(high[row], centre + half);

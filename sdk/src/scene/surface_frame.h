@@ -10,14 +10,14 @@
 static inline void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record,
                                        const knurl_contact *contact, double x[3], double y[3], double coordinates[2]) {
     knurl_shape_frame(&surface->shape, contact, x, y, coordinates);
-    const double c = record->turn[0];
-    const double s = record->turn[1];
-    if (s != 0.0 || c != 1.0) { /* the orientation turns the frame, so the coordinates turn back */
+    const double c = record->cos_sin[0];
+    const double s = record->cos_sin[1];
+    if (s != 0.0 || c != 1.0) { /* the orientation rotates the frame, so the coordinates rotate back */
         const double place[2] = {coordinates[0], coordinates[1]};
         for (int i = 0; i < 3; i++) {
-            const double unturned = x[i];
-            x[i] = c * unturned + s * y[i];
-            y[i] = c * y[i] - s * unturned;
+            const double along = x[i];
+            x[i] = c * along + s * y[i];
+            y[i] = c * y[i] - s * along;
         }
         coordinates[0] = c * place[0] + s * place[1];
         coordinates[1] = c * place[1] - s * place[0];
@@ -33,8 +33,8 @@ static inline int knurl_surface_rates(const knurl_surface_data *surface, const k
     if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
         return 0;
     }
-    rates[0] = record->turn[0] * straight[0] + record->turn[1] * straight[1];
-    rates[1] = record->turn[0] * straight[1] - record->turn[1] * straight[0];
+    rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];
+    rates[1] = record->cos_sin[0] * straight[1] - record->cos_sin[1] * straight[0];
     return 1;
 }
 

@@ -19,7 +19,7 @@ static void begin_output(knurl_tick_output *out) {
 
 /* What is told without contact, beside the HIP and what contacts add to: all the rest of an output, field by field,
  * because clearing it as a block takes twice as long (rep stos) as everything else that is done with it. */
-static void tell_no_contact(knurl_tick_output *out) {
+static void clear_contact_output(knurl_tick_output *out) {
     vec3_copy(out->hip, out->proxy);
     out->normal[0] = out->normal[1] = out->normal[2] = 0.0;
     out->surface_velocity[0] = out->surface_velocity[1] = 0.0;
@@ -45,7 +45,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         knurl_velocity_update(&hip->velocity, input->position, estimate);
         velocity = estimate;
     }
-    if (hip->is_turned) {
+    if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
         knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
     } else {
@@ -134,7 +134,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     knurl_guard_begin(&hip->guard, input->attenuation);
     if (input->paused) {
         end_contacts(hip);
-        tell_no_contact(out);
+        clear_contact_output(out);
         vec3_copy(out->force, out->device_force);
         return 0.0;
     }
@@ -147,9 +147,9 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     if (out->contacts > 0) {
         out->flags |= KNURL_TICK_CONTACT;
     } else {
-        tell_no_contact(out);
+        clear_contact_output(out);
     }
-    if (hip->is_turned) {
+    if (hip->is_rotated) {
         knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
     } else {
         vec3_copy(out->force, out->device_force);
