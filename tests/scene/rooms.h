@@ -335,7 +335,8 @@ static inline void put_room(laid *l, knurl_scene *scene, uint64_t *seed, const r
     triangles all = new_triangles(r->count);
     for (int i = 0; i < r->count; i++) {
         const solid *s = &r->solids[i];
-        const int own = form == ROOM_MIXED ? (int)random_integer(seed, ROOM_MESHES, ROOM_PLANES) : form;
+        const int any = form == ROOM_MIXED ? (int)random_integer(seed, ROOM_MESHES, ROOM_PLANES) : form;
+        const int own = any == ROOM_ONE_MESH && s->moves != r->solids[0].moves ? ROOM_MESHES : any;
         triangles t = new_triangles(1);
         for (int f = 0; f < s->count; f++) {
             if (own == ROOM_PLANES) {

@@ -231,6 +231,32 @@ TEST(a_groove_holds_whose_bottom_edge_is_split_on_one_side) {
     }
 }
 
+/* A steep groove that moves up and across under a HIP at rest: its bottom, where both walls hold the proxy, moves over
+ * the place where that was. */
+TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
+    const double q[4] = {0.0, 0.0, 0.0, 1.0};
+    for (int parts = 1; parts <= 3; parts++) {
+        shape s = groove(2.0, parts);
+        surface_parts mesh = surface_shape(&s);
+        knurl_scene *scene = scene_of(&mesh);
+        (void)tick_at(scene, 0.0, 0.001, 0.001);
+        for (int k = 1; k <= 60; k++) {
+            const double up = 0.001 + 0.0005 * (k / 10.0);
+            const double position[3] = {k % 20 < 10 ? 0.0002 : -0.0002, 0.0, up};
+            if (k % 10 == 0) {
+                assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), position, q, 0.01),
+                                 KNURL_OK);
+            }
+            const knurl_tick_output out = tick_at(scene, 0.0, 0.001, 0.0);
+            if (k > 20 && (out.contacts == 0 || !(out.force[2] > 0.0) || (out.flags & KNURL_TICK_SQUEEZED))) {
+                fail_msg("bottom edge split in %d: lost in tick %d", parts, k);
+            }
+        }
+        knurl_scene_destroy(scene);
+        shape_free(&s);
+    }
+}
+
 /* --- uneven sheets --- */
 
 static uint64_t uneven_seed;

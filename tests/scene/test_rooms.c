@@ -12,7 +12,7 @@
 
 /* What came of the presses. */
 typedef struct tally {
-    long presses, ticks, lost, inside, unbounded;
+    long presses, squeezed, ticks, lost, inside, unbounded;
     double deepest; /* m: a proxy in a solid */
     double ratio;   /* of a force to its bound */
     long corners[KNURL_CONTACTS_MAX + 1];
@@ -92,17 +92,18 @@ static int tick_and_check(visit *v, knurl_tick_output *out) {
     const int lost = depth > 2.0 * TOLERANCE &&
                      (out->contacts == 0 || (distance3(out->hip, out->proxy) > first_felt && !(force > 0.0)));
     const int inside = proxy > TOLERANCE && !lost;
-    if (v->squeezed && (lost || inside)) { /* told: between two solids that close there is no way out */
+    const int unbounded = !(force <= bound + 1e-12);
+    t->unbounded += unbounded;
+    if (v->squeezed && (lost || inside) && !unbounded) { /* told: between two solids that close there is no way out */
+        t->squeezed++;
         return 0;
     }
-    const int unbounded = !(force <= bound + 1e-12);
     t->ticks++;
     t->corners[out->contacts]++;
     t->deepest = inside ? fmax(t->deepest, proxy) : t->deepest;
     t->ratio = bound > 0.0 ? fmax(t->ratio, force / bound) : t->ratio;
     t->lost += lost;
     t->inside += inside;
-    t->unbounded += unbounded;
     if (lost || inside || unbounded) {
         complain(v, out,
                  lost     ? "lost, m deep"
@@ -209,13 +210,13 @@ static void visit_room(uint64_t seed, int form, int moving, int presses, tally *
 
 static void tell(const tally *t, const char *what) {
     (void)printf(
-        "%s: %ld presses, %ld ticks (%ld, %ld, %ld, %ld with 1 to 4 contacts); %ld lost, %ld proxies inside by up "
+        "%s: %ld presses (%ld ended squeezed), %ld ticks (%ld, %ld, %ld, %ld with 1 to 4 contacts); %ld lost, %ld proxies inside by up "
         "to %g m, %ld forces beyond their bound, of which the greatest share was %.6f\n",
-        what, t->presses, t->ticks, t->corners[1], t->corners[2], t->corners[3], t->corners[4], t->lost, t->inside,
-        t->deepest, t->unbounded, t->ratio);
+        what, t->presses, t->squeezed, t->ticks, t->corners[1], t->corners[2], t->corners[3], t->corners[4], t->lost,
+        t->inside, t->deepest, t->unbounded, t->ratio);
 }
 
-static void check_rooms(int form, int moving, const char *what) {
+static tally check_rooms(int form, int moving, const char *what) {
     const char *longer = getenv("KNURL_LONG");
     const char *given = getenv("KNURL_ROOMS"); /* 5000 are a million presses on what stands still */
     const int rooms = given ? (int)strtol(given, NULL, 10) : longer ? 1000 : 12;
@@ -228,31 +229,40 @@ static void check_rooms(int form, int moving, const char *what) {
     assert_int_equal(sum.lost, 0);
     assert_int_equal(sum.inside, 0);
     assert_int_equal(sum.unbounded, 0);
+    return sum;
+}
+
+/* Where all moves as one, nothing closes in on a HIP. */
+static void check_rooms_that_move(int form, const char *what) {
+    const tally sum = check_rooms(form, EVERYTHING, what);
+    assert_int_equal(sum.squeezed, 0);
 }
 
 TEST(rooms_of_meshes_hold) {
-    check_rooms(ROOM_MESHES, NOTHING, "meshes");
+    (void)check_rooms(ROOM_MESHES, NOTHING, "meshes");
 }
 
 TEST(rooms_of_one_mesh_hold) {
-    check_rooms(ROOM_ONE_MESH, NOTHING, "one mesh");
+    (void)check_rooms(ROOM_ONE_MESH, NOTHING, "one mesh");
 }
 
 TEST(rooms_of_planes_hold) {
-    check_rooms(ROOM_PLANES, NOTHING, "planes");
+    (void)check_rooms(ROOM_PLANES, NOTHING, "planes");
 }
 
 TEST(rooms_of_planes_and_meshes_hold) {
-    check_rooms(ROOM_MIXED, NOTHING, "planes and meshes");
+    (void)check_rooms(ROOM_MIXED, NOTHING, "planes and meshes");
 }
 
 TEST(rooms_that_move_hold) {
-    check_rooms(ROOM_MESHES, EVERYTHING, "meshes that all move");
-    check_rooms(ROOM_ONE_MESH, EVERYTHING, "one mesh that moves");
-    check_rooms(ROOM_PLANES, EVERYTHING, "planes that all move");
+    check_rooms_that_move(ROOM_MESHES, "meshes that all move");
+    check_rooms_that_move(ROOM_ONE_MESH, "one mesh that moves");
+    check_rooms_that_move(ROOM_PLANES, "planes that all move");
+    check_rooms_that_move(ROOM_MIXED, "planes and meshes that all move");
 }
 
 TEST(rooms_in_which_one_solid_moves_hold) {
-    check_rooms(ROOM_MESHES, ONE_SOLID, "meshes, one of which moves");
-    check_rooms(ROOM_PLANES, ONE_SOLID, "planes, some of which move");
+    (void)check_rooms(ROOM_MESHES, ONE_SOLID, "meshes, one of which moves");
+    (void)check_rooms(ROOM_PLANES, ONE_SOLID, "planes, some of which move");
+    (void)check_rooms(ROOM_MIXED, ONE_SOLID, "planes and meshes, some of which move");
 }

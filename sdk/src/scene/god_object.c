@@ -50,7 +50,8 @@ static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const dou
         if (!knurl_active_faces_project(&g->faces, hip, goal) || vec3_distance2(goal, g->at) < ARRIVED * ARRIVED) {
             break;
         }
-        const uint32_t obstacle = knurl_obstacles_cast(obstacles, g->at, goal, &hit);
+        const knurl_segment way = {g->at, goal, 0, KNURL_NO_OBSTACLE};
+        const uint32_t obstacle = knurl_obstacles_cast(obstacles, &way, &hit);
         if (obstacle == KNURL_NO_OBSTACLE) {
             vec3_copy(goal, g->at);
             break;
@@ -68,14 +69,15 @@ static int can_hop(const knurl_obstacles *obstacles, const double from[3], const
     double up[3], down[3];
     vec3_madd(from, HOP_HEIGHT, from_normal, up);
     vec3_madd(to, HOP_HEIGHT, to_normal, down);
-    return knurl_obstacles_are_clear(obstacles, up, down, except) &&
-           knurl_obstacles_are_clear(obstacles, from, up, except) &&
-           knurl_obstacles_are_clear(obstacles, down, to, except);
+    const knurl_segment ways[3] = {{up, down, 0, except}, {from, up, 0, except}, {down, to, 0, except}};
+    return knurl_obstacles_are_clear(obstacles, &ways[0]) && knurl_obstacles_are_clear(obstacles, &ways[1]) &&
+           knurl_obstacles_are_clear(obstacles, &ways[2]);
 }
 
 int knurl_god_object_can_go(const knurl_obstacles *obstacles, const double from[3], const double from_normal[3],
                             const double to[3], const double to_normal[3], uint32_t except) {
-    return knurl_obstacles_are_clear_moving(obstacles, from, to, except) ||
+    const knurl_segment way = {from, to, 1, except};
+    return knurl_obstacles_are_clear(obstacles, &way) ||
            (!obstacles->moving && can_hop(obstacles, from, from_normal, to, to_normal, except));
 }
 
@@ -108,22 +110,49 @@ void knurl_god_object_follow(knurl_god_object *g, const knurl_obstacles *obstacl
     (void)pass(g, obstacles, hip);
 }
 
-void knurl_god_object_push(knurl_god_object *g, const knurl_obstacles *obstacles) {
-    for (uint32_t i = 0; i < obstacles->count; i++) {
-        const knurl_obstacle *o = &obstacles->list[i];
+/* In front of each face that has moved over it, as near as can be to where it was. */
+static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacles) {
+    double goal[3];
+    g->faces.count = 0;
+    vec3_copy(g->at, goal);
+    for (int i = 0; i < MEETS; i++) {
+        const knurl_segment way = {g->at, goal, 1, KNURL_NO_OBSTACLE};
         knurl_cast_hit hit;
-        double point[3];
-        if (o->before == o->pose || !knurl_obstacle_is_hit(o, g->at, g->at, &hit)) {
-            continue;
+        knurl_active_face face;
+        const uint32_t obstacle = knurl_obstacles_cast(obstacles, &way, &hit);
+        if (obstacle == KNURL_NO_OBSTACLE) {
+            vec3_copy(goal, g->at);
+            return 1;
         }
-        vec3_madd(hit.point, o->surface->shape.seam, hit.normal, point);
-        knurl_pose_to_parent(o->pose, point, point);
-        if (knurl_obstacles_are_clear(obstacles, g->at, point, i)) {
-            vec3_copy(point, g->at);
-        } else {
-            g->squeezed = 1;
+        set_face(obstacles, obstacle, &hit, &face);
+        knurl_active_faces_add(&g->faces, &face);
+        if (!knurl_active_faces_project(&g->faces, g->at, goal)) {
+            return 0;
         }
     }
+    return 0;
+}
+
+/* Along with one of the obstacles, to the place where it was on that one. */
+static int move_along(knurl_god_object *g, const knurl_obstacles *obstacles) {
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        const knurl_obstacle *o = &obstacles->list[i];
+        double goal[3];
+        if (o->before != o->pose) {
+            knurl_pose_to_own(o->before, g->at, goal);
+            knurl_pose_to_parent(o->pose, goal, goal);
+            const knurl_segment way = {g->at, goal, 1, KNURL_NO_OBSTACLE};
+            if (knurl_obstacles_are_clear(obstacles, &way)) {
+                vec3_copy(goal, g->at);
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+void knurl_god_object_push(knurl_god_object *g, const knurl_obstacles *obstacles) {
+    g->squeezed = obstacles->moving && !move_before_faces(g, obstacles) && !move_along(g, obstacles);
 }
 
 int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obstacles, const double above[3],
@@ -132,7 +161,8 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
     double behind[3];
     knurl_cast_hit hit;
     knurl_active_face face;
-    const uint32_t obstacle = knurl_obstacles_cast(obstacles, above, hip, &hit);
+    const knurl_segment down = {above, hip, 0, KNURL_NO_OBSTACLE};
+    const uint32_t obstacle = knurl_obstacles_cast(obstacles, &down, &hit);
     if (obstacle == KNURL_NO_OBSTACLE) {
         return 0;
     }
@@ -140,8 +170,9 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
     vec3_copy(above, g->at);
     stop_before(g, &face, hip);
     vec3_madd(g->at, -3.0 * face.rest, face.normal, behind);
-    /* who is in front of something on the way back is out in the open */
-    if (vec3_dot(face.normal, normal) < 0.5 || !knurl_obstacles_are_clear(obstacles, hip, behind, KNURL_NO_OBSTACLE)) {
+    /* A HIP that is in front of another face on the way back to this one is outside. */
+    const knurl_segment back = {hip, behind, 0, KNURL_NO_OBSTACLE};
+    if (vec3_dot(face.normal, normal) < 0.5 || !knurl_obstacles_are_clear(obstacles, &back)) {
         vec3_copy(hip, g->at);
         return 0;
     }

@@ -264,8 +264,9 @@ static void find_next(meeting *m, knurl_god_object *g) {
     knurl_hip_path path = *m->path;
     path.proxy = above;
     collect(m, &path, sqrt(vec3_distance2(above, m->hip)));
-    if (knurl_obstacles_are_clear(&m->near, slip->proxy, up, KNURL_NO_OBSTACLE) &&
-        knurl_obstacles_are_clear(&m->near, up, above, KNURL_NO_OBSTACLE)) {
+    const knurl_segment rise = {slip->proxy, up, 0, KNURL_NO_OBSTACLE};
+    const knurl_segment across = {up, above, 0, KNURL_NO_OBSTACLE};
+    if (knurl_obstacles_are_clear(&m->near, &rise) && knurl_obstacles_are_clear(&m->near, &across)) {
         (void)knurl_god_object_step_down(g, &m->near, above, slip->normal, m->hip);
     }
 }
@@ -318,8 +319,8 @@ static void settle(meeting *m, uint32_t *flags) {
     }
 }
 
-/* Each shape by itself: nothing is known of where the HIP was. Who is in front of another face between it and the one
- * that would hold it is outside of both. */
+/* Each shape by itself: nothing is known of where the HIP was. Where the HIP is in front of another face, between it
+ * and the one that would hold it, it is outside of both. */
 static void find_first(meeting *m) {
     double deepest = 1.0;
     double proxy[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0};
@@ -335,7 +336,8 @@ static void find_first(meeting *m) {
             continue;
         }
         set_proxy(m, i);
-        touched->held = knurl_obstacles_are_clear(&m->near, m->hip, m->proxy, i);
+        const knurl_segment way = {m->hip, m->proxy, 0, i};
+        touched->held = knurl_obstacles_are_clear(&m->near, &way);
         pressed += (uint32_t)touched->held;
         if (touched->held && touched->contact.z < deepest) {
             deepest = touched->contact.z;

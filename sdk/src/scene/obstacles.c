@@ -1,4 +1,4 @@
-/* Ways among surfaces, each looked at in its own frame. SPDX-License-Identifier: MIT */
+/* Casts among surfaces, each in its own frame. SPDX-License-Identifier: MIT */
 #include "scene/obstacles.h"
 
 void knurl_obstacle_set(knurl_obstacle *o, knurl_candidate *candidate, const knurl_surface_data *surface,
@@ -38,55 +38,26 @@ static int is_beside(const knurl_obstacle *o, const double from[3], const double
     return 0;
 }
 
-static int cast_between(const knurl_obstacle *o, const knurl_pose *before, const double from[3], const double to[3],
-                        knurl_cast_hit *hit) {
+static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_cast_hit *hit) {
     knurl_cast cast;
-    if (is_beside(o, from, to)) {
+    if (is_beside(o, segment->from, segment->to)) {
         return 0;
     }
-    knurl_pose_to_own(before, from, cast.from);
-    knurl_pose_to_own(o->pose, to, cast.to);
+    knurl_pose_to_own(segment->moving ? o->before : o->pose, segment->from, cast.from);
+    knurl_pose_to_own(o->pose, segment->to, cast.to);
     cast.double_sided = o->surface->double_sided;
     return knurl_shape_cast(&o->surface->shape, &cast, hit);
 }
 
-uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                              knurl_cast_hit *hit) {
+uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segment *segment, knurl_cast_hit *hit) {
     uint32_t first = KNURL_NO_OBSTACLE;
     for (uint32_t i = 0; i < obstacles->count; i++) {
-        const knurl_obstacle *o = &obstacles->list[i];
         knurl_cast_hit found;
-        if (cast_between(o, o->pose, from, to, &found) && (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {
+        if (i != segment->except && cast_at(&obstacles->list[i], segment, &found) &&
+            (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {
             first = i;
             *hit = found;
         }
     }
     return first;
-}
-
-int knurl_obstacle_is_hit(const knurl_obstacle *o, const double from[3], const double to[3], knurl_cast_hit *hit) {
-    return cast_between(o, o->before, from, to, hit);
-}
-
-int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                              uint32_t except) {
-    for (uint32_t i = 0; i < obstacles->count; i++) {
-        const knurl_obstacle *o = &obstacles->list[i];
-        knurl_cast_hit hit;
-        if (i != except && cast_between(o, o->pose, from, to, &hit)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-int knurl_obstacles_are_clear_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                                     uint32_t except) {
-    for (uint32_t i = 0; i < obstacles->count; i++) {
-        knurl_cast_hit hit;
-        if (i != except && knurl_obstacle_is_hit(&obstacles->list[i], from, to, &hit)) {
-            return 0;
-        }
-    }
-    return 1;
 }

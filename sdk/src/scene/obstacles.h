@@ -1,5 +1,4 @@
-/* The surfaces near a HIP as they stand in one tick, and what a way among them runs into. SPDX-License-Identifier: MIT
- */
+/* The surfaces near a HIP as they stand in one tick, and casts among them. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_OBSTACLES_H
 #define KNURL_SRC_OBSTACLES_H
 
@@ -38,19 +37,23 @@ static inline int knurl_obstacle_has_jumped(const knurl_obstacle *o) {
 int knurl_obstacle_is_near(const knurl_obstacle *obstacle, const double from[3], const double to[3],
                            double room) KNURL_NONBLOCKING;
 
-/* Which obstacle a way (scene, m) first runs into; all stand where they are now. Returns its number and the hit in its
+/* The straight way of a point; scene, m. */
+typedef struct knurl_segment {
+    const double *from;
+    const double *to;
+    int32_t moving;  /* 0: all stand where they are now; 1: the way takes the tick, in which they move */
+    uint32_t except; /* an obstacle that is left out; KNURL_NO_OBSTACLE: none */
+} knurl_segment;
+
+/* Which obstacle's face a segment first goes through, from its front. Returns the obstacle's number and the hit in its
  * frame, or KNURL_NO_OBSTACLE. */
-uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const double from[3], const double to[3],
+uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segment *segment,
                               knurl_cast_hit *hit) KNURL_NONBLOCKING;
 
-/* 1 where one obstacle, which may move during the tick, is run into on a way: the hit, in its frame. */
-int knurl_obstacle_is_hit(const knurl_obstacle *obstacle, const double from[3], const double to[3],
-                          knurl_cast_hit *hit) KNURL_NONBLOCKING;
-
-/* 1 where nothing but `except` is run into on a way: of all as they stand, or with what they move in the tick. */
-int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                              uint32_t except) KNURL_NONBLOCKING;
-int knurl_obstacles_are_clear_moving(const knurl_obstacles *obstacles, const double from[3], const double to[3],
-                                     uint32_t except) KNURL_NONBLOCKING;
+/* 1 where the segment goes through no face. */
+static inline int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const knurl_segment *segment) {
+    knurl_cast_hit hit;
+    return knurl_obstacles_cast(obstacles, segment, &hit) == KNURL_NO_OBSTACLE;
+}
 
 #endif
