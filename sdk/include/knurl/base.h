@@ -1,4 +1,4 @@
-/* Knurl: results, errors, versions and memory, shared by every room.
+/* Knurl: results, errors, versions and memory, used by all other headers.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_BASE_H
 #define KNURL_BASE_H
@@ -22,7 +22,7 @@
 #define KNURL_API
 #endif
 
-#if defined(__MINGW32__) && !defined(__clang__) /* its own `printf` means Microsoft's old one */
+#if defined(__MINGW32__) && !defined(__clang__) /* plain `printf` would mean Microsoft's format */
 #define KNURL_PRINTF(format_index, first) __attribute__((format(gnu_printf, format_index, first)))
 #elif defined(__GNUC__)
 #define KNURL_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
@@ -30,8 +30,8 @@
 #define KNURL_PRINTF(format_index, first)
 #endif
 
-/** Marks what may run in a tick: no heap, lock, wait or message. Clang 20 and later hold its code, and all that it
- * calls, to that (-Wfunction-effects); to other compilers it is a comment. */
+/** Marks functions that may be called in a tick: no heap, lock, wait or message. Clang 20 and later check it for all
+ * that such a function calls (-Wfunction-effects); other compilers ignore it. */
 #if defined(__has_attribute)
 #if __has_attribute(nonblocking)
 #define KNURL_NONBLOCKING __attribute__((nonblocking))
@@ -45,7 +45,7 @@
 extern "C" {
 #endif
 
-/** Every result code with its sentence: the one table that codes and knurl_result_string() come from. */
+/** All result codes with their sentences. */
 #define KNURL_RESULTS(X)                                                                                               \
     X(KNURL_OK, 0, "ok")                                                                                               \
     X(KNURL_ERROR_ARGUMENT, -1, "an argument is out of its range")                                                     \
@@ -68,44 +68,41 @@ enum {
 #undef KNURL_RESULT_ENUMERATOR
 };
 
-/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are untouched unless a call returns KNURL_OK.
+/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are changed only where a call returns KNURL_OK.
  *
- * Pointers, of all functions: null, where a function's comment does not allow it, and a handle (a scene, a device, a
- * loop, a session) that is of another kind or was destroyed are KNURL_ERROR_ARGUMENT with a sentence that names the
- * parameter. Functions that return something else do nothing and return 0 or null, with the same sentence but for those
- * that may run in a tick. A destroyed handle is recognised as long as nothing else has got its memory: that finds
- * mistakes in most cases, and no more is promised. */
+ * Null, where a function's comment does not allow it, and an invalid handle (a scene, device, loop or session of
+ * another kind, or destroyed) give KNURL_ERROR_ARGUMENT and a sentence that names the parameter. Functions that do not
+ * return a knurl_result do nothing and return 0 or null; they set the same sentence unless they may run in a tick. A
+ * destroyed handle is recognised until its memory is used again: this finds most mistakes, but is not guaranteed. */
 typedef int32_t knurl_result;
 
-/** The sentence for a result code; never null, static, also for codes this version does not know. [any thread] */
+/** The sentence for a result code. Static, never null, also for codes unknown to this version. [any thread] */
 KNURL_API const char *knurl_result_string(knurl_result result);
 
-/** What went wrong in the latest failing call *on this thread*, in a sentence that names the thing, what was expected
- * and what was found. Where that was a call of the haptic path (knurl_scene_tick(), knurl_device_read() and _write(),
- * knurl_fake_get_truth()) it is one of a few fixed sentences, which cost a tick nothing. Valid until the next failing
- * call on this thread; "" before the first. [any thread] */
+/** The message of the latest failing call *on this thread*: what failed, what was expected and what was found. The
+ * calls of the haptic path (knurl_scene_tick(), knurl_device_read() and _write(), knurl_fake_get_truth()) set one of a
+ * few fixed sentences, which costs no time. Valid until the next failing call on this thread; "" before the first.
+ * [any thread] */
 KNURL_API const char *knurl_error_message(void);
 
-/** Copies text that somebody else wrote (names, paths, a file's words) as one line that a terminal or a log can be
- * given: control characters and line ends become spaces; C1 controls, what turns the direction of reading, and bytes
- * that are no UTF-8 become '?'. Every message of this library has gone through it. to: `size` bytes, the caller's; what
- * does not fit is cut off between characters; may be `from`. Returns the length without the final 0. [any thread, never
- * from a tick] */
+/** Copies untrusted text (names, paths, a file's contents) as one line that is safe to print: control characters and
+ * line ends become spaces; C1 controls, characters that change the direction of text, and invalid UTF-8 become '?'.
+ * All messages of this library have passed it. to: `size` bytes, the caller's; longer text is cut between characters;
+ * may be `from`. Returns the length without the final 0. [any thread, never from a tick] */
 KNURL_API size_t knurl_text_line(char *to, size_t size, const char *from);
 
-/** Sets this thread's error message (printf style, at most 1023 bytes; as knurl_text_line() leaves it; null for
- * none) and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick]
- */
+/** Sets this thread's error message (printf style, at most 1023 bytes, cleaned as by knurl_text_line(); null for none)
+ * and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick] */
 KNURL_API knurl_result knurl_fail(knurl_result code, const char *format, ...) KNURL_PRINTF(2, 3);
 
-/** The version of the library that is running, "major.minor.patch"; static. [any thread] */
+/** The version of the loaded library, "major.minor.patch"; static. [any thread] */
 KNURL_API const char *knurl_version_string(void);
 
-/** A caller's memory functions. All scene memory comes from here; nothing is asked of them in a tick. */
+/** A caller's memory functions, used for all memory of a scene; never called in a tick. */
 typedef struct knurl_allocator {
     /** `size` bytes (> 0) aligned to `alignment` (a power of two), or null. [game thread] */
     void *(*allocate)(size_t size, size_t alignment, void *user);
-    /** Gives back what `allocate` returned, with the same `size`. [game thread] */
+    /** Frees what `allocate` returned; `size` is the same. [game thread] */
     void (*release)(void *memory, size_t size, void *user);
     void *user; /**< passed to both */
 } knurl_allocator;

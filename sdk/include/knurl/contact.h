@@ -1,4 +1,4 @@
-/* Knurl: the shapes that can be touched. Contact itself happens inside a scene's tick.
+/* Knurl: the shapes of surfaces: bounded planes and triangle meshes.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_CONTACT_H
 #define KNURL_CONTACT_H
@@ -9,24 +9,24 @@
 extern "C" {
 #endif
 
-/** A bounded plane: a rectangle centred on the surface's origin, in its xy plane, front towards +z. */
+/** A rectangle in the surface's xy plane, centred on its origin, facing +z. */
 typedef struct knurl_plane_desc {
     uint32_t struct_size;   /**< set by knurl_plane_desc_init() */
     uint32_t reserved;      /**< 0 */
     double half_extents[2]; /**< m along the surface's x and y, > 0, finite; default 0.05 */
 } knurl_plane_desc;
 
-/** A triangle mesh in the surface's own frame; counter-clockwise triangles face out. All arrays are the caller's and
- * are copied. Triangles without area are left out and counted. */
+/** A triangle mesh in the surface's own frame; the front of a triangle is where its corners run counter-clockwise. All
+ * arrays are the caller's and are copied. Triangles without area are dropped and counted. */
 typedef struct knurl_mesh_desc {
     uint32_t struct_size;   /**< set by knurl_mesh_desc_init() */
     uint32_t vertex_count;  /**< vertices in each array, 3 to 2^28 */
-    const float *positions; /**< x, y, z a vertex: m, at most 1.2e30, so that boxes of floats stay finite; of
-                                 what lies beyond 1e6 knurl_scene_check_surface() warns */
-    const float *tangents;  /**< x, y, z, w a vertex (w is not used), or null: the surface's x direction */
-    const float
-        *uvs; /**< u, v a vertex, at most 1.2e30, or null: surface coordinates, and x where there are no tangents */
-    const uint32_t *indices; /**< three a triangle, each below vertex_count; or null: 0, 1, 2, ... in order */
+    const float *positions; /**< x, y, z per vertex: m, at most 1.2e30 (so that sums stay finite in float32).
+                                 knurl_scene_check_surface() warns beyond 1e6 */
+    const float *tangents;  /**< x, y, z, w per vertex (w is not used), or null: the surface's x direction */
+    const float *uvs; /**< u, v per vertex, at most 1.2e30, or null: surface coordinates; also the x direction where
+                         there are no tangents */
+    const uint32_t *indices; /**< three per triangle, each below vertex_count; or null for 0, 1, 2, ... */
     uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 where indices is null */
 } knurl_mesh_desc;
 

@@ -1,4 +1,4 @@
-/* Knurl: velocity from (quantised) positions, and the map from a device's workspace into the scene.
+/* Knurl: velocity estimation from (quantised) positions, and the map from a device's workspace into the scene.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_MOTION_H
 #define KNURL_MOTION_H
@@ -10,80 +10,80 @@ extern "C" {
 #endif
 
 /** Velocity estimators.
- * DIFFERENCE: the last two positions; exact for positions without quantisation, half a tick late.
- * FOAW: the widest window, of 1, 2, 3, 4, 6, 8, 11 or 15 samples, whose straight line stays within one count of the
- * samples (Janabi-Sharifi 2000); of that window, the mean of the newest third less that of the oldest, over the time
- * between. Positions first pass a backlash of one count, half a count either side: an encoder that flickers between two
- * neighbouring counts stands exactly still, steady motion is as if there were none, a reversal loses one count and a
- * first move half of one. More than one count is not eaten.
- * LOWPASS: the difference, smoothed; for comparison.
- * AUTO: FOAW where the resolution is known (> 0), DIFFERENCE where it is 0. Chosen by the study `velocity`
- * (samples/study/README.md): at 0.055 mm and 1 kHz FOAW is 0.4 to 1.5 mm/s off (rms) from 5 to 200 mm/s, a low pass
- * that is as late 1.9 to 2.3, a difference 16 to 26; at 10 kHz it is as good. Below a count in 15 ms (3.7 mm/s) it
- * pulses, by up to 5 mm/s. */
+ * - DIFFERENCE: the difference of the last two positions; exact without quantisation, half a tick late.
+ * - FOAW (Janabi-Sharifi 2000): the widest window, of 1, 2, 3, 4, 6, 8, 11 or 15 samples, whose straight line stays
+ *   within one quantum of all samples. The velocity is the mean of the window's newest third minus that of its oldest,
+ *   divided by the time between them. Before that, positions pass a backlash of one quantum: an encoder that flickers
+ *   between two neighbouring values gives exactly 0; constant motion is unchanged; a reversal loses one quantum, a
+ *   first motion half of one.
+ * - LOWPASS: the difference, filtered; for comparison.
+ * - AUTO: FOAW where the resolution is known (> 0), DIFFERENCE where it is 0.
+ *
+ * Chosen by the study `velocity` (samples/study/README.md). Errors (rms) at 0.055 mm and 1 kHz from 5 to 200 mm/s: FOAW
+ * 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. Below one quantum
+ * in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
 enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2, KNURL_VELOCITY_LOWPASS = 3 };
 
-/** The widest FOAW window in samples: 15 ticks at 1 kHz, the common choice of the field; in the study twice that
- * is 0.7 times as far off at 10 mm/s and 7 ms later, and worse from 100 mm/s on. It is a time: samples are round(rate /
- * 1 kHz) ticks apart, at least one and at most KNURL_FOAW_STRIDE_MAX, so that it is 15 ms at whole kilohertz up to 10.
- * The newest sample is always this tick's.
- */
+/** FOAW's widest window in samples: 15 ms at 1 kHz, a common choice. In the study, twice that has 0.7 times the error
+ * at 10 mm/s, 7 ms more delay, and a larger error from 100 mm/s on. At other rates samples are round(rate / 1 kHz)
+ * ticks apart, at least one and at most KNURL_FOAW_STRIDE_MAX, so that the window is 15 ms at whole kilohertz up to
+ * 10. The newest sample is always this tick's. */
 #define KNURL_FOAW_WINDOW 15
 
-/** The most ticks that FOAW's samples are apart; from 10.5 kHz on the window is 150 ticks, and shrinks in time. */
+/** The most ticks between FOAW's samples; from 10.5 kHz on the window is 150 ticks, and shorter than 15 ms. */
 #define KNURL_FOAW_STRIDE_MAX 10
 
-/** Hz: the cutoff of LOWPASS, of first order. Chosen to be as late as FOAW's widest window, 8 ms: in the study
- * `velocity` 10 Hz halves its error and doubles its delay, 40 Hz the other way round. */
+/** Hz: the cutoff of LOWPASS, first order. Chosen to have the delay of FOAW's widest window, 8 ms. In the study
+ * `velocity`, 10 Hz halves its error and doubles its delay; 40 Hz does the opposite. */
 #define KNURL_VELOCITY_LOWPASS_HZ 20.0
 
-/** Velocity of one point, three axes. Plain data: make one per HIP with knurl_velocity_init(). */
+/** The state of a velocity estimator for one point. Plain data; one per HIP, set up by knurl_velocity_init(). */
 typedef struct knurl_velocity {
-    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /**< FOAW: a ring for every phase of the samples; rows as in `held`,
-                             the newest in row `newest`, older ones after it; of 16, kept twice so that nobody has to
-                             wrap */
-    double held[4];     /**< FOAW: the newest position behind the backlash: whole 1024ths of a count, x, y, z, 0 */
+    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /**< FOAW: a ring of 16 rows per tick of the stride; rows as in
+                                                       `held`, the newest in row `newest`, older ones after it. Each row
+                                                       is stored twice, so that a window never wraps */
+    double held[4];     /**< FOAW: the newest position after the backlash, in whole 1024ths of a quantum: x, y, z, 0 */
     double last[3];     /**< DIFFERENCE, LOWPASS: the previous position, m */
     double smooth[3];   /**< LOWPASS: the previous velocity, m/s */
-    double share;       /**< LOWPASS: what a new difference weighs, 0 to 1 */
+    double share;       /**< LOWPASS: weight of a new difference, 0 to 1 */
     double rate;        /**< update rate, Hz */
     double steps_per_m; /**< FOAW: fixed-point steps per metre */
-    double slope_unit;  /**< FOAW: m/s per step a sample */
+    double slope_unit;  /**< FOAW: m/s per step and sample */
     uint32_t newest;    /**< FOAW: row of the newest position of a ring, 0 to 15 */
     uint32_t started;   /**< 1: a position has been seen */
     int32_t method;     /**< KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
-    uint32_t avx;       /**< FOAW: 1: all axes at once, where init found AVX; 0 gives the same numbers, later */
+    uint32_t avx;       /**< FOAW: 1: computed with AVX, where available; 0 gives the same numbers, more slowly */
     uint32_t stride;    /**< FOAW: ticks between samples */
     uint32_t phase;     /**< FOAW: the ring of this tick, 0 to stride - 1 */
 } knurl_velocity;
 
-/** Prepares an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
- * needs >= 1e-9; it can tell 2^30 quanta either side of 0 apart, 1 m at 1e-9, and chooses its window exactly while 15
- * samples span less than 2^24 quanta, beyond that to a double's rounding). update_rate_hz: 1 to 100,000 Hz.
+/** Sets up an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
+ * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz. FOAW covers 2^30 quanta either side of 0 (1 m at 1e-9); it chooses
+ * its window exactly while 15 samples span less than 2^24 quanta, and to a double's rounding beyond.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
                                            knurl_velocity *velocity);
 
-/** Takes the position (m, finite) of this tick and gives the velocity (m/s); the first tick gives 0. [haptic thread] */
+/** Takes this tick's position (m, finite) and gives the velocity (m/s); 0 at the first tick. [haptic thread] */
 KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3],
                                      double out[3]) KNURL_NONBLOCKING;
 
-/** Forgets all positions, so that the next one is a first one again. [haptic thread] */
+/** Clears the history: the next position counts as the first. [haptic thread] */
 KNURL_API void knurl_velocity_reset(knurl_velocity *velocity) KNURL_NONBLOCKING;
 
 /** Device to scene: scene = origin + rotation * scale * device. */
 typedef struct knurl_workspace {
     double origin[3];   /**< scene position of the device's origin, m */
     double rotation[9]; /**< device axes in the scene: a row-major rotation matrix (right-handed, orthonormal) */
-    double scale;       /**< scene metres per device metre, > 0; a wall of K N/m feels like K * scale */
+    double scale;       /**< scene metres per device metre, > 0. At the device a wall of K N/m has K * scale */
     double reserved;    /**< 0 */
 } knurl_workspace;
 
-/** origin 0, no rotation, scale 1. [any thread] */
+/** Sets the identity: origin 0, no rotation, scale 1. [any thread] */
 KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
 
-/** Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation off orthonormal by more than 1e-6. [any thread]
- */
+/** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation that is off orthonormal
+ * by more than 1e-6. [any thread] */
 KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
 
 /** A device position (m) in the scene (m). [any thread; allowed in a tick] */
@@ -94,11 +94,11 @@ KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const 
 KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3],
                                          double device[3]) KNURL_NONBLOCKING;
 
-/** Turns a device velocity (m/s) into the scene's, scale included. [any thread; allowed in a tick] */
+/** Maps a device velocity (m/s) into the scene, scale included. [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3],
                                                  double scene[3]) KNURL_NONBLOCKING;
 
-/** Turns a scene direction or force (N) into device axes; lengths are kept. [any thread; allowed in a tick] */
+/** Rotates a scene direction or force (N) into device axes; lengths are kept. [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3],
                                                 double device[3]) KNURL_NONBLOCKING;
 

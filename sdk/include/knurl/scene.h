@@ -1,8 +1,8 @@
-/* Knurl: surfaces with gratings, and the tick that renders them.
- * Life of a scene: create, add surfaces, commit [game thread]; then tick [haptic thread], one thread per HIP, while any
- * thread edits: adds and removes surfaces, moves them, changes how they feel. Editing threads wait for one another;
- * ticks wait for nobody. A tick sees each edit whole or not at all, and of several the newest.
- * Frames are right-handed (glTF's), units SI. `in` and `out` below are from the library's point of view.
+/* Knurl: scenes of surfaces with gratings, and the tick that renders their forces.
+ * A scene is created, filled with surfaces and committed [game thread]. From then on each HIP is ticked by one haptic
+ * thread, while any other thread may add, remove, move and change surfaces. Editing threads wait for each other; a tick
+ * never waits. A tick sees an edit completely or not at all, and always the newest one.
+ * Frames are right-handed (as in glTF), units are SI. `in` and `out` are seen from the library.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SCENE_H
 #define KNURL_SCENE_H
@@ -17,9 +17,8 @@ extern "C" {
 
 typedef struct knurl_scene knurl_scene;
 
-/** Names a surface of one scene: its place there, which surface at that place, and which of the process's scenes. 0
- * names none; an id outlives its surface as a stale one, and is stale in every other scene (KNURL_ERROR_STALE_ID). That
- * holds for 2^23 surfaces at one place and 2^20 scenes one after another; then numbers are used again. */
+/** The id of one surface of one scene; 0 is no surface. After its surface is removed, or in another scene, an id is
+ * stale (KNURL_ERROR_STALE_ID). The numbers are reused only after 2^23 surfaces in one place, or 2^20 scenes. */
 typedef uint64_t knurl_surface_id;
 
 /** Surfaces that one HIP can touch at once. */
@@ -29,7 +28,7 @@ typedef uint64_t knurl_surface_id;
 #define KNURL_UPDATE_RATE_MIN 100.0
 #define KNURL_UPDATE_RATE_MAX 10000.0
 
-/** How a surface feels. K, A and fs are per scene metre. */
+/** A surface's haptic properties. K, A and fs are per scene metre. */
 typedef struct knurl_material_desc {
     uint32_t struct_size;        /**< set by knurl_material_desc_init() */
     int32_t method;              /**< KNURL_METHOD_DEFAULT (LOCKED), KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA */
@@ -37,12 +36,13 @@ typedef struct knurl_material_desc {
     double amplitude;            /**< A: m, half peak to peak of the square wave, >= 0 */
     double stiffness;            /**< K: N/m, > 0 */
     double damping;              /**< B: N s/m along the normal, >= 0 */
-    double friction;             /**< Coulomb coefficient, >= 0: sticks until K times the way dragged exceeds friction
-                                      times K max(0, -z), then slips; the height does not load it */
-    double orientation;          /**< turns x and y counter-clockwise about the normal, rad */
+    double friction;             /**< Coulomb coefficient mu, >= 0. The HIP drags a point of the surface by a spring of
+                                      stiffness K; the point slips where the spring's force exceeds mu K max(0, -z). The
+                                      grating's height does not count */
+    double orientation;          /**< rad: rotates x and y counter-clockwise about the normal */
 } knurl_material_desc;
 
-/** One surface: a plane or a mesh, where it stands, and its material. What is pointed to is copied. */
+/** One surface: a plane or a mesh, its pose and its material. Everything pointed to is copied. */
 typedef struct knurl_surface_desc {
     uint32_t struct_size;                /**< set by knurl_surface_desc_init() */
     uint32_t double_sided;               /**< 1: can be touched from behind as well */
@@ -55,23 +55,25 @@ typedef struct knurl_surface_desc {
     double axis[3];                      /**< the grating's x in the surface's frame (any length); 0, 0, 0: a plane's x,
                                               a mesh's tangents, else its uvs. With an axis, surface coordinates are
                                               metres from the surface's origin along it */
-    knurl_surface_id shape_of;           /**< a surface of this scene: this one has the same shape and axis, built once
-                                              and held once, for as long as one of them is there; 0: none */
+    knurl_surface_id shape_of;           /**< a surface of this scene whose shape and axis this one shares, instead of a
+                                              plane or mesh of its own. The shape is stored once, until its last user is
+                                              removed; 0: none */
 } knurl_surface_desc;
 
-/** The protections of a HIP, all on by default; one may be left out, to study what it does. */
+/** The protections of a HIP, all on by default. Studies switch single ones off. */
 enum {
-    KNURL_PROTECT_ENTRY = 1,     /**< the depth that is felt grows at KNURL_ENTRY_SPEED_MAX, and does not jump */
-    KNURL_PROTECT_SLEW = 2,      /**< the force jumps by no more than the texture's step and slew_rate */
-    KNURL_PROTECT_HEAT = 4,      /**< the force comes down to continuous_force as the motors warm up */
-    KNURL_PROTECT_PASSIVITY = 8, /**< a wall that shakes the hand by itself is felt softer */
+    KNURL_PROTECT_ENTRY = 1,     /**< entry ramp: the depth in Eq. 9 grows at most at KNURL_ENTRY_SPEED_MAX */
+    KNURL_PROTECT_SLEW = 2,      /**< the force grows at most at slew_rate, except for the texture's own steps */
+    KNURL_PROTECT_HEAT = 4,      /**< the force is reduced towards continuous_force as the motors warm up */
+    KNURL_PROTECT_PASSIVITY = 8, /**< a wall that makes the hand oscillate is softened */
     KNURL_PROTECT_ALL = 15
 };
 
-/** m/s: the felt depth grows no faster, so that a wall that is suddenly there comes in as a ramp. */
+/** m/s: the fastest growth of the depth under the entry ramp. A wall that appears around the HIP pushes it out
+ * gradually. */
 #define KNURL_ENTRY_SPEED_MAX 0.5
 
-/** One haptic interaction point: how fast it ticks, where its device's workspace lies, what its device can do. */
+/** One haptic interaction point (HIP): its update rate, its workspace in the scene, its device's limits. */
 typedef struct knurl_hip_desc {
     uint32_t struct_size;    /**< set by knurl_hip_desc_init() */
     int32_t velocity_method; /**< KNURL_VELOCITY_; default AUTO */
@@ -80,7 +82,7 @@ typedef struct knurl_hip_desc {
                                   without one 0.055e-3 (Touch) */
     double max_force;        /**< N; longer forces are shortened to it, and to the loop's device's; 0 (default): as the
                                   loop's device says, without one 3.3 (Touch) */
-    const knurl_workspace *workspace; /**< device to scene; null (default): not turned, scale 1, the device's origin at
+    const knurl_workspace *workspace; /**< device to scene; null (default): no rotation, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
     double continuous_force; /**< N that the motors can hold for ever; 0 (default): as the loop's device says, without
                                   one 0.88 (Touch); INFINITY: no limit but max_force */
@@ -93,18 +95,19 @@ typedef struct knurl_hip_desc {
                                   loop's device says, without one 1 */
     double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
                                   device says, without one the Touch's */
-    double slew_rate;        /**< N/s: the force grows or turns no faster, but for the texture's own steps; 0
-                                  (default): max_force within 5 ms */
+    double slew_rate;        /**< N/s: the fastest change of the force, except where it falls and for the texture's own
+                                  steps; 0 (default): max_force within 5 ms */
     uint32_t protections;    /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
-    uint32_t clamp;          /**< 1: walls and textures beyond what knurl_scene_check_surface() allows are felt at
-                                  what it allows; default 0: they are felt as asked for */
+    uint32_t clamp;          /**< 1: stiffness and amplitude are clamped to the limits of knurl_scene_check_surface();
+                                  default 0: rendered as asked for */
 } knurl_hip_desc;
 
-/** The reductions a scene makes, so that it models no more than it needs; a bit turns one off, to compare. */
+/** A scene's reductions: it leaves out what its surfaces do not need. Each bit switches one reduction off, to compare.
+ */
 enum {
-    KNURL_FULL_MESHES = 1,  /**< flat meshes stay meshes, instead of planes with an outline */
-    KNURL_FULL_SEARCH = 2,  /**< every tick looks at every surface, instead of at those near the HIP */
-    KNURL_FULL_GRATING = 4, /**< smooth surfaces run the grating stage too */
+    KNURL_FULL_MESHES = 1,  /**< flat meshes stay meshes; otherwise they become planes with an outline */
+    KNURL_FULL_SEARCH = 2,  /**< every tick tests all surfaces; otherwise nearby surfaces only */
+    KNURL_FULL_GRATING = 4, /**< smooth surfaces run the grating stage; otherwise they skip it */
     KNURL_FULL_ALL = 7
 };
 
@@ -112,90 +115,94 @@ typedef struct knurl_scene_desc {
     uint32_t struct_size;             /**< set by knurl_scene_desc_init() */
     uint32_t max_surfaces;            /**< capacity, 1 to 2^20; default 4096 */
     uint32_t hip_count;               /**< HIPs, 1 to 8; default 1 */
-    uint32_t full_model;              /**< KNURL_FULL_ bits: reductions that are not to be made; default 0 */
+    uint32_t full_model;              /**< KNURL_FULL_ bits: reductions to switch off; default 0 */
     const knurl_allocator *allocator; /**< copied; null: malloc and free */
 } knurl_scene_desc;
 
-/** What a surface came to be. An output: set struct_size with knurl_surface_info_init() first. */
+/** How a scene has built a surface. An output: set struct_size with knurl_surface_info_init() first. */
 typedef struct knurl_surface_info {
     uint32_t struct_size;
     uint32_t triangle_count;      /**< 0 for a plane */
-    uint32_t dropped_triangles;   /**< left out for want of area, or as duplicates */
+    uint32_t dropped_triangles;   /**< left out: without area, or duplicates */
     uint32_t double_sided;        /**< 1: as it was given, or because triangles came in reversed pairs */
     const char *name;             /**< the scene's, valid while the surface is */
     const char *shape;            /**< "plane" or "mesh": what was given; static */
-    const char *model;            /**< what a tick works on: "plane", "plane+outline" or "mesh+bvh"; static */
-    uint64_t bytes;               /**< memory this surface holds in the scene; of a shape that several have
-                                       (knurl_surface_desc.shape_of), its part */
+    const char *model;            /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
+    uint64_t bytes;               /**< memory that this surface uses in the scene; of a shared shape
+                                       (knurl_surface_desc.shape_of) its part */
     double bounds_min[3];         /**< scene axes, m */
     double bounds_max[3];         /**< scene axes, m */
     double anchor[3];             /**< a point on the surface near the middle of its bounds, scene, m */
     double anchor_x[3];           /**< unit, scene: the grating's x at the anchor */
     double anchor_normal[3];      /**< unit, scene: the outward normal at the anchor */
-    double anchor_reach[4];       /**< m from the anchor straight on along +x, -x, +y, -y to the edge of the bounds: how
-                                       far a flat surface goes at most. Of a curved one it says nothing: the straight
-                                       line leaves it, and the bounds may end where it begins. See
-                                       knurl_fake_lay_stroke() */
-    double stretch[3];            /**< min, mean, max of d(surface coordinate)/d(metres travelled) along x, before
-                                       `orientation` turns it; 1: true. S1 and LOCKED feel fs times it */
-    knurl_material_desc material; /**< as felt: method resolved */
+    double anchor_reach[4];       /**< m from the anchor in a straight line along +x, -x, +y, -y to the edge of the
+                                       bounds: an upper limit of how far a flat surface extends. Of no use on curved
+                                       surfaces; see knurl_fake_lay_stroke() */
+    double stretch[3];            /**< min, mean and max of d(surface coordinate)/d(distance on the surface) along x,
+                                       before `orientation`; 1: undistorted. S1 and LOCKED render fs times it */
+    knurl_material_desc material; /**< as rendered: the default method is resolved */
     const char *why;              /**< why this model, in a sentence; static */
     double model_error;           /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;      /**< triangles left out because another has the same corners, facing the other way */
     uint32_t reserved;            /**< 0 */
     double axis[3];               /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];          /**< as stretch, along y */
-    double seam;                  /**< m: edges that run side by side within this touch: by the size and float32 */
-    uint64_t touching_pairs; /**< of a mesh's triangles, other than along an edge that they share: T-junctions, seams,
-                                  parts that go through each other. There a tick takes longer; 0: a clean mesh */
+    double seam;                  /**< m: edges closer than this count as connected; from the mesh's size and float32's
+                                       precision */
+    uint64_t touching_pairs; /**< pairs of the mesh's triangles that touch elsewhere than at a shared edge: T-junctions,
+                                  seams, parts that intersect. Ticks near them take longer; 0: a clean mesh */
 } knurl_surface_info;
 
-/** What a device says at one tick. */
+/** The input of one tick. */
 typedef struct knurl_tick_input {
     double position[3];    /**< device frame, m */
     double velocity[3];    /**< device frame, m/s; used where has_velocity is 1 */
     uint32_t has_velocity; /**< 0: the HIP's own estimator gives the velocity */
-    uint32_t absent;       /**< 1: there is no position: nothing is felt, contacts end, the next tick is a first one */
-    double attenuation;    /**< how much of the force is not sent: 0 (as in a zeroed struct): none, 1: all of it; beyond
-                                that or NaN: all of it. It is taken off what the device can play, before the slew limit,
-                              and the output, the counts and the heat are of what is left. While it is 1 the felt depth is
-                              0, so that walls come back as after an entry */
-    uint32_t paused;       /**< 1: the HIP is told, but nothing is touched: contacts end, no force, the next tick is a
-                                first one */
+    uint32_t absent;       /**< 1: there is no position: the force is 0, contacts end, and the next tick counts as the
+                                first */
+    double attenuation;    /**< the share of the force that the caller will not send: 0 (default): none of it is
+                                withheld; 1, anything outside 0 to 1, or NaN: all. It applies to the force that the
+                                device can play, before the slew limit; outputs, counts and heat are of the rest. While
+                                it is 1, depths restart at 0, as on entry */
+    uint32_t paused;       /**< 1: the HIP's position and velocity are reported, but nothing is touched: contacts end,
+                                the force is 0, and the next tick counts as the first */
     uint32_t reserved;     /**< 0 */
 } knurl_tick_input;
 
 /** Bits of knurl_tick_output.flags. */
 enum {
-    KNURL_TICK_CONTACT = 1,        /**< some surface is in reach of its grating's crests */
+    KNURL_TICK_CONTACT = 1,        /**< the HIP is in contact: a surface is nearer than its grating's crests are high */
     KNURL_TICK_FORCE_LIMIT = 2,    /**< the force was shortened to max_force */
-    KNURL_TICK_FREQUENCY = 4,      /**< f_t above f_h/2: the grating is finer than the update rate can render */
-    KNURL_TICK_NOT_FINITE = 8,     /**< a NaN or infinity came in or arose: the force is 0 and all contacts end */
-    KNURL_TICK_CONTACTS_FULL = 16, /**< a further surface was in reach, beyond KNURL_CONTACTS_MAX */
-    KNURL_TICK_ENTRY = 32,         /**< a wall came in as a ramp */
-    KNURL_TICK_SLEW = 64,          /**< the force was kept from jumping */
-    KNURL_TICK_HEAT = 128,         /**< the force was shortened to what warm motors can hold */
-    KNURL_TICK_PASSIVITY = 256,    /**< the wall was softened because the HIP kept bouncing in it, unasked */
-    KNURL_TICK_ABSENT = 512,       /**< there was no position, as the input said */
-    KNURL_TICK_SQUEEZED = 1024     /**< a surface moved over the HIP's proxy, which another kept from giving way: the
-                                        one that moved does not hold the HIP any more */
+    KNURL_TICK_FREQUENCY = 4,      /**< f_t is above f_h/2: the grating is too fine at this speed for the update rate */
+    KNURL_TICK_NOT_FINITE = 8,     /**< an input or a result was NaN or infinite: the force is 0 and all contacts end */
+    KNURL_TICK_CONTACTS_FULL = 16, /**< more surfaces were in contact than KNURL_CONTACTS_MAX */
+    KNURL_TICK_ENTRY = 32,         /**< the entry ramp limited a depth */
+    KNURL_TICK_SLEW = 64,          /**< the slew rate limited the force */
+    KNURL_TICK_HEAT = 128,         /**< the force was shortened because the motors are warm */
+    KNURL_TICK_PASSIVITY = 256,    /**< the wall was softened because it made the HIP oscillate */
+    KNURL_TICK_ABSENT = 512,       /**< the input said `absent` */
+    KNURL_TICK_SQUEEZED = 1024     /**< the proxy was caught between two surfaces, one of which moved over it: the
+                                        moving surface no longer holds the HIP */
 };
 
-/** What a tick came to. Scene axes but for device_force and where said. Of several contacts the deepest is told. */
+/** The output of one tick, in scene axes unless a field says otherwise. Of several contacts the deepest is reported. */
 typedef struct knurl_tick_output {
-    double device_force[3]; /**< what the device is to play: device axes, N, limited, always finite */
+    double device_force[3]; /**< the force for the device: device axes, N, limited, always finite */
     double force[3];        /**< the same in scene axes, N */
     double hip[3];          /**< HIP position, m */
     double hip_velocity[3]; /**< m/s */
-    double proxy[3];        /**< the point of the surface that holds the HIP, m; the HIP where there is no contact */
+    double proxy[3];        /**< the proxy: the point on the surface that the HIP is held at, m; the HIP itself without
+                                 contact */
     double normal[3];       /**< outward, unit; 0 without contact */
     double surface_velocity[2]; /**< vx, vy of the HIP relative to the surface in the surface's frame, m/s */
-    double depth;               /**< -z: penetration depth, m, negative while the HIP is still outside; 0 w/o contact */
+    double depth;               /**< -z: penetration depth, m; negative where the HIP is outside and only the grating's
+                                     crests reach it; 0 without contact */
     double height;              /**< H: m; 0 without contact */
     double spatial_frequency;   /**< fs: cycles/m in the direction of motion */
-    double temporal_frequency;  /**< f_t: Hz, as the motion asks for it */
-    int64_t event;              /**< the event that plays, counted since contact, or KNURL_NO_EVENT */
-    knurl_surface_id surface;   /**< the surface felt, or 0 */
+    double temporal_frequency;  /**< f_t: Hz, of the motion over the grating, not clamped */
+    int64_t event;              /**< number of the event that is being played, from 0 at the contact's begin, or
+                                     KNURL_NO_EVENT */
+    knurl_surface_id surface;   /**< the surface in contact, or 0 */
     uint64_t tick;              /**< 0, 1, ... since the HIP was configured */
     uint32_t flags;             /**< KNURL_TICK_ bits */
     uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_CONTACTS_MAX */
@@ -213,14 +220,15 @@ typedef struct knurl_hip_counts {
     uint64_t slew_ticks;         /**< ticks with KNURL_TICK_SLEW */
     uint64_t heat_ticks;         /**< ticks with KNURL_TICK_HEAT */
     uint64_t passivity_ticks;    /**< ticks with KNURL_TICK_PASSIVITY */
-    double force_max;            /**< N, longest force played */
-    double heat;                 /**< 0 cold to 1: as warm as continuous_force makes the motors in the long run; above
-                                      1 only without KNURL_PROTECT_HEAT. A loop's HIP begins with its device's */
-    double half_cycles_crossed;  /**< ridges and grooves that the HIP passed, with every method and not rounded: the
-                                      sum of 2 f_t / f_h over all touched surfaces' ticks (Eq. 12: a stroke of L
-                                      metres along x crosses 2 fsx L). Of LOCKED in the grating's own coordinates,
-                                      of S1 and S2 in metres; without a grating none */
-    uint64_t half_cycles_played; /**< half cycles that began after others: sign changes of the rendered heights */
+    double force_max;            /**< N: the greatest force so far */
+    double heat;                 /**< heat of the motors: 0 is cold, 1 as warm as continuous_force makes them in the
+                                      long run; above 1 only without KNURL_PROTECT_HEAT. A loop's HIP starts with its
+                                      device's heat */
+    double half_cycles_crossed;  /**< ridges and grooves that the HIP crossed, for every method, not rounded: the sum of
+                                      2 f_t / f_h over all ticks and touched surfaces (Eq. 12; a stroke of L metres
+                                      along x crosses 2 fsx L). For LOCKED in the grating's coordinates, for S1 and S2
+                                      in metres; 0 without a grating */
+    uint64_t half_cycles_played; /**< half cycles rendered: sign changes of the height */
     uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
 } knurl_hip_counts;
 
@@ -235,10 +243,9 @@ KNURL_API void knurl_scene_desc_init(knurl_scene_desc *desc, uint32_t size);
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene);
 
-/** Gives everything back; null is allowed. While a loop has a HIP of the scene, the scene is kept for that loop, which
- * ends by itself, its force zero at once; the last such loop's knurl_loop_destroy() then frees it. To the caller it is
- * gone: its handle and its surfaces' names are not to be used. No tick of the caller's own may run or follow. [game
- * thread, or any that destroys what nobody else uses] */
+/** Destroys a scene and frees its memory; null is allowed. A loop that uses the scene ends by itself with zero force,
+ * and the memory is freed when the last such loop is destroyed. The caller must not use the handle or the surfaces'
+ * names any more, and must not tick the scene. [game thread, or any while no other thread uses the scene] */
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface; before the commit or after.
@@ -247,133 +254,137 @@ KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 KNURL_API knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc,
                                                knurl_surface_id *surface);
 
-/** Takes a surface out, before the commit or after: contacts with it end at the next tick. Its id is stale from
- * then on; its memory is given back by a later edit, when no tick can see it any more.
+/** Removes a surface, before or after the commit; contacts with it end at the next tick. Its id becomes stale. Its
+ * memory is freed by a later edit, when no tick can use it any more.
  * Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface);
 
-/** Puts another surface in a surface's place, before the commit or after: another shape, side, axis, name, material and
- * place under the same id. What is touched goes on being touched, as after a move in no time: a HIP that was in contact
- * is in contact with the new surface where it is at most 10 mm behind it. The old name is gone with the old surface.
- * Errors: KNURL_ERROR_STALE_ID and those of knurl_scene_add_surface() but KNURL_ERROR_FULL; the old surface then stays.
- * [any thread but the haptic] */
+/** Replaces a surface under the same id, before or after the commit: shape, sides, axis, name, material and pose. A
+ * contact goes on, as after a jump (knurl_scene_set_transform() with 0 seconds), where the HIP is at most 10 mm behind
+ * the new surface. The old name becomes invalid.
+ * Errors: KNURL_ERROR_STALE_ID and those of knurl_scene_add_surface() except KNURL_ERROR_FULL; the old surface is then
+ * kept. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface,
                                                    const knurl_surface_desc *desc);
 
-/** Gives a surface another material, before the commit or after; an event that plays is played to its end.
+/** Changes a surface's material, before or after the commit. An event that is being played is played to its end.
  * Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY, and those of a material. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
                                                 const knurl_material_desc *material);
 
-/** Moves a surface's origin to `position` (m) and turns it to `rotation` (unit quaternion x, y, z, w), both scene axes,
- * evenly over `seconds` (0 to 10: the game's frame time) from where it is now; there it stays until moved again. What
- * slides under a HIP is felt: velocities are taken relative to the surface. 0 seconds: it stands there at once, and
- * what it passed on the way is not touched (a HIP that it held is looked at anew, as at a first tick). Time is counted
- * by ticks: while none runs, the way waits to be made; before the commit it is made at once.
+/** Moves a surface's origin to `position` (m) and rotates it to `rotation` (unit quaternion x, y, z, w), both in scene
+ * axes, at constant speed over `seconds` (0 to 10; pass the game's frame time). Then it stays until moved again. The
+ * motion is felt: velocities are relative to the surface. With 0 seconds it jumps: what lies on the way is not
+ * touched, and a HIP that it held is tested again as on a first tick. Time advances with ticks: without ticks the
+ * motion waits; before the commit it is done at once.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                                  const double rotation[4], double seconds);
 
-/** Opens the scene to ticks, having sorted its surfaces by where they are.
+/** Prepares the scene for ticks: builds the broad phase over its surfaces. Call it once, after the first surfaces.
  * Errors: KNURL_ERROR_STATE (committed already), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
 
 /** Surfaces in the scene. [any thread] */
 KNURL_API uint32_t knurl_scene_get_surface_count(const knurl_scene *scene);
 
-/** The id of the surface at place `index`, 0 <= index < count, in the order of adding; 0 beyond. [any thread] */
+/** The id of surface number `index`, 0 <= index < count, in the order of adding; 0 beyond. [any thread] */
 KNURL_API knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index);
 
-/** The first surface of that name, in the order of adding.
- * Errors: KNURL_ERROR_UNKNOWN, with the names that are there. [any thread] */
+/** Finds a surface by name: the first in the order of adding.
+ * Errors: KNURL_ERROR_UNKNOWN, with the names that exist. [any thread] */
 KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface);
 
-/** A surface's name, the scene's, valid while the surface is. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+/** A surface's name; the scene's, valid while the surface exists. Errors: KNURL_ERROR_STALE_ID. [any thread] */
 KNURL_API knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
                                                     const char **name);
 
-/** Tells what a surface came to be; looks for its anchor, so not for every frame. Errors: KNURL_ERROR_STALE_ID. [any
- * thread] */
+/** Describes how the scene has built a surface. It searches for the anchor: too slow for every frame. Errors:
+ * KNURL_ERROR_STALE_ID. [any thread] */
 KNURL_API knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
                                                     knurl_surface_info *info);
 
-/** Memory that the scene holds now, in bytes, all of it: with what edits have replaced and ticks may still see. [any
- * thread but the haptic] */
+/** All memory that the scene uses now, in bytes, with what edits replaced and ticks may still use. [any thread but the
+ * haptic] */
 KNURL_API uint64_t knurl_scene_get_bytes(const knurl_scene *scene);
 
-/** Memory given back early: frees what edits have replaced and no tick can see any more, which else the next edit does.
- * [any thread but the haptic] */
+/** Frees the memory that edits replaced and no tick uses any more. Optional: the next edit does it too. [any thread but
+ * the haptic] */
 KNURL_API void knurl_scene_collect(knurl_scene *scene);
 
-/** Sets up one HIP and forgets what it did, but not how warm its motors are (with a loop: its device's). hip: 0 to
- * hip_count - 1. desc: null for all defaults. Until it is called a HIP has the defaults. Errors: KNURL_ERROR_ARGUMENT,
- * KNURL_ERROR_STATE (a loop has it). [game thread, while the caller's own thread does not tick that HIP] */
+/** Sets up one HIP and clears its state and counts, but not its motors' heat (in a loop, its device's). hip: 0 to
+ * hip_count - 1. desc: null for all defaults, which also hold until the first call.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (a loop has it). [game thread, while the caller's own thread does not
+ * tick that HIP] */
 KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
 
-/** The workspace that a HIP's ticks use; after the commit also where it was left to the scene.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (left to the scene, not committed yet). [any thread but the haptic]
- */
+/** The workspace map of a HIP, also where the scene chose it at the commit.
+ * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (to be chosen by the scene, which is not committed). [any thread but
+ * the haptic] */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
 
-/** The limits that a surface can exceed on a device. */
+/** The limits of a device that a surface can exceed. K s is its stiffness in device metres. */
 enum {
     KNURL_LIMIT_STABILITY = 1, /**< K s above the closed-form bound for the HIP's rate, delay and damping */
     KNURL_LIMIT_STIFFNESS = 2, /**< K s above the device's max_stiffness */
     KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
     KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
     KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
-    KNURL_LIMIT_FAR = 64, /**< more than KNURL_FAR from the scene's origin: float32 positions lie centimetres apart */
-    KNURL_LIMIT_STRETCH = 32 /**< somewhere S1 or LOCKED feel more than KNURL_STRETCH_MAX times the ridges a metre that
-                                  the material says, or fewer than one in so many: uneven uvs */
+    KNURL_LIMIT_FAR = 64, /**< farther than KNURL_FAR from the scene's origin: float32 positions are centimetres apart
+                               there */
+    KNURL_LIMIT_STRETCH = 32 /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
+                                  material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 
-/** m: farther from the origin, coordinates in float32, which meshes and engines have, lie 6 cm apart and more. */
+/** m: beyond this distance from the origin, the float32 coordinates of meshes and engines are 6 cm apart or more. */
 #define KNURL_FAR 1000000.0
 
-/** A factor that hands can tell, and unwrapped uvs can keep: an octave. */
+/** The stretch that is warned of: an octave. Hands feel it, and a good unwrapping of uvs stays below it. */
 #define KNURL_STRETCH_MAX 2.0
 
-/** What a device makes of a surface. An output: set struct_size with knurl_surface_check_init() first. */
+/** How a surface fits a device. An output: set struct_size with knurl_surface_check_init() first. */
 typedef struct knurl_surface_check {
     uint32_t struct_size;
-    uint32_t exceeded;      /**< KNURL_LIMIT_ bits; 0: nothing to warn of */
-    double stiffness;       /**< N/m that the device feels: K times the workspace's scale */
+    uint32_t exceeded;      /**< KNURL_LIMIT_ bits; 0: none */
+    double stiffness;       /**< N/m at the device: K times the workspace's scale */
     double stiffness_limit; /**< N/m: the least of its bounds */
     double amplitude;       /**< m */
-    double amplitude_limit; /**< m: at the stiffness that is felt */
+    double amplitude_limit; /**< m: at the device's stiffness */
     char message[1024];     /**< a sentence for each limit: which, by how much, what to do; "" where none is exceeded */
 } knurl_surface_check;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_surface_check_init(knurl_surface_check *check, uint32_t size);
 
-/** Holds a surface's stiffness and amplitude against what the HIP's device can do: to be asked at load, before anybody
- * feels it. A game shows the message; knurl_hip_desc.clamp has the limits kept. Errors: KNURL_ERROR_ARGUMENT (hip),
- * KNURL_ERROR_STALE_ID. [any thread but the haptic] */
+/** Compares a surface's stiffness and amplitude with the limits of the HIP's device. Call it at load time and show the
+ * message; knurl_hip_desc.clamp enforces the limits. Errors: KNURL_ERROR_ARGUMENT (hip), KNURL_ERROR_STALE_ID. [any
+ * thread but the haptic] */
 KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface_id surface,
                                                  knurl_surface_check *check);
 
-/** One tick of one HIP, of the nominal length 1/update_rate: position in, force out (Eq. 9: F = max(0, K (H - z) - B
- * vn) along n for each surface in contact, and friction across it). A HIP that is pressed in is held by every face that
- * its proxy has not gone through from the front, at most three at once, whichever surface each belongs to; each is felt
- * as deep as it holds the proxy back. What lies below the first surface met is not felt. Slid off one surface, a HIP is
- * held by the next, where that lies at most 1 mm higher or anywhere below, and a crack between them is crossed within
- * 5 ms; one of 0.1 um is none. Of more than 32 surfaces about one place some may be overlooked
- * (KNURL_TICK_CONTACTS_FULL says so). Bounded time; no heap, lock, system call, clock, log or file, whatever other
- * threads edit meanwhile. `output` is always filled in, with a zero force where the result is not KNURL_OK. Errors:
- * KNURL_ERROR_STATE (not committed, or a loop has the HIP), KNURL_ERROR_ARGUMENT (hip, null or a handle that is none).
- * [haptic thread, one a HIP] */
+/** Runs one tick of one HIP, of length 1/update_rate_hz: position in, force out. For each surface in contact F = max(0,
+ * K (H - z) - B vn) along its normal (Eq. 9), plus friction along the surface.
+ *
+ * Contact: a HIP inside a surface is held by every face that its proxy has not crossed from the front, at most three at
+ * once, of whatever surfaces; each gives a force by how far it holds the proxy back. Surfaces below the first one are
+ * not felt. A HIP that slides off one surface goes over to the next if that is at most 1 mm higher, or lower by any
+ * amount; cracks are crossed within 5 ms, and those of up to 0.1 um do not exist. With more than 32 surfaces near one
+ * point, some may be missed (KNURL_TICK_CONTACTS_FULL).
+ *
+ * Bounded time; no heap, lock, system call, clock, log or file, whatever other threads edit. `output` is always filled
+ * in, with zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed, or a loop has the
+ * HIP), KNURL_ERROR_ARGUMENT (hip, null or an invalid handle). [haptic thread, one per HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output) KNURL_NONBLOCKING;
 
-/** The latest complete tick of a HIP, as one consistent snapshot, for cursors and plots. All zeros before the first.
- * output, counts: either may be null.
+/** A consistent snapshot of the latest tick of a HIP, for cursors and plots; all zeros before the first tick. output,
+ * counts: either may be null.
  * Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
                                             knurl_hip_counts *counts);
 
-/** Locks all memory of the scene into RAM (mlock), so that no tick waits for a page. knurl_loop calls it.
- * Errors: KNURL_ERROR_SYSTEM (a limit of the system; the scene works all the same). [game thread] */
+/** Locks all memory of the scene into RAM (mlock), so that no tick waits for a page. A loop calls it by itself.
+ * Errors: KNURL_ERROR_SYSTEM (the system's limit; the scene works without). [game thread] */
 KNURL_API knurl_result knurl_scene_lock_memory(knurl_scene *scene);
 
 #ifdef __cplusplus

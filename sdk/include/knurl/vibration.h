@@ -10,14 +10,14 @@
 extern "C" {
 #endif
 
-/** The paper's temporal methods: T1 samples, T2 mixes two even periods, T3 balances the impulse of odd ones. */
+/** The paper's temporal methods: T1 samples the square wave, T2 mixes two even periods, T3 balances odd periods. */
 enum { KNURL_T1 = 1, KNURL_T2 = 2, KNURL_T3 = 3 };
 
-/** What a T3 event is made of. MIXED is the paper's "400 Hz" case, 2.5 ticks a cycle. */
+/** The kinds of T3 events. MIXED is the paper's 400 Hz case, 2.5 ticks per cycle. */
 enum { KNURL_EVENT_EVEN = 0, KNURL_EVENT_ODD = 1, KNURL_EVENT_MIXED = 2 };
 
-/** One complete T3 event (Algorithms 2, 4, 5): a whole number of ticks whose impulse is zero and whose RMS is the
- * amplitude. It holds its own kind and amplitude, so that nothing that changes while it plays can unbalance it. */
+/** One complete T3 event (Algorithms 2, 4, 5): a whole number of ticks with zero impulse, whose RMS is the amplitude.
+ * It stores its own kind and amplitude, so that no change during the event unbalances it. */
 typedef struct knurl_vibration_event {
     double positive;        /**< height of the first part; for MIXED the amplitude that its six values scale */
     double negative;        /**< minus the height of the second part (>= 0); unused for MIXED */
