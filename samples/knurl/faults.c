@@ -8,7 +8,11 @@
 void faults_start(faults *f) {
     struct timespec now;
     memset(f, 0, sizeof *f);
+#ifdef CLOCK_BOOTTIME
+    (void)clock_gettime(CLOCK_BOOTTIME, &now); /* as knurl_device_event.time_ns */
+#else
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
+#endif
     f->start_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 

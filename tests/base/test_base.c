@@ -11,6 +11,12 @@
 #include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <time.h>
+#ifdef __linux__
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
 
 static const knurl_result results[] = {
 #define RESULT_CODE(name, value, text) name,
@@ -395,3 +401,40 @@ TEST(a_thread_that_the_system_refuses_is_null) {
     assert_null(knurl_system_start_thread(tell_id, &theirs, 1)); /* below any system's least stack */
     assert_int_equal(theirs, 0);
 }
+
+#ifdef __linux__
+/* In a time namespace whose CLOCK_BOOTTIME is an hour ahead of CLOCK_MONOTONIC, as after an hour's sleep: s by which
+ * the library's clock is ahead; below 0: the system permits no such thing. */
+static double lead_after_a_sleep(void) {
+    struct timespec monotonic;
+    FILE *offsets = syscall(SYS_unshare, 0x80 /* CLONE_NEWTIME */) ? NULL : fopen("/proc/self/timens_offsets", "w");
+    int lead[2];
+    if (!offsets || fputs("boottime 3600 0\n", offsets) < 0 || fclose(offsets) || pipe(lead)) {
+        return -1.0;
+    }
+    const pid_t child = fork(); /* its clocks are the namespace's */
+    if (child == 0) {
+        (void)clock_gettime(CLOCK_MONOTONIC, &monotonic);
+        const double seconds = 1e-9 * (double)knurl_system_now_ns() - (double)monotonic.tv_sec;
+        _exit(write(lead[1], &seconds, sizeof seconds) != sizeof seconds);
+    }
+    double seconds = -1.0;
+    (void)waitpid(child, NULL, 0);
+    return read(lead[0], &seconds, sizeof seconds) == sizeof seconds ? seconds : -1.0;
+}
+
+TEST(the_clock_goes_on_while_the_machine_sleeps) {
+    const pid_t child = fork(); /* whose children are in the namespace: this process's must not be */
+    if (child == 0) {
+        const double lead = lead_after_a_sleep();
+        _exit(lead < 0.0 ? 77 : lead < 3000.0);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WEXITSTATUS(status) == 77) {
+        print_message("skipped: time namespaces are not permitted here\n");
+        skip();
+    }
+    assert_int_equal(status, 0);
+}
+#endif

@@ -61,6 +61,7 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing", "")       \
     X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: when this one is killed, the force stays",   \
       "")                                                                                                              \
+    X(KNURL_FAULT_GAP, 13, "gap", "the loop did not run for a while: the program or the machine stood still", "s")     \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
@@ -72,7 +73,8 @@ enum {
 
 /** A fault of a device, or its end. */
 typedef struct knurl_device_event {
-    int64_t time_ns;   /**< when it was noticed, on the system's monotonic clock */
+    int64_t time_ns;   /**< when it was noticed, on a monotonic clock that goes on while the machine sleeps (Linux:
+                            CLOCK_BOOTTIME) */
     double value;      /**< how long, how far or how much, in knurl_fault_unit(code); else 0 */
     int32_t code;      /**< KNURL_FAULT_ */
     uint32_t reserved; /**< 0 */

@@ -10,7 +10,7 @@
 
 typedef struct knurl_thread knurl_thread;
 
-/* A monotonic clock, ns. No system call where the kernel offers a vDSO. */
+/* A monotonic clock that goes on while the machine sleeps, ns. No system call where the kernel offers a vDSO. */
 int64_t knurl_system_now_ns(void);
 
 /* Returns at once when the deadline has passed. */

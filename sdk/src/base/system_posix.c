@@ -28,9 +28,17 @@ struct knurl_thread {
     void *argument;
 };
 
+/* Where there is one that goes on while the machine sleeps, that one: a force from before is then too old to be played.
+ */
+#ifdef CLOCK_BOOTTIME
+#define CLOCK CLOCK_BOOTTIME
+#else
+#define CLOCK CLOCK_MONOTONIC
+#endif
+
 int64_t knurl_system_now_ns(void) {
     struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    (void)clock_gettime(CLOCK, &now);
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
@@ -38,7 +46,7 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     struct timespec deadline;
     deadline.tv_sec = (time_t)(deadline_ns / 1000000000);
     deadline.tv_nsec = (long)(deadline_ns % 1000000000);
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
+    while (clock_nanosleep(CLOCK, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
 }
 
 /* Its storage is a caller's, so that a scene's memory is all its allocator's. */

@@ -8,6 +8,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A cycle that comes later than this has a gap before it. The watchdog waits as long by default. */
+#define GAP_NS 50000000
+
 static void report(knurl_loop *loop, int32_t code, double value) {
     knurl_port_report(loop->desc.device, code, value);
 }
@@ -32,13 +35,13 @@ static int game_lives(knurl_loop *loop, int paused) {
 }
 
 /* How much of this tick's force is sent: after a halt it climbs back over the ramp; paused, or without a sign of life,
- * it goes down by it. *was_halted: 1 where the device was halted, which lasts until this force is written: what an I/O
- * thread has until then is from before. */
-static double next_gain(knurl_loop *loop, int paused, int *was_halted) {
+ * it goes down by it. loop->was_halted: 1 where the device was halted, which lasts until this force is written: what an
+ * I/O thread has until then is from before. */
+static double next_gain(knurl_loop *loop, int paused) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
-    *was_halted = knurl_device_is_halted(loop->desc.device) != 0;
-    const int was_down = *was_halted || !loop->wanted;
-    double gain = *was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
+    loop->was_halted = knurl_device_is_halted(loop->desc.device) != 0;
+    const int was_down = loop->was_halted || !loop->wanted;
+    double gain = loop->was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
     loop->wanted = game_lives(loop, paused) && !paused;
     if (was_down && loop->wanted && loop->ticks > 0 && !knurl_device_is_closed(loop->desc.device)) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
@@ -67,15 +70,14 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     }
 }
 
-/* The force of this tick as it is sent, from the scene or from the caller. Returns 1 where the device was halted. */
-static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
+/* The force of this tick as it is sent, from the scene or from the caller. */
+static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
     const int paused = knurl_load_acquire(&loop->paused) != 0;
-    int was_halted;
     if (loop->desc.scene) {
         knurl_tick_input input;
         memset(&input, 0, sizeof input);
         memcpy(input.position, sample->position, sizeof input.position);
-        const double gain = next_gain(loop, paused, &was_halted);
+        const double gain = next_gain(loop, paused);
         input.attenuation = 1.0 - gain;
         input.paused = paused && gain == 0.0;
         (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
@@ -83,10 +85,9 @@ static int make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl
         vec3_copy(output->force, loop->scene_force);
     } else {
         call_back(loop, sample);
-        vec3_scale(next_gain(loop, paused, &was_halted), loop->force, loop->force);
+        vec3_scale(next_gain(loop, paused), loop->force, loop->force);
     }
     knurl_loop_add_heat(loop, 1.0);
-    return was_halted;
 }
 
 /* A cycle without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
@@ -128,7 +129,7 @@ static int run_tick(knurl_loop *loop) {
     vec3_copy(sample.position, loop->position);
     loop->has_position = 1;
     const int64_t before = loop->clock.now_ns(loop->clock.user);
-    const int was_halted = make_force(loop, &sample, &output);
+    make_force(loop, &sample, &output);
     knurl_histogram_add(&loop->tick_ns, loop->clock.now_ns(loop->clock.user) - before);
     if (loop->desc.scene && loop->desc.tick_callback) {
         loop->desc.tick_callback(&output, loop->desc.user);
@@ -137,7 +138,7 @@ static int run_tick(knurl_loop *loop) {
     knurl_count_up(&loop->ticks);
     knurl_count_up(&loop->cycles);
     result = knurl_device_write(loop->desc.device, loop->force);
-    if (was_halted && result == KNURL_OK) {
+    if (loop->was_halted && result == KNURL_OK) {
         knurl_device_release_halt(loop->desc.device);
     }
     return result == KNURL_OK || be_absent(loop, result);
@@ -223,8 +224,19 @@ static void run_dry_tick(knurl_loop *loop) {
     knurl_histogram_add(&loop->dry_tick_ns, loop->clock.now_ns(loop->clock.user) - before);
 }
 
+/* After a gap the hand and the device may be anywhere: no force until a tick has seen them, then the ramp. A halt that
+ * the device or the watchdog saw to meanwhile has done and told that already. */
+static void zero_after_gap(knurl_loop *loop, int64_t late) {
+    knurl_device *device = loop->desc.device;
+    if (late > GAP_NS && !loop->was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
+        knurl_device_halt(device);
+        report(loop, KNURL_FAULT_GAP, 1e-9 * (double)late);
+    }
+}
+
 /* A cycle that came `late` ns after its deadline; the ramp at the end is not counted. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
+    zero_after_gap(loop, late);
     if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* who looks for a lost one begins the check anew */
         knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand did not wait */
     }

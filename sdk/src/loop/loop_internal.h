@@ -41,6 +41,7 @@ struct knurl_loop {
     int64_t cycle_at;      /* ns: the latest cycle of a thread; 0: none */
     uint64_t ramp_step;    /* done, of the ramp at the end */
     int was_overrun;
+    int was_halted;    /* the device, when the latest tick's force was made */
     int is_lost;       /* for good */
     int64_t served_at; /* ns: the latest call by a device that owns the servo thread; 0: none */
     uint64_t signs_seen;

@@ -471,10 +471,10 @@ TEST_WITH(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, NULL, e
 TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     static int64_t late[100];
     memset(late, 0, sizeof late);
-    late[50] = 60000000;
+    late[50] = 40000000;
     init();
     r.device.max_speed = KNURL_HAND_SPEED;
-    extra.speed = 1.0; /* m/s: 60 mm meanwhile */
+    extra.speed = 1.0; /* m/s: 40 mm meanwhile */
     r.late = late;
     r.late_count = COUNT_OF(late);
     r.desc.tick_limit = 90;
@@ -482,6 +482,46 @@ TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     rig_run(&r);
     assert_int_equal(rig_stats(&r).absences, 0);
     assert_int_equal(next_event(), 0);
+}
+
+/* A process that was stopped, or a machine that slept: nobody knows what the hand has done meanwhile. */
+TEST_WITH(a_loop_that_wakes_after_a_gap_zeroes_the_force_tells_it_and_ramps, NULL, end_rig) {
+    static const int64_t gaps[] = {51000000, INT64_C(2000000000)};
+    for (size_t i = 0; i < COUNT_OF(gaps); i++) {
+        static int64_t late[100];
+        knurl_device_event event;
+        memset(late, 0, sizeof late);
+        late[50] = gaps[i];
+        init();
+        r.late = late;
+        r.late_count = COUNT_OF(late);
+        r.desc.tick_limit = 90;
+        rig_create(&r);
+        rig_run(&r);
+        CHECK_SAME(r.written[49][1], 1.0L);
+        check_ramp_up(50);
+        assert_int_equal(knurl_device_next_event(&r.device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_GAP);
+        CHECK_CLOSE(event.value, 1e-9 * (double)gaps[i], 1e-9);
+        assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+        assert_int_equal(next_event(), 0);
+        rig_destroy(&r);
+    }
+}
+
+TEST_WITH(without_a_ramp_the_first_force_after_a_gap_is_still_zero, NULL, end_rig) {
+    static int64_t late[100];
+    memset(late, 0, sizeof late);
+    late[50] = 100000000;
+    init();
+    r.desc.ramp_s = 0.0;
+    r.late = late;
+    r.late_count = COUNT_OF(late);
+    r.desc.tick_limit = 90;
+    rig_create(&r);
+    rig_run(&r);
+    CHECK_SAME(r.written[50][1], 0.0L);
+    CHECK_SAME(r.written[51][1], 1.0L);
 }
 
 static void stall(rig *self) {

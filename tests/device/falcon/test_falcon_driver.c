@@ -6,16 +6,20 @@
 #include "device/port.h"
 #include "falcon_fake.h"
 
+#include <knurl/loop.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 static falcon_fake fake;
 static const double no_force[3] = {0.0, 0.0, 0.0};
 
-static knurl_device *opened; /* a test that fails leaves it so */
+static knurl_device *opened; /* a test that fails leaves these so */
+static knurl_loop *running;
 
 /* A fresh device on the bus, in a moving hand. */
 static void begin(void) {
+    knurl_loop_destroy(running);
+    running = NULL;
     knurl_device_close(opened);
     opened = NULL;
     falcon_fake_init(&fake, NULL);
@@ -277,6 +281,58 @@ TEST(a_homing_that_is_lost_for_a_moment_does_not_end_in_the_full_force_at_once) 
     (void)run(device, 5, force);
     CHECK_CLOSE(falcon_fake_look(&fake).force[0], 1.0, 0.02);
     close_fake(device);
+}
+
+static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[1] = 2.0;
+}
+
+/* The strongest motor, as it is told now. */
+static int strongest_motor(void) {
+    const falcon_sim sim = falcon_fake_look(&fake);
+    int most = 0;
+    for (int leg = 0; leg < 3; leg++) {
+        most = abs(sim.motors[leg]) > most ? abs(sim.motors[leg]) : most;
+    }
+    return most;
+}
+
+TEST(a_loop_comes_back_from_lost_homings_of_any_length_by_the_ramp) {
+    static const int gaps_ms[] = {1, 3, 8, 11, 100};
+    knurl_loop_desc desc;
+    begin();
+    falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = open_fake();
+    desc.force_callback = push;
+    assert_int_equal(knurl_loop_create(&desc, &running), KNURL_OK);
+    assert_int_equal(knurl_loop_start(running), KNURL_OK);
+    sleep_ms(100);
+    const int full = strongest_motor();
+    assert_true(full > 100);
+    for (size_t i = 0; i < COUNT_OF(gaps_ms); i++) {
+        int before = 0;
+        int steepest = 0;
+        falcon_fake_inject(&fake, DOUBLE_UNHOMED);
+        sleep_ms(gaps_ms[i]);
+        falcon_fake_inject(&fake, DOUBLE_WELL);
+        sleep_ms(2);
+        assert_true(strongest_motor() < full / 4);
+        for (int ms = 0; ms < 60; ms++) {
+            const int now = strongest_motor();
+            steepest = now - before > steepest && ms > 0 ? now - before : steepest;
+            before = now;
+            sleep_ms(1);
+        }
+        assert_int_equal(before, full);
+        assert_true(steepest <= full / 7); /* a ramp of 20 ms; up to three of its steps between two looks */
+    }
+    knurl_loop_destroy(running);
+    running = NULL;
+    close_fake(opened);
 }
 
 TEST(buttons_are_told) {

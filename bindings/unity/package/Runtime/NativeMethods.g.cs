@@ -598,7 +598,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "ad65bb54e91f9752";
+        internal const string Interface = "05ee8f08c0b2a18a";
 
         internal const string Version = "0.1.0";
 
@@ -694,6 +694,7 @@ namespace Knurl
         internal const int KNURL_FAULT_REFUSED = 10;
         internal const int KNURL_FAULT_UNCALIBRATED = 11;
         internal const int KNURL_FAULT_UNGUARDED = 12;
+        internal const int KNURL_FAULT_GAP = 13;
         internal const int KNURL_FAULT_RESUMED = 32;
         internal const int KNURL_FAULT_RECONNECTED = 33;
         internal const int KNURL_STROKE_LINE = 1;
