@@ -1,4 +1,4 @@
-/* From the haptic thread to the game thread. SPDX-License-Identifier: MIT */
+/* Data from the haptic thread to the game thread. SPDX-License-Identifier: MIT */
 #include "board.h"
 
 #include "base/seqlock.h"

@@ -1,5 +1,6 @@
-/* What the haptic thread leaves for the game thread, and never waits: the latest tick as it was sent, a ring of heights
- * and forces, a ring of changes of what is touched. SPDX-License-Identifier: MIT */
+/* Data from the haptic thread to the game thread, without waiting: the latest tick, a ring of heights and forces, a
+ * ring of touches and releases.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_COMMON_BOARD_H
 #define KNURL_COMMON_BOARD_H
 

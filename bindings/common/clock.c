@@ -1,7 +1,7 @@
-/* An engine's clocks against the haptic thread's ticks. An engine moves its objects in steps of its physics or in
- * frames; a frame shows what the steps before it came to, so that moves arrive in no even rhythm although their steps
- * are even. A move is therefore played until its step's time plus a lag by which the next one has always come: what
- * moves at a constant speed is then felt at that speed, at any pair of rates. SPDX-License-Identifier: MIT */
+/* Smooth motion for surfaces that an engine moves. Engines move objects in physics steps or in frames, which do not
+ * arrive at even times. Each move is therefore played with a short delay, until the time of its own step plus that
+ * delay, so that constant motion is felt as constant at any pair of rates.
+ * SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <math.h>

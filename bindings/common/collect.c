@@ -1,5 +1,4 @@
-/* What happened in a session's run, from the haptic thread to the events that a game is told.
- * SPDX-License-Identifier: MIT */
+/* Events of a session's run for the game. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <string.h>

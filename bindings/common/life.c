@@ -1,4 +1,4 @@
-/* Sessions as such: made, found, ended. SPDX-License-Identifier: MIT */
+/* Creating, finding and destroying sessions. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* The device "mouse": no device at all; the game moves the HIP, a filter makes a motion of its steps.
+/* The device "mouse": the game moves the HIP, and a filter smooths the steps. There is no hardware.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_COMMON_MOUSE_H
 #define KNURL_COMMON_MOUSE_H

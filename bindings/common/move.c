@@ -1,4 +1,4 @@
-/* What moves in a session, and what lies out of its reach. SPDX-License-Identifier: MIT */
+/* Moving surfaces of a session, and surfaces out of its reach. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <math.h>

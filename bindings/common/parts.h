@@ -1,5 +1,6 @@
-/* What a session is made of. All of it is the game thread's but for the board and the mouse, which the haptic thread
- * writes and reads. SPDX-License-Identifier: MIT */
+/* The insides of a session. Everything belongs to the game thread except the board and the mouse, which both threads
+ * use.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_COMMON_PARTS_H
 #define KNURL_COMMON_PARTS_H
 

@@ -1,4 +1,5 @@
-/* Splits an engine's matrices into what a scene's surfaces have and what is baked. SPDX-License-Identifier: MIT */
+/* Splits an engine's matrices into position and rotation, which a surface has, and scale, which is baked into its mesh.
+ * SPDX-License-Identifier: MIT */
 #include "base/handle.h"
 #include "session.h"
 

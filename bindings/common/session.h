@@ -1,8 +1,8 @@
-/* What every engine's binding does the same way, in C, so that a binding is conversion, lifetime and editor comfort:
- * one device, one scene and one loop that live and end together, and what happened to them, told once a frame. Life:
- * create; add surfaces to knurl_session_get_scene(); open; (add what only running devices feel); start; an update a
- * frame; close; open again or destroy. All of it belongs to the game thread; what the haptic thread leaves is fetched
- * without waiting. Scene axes are Knurl's (right-handed, SI); an engine's own are converted before they come here.
+/* What all engine bindings share, in C, so that a binding is left with conversion, lifetime and editor support. A
+ * session is one device, one scene and one loop that live together, and their events once per frame. Order of calls:
+ * create; add surfaces to knurl_session_get_scene(); open; (add surfaces that need a running device); start; update
+ * once per frame; close; open again or destroy. All calls come from the game thread and never wait for the haptic
+ * thread. Scene axes are Knurl's (right-handed, SI); bindings convert their engine's.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SESSION_H
 #define KNURL_SESSION_H

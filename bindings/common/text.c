@@ -1,4 +1,4 @@
-/* Sentences in a caller's buffer. SPDX-License-Identifier: MIT */
+/* Formatting of sentences into a caller's buffer. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <stdarg.h>

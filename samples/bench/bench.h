@@ -1,5 +1,6 @@
-/* What a tick takes, case by case: `knurl bench`. A case is a scene and a way to move through it; its ticks are timed
- * one by one, the timer's own cost taken off each. SPDX-License-Identifier: MIT */
+/* The cases of `knurl bench`. A case is a scene and a motion through it; its ticks are timed one by one, minus the
+ * timer's own cost.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_BENCH_H
 #define KNURL_SAMPLES_BENCH_H
 

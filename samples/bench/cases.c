@@ -1,4 +1,4 @@
-/* The cases, and what times them warm. SPDX-License-Identifier: MIT */
+/* The table of cases, and timing with a warm cache. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* What a device sees: a loop at 1 kHz on a device that is a stroke. SPDX-License-Identifier: MIT */
+/* Timing at a device's pace: a loop at 1 kHz on a device that plays a stroke. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Where the HIP of a case is. SPDX-License-Identifier: MIT */
+/* The HIP's position in a case, tick by tick. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
 #include "sheet.h"

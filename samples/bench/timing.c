@@ -1,4 +1,4 @@
-/* The clock, what it costs, and percentiles. SPDX-License-Identifier: MIT */
+/* The clock, its own cost, and percentiles. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Files that a user names to be read. SPDX-License-Identifier: MIT */
+/* Input files. SPDX-License-Identifier: MIT */
 #include "in.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-/* Files that a user names to be read: opened first and looked at then. SPDX-License-Identifier: MIT */
+/* Opens input files that a user names; only regular files are read. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_IN_H
 #define KNURL_SAMPLES_IN_H
 

@@ -1,4 +1,4 @@
-/* JSON. SPDX-License-Identifier: MIT */
+/* A JSON writer. SPDX-License-Identifier: MIT */
 #include "json.h"
 
 #include "out.h"

@@ -1,4 +1,4 @@
-/* JSON, for the tool and the studies. SPDX-License-Identifier: MIT */
+/* A JSON writer for the tool and the studies. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_JSON_H
 #define KNURL_SAMPLES_JSON_H
 

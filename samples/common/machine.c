@@ -1,4 +1,4 @@
-/* Which machine this is, and what stands beside the program. SPDX-License-Identifier: MIT */
+/* The machine's name, and programs in the folder of this one. SPDX-License-Identifier: MIT */
 #include "machine.h"
 
 #include <stdio.h>

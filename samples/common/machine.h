@@ -1,4 +1,4 @@
-/* Which machine this is, and what stands beside the running program. SPDX-License-Identifier: MIT */
+/* The machine's name, and programs in the folder of this one. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_MACHINE_H
 #define KNURL_SAMPLES_MACHINE_H
 

@@ -1,4 +1,4 @@
-/* Files that are whole or not there and never replace an input, numbers that read back. SPDX-License-Identifier: MIT */
+/* Output files, written completely or not at all. SPDX-License-Identifier: MIT */
 #include "out.h"
 
 #include "options.h"

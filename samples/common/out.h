@@ -1,5 +1,6 @@
-/* Output of the tool and the studies: files that are there whole or not at all and never replace an input, numbers that
- * read back. SPDX-License-Identifier: MIT */
+/* Output of the tool and the studies. A file appears only when it is complete and never replaces an input; numbers are
+ * printed so that they read back exactly.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SAMPLES_OUT_H
 #define KNURL_SAMPLES_OUT_H
 

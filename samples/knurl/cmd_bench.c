@@ -1,4 +1,4 @@
-/* knurl bench: what a tick takes, on this machine. SPDX-License-Identifier: MIT */
+/* knurl bench: times ticks on this machine. SPDX-License-Identifier: MIT */
 #include "bench.h"
 #include "machine.h"
 #include "tool.h"

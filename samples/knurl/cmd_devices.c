@@ -1,4 +1,4 @@
-/* knurl devices: what is connected, and what helps where something is not. SPDX-License-Identifier: MIT */
+/* knurl devices: lists the connected devices, and what to do where there are problems. SPDX-License-Identifier: MIT */
 #include "tool.h"
 
 #include <knurl/device.h>

@@ -1,4 +1,4 @@
-/* knurl inspect: what a file's tagged surfaces come to. SPDX-License-Identifier: MIT */
+/* knurl inspect: describes a file's tagged surfaces. SPDX-License-Identifier: MIT */
 #include "tool.h"
 
 #include <knurl/knurl.h>

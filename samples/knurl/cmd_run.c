@@ -1,4 +1,5 @@
-/* knurl run: the main job. Loads a scene, strokes it, ticks it, says what was felt. SPDX-License-Identifier: MIT */
+/* knurl run: loads a scene, strokes it with a device or a simulated hand, and summarises the run.
+ * SPDX-License-Identifier: MIT */
 #include "faults.h"
 #include "recorder.h"
 #include "stroke.h"

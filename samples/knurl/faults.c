@@ -1,4 +1,4 @@
-/* Faults for people and for the summary. SPDX-License-Identifier: MIT */
+/* Device faults, printed as they come and counted for the summary. SPDX-License-Identifier: MIT */
 #include "faults.h"
 
 #include <string.h>

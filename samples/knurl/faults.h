@@ -1,4 +1,4 @@
-/* A run's faults, as they come and counted. SPDX-License-Identifier: MIT */
+/* Device faults, printed as they come and counted for the summary. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_FAULTS_H
 #define KNURL_TOOL_FAULTS_H
 

@@ -1,4 +1,4 @@
-/* A run's CSV. SPDX-License-Identifier: MIT */
+/* The ring buffer and the CSV rows of a run. SPDX-License-Identifier: MIT */
 #include "recorder.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* From the haptic thread to a CSV file: a ring that one thread fills and another empties. SPDX-License-Identifier: MIT
- */
+/* Records a run: the haptic thread fills a ring buffer, the main thread writes it to a CSV file.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_RECORDER_H
 #define KNURL_TOOL_RECORDER_H
 

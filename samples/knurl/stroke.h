@@ -1,4 +1,4 @@
-/* Lays the fake device's stroke or trace over a scene. SPDX-License-Identifier: MIT */
+/* Sets up the fake device's stroke or trace for a scene. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_STROKE_H
 #define KNURL_TOOL_STROKE_H
 

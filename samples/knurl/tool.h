@@ -1,4 +1,4 @@
-/* What the commands of the tool share: output, input. SPDX-License-Identifier: MIT */
+/* Declarations that the commands share: CSV input and output, warnings. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_H
 #define KNURL_TOOL_H
 

@@ -1,4 +1,4 @@
-/* How far a run moved in contact. SPDX-License-Identifier: MIT */
+/* The distance that a run moved in contact. SPDX-License-Identifier: MIT */
 #include "travel.h"
 
 #include <math.h>

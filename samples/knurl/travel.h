@@ -1,5 +1,4 @@
-/* How far a run moved in contact, and what to say where that is next to nothing.
- * SPDX-License-Identifier: MIT */
+/* The distance that a run moved in contact, and a diagnosis where it is close to zero. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_TRAVEL_H
 #define KNURL_TOOL_TRAVEL_H
 

@@ -1,4 +1,4 @@
-/* The method AREA on grids: three ways to take a mean, over all directions; and where it is worst, by search.
+/* Study `area`: three ways to average a grid, over all directions; and a search for AREA's worst cases.
  * SPDX-License-Identifier: MIT */
 #include "area_parts.h"
 #include "gratings.h"

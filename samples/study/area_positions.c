@@ -1,4 +1,4 @@
-/* What the method AREA is given: raw positions, or a way that a velocity carries on and positions draw back.
+/* Study `area`: the positions that AREA is given, raw or smoothed by a velocity estimate.
  * SPDX-License-Identifier: MIT */
 #include "area_parts.h"
 

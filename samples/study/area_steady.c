@@ -1,4 +1,4 @@
-/* Every method at steady speeds, beside AREA: what pushes, how strong and how even the ridges are, false tones.
+/* Study `area`: all methods at constant speeds: net force, strength and evenness of the ridges, false tones.
  * SPDX-License-Identifier: MIT */
 #include "area_parts.h"
 

@@ -1,5 +1,6 @@
-/* The contenders of the tradeoff: a method at an update rate, with what it knows of the motion. To add a method, add a
- * row to the table in contender.c. SPDX-License-Identifier: MIT */
+/* The contenders of the study `tradeoff`: a method at an update rate with a velocity estimator. To add a method, add a
+ * row to the table in contender.c.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_CONTENDER_H
 #define KNURL_STUDY_CONTENDER_H
 

@@ -1,4 +1,5 @@
-/* What a tick costs: nanoseconds on this machine, and instructions, which repeat. SPDX-License-Identifier: MIT */
+/* The cost of a tick: nanoseconds on this machine, and instructions, which are reproducible.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_COST_H
 #define KNURL_STUDY_COST_H
 

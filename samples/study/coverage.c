@@ -1,5 +1,5 @@
-/* Figure 3: the frequencies that can be reached with even periods, with odd ones, and with the mixed case, and the
- * steps between them that a hand feels. SPDX-License-Identifier: MIT */
+/* Figure 3: the frequencies that even, odd and mixed periods reach, and the steps between them.
+ * SPDX-License-Identifier: MIT */
 #include "coverage.h"
 
 #include "study.h"

@@ -1,4 +1,4 @@
-/* Which frequencies a method can play, and where a hand would feel steps between them (figure 3).
+/* The frequencies that a method can play, and where the steps between them can be felt (figure 3).
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_COVERAGE_H
 #define KNURL_STUDY_COVERAGE_H

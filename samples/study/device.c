@@ -1,5 +1,5 @@
-/* knurl study device: figure 11, appendix A, on a simulated Touch whose HIP is fixed to a force sensor. The sensor's
- * reading is the force in the spring and damper that hold the plant, from its position at 40 kHz.
+/* knurl study device: figure 11 (appendix A) on a simulated Touch whose HIP is fixed to a force sensor. The sensor's
+ * reading is the force of the spring and damper that hold the plant, from its position at 40 kHz.
  * SPDX-License-Identifier: MIT */
 #include "device_bench.h"
 #include "study.h"

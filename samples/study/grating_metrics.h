@@ -1,5 +1,6 @@
-/* What a grating is worth under a given motion: played against crossed cycles, phase error, step with the surface,
- * dropout, net force, spurious energy. For studies. SPDX-License-Identifier: MIT */
+/* Metrics of a grating under a given motion: cycles played and crossed, phase error, dropouts, net force, spurious
+ * energy. For studies.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_GRATING_METRICS_H
 #define KNURL_STUDY_GRATING_METRICS_H
 

@@ -1,4 +1,4 @@
-/* Half cycles: the scan, the impulses, what they come to. SPDX-License-Identifier: MIT */
+/* Half cycles: the scan, the impulses, their statistics. SPDX-License-Identifier: MIT */
 #include "half_cycles.h"
 
 #include "statistics.h"

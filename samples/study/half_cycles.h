@@ -1,13 +1,14 @@
-/* What every half cycle of a grating gives the hand: its impulse, at constant speed, whatever the tessellation.
+/* The impulse of every half cycle of a grating, at constant speed, for any tessellation.
  *
- * Impulse of a half cycle: the force along the normal less the wall's K d, summed over the half's ticks, times the
- * update period. d is not read from the tick: the HIP is held d below the surface by this file's own geometry, so that
- * what a tick gets wrong about depth is in the impulse. A cycle is an event that S2 plays, N ticks from its first; its
- * halves are the first ceil(N/2) ticks and the rest (Algorithms 2, 4).
+ * The impulse of a half cycle is the force along the normal minus the wall's K d, summed over the half's ticks, times
+ * the update period. d comes from this file's own geometry, which holds the HIP d below the surface, and not from the
+ * tick; so a tick's error in depth shows in the impulse. A cycle is an event of S2, N ticks long; its halves are the
+ * first ceil(N/2) ticks and the rest (Algorithms 2, 4).
  *
- * By Eqs. 5 and 7 both halves of an event of N ticks give K A T_h sqrt(Tp Tn) (Tp and Tn in ticks), which is K A T_h
- * N/2 for even N. Where two lengths alternate, the impulses differ by design, so that `cv` is taken of impulses over
- * this expectation; `raw_cv` is of the impulses as they are. SPDX-License-Identifier: MIT */
+ * By Eqs. 5 and 7 both halves of an event have the impulse K A T_h sqrt(Tp Tn) (Tp and Tn in ticks), which is K A T_h
+ * N/2 for even N. Where two lengths alternate, impulses differ by design: `cv` is of impulses divided by this
+ * expectation, `raw_cv` of the impulses themselves.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_HALF_CYCLES_H
 #define KNURL_STUDY_HALF_CYCLES_H
 

@@ -1,6 +1,7 @@
-/* The stability laboratory: a simulated device in a simulated hand against a wall or a grating, tick by tick, and what
- * came of it, decided by the signals. Along the wall's normal, "height" below is that of the true position over the
- * surface: m, negative inside. SPDX-License-Identifier: MIT */
+/* The stability laboratory: a simulated device in a simulated hand against a wall or a grating, tick by tick, and a
+ * verdict from the signals. "Height" below is the true position's distance from the surface along the wall's normal: m,
+ * negative inside.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_LAB_H
 #define KNURL_STUDY_LAB_H
 

@@ -1,4 +1,4 @@
-/* What a run of the laboratory came to, from its signals. SPDX-License-Identifier: MIT */
+/* The verdict on a run of the laboratory, from its signals. SPDX-License-Identifier: MIT */
 #include "lab.h"
 
 #include <kiss_fft.h>

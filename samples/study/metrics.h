@@ -1,5 +1,5 @@
-/* What a signal is worth: metrics of held (zero-order) periodic signals, over whole actual periods. For studies; a game
- * does not need them. SPDX-License-Identifier: MIT */
+/* Metrics of held (zero-order) periodic signals, over whole actual periods. For studies; a game does not need them.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_METRICS_H
 #define KNURL_STUDY_METRICS_H
 

@@ -1,4 +1,4 @@
-/* Figure 2: what T1, T2 and T3 play at even, odd, 400 Hz and other periods, and the two parts of a mix.
+/* Figure 2: signals of T1, T2 and T3 at even, odd, 400 Hz and other periods, and the two parts of a mixed signal.
  * SPDX-License-Identifier: MIT */
 #include "study.h"
 #include "wave_options.h"

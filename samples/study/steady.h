@@ -1,5 +1,5 @@
-/* What a hand gets of a steady scan: what pushes, how even and how strong it is, what is not the ridges'. Of the
- * heights as they are told, tick by tick: the hold's images above f_h/2 are the same for every method.
+/* Metrics of scans at constant speed, from the heights of all ticks: net force, evenness and strength of the ridges,
+ * false tones. The hold's images above f_h/2 are the same for every method and are left out.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_STEADY_H
 #define KNURL_STUDY_STEADY_H

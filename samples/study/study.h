@@ -1,5 +1,5 @@
-/* The studies: each draws one of the paper's figures, or one of this project's charts, as numbers. A study writes
- * DIR/NAME.csv (a header, then rows) and DIR/NAME.json (what the figure says, in numbers); plot.py draws the two.
+/* The studies: each computes the numbers of a figure of the paper or of a chart of this project. A study writes
+ * DIR/NAME.csv (a header, then rows) and DIR/NAME.json (results); figures.py draws them.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_H
 #define KNURL_STUDY_H

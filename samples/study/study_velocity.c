@@ -1,4 +1,5 @@
-/* Which velocity estimator is to be the default: the errors of each at each speed, resolution and rate, and its cost.
+/* Study `velocity`: errors of each velocity estimator at each speed, resolution and rate, and its cost; the choice of
+ * the default.
  * SPDX-License-Identifier: MIT */
 #include "velocity.h"
 

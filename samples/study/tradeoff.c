@@ -1,5 +1,5 @@
-/* Cost against accuracy, the chart that this project is asked for: each method at each rate, with each velocity.
- * x: ns a tick (measured in this run, the empty tick's taken off) times ticks a second; y: accuracy over steady speeds.
+/* Study `tradeoff`: cost against accuracy of each method at each rate with each velocity estimator. x: ns per tick
+ * (measured in this run, minus the empty tick's) times ticks per second; y: accuracy at constant speeds.
  * SPDX-License-Identifier: MIT */
 #include "contender.h"
 #include "cost.h"

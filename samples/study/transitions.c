@@ -1,5 +1,6 @@
-/* What becomes of an event when the hand turns, stops or lifts, or when surface or material change under it: by whole
- * ticks of a scene, at 200 Hz, begun in each tick of an event. SPDX-License-Identifier: MIT */
+/* Study `transitions`: what happens to an event when the hand reverses, stops or lifts off, or when surface or material
+ * change: whole ticks of a scene, at 200 Hz, for each tick of an event.
+ * SPDX-License-Identifier: MIT */
 #include "study.h"
 
 #include <math.h>

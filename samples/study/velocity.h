@@ -1,7 +1,7 @@
-/* What velocity estimators get wrong, and what a grating makes of it: errors at steady speeds, delay in strokes, and
- * S2's events on a grating of 1 mm. A hand's speed wobbles by 2 % at 9 Hz; runs start at 8 places of a count, at 8
- * speeds either side of the one that is named: at 0.055 mm counts every multiple of 5 mm/s crosses a whole number of
- * them in 11 ms, which is where an estimator over 11 ms makes no error at all, and so for others.
+/* Errors of velocity estimators and their effect on a grating: errors at constant speed, delay in strokes, S2's events
+ * on a grating of 1 mm. The hand's speed varies by 2 % at 9 Hz. Runs start at 8 places within a quantum, at 8 speeds
+ * around the named one: at 0.055 mm every multiple of 5 mm/s crosses a whole number of quanta in 11 ms, where an
+ * estimator over 11 ms happens to make no error.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_VELOCITY_H
 #define KNURL_STUDY_VELOCITY_H

@@ -1,4 +1,4 @@
-/* What the answers come to: counts, Eq. 14, and verdicts under three rules. SPDX-License-Identifier: MIT */
+/* Analysis of the answers: counts, Eq. 14, and verdicts under three rules. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include "statistics.h"

@@ -1,4 +1,4 @@
-/* Runs one loop and waits for what ends it. SPDX-License-Identifier: MIT */
+/* Runs one loop until it ends. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
-/* The paper's Experiments 1, 2 and 3 (section IV) as a program: what is asked, what is played, what was answered and
- * what that comes to. SPDX-License-Identifier: MIT */
+/* The paper's experiments 1, 2 and 3 (section IV): design, stimuli, records and analysis.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_EXPERIMENT_H
 #define KNURL_EXPERIMENT_H
 

@@ -1,5 +1,6 @@
-/* A trial of experiment 3 on a device: two plates with a grating each, and a wall between them so that nobody slides
- * from one to the other below the surface. SPDX-License-Identifier: MIT */
+/* A trial of experiment 3 on a device: two plates with a grating each, and a wall between them that keeps the HIP from
+ * sliding from one to the other.
+ * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The CSVs of sessions read back: every cell that the analysis uses is checked. SPDX-License-Identifier: MIT */
+/* Reads the CSV files of sessions and checks every cell that the analysis uses. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include <errno.h>

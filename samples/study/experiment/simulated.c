@@ -1,5 +1,5 @@
-/* The simulated answerer, so that the protocol runs to its end with nobody there. It is a formula, not a finding: it
- * knows neither hands nor ears. SPDX-License-Identifier: MIT */
+/* A simulated subject, to run the protocol without a person. It answers by a formula and says nothing about people.
+ * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include "metrics.h"

@@ -1,4 +1,4 @@
-/* knurl metrics: what a temporal vibration is worth. SPDX-License-Identifier: MIT */
+/* knurl metrics: metrics of a temporal vibration. SPDX-License-Identifier: MIT */
 #include "metrics.h"
 
 #include "json.h"

@@ -1,4 +1,4 @@
-/* knurl study: the figures and charts, as numbers. SPDX-License-Identifier: MIT */
+/* knurl study: the numbers behind the figures and charts. SPDX-License-Identifier: MIT */
 #include "programs.h"
 
 #include "options.h"

@@ -1,4 +1,4 @@
-/* knurl_study: what `knurl study` and `knurl metrics` run. SPDX-License-Identifier: MIT */
+/* knurl_study: the program that runs `knurl study` and `knurl metrics`. SPDX-License-Identifier: MIT */
 #include "options.h"
 #include "programs.h"
 

@@ -1,5 +1,6 @@
-/* Runs so many ticks of one contender and nothing else: for an instruction counter.
- * usage: knurl_tick_row INDEX TICKS. SPDX-License-Identifier: MIT */
+/* Runs a number of ticks of one contender and nothing else, for counting instructions. usage: knurl_tick_row INDEX
+ * TICKS.
+ * SPDX-License-Identifier: MIT */
 #include "contender.h"
 
 #include <stdio.h>

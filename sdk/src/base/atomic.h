@@ -1,4 +1,4 @@
-/* Atomics: C99 has none, every compiler that builds this has these built in. SPDX-License-Identifier: MIT */
+/* Atomic loads and stores by the compiler's builtins: C99 has none of its own. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_ATOMIC_H
 #define KNURL_SRC_ATOMIC_H
 

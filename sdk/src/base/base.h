@@ -1,4 +1,4 @@
-/* What rooms share and no caller sees: growable structs, thread-local storage, 3-vectors' home is base/vec3.h.
+/* Helpers for all modules: growable structs, thread-local storage. Vectors are in vec3.h.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_BASE_H
 #define KNURL_SRC_BASE_H

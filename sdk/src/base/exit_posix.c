@@ -1,4 +1,4 @@
-/* POSIX: what is done before the process ends or stops. SPDX-License-Identifier: MIT */
+/* POSIX: hooks that run before the process ends or stops. SPDX-License-Identifier: MIT */
 #include "base/system.h"
 
 #include <pthread.h>

@@ -1,6 +1,7 @@
-/* Windows: what is done before an exception, abort(), the console or exit() ends the process. TerminateProcess() and
- * __fastfail() leave no time for anything; at the exit() of a program whose Knurl is a DLL, all other threads have
- * ended already, so that nobody is left who could send. SPDX-License-Identifier: MIT */
+/* Windows: hooks that run before an exception, abort(), a console event or exit() ends the process. Not before
+ * TerminateProcess() and __fastfail(). At the exit() of a program that uses the DLL all other threads have ended
+ * already, so that none is left to send a force.
+ * SPDX-License-Identifier: MIT */
 #include "base/system.h"
 
 #include <windows.h>

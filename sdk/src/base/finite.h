@@ -1,4 +1,5 @@
-/* The arithmetic that every source here needs, and whether a number is finite. Every source includes this.
+/* Required compiler arithmetic, and tests for finite numbers that work under any compiler flags. Every source includes
+ * this.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FINITE_H
 #define KNURL_SRC_FINITE_H

@@ -1,5 +1,6 @@
-/* The guard process. 0: the socket to the host; 1: the device. It holds nothing else, hears no signal, and ends with
- * the host. SPDX-License-Identifier: MIT */
+/* The guard process. Descriptor 0: the socket to the host; 1: the device. It holds nothing else, ignores signals, and
+ * ends with the host.
+ * SPDX-License-Identifier: MIT */
 #include "base/guard_process.h"
 
 #include <linux/usbdevice_fs.h>

@@ -1,4 +1,4 @@
-/* Windows: there is no guard process so far. SPDX-License-Identifier: MIT */
+/* Windows: the guard process is not implemented. SPDX-License-Identifier: MIT */
 #include "base/guard_process.h"
 
 #include <stdio.h>

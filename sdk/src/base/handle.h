@@ -1,7 +1,7 @@
-/* What tells a live object from null, from an object of another kind and from one that was destroyed: a number that is
- * the first member of each and is cleared when it is destroyed. A destroyed one is recognised as long as nobody has got
- * its memory: this finds mistakes, it does not allow them. Header only, so that bindings/common can use it, which links
- * with nothing of the library but its public functions. SPDX-License-Identifier: MIT */
+/* Checks of handles. The first member of each object is a number of its kind, cleared when it is destroyed; this tells
+ * a live object from null, from another kind, and from a destroyed one as long as its memory is not reused. Header
+ * only, because bindings/common links with public functions only.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HANDLE_H
 #define KNURL_SRC_HANDLE_H
 

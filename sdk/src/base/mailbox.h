@@ -1,5 +1,6 @@
-/* The newest of something, from one writer to one reader; neither ever waits, nor tries again: three slots, of which
- * the writer owns one, the reader one, and the third changes hands. SPDX-License-Identifier: MIT */
+/* The newest value from one writer to one reader. Neither waits or retries: there are three slots, of which the writer
+ * owns one, the reader one, and the third is exchanged.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MAILBOX_H
 #define KNURL_SRC_MAILBOX_H
 

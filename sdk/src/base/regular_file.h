@@ -1,5 +1,5 @@
-/* Files that somebody else names: opened first and looked at then, so that nothing can be swapped in between; nothing
- * but a regular file is read, and nothing waits for a FIFO's other end. Compiled into both libraries.
+/* Opens files by untrusted names: a file is opened first and checked afterwards, so that it cannot be replaced in
+ * between. Only regular files are read; a FIFO is refused without waiting. Compiled into both libraries.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_REGULAR_FILE_H
 #define KNURL_SRC_REGULAR_FILE_H

@@ -1,5 +1,6 @@
-/* One writer that never waits, readers that try again: a consistent copy of a small struct for any thread.
- * The words are atomics, so that no access is a data race. SPDX-License-Identifier: MIT */
+/* A sequence lock: one writer that never waits, readers that retry until they have a consistent copy of a small struct.
+ * All words are atomics, so there is no data race.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SEQLOCK_H
 #define KNURL_SRC_SEQLOCK_H
 
@@ -22,12 +23,13 @@
 #define KNURL_UNROLL
 #endif
 
-/* Writing: begin, put what there is (sizes are multiples of 8), end.
- * Without fences, which ThreadSanitizer does not understand; release and acquire are plain moves on x86.
- * Why words that are stored with release and loaded with acquire are enough: a reader whose load sees a word of a write
- * synchronises with that store, and the odd sequence was stored before it. So the reader's later load of the sequence
- * gives the odd number or a newer one, never the even one from before: it tries again. Nor does it see a word older
- * than the write whose even sequence it began with: that was stored with release after all its words. */
+/* Writing: begin, put the parts (sizes are multiples of 8), end.
+ *
+ * There are no fences, which ThreadSanitizer does not understand; release and acquire are plain moves on x86. Proof
+ * that they suffice: a reader that loads a word of a new write synchronises with that store, before which the odd
+ * sequence was stored; so the reader's second load of the sequence cannot return the old even number, and it retries. A
+ * reader also sees no word older than the write whose even sequence it began with, because that was stored with release
+ * after all its words. */
 static inline void knurl_seqlock_begin(uint64_t *sequence) {
     knurl_store_relaxed(sequence, knurl_load_relaxed(sequence) + 1);
 }

@@ -1,5 +1,5 @@
-/* What Knurl asks of the operating system: time, threads, locked memory, ends, libraries. One implementation a
- * system. SPDX-License-Identifier: MIT */
+/* The operating system's part: time, threads, locked memory, process ends, libraries. One implementation per system.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SYSTEM_H
 #define KNURL_SRC_SYSTEM_H
 
@@ -35,27 +35,26 @@ void knurl_system_mutex_destroy(knurl_mutex *mutex);
 void knurl_system_mutex_lock(knurl_mutex *mutex);
 void knurl_system_mutex_unlock(knurl_mutex *mutex);
 
-/* What is done before the process ends or stops: the clock, naps and atomics are all that these may use. */
+/* Functions to call before the process ends or stops. They may use the clock, sleeps and atomics only. */
 typedef struct knurl_exit_actions {
     void (*end)(void);    /* before an end, once or more often */
     void (*stop)(void);   /* before the process is stopped as a job of its terminal */
     void (*resume)(void); /* when it goes on after that */
 } knurl_exit_actions;
 
-/* Has `actions` (kept) called at exit() and before every signal that ends or stops the process, unless the host handles
- * or ignores it. Handlers of crashes are called after `end`; with faults_recover, those of SIGSEGV, SIGBUS, SIGFPE and
- * SIGILL are left alone too. 0: the system refused. Later calls change nothing. */
+/* Registers `actions` (kept) for exit() and for every signal that ends or stops the process, unless the host handles or
+ * ignores it. Earlier handlers of crashes are called after `end`; with faults_recover, those of SIGSEGV, SIGBUS, SIGFPE
+ * and SIGILL are left alone too. Returns 0 where the system refuses. Later calls change nothing. */
 int knurl_system_on_exit(const knurl_exit_actions *actions, int faults_recover);
 
-/* Takes a device's node, so that no other opening of it, here or in another process, can take it too: until it is given
- * back, or the process ends, however it ends. Above 0: taken, the number to give it back by; 0: another has it; below
- * 0: the system cannot tell. */
+/* Locks a device's node against other openings, here or in another process, until it is given back or the process ends
+ * in whatever way. Returns a positive number to give it back by; 0: another has it; negative: the system cannot tell.
+ */
 intptr_t knurl_system_take_node(const char *path);
 void knurl_system_give_back_node(intptr_t node);
 
-/* Libraries that are loaded at run time. path: an absolute path, or a bare name, which is looked for where the system
- * keeps libraries (on Windows also beside the program), and never in the current folder or along the PATH. Null: `why`
- * says what the system says. */
+/* Loads a library. path: absolute, or a bare name that is searched where the system keeps libraries (on Windows also
+ * beside the program), never in the current folder or along PATH. Returns null and the system's reason in `why`. */
 typedef struct knurl_library knurl_library;
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size);
 void knurl_system_unload_library(knurl_library *library);

@@ -1,5 +1,4 @@
-/* The point of a triangle that is closest to another. Everything here may run in a tick. SPDX-License-Identifier: MIT
- */
+/* The closest point of a triangle to a given point. Everything here may run in a tick. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CLOSEST_POINT_H
 #define KNURL_SRC_CLOSEST_POINT_H
 

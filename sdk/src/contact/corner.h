@@ -1,4 +1,4 @@
-/* Corners of a mesh, and from edge to edge round a vertex. SPDX-License-Identifier: MIT */
+/* Corners of a mesh, and stepping from edge to edge around a vertex. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CORNER_H
 #define KNURL_SRC_CORNER_H
 

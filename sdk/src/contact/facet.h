@@ -1,5 +1,6 @@
-/* The triangle that a held HIP's closest point is on, kept from tick to tick: nothing of it depends on where the HIP
- * is, as long as that stays above the same triangle. SPDX-License-Identifier: MIT */
+/* A cache of the triangle that holds the closest point. Its values do not depend on where the HIP is, as long as that
+ * stays above the same triangle.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FACET_H
 #define KNURL_SRC_FACET_H
 

@@ -1,4 +1,4 @@
-/* What a mesh has to be, is, and holds. SPDX-License-Identifier: MIT */
+/* A mesh's requirements, properties and memory. SPDX-License-Identifier: MIT */
 #include "contact/mesh.h"
 
 #include "base/vec3.h"

@@ -1,5 +1,6 @@
-/* Which triangles hang together: for each edge what lies beyond it, and the vertices that swinging from edge to edge
- * does not get round. Linear in the number of triangles, whatever the mesh. SPDX-License-Identifier: MIT */
+/* Builds adjacency: for each edge the triangle beyond it, and the vertices whose triangles are not all reached from
+ * edge to edge. Linear in the number of triangles for any mesh.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_adjacency.h"
 
 #include "contact/corner.h"

@@ -1,5 +1,6 @@
-/* From a caller's arrays to a mesh that can be touched: welds them, leaves out what cannot be felt, sorts the triangles
- * by where they are, numbers vertices in the order in which those use them. SPDX-License-Identifier: MIT */
+/* Builds a mesh from a caller's arrays: welds vertices, drops degenerate triangles, sorts triangles by place, and
+ * numbers vertices in the order of their use.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_build.h"
 
 #include "base/vec3.h"

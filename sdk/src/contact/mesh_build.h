@@ -1,4 +1,4 @@
-/* From a description to a mesh that can be touched. SPDX-License-Identifier: MIT */
+/* Builds a mesh from its description. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_BUILD_H
 #define KNURL_SRC_MESH_BUILD_H
 

@@ -1,6 +1,7 @@
-/* A way through a triangle mesh. Unlike the search for a crossing (mesh_query) it knows lengths: a triangle reaches
- * beyond its edges by so many metres, whatever its size, and a way begins on a face that it is no farther behind than
- * rounding puts it. SPDX-License-Identifier: MIT */
+/* Casts a segment against a triangle mesh. Unlike mesh_query's search for crossings, tolerances here are lengths: a
+ * triangle extends beyond its edges by the same distance whatever its size, and a segment may start behind a face by as
+ * much as rounding errors are.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_cast.h"
 
 #include "contact/closest_point.h"

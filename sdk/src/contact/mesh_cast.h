@@ -1,4 +1,4 @@
-/* Where a way goes through a triangle mesh, edges and seams included. Everything here may run in a tick.
+/* Casts a segment against a triangle mesh, edges and seams included. Everything here may run in a tick.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_CAST_H
 #define KNURL_SRC_MESH_CAST_H

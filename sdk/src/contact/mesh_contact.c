@@ -1,7 +1,7 @@
-/* The proxy on a triangle mesh. In front of the surface contact begins by nearest point and by what the HIP's path
- * crosses; inside, the proxy walks over the surface to the nearest point of its neighbourhood, tick by tick, so that a
- * thin wall or the far side of a body never catches it. It may then rest on a facet that is not the nearest of all:
- * that is what tells the front of a wall from its back. SPDX-License-Identifier: MIT */
+/* The proxy on a triangle mesh. From outside, contact begins by the nearest point and by triangles that the HIP's path
+ * crosses. Inside, the proxy walks over the surface to the nearest point of its neighbourhood, tick by tick. It may
+ * rest on a triangle that is not the nearest of all, which keeps the HIP on the right side of thin walls.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_contact.h"
 
 #include "contact/facet.h"

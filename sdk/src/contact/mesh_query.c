@@ -1,4 +1,4 @@
-/* Questions to a mesh's hierarchy: what is nearest, what is crossed. Iterative, bounded by the number of nodes.
+/* Searches a mesh's hierarchy for the nearest point and for crossings. Iterative, bounded by the number of nodes.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_query.h"
 

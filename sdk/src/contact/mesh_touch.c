@@ -1,5 +1,6 @@
-/* Each triangle against those whose boxes come near: most are told apart by a plane through a face or an edge of one of
- * the two. SPDX-License-Identifier: MIT */
+/* Tests each triangle against those whose boxes overlap its own; most pairs are separated by a plane through a face or
+ * an edge of one of the two.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_touch.h"
 
 #include "base/vec3.h"

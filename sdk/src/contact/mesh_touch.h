@@ -1,5 +1,6 @@
-/* Where a mesh meets itself other than along shared edges: T-junctions, seams whose two sides have vertices of their
- * own, parts that go through each other. SPDX-License-Identifier: MIT */
+/* Finds where a mesh touches itself elsewhere than at shared edges: T-junctions, seams with vertices on either side,
+ * parts that intersect.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_TOUCH_H
 #define KNURL_SRC_MESH_TOUCH_H
 

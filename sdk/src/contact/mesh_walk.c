@@ -1,6 +1,6 @@
-/* The walk of the closest point over a mesh. From an edge it looks at the triangle beyond, from a vertex at the fan
- * round it, and goes on only where it is strictly nearer: at an edge alone it would go wrong in concave corners, and it
- * ends. SPDX-License-Identifier: MIT */
+/* Moves the closest point over a mesh: from an edge to the triangle beyond, from a vertex to the triangles around it,
+ * and only where that is strictly nearer, so that it ends. Edges alone would fail in concave corners.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_walk.h"
 
 #include "contact/corner.h"

@@ -1,5 +1,6 @@
-/* The walk over a mesh to the local minimum of the distance, and which side of the surface a point is on there.
- * Everything here may run in a tick. SPDX-License-Identifier: MIT */
+/* The walk over a mesh to the local minimum of the distance, and the side of the surface that a point is on there.
+ * Everything here may run in a tick.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_WALK_H
 #define KNURL_SRC_MESH_WALK_H
 

@@ -1,5 +1,6 @@
-/* The outline of a flat sheet: the edges that no neighbour runs back along, straightened, so that T-junctions cancel
- * too. Edges in any order, each with the sheet on its left. SPDX-License-Identifier: MIT */
+/* Finds the outline of a flat sheet: the edges without a reversed twin, with collinear ones joined, so that T-junctions
+ * cancel too. Edges are in any order, each with the sheet on its left.
+ * SPDX-License-Identifier: MIT */
 #include "contact/outline.h"
 
 #include "base/vec3.h"

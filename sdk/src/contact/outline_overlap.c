@@ -1,4 +1,4 @@
-/* Does an outline go round its sheet once? SPDX-License-Identifier: MIT */
+/* Tests whether an outline goes around its sheet exactly once. SPDX-License-Identifier: MIT */
 #include "contact/outline_overlap.h"
 
 #include <math.h>

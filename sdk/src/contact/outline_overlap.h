@@ -1,4 +1,4 @@
-/* Does an outline go round its sheet once? SPDX-License-Identifier: MIT */
+/* Tests whether an outline goes around its sheet exactly once. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_OUTLINE_OVERLAP_H
 #define KNURL_SRC_OUTLINE_OVERLAP_H
 

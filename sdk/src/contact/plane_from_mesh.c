@@ -1,4 +1,4 @@
-/* Flat meshes as planes with their true outline. SPDX-License-Identifier: MIT */
+/* Replaces flat meshes by planes with their outline. SPDX-License-Identifier: MIT */
 #include "contact/plane_from_mesh.h"
 
 #include "base/vec3.h"

@@ -1,4 +1,4 @@
-/* Flat meshes as planes with their true outline. SPDX-License-Identifier: MIT */
+/* Replaces flat meshes by planes with their outline. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_PLANE_FROM_MESH_H
 #define KNURL_SRC_PLANE_FROM_MESH_H
 

@@ -1,5 +1,6 @@
-/* Hashes of three words for tables that are filled with what a file says: with a seed that its author could not know,
- * so that no file has more collisions than chance gives. SPDX-License-Identifier: MIT */
+/* A hash of three words with a secret seed, for tables filled from files: no file can be made to collide more than
+ * chance.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SEEDED_HASH_H
 #define KNURL_SRC_SEEDED_HASH_H
 

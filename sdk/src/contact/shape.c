@@ -1,4 +1,4 @@
-/* From a description to a plane or a mesh, and the table of what each of the two does. SPDX-License-Identifier: MIT */
+/* Creates a plane or a mesh from a description; the function tables of both. SPDX-License-Identifier: MIT */
 #include "contact/shape.h"
 
 #include "base/base.h"

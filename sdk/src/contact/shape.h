@@ -1,5 +1,5 @@
-/* A shape that can be touched, in its own frame: a bounded plane or a triangle mesh. Which of the two is asked once,
- * when it is created; from then on a table of functions answers, and this header. Immutable once created.
+/* A shape in its own frame: a bounded plane or a triangle mesh. The kind is decided at creation and reached through a
+ * table of functions. Immutable once created.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHAPE_H
 #define KNURL_SRC_SHAPE_H

@@ -1,4 +1,4 @@
-/* What is told of a shape. SPDX-License-Identifier: MIT */
+/* Facts about a shape, for reports. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHAPE_FACTS_H
 #define KNURL_SRC_SHAPE_FACTS_H
 

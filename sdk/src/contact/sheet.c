@@ -1,4 +1,4 @@
-/* Is a mesh a flat sheet that faces one way, and which of its triangles make it? SPDX-License-Identifier: MIT */
+/* Tests whether a mesh is a flat sheet that faces one way, and collects its triangles. SPDX-License-Identifier: MIT */
 #include "contact/sheet.h"
 
 #include "base/vec3.h"

@@ -1,5 +1,6 @@
 /* A flat sheet of triangles that faces one way: the first step from a mesh to a plane. A step that finds that the mesh
- * is no plane sets *why (a static sentence) and returns KNURL_OK. SPDX-License-Identifier: MIT */
+ * is no plane sets *why (a static sentence) and returns KNURL_OK.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHEET_H
 #define KNURL_SRC_SHEET_H
 

@@ -1,5 +1,6 @@
-/* Surface coordinates of a flat sheet, where they are the same everywhere: the grating's x, and coordinates that are
- * affine. As mesh_frame.c and scene/surface_frame.h have them. SPDX-License-Identifier: MIT */
+/* Surface coordinates of a flat sheet where they are affine: the grating's x, and the map. The same rules as in
+ * mesh_frame.c and scene/surface_frame.h.
+ * SPDX-License-Identifier: MIT */
 #include "contact/sheet_coordinates.h"
 
 #include "base/vec3.h"

@@ -1,4 +1,4 @@
-/* Surface coordinates of a flat sheet, where they are the same everywhere. SPDX-License-Identifier: MIT */
+/* Surface coordinates of a flat sheet where they are affine. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHEET_COORDINATES_H
 #define KNURL_SRC_SHEET_COORDINATES_H
 

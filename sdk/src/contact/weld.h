@@ -1,4 +1,4 @@
-/* Which vertices stand in one place (uv seams and hard edges double them). SPDX-License-Identifier: MIT */
+/* Finds vertices at the same place, which uv seams and hard edges duplicate. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_WELD_H
 #define KNURL_SRC_WELD_H
 

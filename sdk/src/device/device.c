@@ -1,4 +1,4 @@
-/* One interface for all devices: guards positions and forces. SPDX-License-Identifier: MIT */
+/* The device interface over all drivers: checks positions and forces. SPDX-License-Identifier: MIT */
 #include "device/link.h"
 #include "device/port.h"
 

@@ -1,4 +1,4 @@
-/* What a driver gives the device interface. SPDX-License-Identifier: MIT */
+/* The interface that each driver implements. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_DRIVER_H
 #define KNURL_SRC_DRIVER_H
 

@@ -1,4 +1,4 @@
-/* All drivers. SPDX-License-Identifier: MIT */
+/* The list of drivers. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_DRIVERS_H
 #define KNURL_SRC_DRIVERS_H
 

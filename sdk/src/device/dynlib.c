@@ -1,4 +1,4 @@
-/* Borrowed libraries. SPDX-License-Identifier: MIT */
+/* Libraries loaded at run time. SPDX-License-Identifier: MIT */
 #include "device/dynlib.h"
 
 #include "base/system.h"

@@ -1,5 +1,6 @@
-/* Libraries that a driver loads from the system at run time, so that Knurl needs none of them to start: a missing one
- * costs a sentence. SPDX-License-Identifier: MIT */
+/* System libraries that a driver loads at run time, so that Knurl starts without them; a missing one disables its
+ * driver with a message.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_DYNLIB_H
 #define KNURL_SRC_DYNLIB_H
 

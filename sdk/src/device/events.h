@@ -1,5 +1,5 @@
-/* A device's events: a ring that any thread writes without waiting, and that keeps the latest. SPDX-License-Identifier:
- * MIT */
+/* A device's events: a ring that any thread writes without waiting; the latest are kept.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_EVENTS_H
 #define KNURL_SRC_EVENTS_H
 

@@ -1,5 +1,4 @@
-/* When the process ends or stops: force 0, as long as the threads that write to devices still run.
- * SPDX-License-Identifier: MIT */
+/* Zeroes all forces when the process ends or stops. SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/system.h"
 #include "device/driver.h"

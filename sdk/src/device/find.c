@@ -1,4 +1,4 @@
-/* Finds the driver of a URI, and what is connected. SPDX-License-Identifier: MIT */
+/* Finds the driver for a URI, and lists connected devices. SPDX-License-Identifier: MIT */
 #include "device/drivers.h"
 
 #include "base/base.h"

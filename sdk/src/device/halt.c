@@ -1,4 +1,4 @@
-/* Halts: no force goes out until the motors are released. SPDX-License-Identifier: MIT */
+/* Halts: no force is sent until the halt is released. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
 
 #include "base/atomic.h"

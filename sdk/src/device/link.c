@@ -1,4 +1,5 @@
-/* The I/O thread: force out, position in, again and again. Read run_cycle() first. SPDX-License-Identifier: MIT */
+/* The I/O thread: writes the force, reads the position, repeatedly. Read run_cycle() first.
+ * SPDX-License-Identifier: MIT */
 #include "device/link.h"
 
 #include "base/atomic.h"

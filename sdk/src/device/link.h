@@ -1,5 +1,6 @@
-/* A device whose transfers block has an I/O thread. The haptic thread leaves the newest force there and takes the
- * newest position; neither waits for the other. SPDX-License-Identifier: MIT */
+/* The I/O thread of a device whose transfers block. The haptic thread leaves the newest force there and takes the
+ * newest position; neither waits for the other.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LINK_H
 #define KNURL_SRC_LINK_H
 

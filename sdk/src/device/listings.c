@@ -1,4 +1,4 @@
-/* Where drivers list what is connected. SPDX-License-Identifier: MIT */
+/* A growing list of connected devices, filled by drivers. SPDX-License-Identifier: MIT */
 #include "device/listings.h"
 
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Where drivers list what is connected. SPDX-License-Identifier: MIT */
+/* A growing list of connected devices, filled by drivers. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LISTINGS_H
 #define KNURL_SRC_LISTINGS_H
 

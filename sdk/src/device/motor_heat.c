@@ -1,4 +1,4 @@
-/* How warm the motors of closed devices are. SPDX-License-Identifier: MIT */
+/* Remembers the heat of the motors of closed devices. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
 #include "device/port.h"
 

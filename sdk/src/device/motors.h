@@ -1,4 +1,4 @@
-/* How warm a device's motors are. SPDX-License-Identifier: MIT */
+/* Heat of a device's motors. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MOTORS_H
 #define KNURL_SRC_MOTORS_H
 

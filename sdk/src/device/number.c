@@ -1,4 +1,4 @@
-/* Numbers in text. SPDX-License-Identifier: MIT */
+/* Parses numbers. SPDX-License-Identifier: MIT */
 #include "device/number.h"
 
 #include <stdint.h>

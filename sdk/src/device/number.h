@@ -1,4 +1,4 @@
-/* Numbers in text, whatever the locale says of decimal points. SPDX-License-Identifier: MIT */
+/* Parses numbers, independent of the locale. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_NUMBER_H
 #define KNURL_SRC_NUMBER_H
 

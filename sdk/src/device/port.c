@@ -1,4 +1,4 @@
-/* What a loop sees of a device. SPDX-License-Identifier: MIT */
+/* The device as a loop uses it. SPDX-License-Identifier: MIT */
 #include "device/port.h"
 #include "device/driver.h"
 

@@ -1,5 +1,5 @@
-/* What a loop sees of a device, beside <knurl/device.h>: taking it, its faults, who keeps time, how warm its motors
- * are. SPDX-License-Identifier: MIT */
+/* The device as a loop uses it, beyond <knurl/device.h>: claiming it, its faults, its thread, the heat of its motors.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_PORT_H
 #define KNURL_SRC_PORT_H
 

@@ -1,4 +1,4 @@
-/* URIs of devices. SPDX-License-Identifier: MIT */
+/* Parses device URIs. SPDX-License-Identifier: MIT */
 #include "device/uri.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* What follows "driver:" in a device's URI: a name, then "?key=value&key=value". SPDX-License-Identifier: MIT */
+/* Parses device URIs: after "driver:" a name, then "?key=value&key=value". SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_URI_H
 #define KNURL_SRC_URI_H
 

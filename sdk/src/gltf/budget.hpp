@@ -1,4 +1,4 @@
-// Knurl: what one load may cost, and whether it is to go on. A file's size says little about what it asks for: a few
+// Knurl: the limits of one load. A file's size says little about what it asks for: a few
 // bytes name an array again, or count to millions.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_BUDGET_HPP

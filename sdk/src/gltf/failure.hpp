@@ -1,4 +1,4 @@
-// Knurl: how the glTF room says what went wrong: an exception inside, knurl_fail() at the C edge (load.cpp).
+// Knurl: errors of the glTF loader: exceptions inside, knurl_fail() at its C functions (load.cpp).
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FAILURE_HPP
 #define KNURL_GLTF_FAILURE_HPP

@@ -1,4 +1,4 @@
-// Knurl: bytes from disk and from URIs; what a glTF file may not reach is refused here.
+// Knurl: reads buffers from disk and from URIs, and refuses what a glTF file may not read.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FILES_HPP
 #define KNURL_GLTF_FILES_HPP

@@ -1,4 +1,4 @@
-// Knurl: the C edge of the glTF room. No exception leaves it, and a scene gets all surfaces or none.
+// Knurl: the C functions of the glTF loader. No exception leaves them, and a scene gets all surfaces or none.
 // SPDX-License-Identifier: MIT
 #include <knurl/gltf.h>
 

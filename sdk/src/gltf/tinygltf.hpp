@@ -1,4 +1,4 @@
-// Knurl: tinygltf as this room uses it: without images and without files of its own accord. model.cpp compiles it in.
+// Knurl: tinygltf configured without images and file access. model.cpp compiles it in.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_TINYGLTF_HPP
 #define KNURL_GLTF_TINYGLTF_HPP

@@ -1,7 +1,8 @@
-/* The method AREA: the mean of the square wave over the way since the last tick, as an area-sampled picture has the
- * mean of what a pixel covers. With P the phase in cycles, in the direction of motion, d the cycles of this tick and I
- * the integral of the unit square wave: H = A (I(P + d) - I(P)) / (d sinc d), whose fundamental is S1's at any d. Near
- * f_h/2, where the level of samples beats with their phase, LOCKED's events take over. SPDX-License-Identifier: MIT */
+/* The method AREA: the mean of the square wave over the distance since the last tick, as an area-sampled picture
+ * averages over a pixel. With P the phase in cycles in the direction of motion, d the cycles of this tick and I the
+ * integral of the unit square wave: H = A (I(P + d) - I(P)) / (d sinc d), whose fundamental is S1's at any d. Near
+ * f_h/2, where the level of the samples varies with their phase, LOCKED's events take over.
+ * SPDX-License-Identifier: MIT */
 #include "grating/area.h"
 
 #include "grating/locked.h"

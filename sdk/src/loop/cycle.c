@@ -15,7 +15,7 @@ static void report(knurl_loop *loop, int32_t code, double value) {
     knurl_port_report(loop->desc.device, code, value);
 }
 
-/* 1 while the game gives signs of life, or need not; paused, it need not, and counts as alive. */
+/* 1 while the game calls knurl_loop_heartbeat() often enough, or need not. A pause counts as alive. */
 static int game_lives(knurl_loop *loop, int paused) {
     if (loop->desc.heartbeat_s == 0.0 || paused) {
         loop->since_sign = 0;
@@ -34,9 +34,9 @@ static int game_lives(knurl_loop *loop, int paused) {
     return lives;
 }
 
-/* How much of this tick's force is sent: after a halt it climbs back over the ramp; paused, or without a sign of life,
- * it goes down by it. loop->was_halted: 1 where the device was halted, which lasts until this force is written: what an
- * I/O thread has until then is from before. */
+/* The gain on this tick's force: after a halt it ramps up again; while paused or without a heartbeat it ramps down.
+ * loop->was_halted: 1 where the device was halted. The halt lasts until this tick's force is written, because an I/O
+ * thread may still hold an older one. */
 static double next_gain(knurl_loop *loop, int paused) {
     const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
     loop->was_halted = knurl_device_is_halted(loop->desc.device) != 0;
@@ -53,7 +53,7 @@ static double next_gain(knurl_loop *loop, int paused) {
     return gain;
 }
 
-/* A force of the caller's, shortened to what the motors can play: ramps go from and to that. */
+/* Calls the caller's function and limits its force to what the motors can do now, before any ramp. */
 static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     memset(loop->force, 0, sizeof loop->force);
     loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
@@ -70,7 +70,7 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
     }
 }
 
-/* The force of this tick as it is sent, from the scene or from the caller. */
+/* Computes the force to send, from the scene or from the caller. */
 static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
     const int paused = knurl_load_acquire(&loop->paused) != 0;
     if (loop->desc.scene) {
@@ -90,7 +90,7 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
     knurl_loop_add_heat(loop, 1.0);
 }
 
-/* A cycle without a position: nothing is felt, and what comes after it is a first tick. Returns 0 when that is the end.
+/* A cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 where the loop must end.
  */
 static int be_absent(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
@@ -108,11 +108,12 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
         (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, &output);
     }
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
-        (void)knurl_device_write(loop->desc.device, loop->force); /* zero by now; this is for drivers without a
-                                                                      thread that would see to it */
+        (void)knurl_device_write(loop->desc.device, loop->force); /* zero; for drivers without a thread that would write
+                                                                     it */
         return 1;
     }
-    loop->served_at = 0; /* from its return on, calls are a new row, maybe on a new thread */
+    loop->served_at = 0; /* a device that comes back may call from another thread: no lateness is measured across the
+                            gap */
     loop->is_lost = why != KNURL_ERROR_DEVICE_LOST || !loop->desc.reconnect;
     return !loop->is_lost;
 }
@@ -159,7 +160,7 @@ static uint64_t ramp_steps(const knurl_loop *loop) {
     return (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
 }
 
-/* What was sent without a tick. */
+/* Publishes a force that was sent without a tick. */
 static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     double scene_force[3];
     vec3_scale(gain, loop->force, force);
@@ -175,7 +176,8 @@ void knurl_loop_publish_zero_force(knurl_loop *loop) {
     tell_force(loop, 0.0, force);
 }
 
-/* From the latest force down to none. The device is still read: it may need that to write. Returns 0 after the last. */
+/* One step of the ramp from the latest force to zero. Reads the device too, which some drivers need before a write.
+ * Returns 0 after the last. */
 static int ramp_down(knurl_loop *loop) {
     const uint64_t steps = ramp_steps(loop);
     if (loop->ramp_step >= steps) {
@@ -188,7 +190,7 @@ static int ramp_down(knurl_loop *loop) {
     gain = result || knurl_device_is_halted(loop->desc.device) ? 0.0 : gain;
     tell_force(loop, gain, force);
     if (result || knurl_device_write(loop->desc.device, force)) {
-        loop->ramp_step = steps; /* what does not answer cannot be ramped down */
+        loop->ramp_step = steps; /* no answer: no ramp */
     }
     knurl_count_up(&loop->cycles);
     return loop->ramp_step < steps;
@@ -207,13 +209,14 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_device_halt(device);
     knurl_loop_publish_zero_force(loop);
     knurl_loop_end_heat(loop);
-    if (knurl_port_may_hold_force(device)) { /* else it may play its last force for ever */
+    if (knurl_port_may_hold_force(device)) { /* else it might hold its last force */
         (void)knurl_device_write(device, none);
     }
     knurl_store_release(&loop->state, state);
 }
 
-/* In a thread's cycle that is not late, before the device is read: the tick finds its code and data in the cache. */
+/* Runs a tick and discards its result, so that the real one finds its code and data in the cache. Only in cycles that
+ * are not late, before the device is read. */
 static void run_dry_tick(knurl_loop *loop) {
     if (!loop->desc.dry_ticks || !loop->desc.scene || loop->desc.clock || !loop->has_position ||
         knurl_load_relaxed(&loop->paused) || knurl_loop_at_end(loop)) {
@@ -224,8 +227,8 @@ static void run_dry_tick(knurl_loop *loop) {
     knurl_histogram_add(&loop->dry_tick_ns, loop->clock.now_ns(loop->clock.user) - before);
 }
 
-/* After a gap the hand and the device may be anywhere: no force until a tick has seen them, then the ramp. A halt that
- * the device or the watchdog saw to meanwhile has done and told that already. */
+/* After a gap hand and device may be anywhere: no force until a tick has read them, then the ramp. Not where the device
+ * or the watchdog has halted meanwhile, and reported it. */
 static void zero_after_gap(knurl_loop *loop, int64_t late) {
     knurl_device *device = loop->desc.device;
     if (late > GAP_NS && !loop->was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
@@ -234,11 +237,11 @@ static void zero_after_gap(knurl_loop *loop, int64_t late) {
     }
 }
 
-/* A cycle that came `late` ns after its deadline; the ramp at the end is not counted. */
+/* Records that a cycle began `late` ns after its deadline, except in the ramp at the end. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     zero_after_gap(loop, late);
-    if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* who looks for a lost one begins the check anew */
-        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand did not wait */
+    if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* reconnecting resets this check */
+        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand moved on meanwhile */
     }
     if (knurl_loop_at_end(loop)) {
         return;
@@ -261,7 +264,7 @@ void knurl_loop_haptic_thread(void *argument) {
     knurl_loop *loop = argument;
     uintptr_t stack = 0;
     int overrun;
-    (void)knurl_error_message(); /* what it needs of the thread's memory is there from here on */
+    (void)knurl_error_message(); /* allocates this thread's storage now */
     knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
     knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));

@@ -1,4 +1,5 @@
-/* How warm the motors are: the device's, from loop to loop, by the loop's clock. SPDX-License-Identifier: MIT */
+/* Heat of the motors: it belongs to the device and passes from loop to loop, by the loop's clock.
+ * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"

@@ -1,5 +1,6 @@
-/* Lays the simulated hand's strokes over a scene's surfaces: straight where a surface is flat, else along a path that
- * is walked over it. Game thread. SPDX-License-Identifier: MIT */
+/* Plans strokes of the simulated hand over a scene's surfaces: straight where a surface is flat, else along a path over
+ * it. Game thread.
+ * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 #include "scene/walk.h"
 

@@ -1,5 +1,5 @@
-/* The loop from outside: create, start, step, stop, statistics, and what keeps watch beside the haptic thread. What
- * happens in a cycle is in cycle.c. SPDX-License-Identifier: MIT */
+/* The loop's public functions: create, start, step, stop, statistics; and its watchdog thread. A cycle is in cycle.c.
+ * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"

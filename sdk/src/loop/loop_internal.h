@@ -1,4 +1,4 @@
-/* What a loop is made of. SPDX-License-Identifier: MIT */
+/* The insides of a loop. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LOOP_H
 #define KNURL_SRC_LOOP_H
 
@@ -21,8 +21,8 @@ typedef struct knurl_pace {
 
 void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
 
-/* Sleeps until the next deadline. Returns how late it woke, ns; *overrun: 1 where that was more than half a period. The
- * rhythm skips what it missed: late ticks are not made up for by a burst. [haptic thread] */
+/* Sleeps until the next deadline. Returns how late it woke, ns; *overrun: 1 where that was more than half a period.
+ * Missed periods are skipped, not made up for. [haptic thread] */
 int64_t knurl_pace_wait(knurl_pace *pace, int *overrun);
 
 struct knurl_loop {
@@ -34,7 +34,7 @@ struct knurl_loop {
     knurl_pace pace;
     double force[3];       /* the latest, as sent, device axes, N */
     double scene_force[3]; /* the same in scene axes; 0 without a scene */
-    double gain;           /* 0..1 on the next force: climbs back after the watchdog zeroed it */
+    double gain;           /* 0..1 on the next force: ramps up again after a halt */
     double max_force;      /* N: the device's */
     knurl_heat motors;     /* the device's, in N^2; never limited */
     knurl_heat heat;       /* the same, of its continuous force, and what a callback's force is limited by */
@@ -50,7 +50,7 @@ struct knurl_loop {
     int wanted; /* 1: neither paused nor without a sign of life */
     int has_position;
     double position[3]; /* the latest cycle's, device, m */
-    knurl_hip scratch;  /* what dry ticks tick */
+    knurl_hip scratch;  /* the HIP of dry ticks */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -64,7 +64,7 @@ struct knurl_loop {
     uint64_t watchdog_trips;
     uint64_t heat_ticks;
     double theta;   /* heat's */
-    uint64_t signs; /* of life, from the game */
+    uint64_t signs; /* heartbeats of the game */
     uint64_t absences;
     uint32_t absent;
     uint32_t is_served; /* 1: a device that owns the servo thread is in a call */
@@ -88,7 +88,7 @@ void knurl_loop_end_heat(knurl_loop *loop);
 /* loop->force was sent for a tick, or `share` (0 to 1) of it. */
 void knurl_loop_add_heat(knurl_loop *loop, double share);
 
-/* A thread's cycle begins: periods that it missed went by for the motors as well. */
+/* A cycle begins: the motors' heat advances by the periods that were missed. */
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 
 /* cycle.c */
@@ -100,13 +100,13 @@ int knurl_loop_is_abandoned(const knurl_loop *loop);
 /* One cycle: a tick, a cycle without a position, or at the end a step of the ramp. Returns 0 after the last. */
 int knurl_loop_cycle(knurl_loop *loop);
 
-/* Tells the scene that no force is sent any more. Where the haptic thread is, or while it cannot run. */
+/* Reports zero force to the scene. On the haptic thread, or while it cannot run. */
 void knurl_loop_publish_zero_force(knurl_loop *loop);
 
-/* Lets go of the motors for good. The last that is done with a loop by its haptic thread. */
+/* Zeroes the motors for good. The last call of the haptic thread on a loop. */
 void knurl_loop_end(knurl_loop *loop, int32_t state);
 
-/* The haptic thread where the device has none, and what a device calls that has one. `argument`: the loop. */
+/* The haptic thread, and the function that a device with a thread of its own calls instead. `argument`: the loop. */
 void knurl_loop_haptic_thread(void *argument);
 uint32_t knurl_loop_serve(void *argument);
 

@@ -1,4 +1,4 @@
-/* The rhythm. SPDX-License-Identifier: MIT */
+/* Timing of cycles by absolute deadlines. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate) {

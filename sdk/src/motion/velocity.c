@@ -1,5 +1,6 @@
-/* Velocity estimators: first difference, the same through a low pass, and first-order adaptive windowing (FOAW;
- * Janabi-Sharifi, Hayward and Chen 2000) on integers, which doubles hold. SPDX-License-Identifier: MIT */
+/* Velocity estimators: first difference, low pass, and first-order adaptive windowing (FOAW; Janabi-Sharifi, Hayward
+ * and Chen 2000) on integers stored in doubles.
+ * SPDX-License-Identifier: MIT */
 #include <knurl/motion.h>
 
 #include "base/finite.h"

@@ -1,4 +1,4 @@
-/* From a device's workspace into the scene and back. SPDX-License-Identifier: MIT */
+/* The map between a device's workspace and the scene. SPDX-License-Identifier: MIT */
 #include <knurl/motion.h>
 
 #include "base/handle.h"

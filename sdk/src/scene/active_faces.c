@@ -1,4 +1,5 @@
-/* A projection onto up to three half-spaces, by trying which of them hold: eight cases at most, each solved exactly.
+/* Projects a point onto up to three half-spaces by trying all subsets of them: at most eight cases, each solved
+ * exactly.
  * SPDX-License-Identifier: MIT */
 #include "scene/active_faces.h"
 

@@ -1,5 +1,6 @@
-/* The faces that hold a proxy back, up to three at once, and the point that is nearest to the HIP of those that they
- * allow: the god-object's constraints (Zilles and Salisbury 1995). Pure. SPDX-License-Identifier: MIT */
+/* The faces that hold a proxy back, up to three at once, and the allowed point nearest to the HIP: the god-object's
+ * constraints (Zilles and Salisbury 1995). Pure.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_ACTIVE_FACES_H
 #define KNURL_SRC_ACTIVE_FACES_H
 

@@ -1,4 +1,4 @@
-/* Closed forms for what a device can do. SPDX-License-Identifier: MIT */
+/* Closed-form limits of a device. SPDX-License-Identifier: MIT */
 #include "scene/bounds.h"
 
 #include <knurl/grating.h>

@@ -1,4 +1,4 @@
-/* How stiff a wall and how high a texture may be on a device. SPDX-License-Identifier: MIT */
+/* Limits of stiffness and amplitude on a device. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_BOUNDS_H
 #define KNURL_SRC_BOUNDS_H
 

@@ -1,10 +1,11 @@
-/* The broad phase. A hierarchy holds the surfaces that stood still when it was built; what has moved or come since is
- * dynamic, in a list beside it, until there is enough of it to build anew. Boxes of dynamic surfaces are larger than
- * they need be, so that most moves change nothing that a tick looks up.
+/* The broad phase. A hierarchy holds the surfaces that were at rest when it was built. Surfaces that moved or were
+ * added since are dynamic: a list beside the hierarchy, until it is long enough for a rebuild. Boxes of dynamic
+ * surfaces have a margin, so that most moves change nothing that a tick has looked up.
  *
- * Ticks read while an edit writes. What keeps that right: a box only grows while a move is on its way, and shrinks when
- * the move is published; a name is added to the list before anything relies on it; and the scene's version is counted
- * up after, so that a tick that saw half of it looks again. SPDX-License-Identifier: MIT */
+ * Ticks read while an edit writes. The order of writes keeps that safe: a box only grows during a move, and shrinks
+ * when the move is published; a surface is added to the list before anything relies on it; the scene's version is
+ * incremented last, so that a tick that read a half-finished state looks again.
+ * SPDX-License-Identifier: MIT */
 #include "scene/broad_phase.h"
 
 #include "base/atomic.h"

@@ -1,4 +1,4 @@
-/* The broad phase: where all surfaces are, for finding those near a HIP. SPDX-License-Identifier: MIT */
+/* The broad phase: finds the surfaces near a HIP. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_BROAD_PHASE_H
 #define KNURL_SRC_BROAD_PHASE_H
 

@@ -1,5 +1,6 @@
-/* Which surfaces are near a HIP: looked up when the HIP has moved some millimetres or an edit says so, not in every
- * tick. However many surfaces there are, most ticks look at the few in this list. SPDX-License-Identifier: MIT */
+/* The surfaces near a HIP. They are looked up when the HIP has moved some millimetres or after an edit, not in every
+ * tick; so most ticks test only this list, however many surfaces the scene has.
+ * SPDX-License-Identifier: MIT */
 #include "scene/candidates.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
-/* The surfaces that one HIP may come into contact with: a short list, and how far the HIP can go before it has to be
- * looked at. SPDX-License-Identifier: MIT */
+/* The surfaces that one HIP may touch: a short list, and how far the HIP can move before it must be tested against
+ * them.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CANDIDATES_H
 #define KNURL_SRC_CANDIDATES_H
 

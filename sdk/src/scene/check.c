@@ -1,4 +1,4 @@
-/* Surfaces against what a device can do, before anybody feels them. SPDX-License-Identifier: MIT */
+/* Compares surfaces with a device's limits at load time. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"

@@ -1,5 +1,4 @@
-/* Contacts begin, are held and end. Read knurl_contacts_update(), at the end, first.
- * SPDX-License-Identifier: MIT */
+/* Begins, holds and ends contacts. Read knurl_contacts_update(), at the end, first. SPDX-License-Identifier: MIT */
 #include "scene/contact_update.h"
 
 #include "scene/joint_contact.h"

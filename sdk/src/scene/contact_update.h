@@ -1,4 +1,4 @@
-/* What a HIP is in contact with, from tick to tick. SPDX-License-Identifier: MIT */
+/* Finds the contacts of a HIP in each tick. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CONTACT_UPDATE_H
 #define KNURL_SRC_CONTACT_UPDATE_H
 

@@ -1,4 +1,4 @@
-/* Contacts begin and end. SPDX-License-Identifier: MIT */
+/* Begin and end of a contact. SPDX-License-Identifier: MIT */
 #include "scene/contacts.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* The contacts of one HIP: what is kept of them from tick to tick, and how they begin and end. What a HIP is in contact
- * with is found in contact_update. SPDX-License-Identifier: MIT */
+/* The contacts of one HIP: their state from tick to tick, their begin and end. contact_update.c finds them.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CONTACTS_H
 #define KNURL_SRC_CONTACTS_H
 

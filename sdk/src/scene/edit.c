@@ -1,5 +1,6 @@
-/* Edits, from any thread, before the commit and after: surfaces come and go, move, change how they feel. Whatever can
- * fail comes first; what a tick may see is swapped last. SPDX-License-Identifier: MIT */
+/* Edits from any thread, before and after the commit: adding, removing, moving and changing surfaces. What can fail is
+ * done first; what ticks can see is swapped last.
+ * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"

@@ -1,6 +1,6 @@
-/* A tick pins the epoch in which it begins; what is retired in an epoch is released once every HIP is idle or has begun
- * a tick in a later one. All accesses to `now`, the pins and the pointers that are swapped are sequentially consistent:
- * either the tick's pin is seen here, or the tick sees the new pointer (Fraser 2004, chapter 5).
+/* A tick pins the epoch in which it begins. An object retired in an epoch is freed once every HIP is idle or has begun
+ * a tick in a later epoch. All accesses to `now`, the pins and the swapped pointers are sequentially consistent: either
+ * this code sees the tick's pin, or the tick sees the new pointer (Fraser 2004, chapter 5).
  * SPDX-License-Identifier: MIT */
 #include "scene/epoch.h"
 

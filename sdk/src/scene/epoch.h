@@ -1,5 +1,4 @@
-/* Memory that edits have replaced and ticks may still read: kept until no tick can see it. SPDX-License-Identifier: MIT
- */
+/* Deferred freeing: memory that edits replaced is kept until no tick can use it. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_EPOCH_H
 #define KNURL_SRC_EPOCH_H
 

@@ -1,5 +1,6 @@
-/* From a contact to a force: the velocity over the surface, the grating's height at it, Eq. 9, friction. Pure: what is
- * kept from tick to tick is the candidate's grating state and friction anchor. SPDX-License-Identifier: MIT */
+/* The force of a contact: velocity over the surface, the grating's height, Eq. 9, friction. Pure: the only state is the
+ * candidate's grating and friction anchor.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FORCE_LAW_H
 #define KNURL_SRC_FORCE_LAW_H
 

@@ -1,4 +1,4 @@
-/* The god-object's ways. SPDX-License-Identifier: MIT */
+/* Motion of the god-object. SPDX-License-Identifier: MIT */
 #include "scene/god_object.h"
 
 /* m: edges and steps that are lower do not stop a proxy: less than a tenth of what devices' encoders tell apart, more

@@ -1,7 +1,7 @@
-/* The god-object (Zilles and Salisbury 1995): a point that stays outside of every surface near a HIP, as near to the
- * HIP as the faces allow that are in its way, whichever surface each belongs to. It only ever moves along ways that run
- * into nothing, so what was outside of everything stays outside. It rests above a face by a shape's seam: neither
- * rounding nor a neighbour's edge that is so much higher puts it behind. SPDX-License-Identifier: MIT */
+/* The god-object (Zilles and Salisbury 1995): a point that stays outside all surfaces near a HIP, as near to the HIP as
+ * the faces in between allow. It only moves along segments that hit nothing, so it never enters a surface. It stays
+ * above a face by the shape's seam, so that neither rounding nor a slightly higher neighbour puts it behind the face.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_GOD_OBJECT_H
 #define KNURL_SRC_GOD_OBJECT_H
 

@@ -1,4 +1,4 @@
-/* theta follows the square of the force with one time constant. SPDX-License-Identifier: MIT */
+/* The thermal model: theta follows the square of the force with one time constant. SPDX-License-Identifier: MIT */
 #include "scene/heat.h"
 
 #include <math.h>

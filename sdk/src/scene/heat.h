@@ -1,4 +1,4 @@
-/* How warm a device's motors are, and what force that leaves. SPDX-License-Identifier: MIT */
+/* The heat of a device's motors, and the force that they can still give. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HEAT_H
 #define KNURL_SRC_HEAT_H
 
@@ -6,11 +6,11 @@
 
 #include <knurl/base.h>
 
-/* theta from which on the force limit comes down. Any value keeps theta below 1; this one leaves the full force for 90
- * % of the way and takes it back over the last tenth, in which a hand can let go of what it presses. */
+/* theta at which the force limit begins to fall. Any value below 1 keeps theta below 1; with this one the full force
+ * lasts for 90 % of the way, and falls slowly enough over the rest for a hand to follow. */
 #define KNURL_HEAT_WARM 0.9
 
-/* How warm motors are that are driven with a force: theta' = ((F/continuous)^2 - theta)/time. */
+/* Heat of motors under a force: theta' = ((F/continuous)^2 - theta)/time. */
 typedef struct knurl_heat {
     double theta;     /* 0 cold to 1: as warm as the continuous force makes them in the long run */
     double share;     /* of the way to where the force takes theta, a tick */
@@ -25,7 +25,7 @@ void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts);
 /* What is rare: called by knurl_heat_limit(). */
 double knurl_heat_limit_warm(const knurl_heat *heat) KNURL_NONBLOCKING;
 
-/* N: the longest force now. max_force while cool; as theta nears 1 it comes down smoothly to the continuous force. */
+/* N: the greatest force now: max_force while cool, falling smoothly to the continuous force as theta nears 1. */
 static inline double knurl_heat_limit(const knurl_heat *heat) {
     return heat->theta <= KNURL_HEAT_WARM || heat->excess == 0.0 ? heat->max_force : knurl_heat_limit_warm(heat);
 }

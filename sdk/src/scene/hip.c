@@ -1,4 +1,4 @@
-/* Setting a HIP up from its description and what its device says. SPDX-License-Identifier: MIT */
+/* Sets up a HIP from its description and its device's properties. SPDX-License-Identifier: MIT */
 #include "scene/hip.h"
 
 #include "base/base.h"

@@ -1,4 +1,4 @@
-/* One haptic interaction point: how it ticks, and all that it keeps from tick to tick. SPDX-License-Identifier: MIT */
+/* One haptic interaction point: its settings and its state from tick to tick. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HIP_H
 #define KNURL_SRC_HIP_H
 

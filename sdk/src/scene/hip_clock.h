@@ -1,4 +1,4 @@
-/* A HIP's time. SPDX-License-Identifier: MIT */
+/* A HIP's time, counted by its ticks. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HIP_CLOCK_H
 #define KNURL_SRC_HIP_CLOCK_H
 

@@ -1,4 +1,4 @@
-/* What a device can do, as far as its HIP cares. SPDX-License-Identifier: MIT */
+/* The properties of a device that its HIP needs. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HIP_FACTS_H
 #define KNURL_SRC_HIP_FACTS_H
 

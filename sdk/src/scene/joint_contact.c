@@ -1,6 +1,7 @@
-/* Contact with several surfaces. Read knurl_joint_contact(), at the end, first. As long as one of them alone holds the
- * HIP, and the way of the proxy runs into no other, the contact is the one that its shape finds by itself; else a
- * god-object finds the faces that hold the proxy together. SPDX-License-Identifier: MIT */
+/* Contact with several surfaces. Read knurl_joint_contact(), at the end, first. While one surface alone holds the HIP
+ * and nothing is in the proxy's way, that surface's own contact is used; otherwise a god-object finds the faces that
+ * hold the proxy together.
+ * SPDX-License-Identifier: MIT */
 #include "scene/joint_contact.h"
 
 #include "scene/god_object.h"

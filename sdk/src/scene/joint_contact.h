@@ -1,5 +1,6 @@
-/* Contact where several surfaces are near a HIP, or one that meets itself: its proxy is held by every face that it has
- * not gone through from the front, whichever surface the face belongs to. SPDX-License-Identifier: MIT */
+/* Contact where several surfaces are near a HIP, or one that touches itself: the proxy is held by every face that it
+ * has not crossed from the front, of whatever surface.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_JOINT_CONTACT_H
 #define KNURL_SRC_JOINT_CONTACT_H
 

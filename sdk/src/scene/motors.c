@@ -1,4 +1,4 @@
-/* What a loop tells a HIP of its motors, beside the ticks. SPDX-License-Identifier: MIT */
+/* What a loop reports to a HIP between ticks: forces sent, heat. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3], const double device_force[3]) {

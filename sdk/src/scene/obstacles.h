@@ -27,13 +27,13 @@ typedef struct knurl_obstacles {
 void knurl_obstacle_set(knurl_obstacle *obstacle, knurl_candidate *candidate, const knurl_surface_data *surface,
                         const knurl_record *record, const knurl_hip_clock *clock) KNURL_NONBLOCKING;
 
-/* 1 where it stands elsewhere than at the HIP's last tick without having moved there. */
+/* 1 where it has jumped since the HIP's last tick. */
 static inline int knurl_obstacle_has_jumped(const knurl_obstacle *o) {
     return o->candidate->has_previous && o->candidate->jumps != o->record->motion.jumps;
 }
 
-/* 1 where a way in the tick, or what is within `room` (m) of its ends, comes as near to the shape's own bounds as its
- * crests reach: a box that turns with the surface is tighter than the scene's. */
+/* 1 where the segment, or a point within `room` (m) of its ends, is near enough to the shape's own bounds for contact.
+ * These bounds rotate with the surface and are tighter than its box in the scene. */
 int knurl_obstacle_is_near(const knurl_obstacle *obstacle, const double from[3], const double to[3],
                            double room) KNURL_NONBLOCKING;
 

@@ -4,38 +4,40 @@
 #include <math.h>
 #include <string.h>
 
-/* The passivity controller's. What a runaway is: the HIP swings in and out of a wall, faster than hands do, time after
- * time as far as before, and no texture moves it so. An account of the energy that a sampled wall gives cannot tell:
- * near the limit what it gives is what friction and hand take, whose parts nobody knows. Tuned in the stability
- * laboratory on flat walls and gratings within the limits of the presets touch and falcon (7064 cells: the study's maps
- * and a finer grid, 127 of them runaways, of 12 to 25 Hz). On flat walls a row came to 24 mm^2 in all 37 that ran away
- * and in none of 861 that rested; on gratings in 83 of 90, and in 32 of 6013 that were no runaways by the laboratory's
- * millimetre, of which 30 shook by more than half of it. */
+/* What counts as a runaway: the HIP swings in and out of a wall, faster than hands do, repeatedly and as far each time,
+ * and not because of a texture. The energy that a sampled wall gives is no criterion: near the limit it equals what
+ * friction and hand absorb, and these are not known.
+ *
+ * Tuned in the stability laboratory on flat walls and gratings within the limits of the presets touch and falcon (7064
+ * cells: the study's maps and a finer grid; 127 of them runaways, of 12 to 25 Hz). On flat walls the sum of squares
+ * reached 24 mm^2 in all 37 runaways and in none of 861 others; on gratings in 83 of 90 runaways, and in 32 of 6013
+ * others, 30 of which shook by more than half a millimetre. */
 #define REVERSAL 0.2e-3 /* m that the depth must come back by to count as a reversal: four quanta */
-#define LEAST    0.7e-3 /* m: a smaller swing ends a row; runaways swing by 0.84 mm and more, arrivals soon by less */
+#define LEAST    0.7e-3 /* m: a smaller swing ends a row; runaways swing by at least 0.84 mm, arrivals soon by less */
 #define PERIOD   0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
-#define FORGETS  0.985  /* of the largest swing, a swing: what was large on arrival and keeps dying has no row */
+#define FORGETS  0.985  /* decay of the largest swing, per swing: a bounce that dies out is no row */
 #define AGAIN    0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
 #define ROW      4      /* swings: as many may be the arrival of a hand */
 #define ENOUGH   24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
 
-/* A texture has not made a swing of which it moves no more than this share; nor one in which it crosses 0 more often
- * than it would if the HIP bounced off every other ridge: twice, or four times in and out again. */
+/* A swing is caused by a texture if the texture moves more than this share of it, and crosses 0 no more often than a
+ * HIP that bounces on every other ridge: twice, or four times in and out again. */
 #define TEXTURE_SHARE 0.25
 #define TEXTURE_SLOW  2
 
-/* What an alarm does: how much of the passive stiffness it leaves, how fast (s; a millisecond would be felt as a blow),
- * and how long a HIP must be off all walls for them to be hard again (s): a hand that bounces is not off. */
+/* An alarm: the wall keeps this share of the passive stiffness, is softened within this time (s; in a millisecond it
+ * would be a blow), and is restored when the HIP has been off all walls for this long (s), longer than between bounces.
+ */
 #define SOFT_SHARE     0.8
 #define SOFTENING_TIME 0.02
 #define OFF_TIME       0.5
 
-/* N s/m: the hand that the controller counts on: it hardly holds. Less than KNURL_LIGHTEST_HAND: a check at load must
- * not cry wolf, and a controller must not overlook one. */
+/* N s/m: damping of the hand that the controller assumes: a loose grip. Less than KNURL_LIGHTEST_HAND, because a check
+ * at load should not warn too often, and a controller should not miss a case. */
 #define LOOSE_HAND 0.5
 
-/* Below `safe` nothing runs away: b and the hand take what a spring gives that lags behind (Colgate and Schenkel
- * 1997). Dry friction helps a hand that is still, and hardly one that slides: it is not counted on. */
+/* Walls up to `safe` are stable: the device's and the hand's damping absorb the energy of a delayed spring (Colgate and
+ * Schenkel 1997). Dry friction is not counted on: it helps a hand at rest, but hardly one that slides. */
 void knurl_passivity_init(knurl_passivity *p, int watches, const knurl_hip_facts *facts, double scale) {
     memset(p, 0, sizeof *p);
     p->safe = watches ? (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale) : HUGE_VAL;
@@ -119,7 +121,7 @@ void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags
         const double most = SOFT_SHARE * p->safe;
         p->off = 0.0;
         wall->damping *= 1.0 - p->soft;
-        if (wall->stiffness > most) { /* and its texture weaker: its full steps would throw a hand off a soft wall */
+        if (wall->stiffness > most) { /* its texture weakens with it: full steps would throw a hand off a soft wall */
             wall->stiffness += p->soft * (most - wall->stiffness);
         }
         *flags |= KNURL_TICK_PASSIVITY;

@@ -1,4 +1,4 @@
-/* Poses and the ways between them. SPDX-License-Identifier: MIT */
+/* Poses and motions between them. SPDX-License-Identifier: MIT */
 #include "scene/pose.h"
 
 #include <string.h>

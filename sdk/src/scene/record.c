@@ -1,4 +1,4 @@
-/* How a surface feels: materials, checked and made ready for ticks. SPDX-License-Identifier: MIT */
+/* Checks materials and prepares them for ticks. SPDX-License-Identifier: MIT */
 #include "scene/record.h"
 
 #include "base/base.h"

@@ -1,4 +1,4 @@
-/* How a surface feels and moves, from one edit to the next. SPDX-License-Identifier: MIT */
+/* A surface's material and motion, immutable from one edit to the next. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RECORD_H
 #define KNURL_SRC_RECORD_H
 

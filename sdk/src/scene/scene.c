@@ -1,4 +1,4 @@
-/* A scene's life on the game thread: create, surfaces, HIPs, commit. SPDX-License-Identifier: MIT */
+/* Creating, filling, committing and destroying a scene, on the game thread. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/atomic.h"
@@ -45,7 +45,7 @@ static void free_scene(knurl_scene *scene) {
     knurl_heap_free(&heap, scene);
 }
 
-/* 1 and on, round and round: 0 is no scene's, so that no id is 0 and small numbers are nobody's ids. */
+/* Scene tags count from 1 and wrap; 0 is not used, so that no id is 0 and small numbers are invalid ids. */
 static uint64_t next_tag(void) {
     static uint64_t made; /* atomic */
     const uint64_t before = __atomic_fetch_add(&made, 1, __ATOMIC_RELAXED);
@@ -99,7 +99,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     return KNURL_OK;
 }
 
-/* Whoever comes last frees it: its owner, or a loop that uses it. */
+/* Freed by its owner or by the last loop that uses it, whichever comes last. */
 void knurl_scene_destroy(knurl_scene *scene) {
     if (!scene || KNURL_BAD_HANDLE(scene, SCENE)) {
         return;
@@ -221,7 +221,7 @@ knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t inde
     return id;
 }
 
-/* The first of that name, or null with the names there are in `known`. */
+/* Finds the first surface of that name, or null; then `known` lists the names. */
 static const knurl_surface_data *find(const knurl_scene *scene, const char *name, char *known, size_t size) {
     size_t used = 0;
     for (uint32_t i = 0; i < scene->surfaces.count; i++) {

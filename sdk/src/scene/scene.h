@@ -1,6 +1,7 @@
-/* What a scene is made of. Edited under its lock, read by ticks without one: what a tick follows are atomic pointers to
- * things that never change once they can be seen (records, shapes, the broad phase's index), and what an edit replaces
- * is kept until no tick can see it (epoch.h). SPDX-License-Identifier: MIT */
+/* The insides of a scene. Edits hold its lock; ticks take no lock. Ticks follow atomic pointers to objects that never
+ * change once they are visible (records, shapes, the broad phase's index), and what an edit replaces is kept until no
+ * tick can use it (epoch.h).
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SCENE_H
 #define KNURL_SRC_SCENE_H
 
@@ -37,11 +38,11 @@ double knurl_scene_time(const knurl_scene *scene);
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
 
-/* A loop takes a HIP, which from then on is the loop's alone, and keeps the scene in being. Errors:
- * KNURL_ERROR_ARGUMENT (hip), KNURL_ERROR_STATE (another loop's, or the scene was destroyed). [any thread] */
+/* Claims a HIP for one loop and keeps the scene alive for it. Errors: KNURL_ERROR_ARGUMENT (hip), KNURL_ERROR_STATE
+ * (another loop's, or the scene was destroyed). [any thread] */
 knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip);
 
-/* The loop is done with it; frees a scene that was destroyed and that no other loop uses. [any thread but a tick's] */
+/* Releases the claim; frees a destroyed scene that no other loop uses. [any thread but a tick's] */
 void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
 
 /* 1: its owner has destroyed it. [any thread] */
@@ -55,24 +56,23 @@ knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_i
  * HIP's. [game thread, while the HIP does not tick] */
 void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch);
 
-/* A dry tick: a tick at the latest position (device, m) on the scratch HIP, whose force is dropped. It brings what the
- * claimed HIP's next tick will run and read into the cache. It takes as long as a tick with cold caches; the tick after
- * it takes a fifth of that. */
+/* A dry tick: a tick at the latest position (device, m) on the scratch HIP, whose result is discarded. It loads what
+ * the claimed HIP's next tick needs into the cache. It takes as long as a tick with cold caches; the tick after it
+ * takes a fifth of that. */
 void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip, knurl_hip *scratch,
                         const double position[3]) KNURL_NONBLOCKING;
 
-/* Fills in what a claimed HIP's description leaves open, as the loop and its device have it, and forgets what the HIP
- * did, but not how warm its motors are. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread]
- */
+/* Fills in what a claimed HIP's description leaves open from the loop and its device, and clears the HIP's state except
+ * for the heat. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
-/* The force (N) that the loop sent without a tick, at its end: the latest tick's is told to be this one. Where the
- * HIP's haptic thread is, or after it has ended (motors.c). */
+/* Publishes a force (N) that the loop sent at its end without a tick, as if it were the latest tick's. On the HIP's
+ * haptic thread, or after its end (motors.c). */
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3],
                                const double device_force[3]) KNURL_NONBLOCKING;
 
-/* How warm the HIP's motors are (N^2, see knurl_heat_get()), and a force (its square, N^2) that they held for so many
- * ticks that nobody made. Where its haptic thread is, or while there is none (motors.c). */
+/* Sets the heat of the HIP's motors (N^2, see knurl_heat_get()), or advances it by a number of missed ticks at a
+ * constant squared force (N^2). On the haptic thread, or while there is none (motors.c). */
 void knurl_scene_set_heat(knurl_scene *scene, uint32_t hip, double square);
 void knurl_scene_hold_force(knurl_scene *scene, uint32_t hip, double force2, double ticks) KNURL_NONBLOCKING;
 

@@ -1,4 +1,5 @@
-/* HIPs on the game thread: configure, adopt a device, read the latest tick. SPDX-License-Identifier: MIT */
+/* HIPs on the game thread: configuring, adopting a device's properties, reading the latest tick.
+ * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/atomic.h"

@@ -1,4 +1,4 @@
-/* Counting a tick, and publishing it. SPDX-License-Identifier: MIT */
+/* Counts a tick and publishes it. SPDX-License-Identifier: MIT */
 #include "scene/snapshot.h"
 
 void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {

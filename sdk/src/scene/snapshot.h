@@ -1,5 +1,4 @@
-/* What any thread may read of a HIP: the latest tick and the counts, as one consistent copy. SPDX-License-Identifier:
- * MIT */
+/* A consistent copy of a HIP's latest tick and counts, for any thread. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SNAPSHOT_H
 #define KNURL_SRC_SNAPSHOT_H
 

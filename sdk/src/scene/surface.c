@@ -1,4 +1,4 @@
-/* From a description to a surface that can be felt. SPDX-License-Identifier: MIT */
+/* Builds a surface from its description. SPDX-License-Identifier: MIT */
 #include "scene/surface.h"
 
 #include "base/base.h"

@@ -1,5 +1,4 @@
-/* A surface: its shape, what it was given as, and the newest record of how it feels and moves.
- * SPDX-License-Identifier: MIT */
+/* A surface: its shape, its description, and its newest material and motion. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SURFACE_H
 #define KNURL_SRC_SURFACE_H
 

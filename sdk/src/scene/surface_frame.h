@@ -1,5 +1,5 @@
-/* Surface coordinates: which way x and y run at a contact, and where on the grating it is. SPDX-License-Identifier: MIT
- */
+/* Surface coordinates at a contact: directions of x and y, and the position on the grating.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SURFACE_FRAME_H
 #define KNURL_SRC_SURFACE_FRAME_H
 

@@ -1,4 +1,4 @@
-/* What a surface came to be, and where on it a stroke can start. SPDX-License-Identifier: MIT */
+/* Reports on a surface, and finds an anchor for strokes. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 #include "scene/surface_frame.h"
 

@@ -1,4 +1,4 @@
-/* All surfaces of a scene: by place, by id, and in the order of adding. For edits, under their lock.
+/* All surfaces of a scene by place, by id, and in the order of adding. Used by edits, under their lock.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SURFACES_H
 #define KNURL_SRC_SURFACES_H
@@ -32,13 +32,13 @@ typedef struct knurl_surfaces {
 /* Gives a surface its place and id. Errors: KNURL_ERROR_FULL, KNURL_ERROR_MEMORY. */
 knurl_result knurl_surfaces_add(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
-/* Takes back the latest knurl_surfaces_add(): nobody has seen the id. */
+/* Undoes the latest knurl_surfaces_add(), whose id was not handed out. */
 void knurl_surfaces_undo_add(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
-/* From now on its id is stale; the surface itself is still the caller's to release. */
+/* Makes its id stale; the caller still releases the surface. */
 void knurl_surfaces_remove(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
-/* `made` takes the place and the id of `old`, which is still the caller's to release. */
+/* Puts `made` in the place of `old`, under its id; the caller releases `old`. */
 void knurl_surfaces_replace(knurl_surfaces *surfaces, const knurl_surface_data *old, knurl_surface_data *made);
 
 /* The surface of an id, or null with an error. */

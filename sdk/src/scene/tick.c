@@ -1,7 +1,8 @@
-/* The tick: a device position in, a device force out. Read knurl_scene_tick(), at the end, first. The way of a force:
- * read the HIP, update its contacts (broad phase, candidates, contact), forces (grating, Eq. 9, friction) between the
- * guard's protections, back to the device, publish.
- * No heap, lock, system call, clock, log or file in anything that is called from here. SPDX-License-Identifier: MIT */
+/* The tick: a device position in, a device force out. Read knurl_scene_tick(), at the end, first. Steps: read the HIP;
+ * update contacts (broad phase, candidates, contact); compute forces (grating, Eq. 9, friction) between the guard's
+ * protections; convert to device axes; publish. Nothing called from here uses the heap, a lock, a system call, a clock,
+ * a log or a file.
+ * SPDX-License-Identifier: MIT */
 #include "scene/force_law.h"
 #include "scene/scene.h"
 
@@ -17,8 +18,8 @@ static void begin_output(knurl_tick_output *out) {
     out->flags = out->contacts = 0;
 }
 
-/* What is told without contact, beside the HIP and what contacts add to: all the rest of an output, field by field,
- * because clearing it as a block takes twice as long (rep stos) as everything else that is done with it. */
+/* Fills in an output without contact. Field by field, because clearing the block (rep stos) takes twice as long as all
+ * this. */
 static void clear_contact_output(knurl_tick_output *out) {
     vec3_copy(out->hip, out->proxy);
     out->normal[0] = out->normal[1] = out->normal[2] = 0.0;
@@ -29,8 +30,8 @@ static void clear_contact_output(knurl_tick_output *out) {
     out->surface = 0;
 }
 
-/* Device to scene; the velocity as given, else estimated in device axes, where the quantisation is. Returns 0 where
- * there is no position to be trusted. */
+/* Maps the device's position and velocity into the scene. A velocity that is not given is estimated in device axes,
+ * where the quantisation is. Returns 0 where the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;
@@ -56,7 +57,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     return vec3_finite_both(out->hip, out->hip_velocity);
 }
 
-/* Adds one contact's share; of several the deepest is told. */
+/* Adds one contact's force; of several contacts the deepest is reported. */
 static void add_contact(const knurl_active_contact *contact, const knurl_contact_force *share, knurl_tick_output *out) {
     vec3_madd(out->force, 1.0, share->force, out->force);
     if (share->grating.saturated) {
@@ -77,8 +78,8 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
     out->surface = contact->surface->id;
 }
 
-/* What a contact's grating began and passed. No hand is so fast that it passes 1e9 half cycles in a tick; what
- * overflows must not stay in a sum. */
+/* Counts events and half cycles. More than 1e9 half cycles in a tick are impossible and are dropped, so that an
+ * overflow cannot spoil the sum. */
 static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, const knurl_contact_force *share,
                           int64_t events_before) {
     const double halves = 2.0 * share->grating.temporal_frequency * hip->contacts.clock.period;
@@ -87,7 +88,7 @@ static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, c
     hip->counts.half_cycles_played += share->grating.turned;
 }
 
-/* From one contact to its force. Returns N: its texture's step. */
+/* Computes and adds one contact's force. Returns its texture's step, N. */
 static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knurl_tick_output *out) {
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
     const int64_t events = c->candidate->grating.event_count;
@@ -102,7 +103,7 @@ static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knur
     return step;
 }
 
-/* From contacts to their force as it is sent, N, scene; returns its length. */
+/* Sums all contacts' forces and limits the sum (N, scene). Returns its length. */
 static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
@@ -117,7 +118,7 @@ static void end_contacts(knurl_hip *hip) {
     knurl_guard_reset(&hip->guard);
 }
 
-/* Nothing of this tick is to be trusted. */
+/* After invalid input or results: zero output, contacts end, the next tick counts as the first. */
 static void reset(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
     const uint64_t tick = out->tick;
     memset(out, 0, sizeof *out);
@@ -128,7 +129,7 @@ static void reset(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
     out->flags = why;
 }
 
-/* From a HIP that has been read to the device's force; returns its length, N. */
+/* Computes the device's force at the HIP's position. Returns its length, N. */
 static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_broad_index *index = __atomic_load_n(&scene->broad_phase.index, __ATOMIC_SEQ_CST);
     knurl_guard_begin(&hip->guard, input->attenuation);

@@ -5,8 +5,8 @@
 
 #include "scene/surface_frame.h"
 
-/* A finger that is led over a surface step by step, pressed in as deep as a step is long: its contact is found as a
- * tick finds it. In the shape's frame. Copy it to come back to where it was. */
+/* Follows a surface step by step, pressed in by one step's length; contact is found as in a tick. In the shape's frame.
+ * Copy it to return to a place. */
 typedef struct knurl_walker {
     const knurl_surface_data *surface;
     double step; /* m */
@@ -19,16 +19,15 @@ typedef struct knurl_walker {
     knurl_contact contact;
 } knurl_walker;
 
-/* Sets the finger down on a point of the surface (m) whose outward normal is known. 0: there is no surface to hold it.
- */
+/* Starts at a point of the surface (m) with a known outward normal. Returns 0 where no surface holds it. */
 int knurl_walker_begin(knurl_walker *walker, const knurl_surface_data *surface, double step, const double place[3],
                        const double normal[3]);
 
-/* One step along `direction` (unit, tangent). 0, and the walker stays where it was: the surface ends there, or turns by
- * more than 60 degrees. */
+/* One step along `direction` (unit, tangent). Returns 0, without moving, where the surface ends or bends by more than
+ * 60 degrees. */
 int knurl_walker_go(knurl_walker *walker, const double direction[3]);
 
-/* How fast the surface's first coordinate grows along `direction`, against metres; 1 where it has none. */
+/* Growth of the surface's first coordinate per metre along `direction`; 1 where it has none. */
 double knurl_walker_stretch(const knurl_walker *walker, const double direction[3]);
 
 #endif

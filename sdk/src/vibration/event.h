@@ -1,5 +1,4 @@
-/* One T3 event, for those who play it in a tick: no checks, no messages, no calls where a call would cost more than
- * what it does. SPDX-License-Identifier: MIT */
+/* One T3 event, for callers inside a tick: no checks, no messages, inlined. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_EVENT_H
 #define KNURL_SRC_EVENT_H
 

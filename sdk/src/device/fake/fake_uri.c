@@ -1,4 +1,4 @@
-/* What follows "fake:". SPDX-License-Identifier: MIT */
+/* Parses the keys of a fake URI. SPDX-License-Identifier: MIT */
 #include "device/fake/fake_uri.h"
 
 #include "device/number.h"

@@ -1,4 +1,4 @@
-/* What follows "fake:": keys and presets. SPDX-License-Identifier: MIT */
+/* Keys and presets of a fake URI. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FAKE_URI_H
 #define KNURL_SRC_FAKE_URI_H
 

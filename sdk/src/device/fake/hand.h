@@ -1,4 +1,4 @@
-/* Where the simulated hand wants to be: strokes, with a tremor. Pure computation. SPDX-License-Identifier: MIT */
+/* The simulated hand's target position: strokes with a tremor. Pure computation. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HAND_H
 #define KNURL_SRC_HAND_H
 

@@ -1,4 +1,4 @@
-/* A way over a surface that a simulated hand follows. SPDX-License-Identifier: MIT */
+/* Paths over a surface for the simulated hand. SPDX-License-Identifier: MIT */
 #include "device/fake/hand_path.h"
 
 #include "base/base.h"

@@ -1,4 +1,4 @@
-/* A way over a surface that a simulated hand follows. SPDX-License-Identifier: MIT */
+/* Paths over a surface for the simulated hand. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HAND_PATH_H
 #define KNURL_SRC_HAND_PATH_H
 

@@ -1,6 +1,6 @@
-/* The one simulated plant of this project: a device's moving mass with friction, quantised, delayed, limited, held by a
- * hand that is a spring and a damper. Pure computation, deterministic. Device frame, SI. SPDX-License-Identifier: MIT
- */
+/* The simulated device and hand: a moving mass with friction, quantised, delayed and limited, held by a spring and a
+ * damper. Pure computation, deterministic. Device frame, SI.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_PLANT_H
 #define KNURL_SRC_PLANT_H
 

@@ -1,4 +1,4 @@
-/* Novint Falcon: an I/O thread exchanges a frame of motors for a frame of encoders. Read exchange() first.
+/* Novint Falcon: an I/O thread sends a frame of motor commands and gets a frame of encoders. Read exchange() first.
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/vec3.h"

@@ -1,4 +1,4 @@
-/* Setting a Falcon up, and loading its firmware. Read knurl_falcon_prepare() first. SPDX-License-Identifier: MIT */
+/* Sets a Falcon up and loads its firmware. Read knurl_falcon_prepare() first. SPDX-License-Identifier: MIT */
 #include "device/falcon/firmware.h"
 
 #include "base/regular_file.h"

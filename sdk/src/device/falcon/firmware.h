@@ -1,6 +1,6 @@
-/* Makes an open Falcon ready for frames: it comes out of power-on with a boot loader and no firmware, and keeps what it
- * is given until it loses power. Source: libnifalcon (FalconCommLibUSB, FalconFirmware). SPDX-License-Identifier: MIT
- */
+/* Makes an open Falcon ready for frames: after power-on it has a boot loader but no firmware, and keeps a loaded one
+ * until power-off. Source: libnifalcon (FalconCommLibUSB, FalconFirmware).
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FALCON_FIRMWARE_H
 #define KNURL_SRC_FALCON_FIRMWARE_H
 

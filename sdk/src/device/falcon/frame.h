@@ -1,5 +1,6 @@
-/* What a Novint Falcon's firmware says and hears: frames of 16 bytes, '<', fourteen characters, '>'. Pure computation.
- * Source: libnifalcon (FalconFirmwareNovintSDK). SPDX-License-Identifier: MIT */
+/* The frames of a Novint Falcon's firmware, both directions: 16 bytes, '<', fourteen characters, '>'. Pure computation.
+ * Source: libnifalcon (FalconFirmwareNovintSDK).
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FALCON_FRAME_H
 #define KNURL_SRC_FALCON_FRAME_H
 

@@ -1,5 +1,4 @@
-/* How the driver reaches a Falcon: over USB (transport_usb.c), or a simulated one in tests. SPDX-License-Identifier:
- * MIT */
+/* The driver's connection to a Falcon: USB (transport_usb.c), or a simulation in tests. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FALCON_TRANSPORT_H
 #define KNURL_SRC_FALCON_TRANSPORT_H
 

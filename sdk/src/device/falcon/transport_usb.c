@@ -1,5 +1,6 @@
-/* A Falcon over libusb. A transfer for what comes in is always under way, so that no answer waits for one to be asked
- * for. libusb's events are handled by whoever calls. SPDX-License-Identifier: MIT */
+/* A Falcon over libusb. An input transfer is always pending, so that no answer waits for a request. libusb's events are
+ * handled by the calling thread.
+ * SPDX-License-Identifier: MIT */
 #include "device/falcon/transport.h"
 #include "device/listings.h"
 

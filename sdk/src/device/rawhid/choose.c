@@ -1,4 +1,4 @@
-/* The choice among HID interfaces. SPDX-License-Identifier: MIT */
+/* Chooses among HID interfaces. SPDX-License-Identifier: MIT */
 #include "device/rawhid/choose.h"
 
 #include "device/listings.h"

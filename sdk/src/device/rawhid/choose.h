@@ -1,4 +1,4 @@
-/* Which of the HID interfaces that are connected is the device, and why none is. SPDX-License-Identifier: MIT */
+/* Chooses the device among the connected HID interfaces, or says why none fits. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_CHOOSE_H
 #define KNURL_SRC_RAWHID_CHOOSE_H
 

@@ -1,4 +1,4 @@
-/* The geometry file. SPDX-License-Identifier: MIT */
+/* Reads the geometry file. SPDX-License-Identifier: MIT */
 #include "device/rawhid/geometry.h"
 
 #include "base/regular_file.h"

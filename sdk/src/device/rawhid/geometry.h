@@ -1,5 +1,6 @@
-/* How a WoodenHaptics or one of its kin is built, so that a variant needs a text file and no code: `key = value` a
- * line, # to the end of a line is a comment, SI units. SPDX-License-Identifier: MIT */
+/* The mechanics of a WoodenHaptics or a similar device, from a text file, so that a variant needs no code: one `key =
+ * value` per line, comments from # on, SI units.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_GEOMETRY_H
 #define KNURL_SRC_RAWHID_GEOMETRY_H
 

@@ -1,4 +1,4 @@
-/* Little-endian, two's complement, whatever the machine is. SPDX-License-Identifier: MIT */
+/* HID reports: little-endian, two's complement, on any machine. SPDX-License-Identifier: MIT */
 #include "device/rawhid/report.h"
 
 #include <string.h>

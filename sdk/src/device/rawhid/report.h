@@ -1,4 +1,4 @@
-/* The reports of WoodenHaptics and its kin, byte by byte. Pure. SPDX-License-Identifier: MIT */
+/* The HID reports of a WoodenHaptics, byte by byte. Pure. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_REPORT_H
 #define KNURL_SRC_RAWHID_REPORT_H
 

@@ -1,4 +1,4 @@
-/* What the driver needs of USB HID, so that tests put a simulated device under it. SPDX-License-Identifier: MIT */
+/* The driver's connection to USB HID, which tests replace by a simulation. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_TRANSPORT_H
 #define KNURL_SRC_RAWHID_TRANSPORT_H
 

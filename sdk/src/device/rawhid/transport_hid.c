@@ -1,4 +1,4 @@
-/* USB HID by hidapi. SPDX-License-Identifier: MIT */
+/* USB HID over hidapi. SPDX-License-Identifier: MIT */
 #include "device/rawhid/transport.h"
 
 #ifndef KNURL_HAVE_HIDAPI

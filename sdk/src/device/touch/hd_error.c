@@ -1,4 +1,4 @@
-/* HD's errors in sentences. SPDX-License-Identifier: MIT */
+/* Sentences for HD's errors. SPDX-License-Identifier: MIT */
 #include "device/touch/hd.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* The HD library, loaded at run time: whoever has no Touch needs none of it. SPDX-License-Identifier: MIT */
+/* The HD library, loaded at run time. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HD_LOAD_H
 #define KNURL_SRC_HD_LOAD_H
 

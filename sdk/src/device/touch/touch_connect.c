@@ -1,5 +1,5 @@
-/* A Touch and HD: connecting, and the scheduler, which starts with the first loop and stops with the last device. All
- * under the lock of touch.c. SPDX-License-Identifier: MIT */
+/* Connects a Touch through HD, and starts and stops HD's scheduler. All calls hold the lock of touch.c.
+ * SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
 #include "base/atomic.h"

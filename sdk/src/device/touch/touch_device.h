@@ -1,5 +1,6 @@
-/* What a Touch is made of. HD's scheduler thread calls a slot; a slot outlives its device, so that a call that comes
- * late finds nothing instead of freed memory. SPDX-License-Identifier: MIT */
+/* The insides of a Touch. HD's scheduler thread calls a slot, which outlives its device, so that a late call does not
+ * use freed memory.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_TOUCH_DEVICE_H
 #define KNURL_SRC_TOUCH_DEVICE_H
 

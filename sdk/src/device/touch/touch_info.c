@@ -1,4 +1,4 @@
-/* What a Touch is, as far as HD tells. SPDX-License-Identifier: MIT */
+/* Properties of a Touch, as far as HD reports them. SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
 #include <math.h>

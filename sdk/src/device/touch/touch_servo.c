@@ -1,5 +1,6 @@
-/* A Touch on HD's scheduler thread: a frame a tick. Should that thread ever stand still, HD itself is assumed to
- * zero the force: its device driver has a watchdog of its own. SPDX-License-Identifier: MIT */
+/* A Touch on HD's scheduler thread: one frame per tick. If that thread ever hangs, HD's own device driver is assumed to
+ * zero the force by its watchdog.
+ * SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
 #include "base/atomic.h"
