@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Fetches the real Godot 4 with software rendering and a virtual display into DIR/root, for the tests and the demo.
-# Debian's testing packages, downloaded by an apt of their own and unpacked: nothing is installed on the host.
-# usage: fetch.sh DIR     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt).
+# Debian's testing packages, downloaded by an apt of their own, which checks Debian's signatures, and unpacked: nothing
+# is installed on the host. The engine has to be the one that godot.sha256 names; with KNURL_GODOT_ANY=1 any Godot 4 will do.
+# usage: fetch.sh DIR     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt, not pinned).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -eq 1 ] || { echo "usage: fetch.sh DIR" >&2; exit 2; }
@@ -9,7 +10,8 @@ EXIT_SETUP=3
 PACKAGES=(godot libgl1 libglx-mesa0 libgl1-mesa-dri libegl1 libegl-mesa0 xvfb xkb-data x11-xkb-utils
     fontconfig-config fonts-dejavu-core dash coreutils)
 SUITES=(forky sid) # testing cannot be installed on some days; then the next
-STAMP="1 ${PACKAGES[*]}"
+PIN=$here/godot.sha256 # of Debian's 4.6.3+ds-2
+STAMP="2 ${PACKAGES[*]} $(cat "$PIN")"
 
 mkdir -p "$1"
 dir=$(cd "$1" && pwd)
@@ -64,6 +66,11 @@ fi
 new=$dir/root.new
 unpack "$new"
 rm -rf "$dir/apt"
+if ! (cd "$new" && sha256sum --status --check "$PIN") && [ "${KNURL_GODOT_ANY:-}" != 1 ]; then
+    found=$(sha256sum "$new/usr/bin/godot" | cut -d ' ' -f 1)
+    rm -rf "$new"
+    give_up "Debian $fetched has another one than $PIN names (sha256 $found); KNURL_GODOT_ANY=1 takes it"
+fi
 rm -rf "$dir/root"
 mv "$new" "$dir/root"
 version=$("$here/run.sh" "$dir" godot --headless --version | tail -n 1) || give_up 'what was unpacked does not run'
