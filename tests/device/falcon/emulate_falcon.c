@@ -2,6 +2,7 @@
  * command on a machine to which an emulated Falcon is connected, its hand stroking along x a millimetre below the
  * middle of its workspace; exits as the command does. SPDX-License-Identifier: MIT */
 #include "falcon_emulated.h"
+#include "falcon_image.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The image that --no-firmware asks for: 4096 zeros. */
+/* --no-firmware: the image of so many bytes that falcon_image_make() makes is asked for. */
 #define IMAGE_SIZE 4096
 
 static int run(char **command) {
@@ -36,7 +37,8 @@ int main(int argc, char **argv) {
         if (strcmp(argv[at], "--unplug-after") == 0 && at + 1 < argc) {
             setup.unplug_after = strtod(argv[++at], NULL);
         } else if (strcmp(argv[at], "--no-firmware") == 0) {
-            falcon_sim_forget_firmware(&setup.sim, IMAGE_SIZE, 0);
+            uint8_t image[IMAGE_SIZE];
+            falcon_sim_forget_firmware(&setup.sim, IMAGE_SIZE, falcon_image_make(image, IMAGE_SIZE));
         } else if (strcmp(argv[at], "--split") == 0) {
             setup.is_split = 1;
         } else if (strcmp(argv[at], "--unhomed") == 0 && at + 1 < argc) {

@@ -2,20 +2,17 @@
 #include "support/tool.h"
 
 #include "device/falcon/firmware.h"
+#include "device/falcon/image.h"
 #include "falcon_fake.h"
+#include "falcon_image.h"
 
-static uint8_t image[KNURL_FALCON_IMAGE_MOST + 1];
+static uint8_t image[KNURL_FALCON_IMAGE_MOST + 2];
 static falcon_fake fake;
 static knurl_falcon_transport transport;
 
 /* Writes an image of so many bytes; returns what they add up to. */
 static uint32_t write_image(size_t size) {
-    uint64_t seed = 5;
-    uint32_t sum = 0;
-    for (size_t i = 0; i < size; i++) {
-        image[i] = (uint8_t)random_bits(&seed);
-        sum += image[i];
-    }
+    const uint32_t sum = falcon_image_make(image, size);
     write_file(tool_path("image.bin"), image, size);
     return sum;
 }
@@ -61,7 +58,7 @@ TEST(a_device_with_firmware_needs_no_image) {
 }
 
 TEST(a_device_without_firmware_is_given_the_image) {
-    static const uint32_t sizes[] = {KNURL_FALCON_IMAGE_LEAST, 7440, 7441};
+    static const uint32_t sizes[] = {KNURL_FALCON_IMAGE_LEAST, 7440, 7442};
     for (size_t i = 0; i < COUNT_OF(sizes); i++) { /* 7440: whole packets of 62 */
         const uint32_t sum = write_image(sizes[i]);
         plug_in();
@@ -97,13 +94,35 @@ TEST(an_image_that_cannot_be_had_is_named) {
     falcon_sim_forget_firmware(&fake.sim, 2000, 0);
     check_fails("/nowhere/image.bin", KNURL_ERROR_IO, "/nowhere/image.bin|no such file");
     check_fails(tool_path(""), KNURL_ERROR_IO, tool_path(""));
-    (void)write_image(KNURL_FALCON_IMAGE_LEAST - 1);
-    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|1024 to 65536|found 1023");
-    (void)write_image(KNURL_FALCON_IMAGE_MOST + 1);
+    (void)write_image(KNURL_FALCON_IMAGE_LEAST - 2);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|1024 to 65536|found 1022");
+    (void)write_image(KNURL_FALCON_IMAGE_MOST + 2);
     check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "image.bin|65536|found 65537 or more");
-    (void)write_image(0);
+    write_file(tool_path("image.bin"), "", 0);
     check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, "found 0");
     assert_false(fake.sim.has_firmware);
+    plug_out();
+}
+
+/* Of an image of 2000 bytes with one of them changed. */
+static void check_byte_fails(size_t at, uint8_t value, const char *words) {
+    (void)falcon_image_make(image, 2000);
+    image[at] = value;
+    write_file(tool_path("image.bin"), image, 2000);
+    check_fails(tool_path("image.bin"), KNURL_ERROR_FORMAT, words);
+}
+
+/* 985 words of data: 0x03d9. */
+TEST(a_file_that_the_boot_loader_would_not_take_whole_is_never_sent) {
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, 0);
+    check_byte_fails(0, 0xab, "image.bin|byte 0: expected the boot loader's key, aa 08");
+    check_byte_fails(FALCON_IMAGE_BLOCK, 0xda, "image.bin|byte 2000: expected a block of 0 words");
+    check_byte_fails(FALCON_IMAGE_BLOCK, 0xdb, "image.bin|byte 22: expected a block that ends within the file");
+    check_byte_fails(FALCON_IMAGE_BLOCK + 1, 0, "image.bin|byte 462: expected a block that ends within the file");
+    check_byte_fails(1998, 1, "image.bin|byte 1998: expected a block that ends within the file");
+    check_byte_fails(FALCON_IMAGE_ENTRY, 0x3e, "image.bin|byte 18: expected an entry point in one of the blocks");
+    assert_int_equal(falcon_fake_look(&fake).image_count, 0);
     plug_out();
 }
 

@@ -1,6 +1,8 @@
 /* The command-line tool with an emulated Falcon connected to the machine. SPDX-License-Identifier: MIT */
 #include "support/tool.h"
 
+#include "falcon_image.h"
+
 /* Runs the tool on such a machine; `options` are emulate_falcon's, up to a null. */
 static process run_with_falcon(const char *const *options, const char *const *arguments) {
     const char *all[PROCESS_ARGUMENTS] = {KNURL_TEST_WRAPPER, KNURL_TEST_EMULATE};
@@ -53,9 +55,10 @@ TEST(packets_in_pieces_change_nothing) {
 }
 
 TEST(a_falcon_without_firmware_is_given_the_image) {
-    static const char zeros[4096];
+    uint8_t image[4096];
     char uri[600];
-    write_file(tool_path("image.bin"), zeros, sizeof zeros);
+    (void)falcon_image_make(image, sizeof image);
+    write_file(tool_path("image.bin"), image, sizeof image);
     (void)snprintf(uri, sizeof uri, "falcon:?firmware=%s", tool_path("image.bin"));
     process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "1"));
     check_felt(&p);

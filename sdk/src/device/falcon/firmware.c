@@ -1,11 +1,10 @@
 /* Sets a Falcon up and loads its firmware. Read knurl_falcon_prepare() first. SPDX-License-Identifier: MIT */
 #include "device/falcon/firmware.h"
 
-#include "base/regular_file.h"
 #include "base/system.h"
 #include "device/falcon/frame.h"
+#include "device/falcon/image.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -178,30 +177,6 @@ static knurl_result load(const knurl_falcon_transport *t, const uint8_t *image, 
     return result ? result : set_up(t, normal_mode, COUNT(normal_mode), "start its firmware");
 }
 
-/* The file's bytes, KNURL_FALCON_IMAGE_MOST + 1 at most. */
-static knurl_result read_image(const char *path, uint8_t *image, size_t *size) {
-    char why[160];
-    uint64_t there = 0;
-    FILE *file = knurl_regular_open(NULL, path, &there, why, sizeof why);
-    if (!file) {
-        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s': %s", path, why);
-    }
-    const size_t got = fread(image, 1, KNURL_FALCON_IMAGE_MOST + 1, file);
-    const int failed = ferror(file);
-    (void)fclose(file);
-    if (failed) {
-        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': firmware '%s' cannot be read", path);
-    }
-    if (got < KNURL_FALCON_IMAGE_LEAST || got > KNURL_FALCON_IMAGE_MOST) {
-        return knurl_fail(KNURL_ERROR_FORMAT,
-                          "device 'falcon': firmware '%s': expected an image of %d to %d bytes, found %lu%s", path,
-                          KNURL_FALCON_IMAGE_LEAST, KNURL_FALCON_IMAGE_MOST, (unsigned long)got,
-                          got > KNURL_FALCON_IMAGE_MOST ? " or more" : "");
-    }
-    *size = got;
-    return KNURL_OK;
-}
-
 static knurl_result load_file(const knurl_falcon_transport *t, const char *path) {
     size_t size = 0;
     uint8_t *image = malloc(KNURL_FALCON_IMAGE_MOST + 1);
@@ -209,7 +184,7 @@ static knurl_result load_file(const knurl_falcon_transport *t, const char *path)
         return knurl_fail(KNURL_ERROR_MEMORY, "device 'falcon': could not get %d bytes for its firmware",
                           KNURL_FALCON_IMAGE_MOST + 1);
     }
-    knurl_result result = read_image(path, image, &size);
+    knurl_result result = knurl_falcon_read_image(path, image, &size);
     result = result ? result : load(t, image, size);
     free(image);
     return result;

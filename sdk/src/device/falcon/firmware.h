@@ -6,10 +6,6 @@
 
 #include "device/falcon/transport.h"
 
-/* What an image may measure, bytes: those that are known have 7 to 8 kB. */
-#define KNURL_FALCON_IMAGE_LEAST 1024
-#define KNURL_FALCON_IMAGE_MOST  65536
-
 /* Returns once the device answers a frame, of no force; where it does not, loads the image at `path` ("": none is
  * known). Takes 0.2 s at most without loading and some 3 s with. Errors: KNURL_ERROR_DEVICE_LOST (unplugged, or
  * does not answer), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (the image), KNURL_ERROR_MEMORY. */
