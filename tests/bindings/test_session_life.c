@@ -134,6 +134,25 @@ TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
     knurl_session_destroy(s);
 }
 
+/* The library is one that a program may name. */
+TEST(a_scene_cannot_name_a_library_to_run) {
+    static const char *const uris[] = {"touch:?library=" KNURL_TEST_HD, "touch:Default Device?library=" KNURL_TEST_HD,
+                                       "touch?library=" KNURL_TEST_HD,
+                                       "touch:?library=/nowhere.so&library=" KNURL_TEST_HD};
+    knurl_session *s = make_session();
+    for (size_t i = 0; i < COUNT_OF(uris); i++) {
+        const knurl_session_desc desc = describe(uris[i], "");
+        (void)knurl_fail(KNURL_ERROR_STATE, "stale message");
+        assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_ARGUMENT);
+        check_message("cannot name a library to run");
+        assert_null(knurl_session_get_device(s));
+    }
+    knurl_session_destroy(s);
+    knurl_device *device = NULL;
+    assert_int_equal(knurl_device_open("touch:?library=" KNURL_TEST_HD, &device), KNURL_OK);
+    knurl_device_close(device);
+}
+
 TEST(strings_are_not_kept) {
     char device[] = "fake:?press_at=0.001";
     char stroke[] = "line";
