@@ -101,30 +101,32 @@ int cmd_inspect(int argc, char **argv) {
     const char *path = NULL;
     int pretty = 0;
     int full = 0;
+    const char *limits = "";
+    knurl_gltf_budget budget;
     const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
-                                   {"--full-model", TOOL_FLAG, &full, 0, 0, ""}};
-    if (tool_parse(argc, argv, options, 2, &path) != TOOL_OK) {
+                                   {"--full-model", TOOL_FLAG, &full, 0, 0, ""},
+                                   {"--budget", TOOL_TEXT, &limits, 0, 0, ""}};
+    if (tool_parse(argc, argv, options, 3, &path) != TOOL_OK || tool_parse_budget(limits, &budget) != TOOL_OK) {
         return TOOL_USAGE;
     }
     if (!path) {
         return tool_error(TOOL_USAGE, "inspect: expected a .gltf or .glb file, found none");
     }
     knurl_scene *scene = NULL;
-    knurl_gltf_report report;
-    knurl_gltf_report_init(&report, sizeof report);
+    uint32_t skipped = 0;
     knurl_scene_desc desc;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.full_model = full ? KNURL_FULL_ALL : 0;
     knurl_device_info device;
     knurl_device_info_init(&device, sizeof device);
-    if (knurl_scene_create(&desc, &scene) || knurl_gltf_load_file(scene, path, &report) || knurl_scene_commit(scene) ||
+    if (knurl_scene_create(&desc, &scene) || tool_load(scene, path, &budget, &skipped) || knurl_scene_commit(scene) ||
         measure_device(&device)) {
         knurl_scene_destroy(scene);
         return tool_library_error(TOOL_FAILURE, NULL);
     }
     json_writer json;
     json_start(&json, stdout, pretty);
-    print_scene(&json, scene, &device, report.skipped);
+    print_scene(&json, scene, &device, skipped);
     tool_warn(scene);
     if (knurl_scene_get_surface_count(scene) == 0) {
         (void)tool_error(TOOL_OK, "hint: %s: %s", path, hint);

@@ -13,7 +13,8 @@
 #include <unistd.h>
 
 typedef struct run_options {
-    const char *path, *device, *surface, *stroke, *trace, *method, *out;
+    const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits;
+    knurl_gltf_budget budget;
     double seconds, rate;
     int fast, full_model, clamp, reconnect, pretty;
     int32_t stroke_id, method_id;
@@ -48,6 +49,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--trace", TOOL_TEXT, &o->trace, 0, 0, ""},
         {"--method", TOOL_TEXT, &o->method, 0, 0, ""},
         {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
+        {"--budget", TOOL_TEXT, &o->limits, 0, 0, ""},
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
@@ -55,9 +57,11 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
+    o->limits = "";
     o->seconds = NAN;
     o->rate = 1000.0;
-    if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &o->path) != TOOL_OK) {
+    if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &o->path) != TOOL_OK ||
+        tool_parse_budget(o->limits, &o->budget) != TOOL_OK) {
         return TOOL_USAGE;
     }
     if (!o->path) {
@@ -91,11 +95,6 @@ static knurl_result set_methods(knurl_scene *scene, int32_t method) {
     return KNURL_OK;
 }
 
-static void protect_file(void *user, const char *path) {
-    (void)user;
-    out_protect(path);
-}
-
 /* Files that a device's URI names: what follows geometry=, firmware= and library=. */
 static void protect_device_files(const char *uri) {
     const char *pair = strchr(uri, '?');
@@ -112,13 +111,11 @@ static void protect_device_files(const char *uri) {
 
 static int load(run *r) {
     const run_options *o = &r->options;
-    knurl_gltf_report report;
+    uint32_t skipped = 0;
     knurl_scene_desc desc;
-    knurl_gltf_report_init(&report, sizeof report);
-    report.file_read = protect_file;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.full_model = o->full_model ? KNURL_FULL_ALL : 0;
-    if (knurl_scene_create(&desc, &r->scene) || knurl_gltf_load_file(r->scene, o->path, &report) ||
+    if (knurl_scene_create(&desc, &r->scene) || tool_load(r->scene, o->path, &o->budget, &skipped) ||
         (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }

@@ -6,7 +6,7 @@
 #include "options.h"
 #include "out.h"
 
-#include <knurl/scene.h>
+#include <knurl/gltf.h>
 
 #include <stddef.h>
 #include <stdint.h>
@@ -19,6 +19,14 @@ void tool_print_cell(FILE *stream, const char *name);
 
 /* A line on stderr for each limit of HIP 0's device that a surface exceeds. */
 void tool_warn(const knurl_scene *scene);
+
+/* --- loading (load.c) --- */
+
+/* --budget: "surfaces=1000,seconds=0.5". TOOL_OK, or TOOL_USAGE having said why. */
+int tool_parse_budget(const char *text, knurl_gltf_budget *budget);
+
+/* knurl_gltf_load_file(). What was read is protected from being written over; a terminal is shown how far it is. */
+knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_budget *budget, uint32_t *skipped);
 
 /* --- CSV input (csv_in.c) --- */
 

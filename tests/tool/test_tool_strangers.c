@@ -3,6 +3,8 @@
 #include "support/close.h"
 #include "support/tool.h"
 
+#include <fcntl.h>
+
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 static void check_says(process *p, int code, const char *sentence) {
@@ -86,6 +88,79 @@ static void write_slow_file(const char *path) {
     }
     fputs("]}", file);
     assert_int_equal(fclose(file), 0);
+}
+
+TEST(what_loading_may_cost_is_an_option) {
+    process p = RUN_TOOL("inspect", plate, "--budget", "vertices=7"); /* 4 of POSITION, 4 of TEXCOORD_0 */
+    check_says(&p, 1, "budget.max_vertices: expected at most 7, found 8");
+    p = RUN_TOOL("run", plate, "--fast", "--budget", "triangles=1,seconds=9.5");
+    check_says(&p, 1, "budget.max_triangles: expected at most 1, found 2");
+    p = RUN_TOOL("inspect", plate, "--budget", "surfaces=3,bytes=100000,vertices=24,triangles=6,seconds=60");
+    check_done(&p);
+    process_free(&p);
+    static const char *const wrong[] = {"size=3",
+                                        "bytes",
+                                        "bytes=",
+                                        "bytes=-1",
+                                        "bytes=0.5",
+                                        "bytes=1,",
+                                        "bytes=1 ",
+                                        "seconds=0",
+                                        "seconds=nan",
+                                        "surfaces=4294967296",
+                                        "bytes=1,,seconds=1"};
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
+        p = RUN_TOOL("inspect", plate, "--budget", wrong[i]);
+        check_refused(&p, 2, "--budget: expected surfaces=", wrong[i]);
+    }
+}
+
+/* Runs `knurl inspect path` with its standard error on a terminal, which gets `text`. */
+static void inspect_on_terminal(const char *path, char *text, size_t size) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    size_t length = 0;
+    if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
+        fail_msg("no pseudoterminal can be had");
+        return;
+    }
+    const int slave = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    const int nothing = open("/dev/null", O_WRONLY);
+    if (slave < 0 || nothing < 0) {
+        fail_msg("the pseudoterminal cannot be opened");
+        return;
+    }
+    const pid_t pid = fork();
+    if (pid == 0) {
+        (void)dup2(slave, STDERR_FILENO);
+        (void)dup2(nothing, STDOUT_FILENO);
+        (void)execl(KNURL_TEST_TOOL, "knurl", "inspect", path, (char *)NULL);
+        _exit(127);
+    }
+    (void)close(slave);
+    (void)close(nothing);
+    for (ssize_t got = 1; got > 0 && length + 1 < size; length += got > 0 ? (size_t)got : 0) {
+        got = read(terminal, text + length, size - 1 - length); /* an error once nobody has the other end */
+    }
+    text[length] = '\0';
+    (void)close(terminal);
+    int status = 0;
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+}
+
+TEST(a_terminal_is_shown_how_far_a_long_load_is) {
+    char text[8192];
+    inspect_on_terminal(plate, text, sizeof text);
+    assert_null(strstr(text, "loading"));
+    write_slow_file(tool_path("slow.gltf"));
+    inspect_on_terminal(tool_path("slow.gltf"), text, sizeof text);
+    assert_non_null(strstr(text, "\rloading: "));
+    const char *erased = strstr(text, "\r\033[K"); /* before anything else is said */
+    assert_non_null(erased);
+    assert_null(strstr(erased + 1, "loading"));
+    process p = RUN_TOOL("inspect", tool_path("slow.gltf"));
+    assert_null(strstr(p.err, "loading")); /* no terminal */
+    process_free(&p);
+    assert_int_equal(remove(tool_path("slow.gltf")), 0);
 }
 
 TEST(a_run_that_loads_ends_at_a_signal) {
