@@ -4,21 +4,6 @@
 #include "contact/oracle.h"
 #include "support/probe.h"
 
-/* Two shapes as one, each with vertices of its own; frees both. */
-static shape join(shape *a, shape *b) {
-    assert_true(a->vertex_count > 0 && a->index_count > 0);
-    shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
-    memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
-    memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
-    memcpy(s.indices, a->indices, a->index_count * sizeof(uint32_t));
-    for (uint32_t i = 0; i < b->index_count; i++) {
-        s.indices[a->index_count + i] = b->indices[i] + a->vertex_count;
-    }
-    shape_free(a);
-    shape_free(b);
-    return s;
-}
-
 static void turn_over(shape *s, uint32_t triangle) {
     const uint32_t a = s->indices[3 * (size_t)triangle];
     s->indices[3 * (size_t)triangle] = s->indices[3 * (size_t)triangle + 1];
@@ -55,7 +40,7 @@ TEST(three_sheets_on_one_edge_hold_on) {
             for (uint32_t i = 0; turned && i < fin.index_count / 3; i++) {
                 turn_over(&fin, i);
             }
-            shape both = join(&sheet, &fin);
+            shape both = shape_join(&sheet, &fin);
             probe p = probe_shape(&both);
             assert_true(p.mesh->non_manifold_count >= 9);
             if (way < 0) {
@@ -76,7 +61,7 @@ TEST(bow_ties_hold_on) {
         const uint32_t corners[3] = {0, i + 1, (i + 1) % 8 + 1};
         memcpy(&cone.indices[3 * (size_t)i], corners, sizeof corners);
     }
-    shape both = join(&sheet, &cone);
+    shape both = shape_join(&sheet, &cone);
     probe p = probe_shape(&both);
     assert_true(p.mesh->non_manifold_count > 0);
     stroke_over(&p, 0.001);
@@ -90,7 +75,7 @@ TEST(double_layers_hold_across_every_border) {
         for (uint32_t i = 0; i < bottom.index_count / 3; i++) {
             turn_over(&bottom, i);
         }
-        shape both = join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
+        shape both = shape_join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
         probe p = probe_shape(&both);
         assert_int_equal(p.mesh->reversed_twins, 128);
         p.query.double_sided = p.mesh->double_sided;
@@ -144,7 +129,7 @@ static shape halves(double gap) {
     for (uint32_t v = 0; v < right.vertex_count; v++) {
         right.positions[3 * (size_t)v] += (float)(half[0] + 0.5 * gap);
     }
-    return join(&left, &right);
+    return shape_join(&left, &right);
 }
 
 /* In by one half and at the end of the tick below the other, at all angles. */
@@ -214,8 +199,8 @@ TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
     for (uint32_t v = 0; v < bottom.vertex_count; v++) {
         bottom.positions[3 * (size_t)v + 2] = -0.001f;
     }
-    shape top = join(&left, &right);
-    shape plate = join(&top, &bottom);
+    shape top = shape_join(&left, &right);
+    shape plate = shape_join(&top, &bottom);
     probe p = probe_shape(&plate);
     for (int line = -15; line <= 15; line++) {
         for (int way = -1; way <= 1; way += 2) {

@@ -96,19 +96,6 @@ static shape wall_shape(int parts) {
     return p.s;
 }
 
-static shape joined(shape *a, shape *b) {
-    shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
-    memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
-    memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
-    memcpy(s.indices, a->indices, a->index_count * sizeof(uint32_t));
-    for (uint32_t i = 0; i < b->index_count; i++) {
-        s.indices[a->index_count + i] = b->indices[i] + a->vertex_count;
-    }
-    shape_free(a);
-    shape_free(b);
-    return s;
-}
-
 /* From the floor, pressed in by DEPTH, 3 mm into the wall along several lines, there along the wall, and out again.
  * Returns the ticks in which the corner did not hold the HIP; *worst: the force's farthest error, N. */
 static int slide_into_wall(knurl_scene *scene, double *worst) {
@@ -174,7 +161,7 @@ TEST(a_corner_in_one_mesh_holds_with_a_shared_edge_and_with_one_that_is_split) {
         for (int walls = 1; walls <= 3; walls++) {
             shape floor = floor_shape(floors);
             shape wall = wall_shape(walls);
-            shape both = joined(&floor, &wall);
+            shape both = shape_join(&floor, &wall);
             surface_parts parts = surface_shape(&both);
             char what[64];
             (void)snprintf(what, sizeof what, "one mesh, its edge split in %d and %d", floors, walls);

@@ -192,6 +192,14 @@ static void compare_told(const knurl_tick_output *moving, const knurl_tick_outpu
     assert_int_equal(moving->event, resting->event);
 }
 
+/* A HIP at rest, from 20 mm above the hills straight down to a place in them. */
+static void press_down(knurl_scene *scene, const double at[3]) {
+    const double above[3] = {at[0], at[1], 0.02};
+    const double none[3] = {0.0, 0.0, 0.0};
+    (void)tick_moving(scene, above, none);
+    (void)tick_moving(scene, at, none);
+}
+
 /* Hills glide past a HIP that rests, as the HIP glides over hills that rest. */
 static void compare_gliding(int32_t method, const double velocity[3], double friction) {
     shape sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
@@ -203,12 +211,9 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
     knurl_scene *moving = scene_of(&parts);
     knurl_scene *resting = scene_of(&parts);
     const double at[3] = {0.0131, -0.0173, -0.0062};
-    const double above[3] = {0.0131, -0.0173, 0.02};
     const double none[3] = {0.0, 0.0, 0.0};
-    (void)tick_moving(moving, above, none);
-    (void)tick_moving(resting, above, none);
-    (void)tick_moving(moving, at, none);
-    (void)tick_moving(resting, at, none);
+    press_down(moving, at);
+    press_down(resting, at);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     add3(end.position, -0.2, velocity, end.position);
     move_to(moving, knurl_scene_get_surface(moving, 0), &end, 0.2);
@@ -246,12 +251,9 @@ static void compare_turning(double omega, double friction) {
     knurl_scene *moving = scene_of(&parts);
     knurl_scene *resting = scene_of(&parts);
     const double at[3] = {0.0431, -0.0273, -0.0062};
-    const double above[3] = {0.0431, -0.0273, 0.02};
     const double none[3] = {0.0, 0.0, 0.0};
-    (void)tick_moving(moving, above, none);
-    (void)tick_moving(resting, above, none);
-    (void)tick_moving(moving, at, none);
-    (void)tick_moving(resting, at, none);
+    press_down(moving, at);
+    press_down(resting, at);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     turn_about(z, -0.3 * omega, end.quaternion);
     move_to(moving, knurl_scene_get_surface(moving, 0), &end, 0.3);

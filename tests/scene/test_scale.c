@@ -238,6 +238,15 @@ TEST(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged) {
     }
 }
 
+/* From above, 1 mm into a floor at z = 0: the floor alone holds the HIP. */
+static void press_on(knurl_scene *scene, knurl_surface_id floor_id) {
+    (void)tick_at(scene, 0.0, 0.0, 0.005);
+    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
+    CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, 1e-12L);
+    assert_true(out.surface == floor_id);
+    assert_int_equal(out.flags, KNURL_TICK_CONTACT);
+}
+
 /* 60 were here and are gone, before a HIP came by or under it: they take no room among those near it. */
 TEST(surfaces_taken_out_are_no_longer_near) {
     for (int committed = 0; committed < 2; committed++) {
@@ -257,11 +266,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
         for (int i = 0; i < 60; i++) {
             assert_int_equal(knurl_scene_remove_surface(scene, gone[i]), KNURL_OK);
         }
-        (void)tick_at(scene, 0.0, 0.0, 0.005);
-        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
-        CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, 1e-12L);
-        assert_true(out.surface == floor_id);
-        assert_int_equal(out.flags, KNURL_TICK_CONTACT);
+        press_on(scene, floor_id);
         knurl_scene_destroy(scene);
     }
 }
@@ -289,11 +294,7 @@ TEST(surfaces_that_went_by_are_no_longer_near) {
         (void)tick_at(scene, 0.0, 0.0, 0.1);
     }
     for (int k = 0; k < 10; k++) {
-        (void)tick_at(scene, 0.0, 0.0, 0.005);
-        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
-        CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, 1e-12L);
-        assert_true(out.surface == floor_id);
-        assert_int_equal(out.flags, KNURL_TICK_CONTACT);
+        press_on(scene, floor_id);
     }
     knurl_scene_destroy(scene);
 }

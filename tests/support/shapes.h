@@ -191,6 +191,21 @@ static inline shape shape_soup(uint64_t seed, uint32_t triangles, double size) {
     return s;
 }
 
+/* Two shapes as one, each with vertices of its own; frees both. */
+static inline shape shape_join(shape *a, shape *b) {
+    assert_true(a->vertex_count > 0 && a->index_count > 0);
+    shape s = shape_new(a->vertex_count + b->vertex_count, a->index_count + b->index_count, 0);
+    memcpy(s.positions, a->positions, a->vertex_count * 3 * sizeof(float));
+    memcpy(&s.positions[3 * (size_t)a->vertex_count], b->positions, b->vertex_count * 3 * sizeof(float));
+    memcpy(s.indices, a->indices, a->index_count * sizeof(uint32_t));
+    for (uint32_t i = 0; i < b->index_count; i++) {
+        s.indices[a->index_count + i] = b->indices[i] + a->vertex_count;
+    }
+    shape_free(a);
+    shape_free(b);
+    return s;
+}
+
 /** The same shape with three vertices of its own for every triangle, as hard edges and uv seams make them. */
 static inline void shape_unweld(shape *s) {
     shape apart = shape_new(s->index_count, s->index_count, s->uvs != NULL);

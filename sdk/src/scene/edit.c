@@ -35,25 +35,53 @@ static knurl_result build(knurl_scene *scene, const knurl_surface_desc *desc, kn
                   : knurl_surface_build(&scene->heap, &d, scene->full_model, d.shape_of ? &shared : NULL, made);
 }
 
-knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *surface) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
-        return KNURL_ERROR_ARGUMENT;
+/* The new surface counts one jump more than the old one, which tells ticks that the shape is another. */
+static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_surface_data *made) {
+    knurl_surface_data *old = knurl_surfaces_get(&scene->surfaces, surface);
+    if (!old) {
+        return KNURL_ERROR_STALE_ID;
     }
+    made->record->motion.jumps = old->record->motion.jumps + 1;
+    made->moved = 1;
+    knurl_surfaces_replace(&scene->surfaces, old, made);
+    knurl_broad_phase_replace(&scene->broad_phase, old, made);
+    return KNURL_OK;
+}
+
+/* Builds a surface and adds it, or puts it in the place of surface *id. *id: gets its id. */
+static knurl_result put(knurl_scene *scene, const knurl_surface_desc *desc, int replaces, knurl_surface_id *id) {
     knurl_surface_data *made = NULL;
     knurl_result result = build(scene, desc, &made);
     if (result) {
         return result;
     }
     knurl_scene_lock(scene);
-    result = add(scene, made);
-    const knurl_surface_id id = result ? 0 : made->id;
+    result = replaces ? replace(scene, *id, made) : add(scene, made);
+    *id = result ? 0 : made->id;
     knurl_scene_unlock(scene);
     if (result) {
         made->retired.release(&scene->heap, &made->retired);
-    } else if (surface) {
+    }
+    return result;
+}
+
+knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_surface_id id = 0;
+    const knurl_result result = put(scene, desc, 0, &id);
+    if (!result && surface) {
         *surface = id;
     }
     return result;
+}
+
+knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface, const knurl_surface_desc *desc) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    return put(scene, desc, 1, &surface);
 }
 
 knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface) {
@@ -68,37 +96,6 @@ knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id sur
     }
     knurl_scene_unlock(scene);
     return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
-}
-
-/* Its motion counts one jump more than the old one's, which is how a tick sees that it is another shape. */
-static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_surface_data *made) {
-    knurl_surface_data *old = knurl_surfaces_get(&scene->surfaces, surface);
-    if (!old) {
-        return KNURL_ERROR_STALE_ID;
-    }
-    made->record->motion.jumps = old->record->motion.jumps + 1;
-    made->moved = 1;
-    knurl_surfaces_replace(&scene->surfaces, old, made);
-    knurl_broad_phase_replace(&scene->broad_phase, old, made);
-    return KNURL_OK;
-}
-
-knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface, const knurl_surface_desc *desc) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_surface_data *made = NULL;
-    knurl_result result = build(scene, desc, &made);
-    if (result) {
-        return result;
-    }
-    knurl_scene_lock(scene);
-    result = replace(scene, surface, made);
-    knurl_scene_unlock(scene);
-    if (result) {
-        made->retired.release(&scene->heap, &made->retired);
-    }
-    return result;
 }
 
 static knurl_result set_material(knurl_scene *scene, knurl_surface_id surface, const knurl_material_desc *material) {
