@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "faults.h"
 #include "recorder.h"
+#include "sound.h"
 #include "stroke.h"
 #include "tool.h"
 #include "travel.h"
@@ -13,7 +14,7 @@
 #include <unistd.h>
 
 typedef struct run_options {
-    const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits;
+    const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav;
     knurl_gltf_budget budget;
     double seconds, rate;
     int fast, full_model, clamp, reconnect, pretty;
@@ -28,6 +29,7 @@ typedef struct run {
     knurl_loop *loop;
     knurl_surface_id surface; /* that is stroked */
     recorder recorder;
+    sound sound;
     travel travel;
     faults faults;
     uint64_t ticks; /* wanted */
@@ -50,6 +52,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--method", TOOL_TEXT, &o->method, 0, 0, ""},
         {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
         {"--budget", TOOL_TEXT, &o->limits, 0, 0, ""},
+        {"--wav", TOOL_TEXT, &o->wav, 0, 0, ""},
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
@@ -189,6 +192,9 @@ static void take_tick(const knurl_tick_output *output, void *user) {
     if (r->recorder.rows) {
         recorder_take(output, &r->recorder);
     }
+    if (r->sound.audio) {
+        sound_take(&r->sound, output);
+    }
 }
 
 static int make_loop(run *r) {
@@ -202,11 +208,15 @@ static int make_loop(run *r) {
     desc.update_rate_hz = r->options.rate;
     desc.tick_limit = r->ticks;
     desc.reconnect = (uint32_t)r->options.reconnect;
+    int code = TOOL_OK;
     if (r->options.out) {
-        const int code = recorder_open(&r->recorder, r->options.out, r->scene, r->options.rate);
-        if (code != TOOL_OK) {
-            return code;
-        }
+        code = recorder_open(&r->recorder, r->options.out, r->scene, r->options.rate);
+    }
+    if (code == TOOL_OK && r->options.wav) {
+        code = sound_open(&r->sound, r->options.wav, r->options.rate);
+    }
+    if (code != TOOL_OK) {
+        return code;
     }
     desc.tick_callback = take_tick;
     desc.user = r;
@@ -249,8 +259,8 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Until the loop is done: drains the recorder, shows faults and, on a terminal, progress, obeys Ctrl-C and the clock.
- */
+/* Until the loop is done: drains recorder and sound, shows faults and, on a terminal, progress, obeys Ctrl-C and the
+ * clock. */
 static void play(run *r) {
     const int terminal = isatty(STDERR_FILENO);
     const double end = now() + r->seconds;
@@ -264,6 +274,9 @@ static void play(run *r) {
         }
         if (r->recorder.rows) {
             recorder_drain(&r->recorder);
+        }
+        if (r->sound.audio) {
+            sound_drain(&r->sound);
         }
         faults_show(&r->faults, r->device);
         (void)knurl_loop_get_stats(r->loop, &stats);
@@ -355,10 +368,12 @@ static int perform(run *r) {
     }
     const int cut_short = interrupted && stats.ticks < r->ticks;
     code = recorder_close(&r->recorder, !cut_short);
+    code = sound_close(&r->sound, !cut_short) == TOOL_OK ? code : TOOL_FAILURE;
     if (cut_short) {
+        const char *out = r->options.out ? r->options.out : r->options.wav;
         code = tool_error(TOOL_INTERRUPTED + interrupted, "run: interrupted after %llu of %llu ticks%s%s",
-                          (unsigned long long)stats.ticks, (unsigned long long)r->ticks,
-                          r->options.out ? "; not written: " : "", r->options.out ? r->options.out : "");
+                          (unsigned long long)stats.ticks, (unsigned long long)r->ticks, out ? "; not written: " : "",
+                          out ? out : "");
     }
     if (stats.state != KNURL_LOOP_LOST && !interrupted && r->gave_up) {
         code = tool_error(TOOL_FAILURE, "run: no position for %g s, after %llu ticks", GIVE_UP_S,
@@ -385,6 +400,7 @@ int cmd_run(int argc, char **argv) {
     }
     knurl_loop_destroy(r.loop);
     (void)recorder_close(&r.recorder, 0);
+    (void)sound_close(&r.sound, 0);
     knurl_device_close(r.device);
     knurl_scene_destroy(r.scene);
     return code;

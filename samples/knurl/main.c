@@ -28,6 +28,7 @@ static const char help[] =
     "      --fast                          as fast as the machine can, the same forces tick for tick\n"
     "      --out CSV                       what was felt, a row a tick; - is standard output. Never a file that is read;\n"
     "                                      there whole or not at all\n"
+    "      --wav FILE                      the same as a sound: mono, 48 kHz, 16 bits\n"
     "      --full-model                    without the reductions: to compare what is felt\n"
     "      --budget NAME=N,...             as above\n"
     "      --clamp                         walls and textures within what the device can do\n"

@@ -22,6 +22,7 @@ ROOMS = {
     "contact": {"base"},
     "device": {"base"},
     "scene": {"base", "grating", "motion", "contact"},
+    "audio": {"base", "scene"},  # of the scene what a tick tells
     "loop": {"base", "scene", "device", "motion"},  # a HIP's workspace is motion's
     "gltf": {"scene", "grating", "contact"},
 }

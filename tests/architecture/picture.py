@@ -8,7 +8,8 @@ BOX = 40  # height of a box with a title and a line below it
 
 # Room: left, top, right, bottom, what it does. Rooms without boxes list their units.
 ROOMS = {
-    "loop": (16, 72, 452, 146, "the 1 kHz thread: read, tick, write"),
+    "loop": (16, 72, 304, 146, "the 1 kHz thread: read, tick, write"),
+    "audio": (316, 72, 474, 146, "a tick's sound"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
     "device": (16, 178, 146, 408, "any device"),
     "scene": (172, 178, 928, 508, "surfaces, edits from other threads, and the tick"),
@@ -19,7 +20,7 @@ ROOMS = {
     "base": (16, 896, 928, 964, "used by all rooms"),
 }
 # Where the arrow between two rooms stands: x, or y where they stand side by side. Boxes of a room have arrows of their own to other rooms' boxes.
-ROOM_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 400, ("scene", "motion"): 466,
+ROOM_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 466,
                ("scene", "grating"): 855, ("grating", "vibration"): 855}
 
 # Box: its middle, its top, its width, its title, the line below it, the units in it.
@@ -200,6 +201,7 @@ def draw(code):
     boxes = between(code, {name: box[5] for name, box in BOXES.items()})
     rooms = reduced(between(code, {room: code.units_of(room) for room in ROOMS if room != "base"}))
     rooms["gltf"] |= {"scene"} & set().union(*(code.public[path] for path in code.public if "/gltf/" in path))
+    rooms["audio"] |= {"scene"}  # a tick's output, from the public header
     rooms["scene"].discard("contact")  # from box to box
     missing += [f"picture.py: no place for the arrow from {room} to {other}" for room in rooms for other in rooms[room]
                 if (room, other) not in ROOM_ARROWS]

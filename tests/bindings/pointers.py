@@ -7,7 +7,7 @@ usage: pointers.py OUTPUT HEADER...
 import re
 import sys
 
-HANDLES = ("scene", "device", "loop", "session")
+HANDLES = ("scene", "device", "loop", "session", "audio")
 
 # Valid arguments, as members of the test's fixture `f`: by function and parameter, else by parameter and type.
 VALUES = {
@@ -38,6 +38,10 @@ VALUES = {
     "knurl_session_get_history.session": "f->played_session",
     "knurl_session_next_event.session": "f->played_session",
     "knurl_session_update.session": "f->played_session",
+    "knurl_audio_take.audio": "f->audio",
+    "knurl_audio_fill.samples": "f->history",
+    "knurl_audio_fill.count": "1",
+    "knurl_audio_create.audio": "&f->new_audio",
     "knurl_wave_init.method": "KNURL_T3",
     "knurl_velocity_init.method": "KNURL_VELOCITY_AUTO",
     "knurl_fake_set_trace.rows": "f->rows",
@@ -92,6 +96,7 @@ VALUES = {
 # Parameters that may be null, each for a reason that its function's comment gives.
 MAY_BE_NULL = {
     "knurl_device_close.device", "knurl_loop_destroy.loop", "knurl_scene_destroy.scene", "knurl_session_destroy.session",
+    "knurl_audio_destroy.audio", "knurl_audio_create.desc",
     "knurl_scene_create.desc", "knurl_scene_configure_hip.desc",  # all defaults
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts",

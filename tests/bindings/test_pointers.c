@@ -14,7 +14,7 @@
 
 #include "pointers.g.h"
 
-enum { KIND_SCENE = 1, KIND_DEVICE, KIND_LOOP, KIND_SESSION, KINDS = KIND_SESSION };
+enum { KIND_SCENE = 1, KIND_DEVICE, KIND_LOOP, KIND_SESSION, KIND_AUDIO, KINDS = KIND_AUDIO };
 enum { RETURNS_NOTHING, RETURNS_VALUE, RETURNS_RESULT };
 enum { MOST_PARAMETERS = 6 };
 
@@ -25,12 +25,14 @@ typedef struct fixture {
     knurl_device *device;
     knurl_loop *loop;
     knurl_session *session, *open_session, *mouse_session, *played_session;
+    knurl_audio *audio;
     const void *destroyed[KINDS + 1];
     knurl_surface_id surface, session_surface;
     knurl_scene *new_scene;
     knurl_device *new_device;
     knurl_loop *new_loop;
     knurl_session *new_session;
+    knurl_audio *new_audio;
     knurl_surface_id new_surface;
     const char *name;
     unsigned char file[65536];
@@ -149,7 +151,9 @@ static void destroy_some(fixture *f) {
     knurl_device *device = NULL;
     knurl_loop *loop = NULL;
     knurl_session *session = NULL;
+    knurl_audio *audio = NULL;
     NEED_OK(knurl_session_create(&session));
+    NEED_OK(knurl_audio_create(NULL, &audio));
     NEED_OK(knurl_scene_create(NULL, &scene));
     NEED_OK(knurl_device_open("fake", &device));
     f->with.loop_desc.device = device;
@@ -157,11 +161,13 @@ static void destroy_some(fixture *f) {
     knurl_loop_destroy(loop);
     knurl_device_close(device);
     knurl_scene_destroy(scene);
+    knurl_audio_destroy(audio);
     knurl_session_destroy(session);
     f->destroyed[KIND_SCENE] = scene;
     f->destroyed[KIND_DEVICE] = device;
     f->destroyed[KIND_LOOP] = loop;
     f->destroyed[KIND_SESSION] = session;
+    f->destroyed[KIND_AUDIO] = audio;
 }
 
 static void make(fixture *f) {
@@ -181,6 +187,7 @@ static void make(fixture *f) {
     f->with.loop_desc.force_callback = no_force;
     f->with.loop_desc.device = other;
     NEED_OK(knurl_loop_create(&f->with.loop_desc, &f->loop));
+    NEED_OK(knurl_audio_create(NULL, &f->audio));
     f->session = make_session(f, NULL, 0);
     f->mouse_session = make_session(f, "mouse", 0);
     f->played_session = make_session(f, "fake", 1);
@@ -193,6 +200,7 @@ static const void *handle_of(const fixture *f, int kind) {
     return kind == KIND_SCENE    ? (const void *)f->scene
            : kind == KIND_DEVICE ? (const void *)f->device
            : kind == KIND_LOOP   ? (const void *)f->loop
+           : kind == KIND_AUDIO  ? (const void *)f->audio
                                  : (const void *)f->session;
 }
 

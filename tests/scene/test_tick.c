@@ -60,6 +60,24 @@ TEST(s1_follows_equations_9_and_11_at_points) {
     knurl_scene_destroy(scene);
 }
 
+TEST(cycles_tell_where_on_the_grating) {
+    surface_parts parts = grating_plane(KNURL_LOCKED, 1000.0, 500.0);
+    knurl_scene *scene = scene_of(&parts);
+    knurl_tick_output out = tick_at(scene, 0.0123, -0.004, -0.001);
+    CHECK_CLOSE(out.cycles[0], 12.3, 1e-12L);
+    CHECK_CLOSE(out.cycles[1], -2.0, 1e-12L);
+    out = tick_at(scene, 0.0123, -0.004, 0.1);
+    CHECK_SAME(out.cycles[0], 0.0);
+    CHECK_SAME(out.cycles[1], 0.0);
+    knurl_scene_destroy(scene);
+    parts.material.orientation = 0.5 * PI; /* x runs along the plane's y, y along its -x */
+    scene = scene_of(&parts);
+    out = tick_at(scene, 0.0123, -0.004, -0.001);
+    CHECK_CLOSE(out.cycles[0], -4.0, 1e-12L);
+    CHECK_CLOSE(out.cycles[1], -6.15, 1e-12L);
+    knurl_scene_destroy(scene);
+}
+
 /* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, saturated. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
     surface_parts parts = grating_plane(KNURL_S2, fs, 0.5 * fs);

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "05ee8f08c0b2a18a"
+#define KNURL_UNITY_INTERFACE "21cba5259148e6bb"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -24,74 +24,6 @@
     FIELD(knurl_mesh_desc, uvs, "uvs", 24, 8) \
     FIELD(knurl_mesh_desc, indices, "indices", 32, 8) \
     FIELD(knurl_mesh_desc, index_count, "index_count", 40, 8) \
-    STRUCT(knurl_device_info, 208) \
-    FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_device_info, reserved, "reserved", 4, 4) \
-    FIELD(knurl_device_info, name, "name", 8, 64) \
-    FIELD(knurl_device_info, workspace_min, "workspace_min", 72, 24) \
-    FIELD(knurl_device_info, workspace_max, "workspace_max", 96, 24) \
-    FIELD(knurl_device_info, resolution, "resolution", 120, 8) \
-    FIELD(knurl_device_info, max_force, "max_force", 128, 8) \
-    FIELD(knurl_device_info, delay, "delay", 136, 8) \
-    FIELD(knurl_device_info, continuous_force, "continuous_force", 144, 8) \
-    FIELD(knurl_device_info, heat_time, "heat_time", 152, 8) \
-    FIELD(knurl_device_info, mass, "mass", 160, 8) \
-    FIELD(knurl_device_info, viscous, "viscous", 168, 8) \
-    FIELD(knurl_device_info, coulomb, "coulomb", 176, 8) \
-    FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
-    FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
-    FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
-    STRUCT(knurl_device_sample, 32) \
-    FIELD(knurl_device_sample, position, "position", 0, 24) \
-    FIELD(knurl_device_sample, buttons, "buttons", 24, 4) \
-    FIELD(knurl_device_sample, reserved, "reserved", 28, 4) \
-    STRUCT(knurl_device_listing, 1408) \
-    FIELD(knurl_device_listing, uri, "uri", 0, 256) \
-    FIELD(knurl_device_listing, name, "name", 256, 128) \
-    FIELD(knurl_device_listing, reason, "reason", 384, 1024) \
-    STRUCT(knurl_device_event, 24) \
-    FIELD(knurl_device_event, time_ns, "time_ns", 0, 8) \
-    FIELD(knurl_device_event, value, "value", 8, 8) \
-    FIELD(knurl_device_event, code, "code", 16, 4) \
-    FIELD(knurl_device_event, reserved, "reserved", 20, 4) \
-    STRUCT(knurl_device_status, 56) \
-    FIELD(knurl_device_status, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_device_status, lost, "lost", 4, 4) \
-    FIELD(knurl_device_status, halted, "halted", 8, 4) \
-    FIELD(knurl_device_status, buttons, "buttons", 12, 4) \
-    FIELD(knurl_device_status, exchanges, "exchanges", 16, 8) \
-    FIELD(knurl_device_status, bad_bytes, "bad_bytes", 24, 8) \
-    FIELD(knurl_device_status, events, "events", 32, 8) \
-    FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
-    FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
-    STRUCT(knurl_device_functions, 64) \
-    FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \
-    FIELD(knurl_device_functions, user, "user", 8, 8) \
-    FIELD(knurl_device_functions, get_info, "get_info", 16, 8) \
-    FIELD(knurl_device_functions, start, "start", 24, 8) \
-    FIELD(knurl_device_functions, read, "read", 32, 8) \
-    FIELD(knurl_device_functions, write, "write", 40, 8) \
-    FIELD(knurl_device_functions, reopen, "reopen", 48, 8) \
-    FIELD(knurl_device_functions, close, "close", 56, 8) \
-    STRUCT(knurl_stroke_desc, 136) \
-    FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \
-    FIELD(knurl_stroke_desc, centre, "centre", 8, 24) \
-    FIELD(knurl_stroke_desc, x, "x", 32, 24) \
-    FIELD(knurl_stroke_desc, normal, "normal", 56, 24) \
-    FIELD(knurl_stroke_desc, reach, "reach", 80, 16) \
-    FIELD(knurl_stroke_desc, depth, "depth", 96, 8) \
-    FIELD(knurl_stroke_desc, speed, "speed", 104, 8) \
-    FIELD(knurl_stroke_desc, period, "period", 112, 8) \
-    FIELD(knurl_stroke_desc, path, "path", 120, 8) \
-    FIELD(knurl_stroke_desc, path_rows, "path_rows", 128, 4) \
-    FIELD(knurl_stroke_desc, path_loop, "path_loop", 132, 4) \
-    STRUCT(knurl_fake_truth, 96) \
-    FIELD(knurl_fake_truth, position, "position", 0, 24) \
-    FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
-    FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
-    FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
     STRUCT(knurl_vibration_event, 32) \
     FIELD(knurl_vibration_event, positive, "positive", 0, 8) \
     FIELD(knurl_vibration_event, negative, "negative", 8, 8) \
@@ -230,7 +162,7 @@
     FIELD(knurl_tick_input, attenuation, "attenuation", 56, 8) \
     FIELD(knurl_tick_input, paused, "paused", 64, 4) \
     FIELD(knurl_tick_input, reserved, "reserved", 68, 4) \
-    STRUCT(knurl_tick_output, 224) \
+    STRUCT(knurl_tick_output, 240) \
     FIELD(knurl_tick_output, device_force, "device_force", 0, 24) \
     FIELD(knurl_tick_output, force, "force", 24, 24) \
     FIELD(knurl_tick_output, hip, "hip", 48, 24) \
@@ -247,6 +179,7 @@
     FIELD(knurl_tick_output, tick, "tick", 208, 8) \
     FIELD(knurl_tick_output, flags, "flags", 216, 4) \
     FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
+    FIELD(knurl_tick_output, cycles, "cycles", 224, 16) \
     STRUCT(knurl_hip_counts, 120) \
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
@@ -271,6 +204,81 @@
     FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
+    STRUCT(knurl_audio_desc, 40) \
+    FIELD(knurl_audio_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_audio_desc, is_offline, "is_offline", 4, 4) \
+    FIELD(knurl_audio_desc, update_rate_hz, "update_rate_hz", 8, 8) \
+    FIELD(knurl_audio_desc, sample_rate_hz, "sample_rate_hz", 16, 8) \
+    FIELD(knurl_audio_desc, full_scale, "full_scale", 24, 8) \
+    FIELD(knurl_audio_desc, latency_s, "latency_s", 32, 8) \
+    STRUCT(knurl_device_info, 208) \
+    FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_info, reserved, "reserved", 4, 4) \
+    FIELD(knurl_device_info, name, "name", 8, 64) \
+    FIELD(knurl_device_info, workspace_min, "workspace_min", 72, 24) \
+    FIELD(knurl_device_info, workspace_max, "workspace_max", 96, 24) \
+    FIELD(knurl_device_info, resolution, "resolution", 120, 8) \
+    FIELD(knurl_device_info, max_force, "max_force", 128, 8) \
+    FIELD(knurl_device_info, delay, "delay", 136, 8) \
+    FIELD(knurl_device_info, continuous_force, "continuous_force", 144, 8) \
+    FIELD(knurl_device_info, heat_time, "heat_time", 152, 8) \
+    FIELD(knurl_device_info, mass, "mass", 160, 8) \
+    FIELD(knurl_device_info, viscous, "viscous", 168, 8) \
+    FIELD(knurl_device_info, coulomb, "coulomb", 176, 8) \
+    FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
+    FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
+    FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
+    STRUCT(knurl_device_sample, 32) \
+    FIELD(knurl_device_sample, position, "position", 0, 24) \
+    FIELD(knurl_device_sample, buttons, "buttons", 24, 4) \
+    FIELD(knurl_device_sample, reserved, "reserved", 28, 4) \
+    STRUCT(knurl_device_listing, 1408) \
+    FIELD(knurl_device_listing, uri, "uri", 0, 256) \
+    FIELD(knurl_device_listing, name, "name", 256, 128) \
+    FIELD(knurl_device_listing, reason, "reason", 384, 1024) \
+    STRUCT(knurl_device_event, 24) \
+    FIELD(knurl_device_event, time_ns, "time_ns", 0, 8) \
+    FIELD(knurl_device_event, value, "value", 8, 8) \
+    FIELD(knurl_device_event, code, "code", 16, 4) \
+    FIELD(knurl_device_event, reserved, "reserved", 20, 4) \
+    STRUCT(knurl_device_status, 56) \
+    FIELD(knurl_device_status, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_status, lost, "lost", 4, 4) \
+    FIELD(knurl_device_status, halted, "halted", 8, 4) \
+    FIELD(knurl_device_status, buttons, "buttons", 12, 4) \
+    FIELD(knurl_device_status, exchanges, "exchanges", 16, 8) \
+    FIELD(knurl_device_status, bad_bytes, "bad_bytes", 24, 8) \
+    FIELD(knurl_device_status, events, "events", 32, 8) \
+    FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
+    FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
+    STRUCT(knurl_device_functions, 64) \
+    FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \
+    FIELD(knurl_device_functions, user, "user", 8, 8) \
+    FIELD(knurl_device_functions, get_info, "get_info", 16, 8) \
+    FIELD(knurl_device_functions, start, "start", 24, 8) \
+    FIELD(knurl_device_functions, read, "read", 32, 8) \
+    FIELD(knurl_device_functions, write, "write", 40, 8) \
+    FIELD(knurl_device_functions, reopen, "reopen", 48, 8) \
+    FIELD(knurl_device_functions, close, "close", 56, 8) \
+    STRUCT(knurl_stroke_desc, 136) \
+    FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \
+    FIELD(knurl_stroke_desc, centre, "centre", 8, 24) \
+    FIELD(knurl_stroke_desc, x, "x", 32, 24) \
+    FIELD(knurl_stroke_desc, normal, "normal", 56, 24) \
+    FIELD(knurl_stroke_desc, reach, "reach", 80, 16) \
+    FIELD(knurl_stroke_desc, depth, "depth", 96, 8) \
+    FIELD(knurl_stroke_desc, speed, "speed", 104, 8) \
+    FIELD(knurl_stroke_desc, period, "period", 112, 8) \
+    FIELD(knurl_stroke_desc, path, "path", 120, 8) \
+    FIELD(knurl_stroke_desc, path_rows, "path_rows", 128, 4) \
+    FIELD(knurl_stroke_desc, path_loop, "path_loop", 132, 4) \
+    STRUCT(knurl_fake_truth, 96) \
+    FIELD(knurl_fake_truth, position, "position", 0, 24) \
+    FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
+    FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
+    FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
     STRUCT(knurl_gltf_budget, 40) \
     FIELD(knurl_gltf_budget, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_budget, max_surfaces, "max_surfaces", 4, 4) \

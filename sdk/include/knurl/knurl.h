@@ -3,6 +3,7 @@
 #ifndef KNURL_KNURL_H
 #define KNURL_KNURL_H
 
+#include <knurl/audio.h>
 #include <knurl/base.h>
 #include <knurl/contact.h>
 #include <knurl/device.h>

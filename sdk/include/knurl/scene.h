@@ -206,6 +206,8 @@ typedef struct knurl_tick_output {
     uint64_t tick;              /**< 0, 1, ... since the HIP was configured */
     uint32_t flags;             /**< KNURL_TICK_ bits */
     uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_CONTACTS_MAX */
+    double cycles[2];           /**< where on the grating: the surface's coordinates times fsx and fsy, cycles from its
+                                     origin; 0 without a grating or without coordinates */
 } knurl_tick_output;
 
 /** Sums over a HIP's ticks since it was configured. */

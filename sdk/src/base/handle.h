@@ -12,6 +12,7 @@
 #define KNURL_HANDLE_DEVICE  0x4456b72eu
 #define KNURL_HANDLE_LOOP    0x4c50c83fu
 #define KNURL_HANDLE_SESSION 0x5353d94bu
+#define KNURL_HANDLE_AUDIO   0x4155ea5cu
 
 /* Clears an object's number before its memory is freed; volatile, or the compiler would leave the store out. */
 static inline void knurl_handle_clear(uint32_t *number) {
@@ -32,6 +33,7 @@ static inline const char *knurl_handle_kind(uint32_t number) {
            : number == KNURL_HANDLE_DEVICE  ? "a device"
            : number == KNURL_HANDLE_LOOP    ? "a loop"
            : number == KNURL_HANDLE_SESSION ? "a session"
+           : number == KNURL_HANDLE_AUDIO   ? "an audio"
                                             : "a handle that is none, or was destroyed already";
 }
 
@@ -53,7 +55,8 @@ static inline int knurl_is_null(const void *pointer, const char *name) {
 }
 
 /* For public functions: 1, with the thread's error message set, where the parameter `handle` is no live object of the
- * kind (SCENE, DEVICE, LOOP, SESSION), or where the parameter `pointer` is null. Not in a tick: see KNURL_IS_HANDLE. */
+ * kind (SCENE, DEVICE, LOOP, SESSION, AUDIO), or where the parameter `pointer` is null. Not in a tick: see
+ * KNURL_IS_HANDLE. */
 #define KNURL_BAD_HANDLE(handle, kind) knurl_is_bad_handle((handle), KNURL_HANDLE_##kind, #handle)
 #define KNURL_IS_NULL(pointer)         knurl_is_null((pointer), #pointer)
 

@@ -19,6 +19,7 @@ typedef struct knurl_hip_motion {
 typedef struct knurl_contact_force {
     double force[3];    /* scene, N */
     double velocity[2]; /* of the HIP over the surface, in the surface's frame, m/s */
+    double cycles[2];   /* where on the grating: coordinates times fsx, fsy */
     knurl_grating_output grating;
 } knurl_contact_force;
 
@@ -44,8 +45,11 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
         const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
         out->grating = none;
+        out->cycles[0] = out->cycles[1] = 0.0;
         return;
     }
+    out->cycles[0] = m->spatial_frequency[0] * coordinates[0];
+    out->cycles[1] = m->spatial_frequency[1] * coordinates[1];
     double velocity[2] = {out->velocity[0], out->velocity[1]};
     double steepest = 1.0;
     if (m->method >= KNURL_LOCKED && /* or AREA */

@@ -27,6 +27,7 @@ static void clear_contact_output(knurl_tick_output *out) {
     out->depth = out->height = 0.0;
     out->spatial_frequency = out->temporal_frequency = 0.0;
     out->event = KNURL_NO_EVENT;
+    out->cycles[0] = out->cycles[1] = 0.0;
     out->surface = 0;
 }
 
@@ -75,6 +76,8 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
     out->spatial_frequency = share->grating.spatial_frequency;
     out->temporal_frequency = share->grating.temporal_frequency;
     out->event = share->grating.event;
+    out->cycles[0] = share->cycles[0];
+    out->cycles[1] = share->cycles[1];
     out->surface = contact->surface->id;
 }
 

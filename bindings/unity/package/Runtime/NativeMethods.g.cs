@@ -6,9 +6,11 @@ using System.Runtime.InteropServices;
 
 namespace Knurl
 {
-    internal struct knurl_device { }
-
     internal struct knurl_scene { }
+
+    internal struct knurl_audio { }
+
+    internal struct knurl_device { }
 
     internal struct knurl_loop { }
 
@@ -40,106 +42,6 @@ namespace Knurl
         public float* uvs;
         public uint* indices;
         public ulong index_count;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_info
-    {
-        public uint struct_size;
-        public uint reserved;
-        public fixed byte name[64];
-        public fixed double workspace_min[3];
-        public fixed double workspace_max[3];
-        public double resolution;
-        public double max_force;
-        public double delay;
-        public double continuous_force;
-        public double heat_time;
-        public double mass;
-        public double viscous;
-        public double coulomb;
-        public double max_stiffness;
-        public double max_damping;
-        public double native_rate;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_sample
-    {
-        public fixed double position[3];
-        public uint buttons;
-        public uint reserved;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_listing
-    {
-        public fixed byte uri[256];
-        public fixed byte name[128];
-        public fixed byte reason[1024];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_event
-    {
-        public long time_ns;
-        public double value;
-        public int code;
-        public uint reserved;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_status
-    {
-        public uint struct_size;
-        public uint lost;
-        public uint halted;
-        public uint buttons;
-        public ulong exchanges;
-        public ulong bad_bytes;
-        public ulong events;
-        public double exchange_ns_p50;
-        public double exchange_ns_p99;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_device_functions
-    {
-        public uint struct_size;
-        public uint blocking;
-        public IntPtr user;
-        public IntPtr get_info;
-        public IntPtr start;
-        public IntPtr read;
-        public IntPtr write;
-        public IntPtr reopen;
-        public IntPtr close;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_stroke_desc
-    {
-        public uint struct_size;
-        public int stroke;
-        public fixed double centre[3];
-        public fixed double x[3];
-        public fixed double normal[3];
-        public fixed double reach[2];
-        public double depth;
-        public double speed;
-        public double period;
-        public double* path;
-        public uint path_rows;
-        public uint path_loop;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_fake_truth
-    {
-        public fixed double position[3];
-        public fixed double velocity[3];
-        public fixed double motor[3];
-        public fixed double hand[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -351,6 +253,7 @@ namespace Knurl
         public ulong tick;
         public uint flags;
         public uint contacts;
+        public fixed double cycles[2];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -383,6 +286,117 @@ namespace Knurl
         public double amplitude;
         public double amplitude_limit;
         public fixed byte message[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_audio_desc
+    {
+        public uint struct_size;
+        public uint is_offline;
+        public double update_rate_hz;
+        public double sample_rate_hz;
+        public double full_scale;
+        public double latency_s;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_info
+    {
+        public uint struct_size;
+        public uint reserved;
+        public fixed byte name[64];
+        public fixed double workspace_min[3];
+        public fixed double workspace_max[3];
+        public double resolution;
+        public double max_force;
+        public double delay;
+        public double continuous_force;
+        public double heat_time;
+        public double mass;
+        public double viscous;
+        public double coulomb;
+        public double max_stiffness;
+        public double max_damping;
+        public double native_rate;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_sample
+    {
+        public fixed double position[3];
+        public uint buttons;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_listing
+    {
+        public fixed byte uri[256];
+        public fixed byte name[128];
+        public fixed byte reason[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_event
+    {
+        public long time_ns;
+        public double value;
+        public int code;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_status
+    {
+        public uint struct_size;
+        public uint lost;
+        public uint halted;
+        public uint buttons;
+        public ulong exchanges;
+        public ulong bad_bytes;
+        public ulong events;
+        public double exchange_ns_p50;
+        public double exchange_ns_p99;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_functions
+    {
+        public uint struct_size;
+        public uint blocking;
+        public IntPtr user;
+        public IntPtr get_info;
+        public IntPtr start;
+        public IntPtr read;
+        public IntPtr write;
+        public IntPtr reopen;
+        public IntPtr close;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_stroke_desc
+    {
+        public uint struct_size;
+        public int stroke;
+        public fixed double centre[3];
+        public fixed double x[3];
+        public fixed double normal[3];
+        public fixed double reach[2];
+        public double depth;
+        public double speed;
+        public double period;
+        public double* path;
+        public uint path_rows;
+        public uint path_loop;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_fake_truth
+    {
+        public fixed double position[3];
+        public fixed double velocity[3];
+        public fixed double motor[3];
+        public fixed double hand[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -598,7 +612,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "05ee8f08c0b2a18a";
+        internal const string Interface = "21cba5259148e6bb";
 
         internal const string Version = "0.1.0";
 
@@ -610,14 +624,6 @@ namespace Knurl
                 case "knurl_allocator": return sizeof(knurl_allocator);
                 case "knurl_plane_desc": return sizeof(knurl_plane_desc);
                 case "knurl_mesh_desc": return sizeof(knurl_mesh_desc);
-                case "knurl_device_info": return sizeof(knurl_device_info);
-                case "knurl_device_sample": return sizeof(knurl_device_sample);
-                case "knurl_device_listing": return sizeof(knurl_device_listing);
-                case "knurl_device_event": return sizeof(knurl_device_event);
-                case "knurl_device_status": return sizeof(knurl_device_status);
-                case "knurl_device_functions": return sizeof(knurl_device_functions);
-                case "knurl_stroke_desc": return sizeof(knurl_stroke_desc);
-                case "knurl_fake_truth": return sizeof(knurl_fake_truth);
                 case "knurl_vibration_event": return sizeof(knurl_vibration_event);
                 case "knurl_wave": return sizeof(knurl_wave);
                 case "knurl_grating": return sizeof(knurl_grating);
@@ -634,6 +640,15 @@ namespace Knurl
                 case "knurl_tick_output": return sizeof(knurl_tick_output);
                 case "knurl_hip_counts": return sizeof(knurl_hip_counts);
                 case "knurl_surface_check": return sizeof(knurl_surface_check);
+                case "knurl_audio_desc": return sizeof(knurl_audio_desc);
+                case "knurl_device_info": return sizeof(knurl_device_info);
+                case "knurl_device_sample": return sizeof(knurl_device_sample);
+                case "knurl_device_listing": return sizeof(knurl_device_listing);
+                case "knurl_device_event": return sizeof(knurl_device_event);
+                case "knurl_device_status": return sizeof(knurl_device_status);
+                case "knurl_device_functions": return sizeof(knurl_device_functions);
+                case "knurl_stroke_desc": return sizeof(knurl_stroke_desc);
+                case "knurl_fake_truth": return sizeof(knurl_fake_truth);
                 case "knurl_gltf_budget": return sizeof(knurl_gltf_budget);
                 case "knurl_gltf_report": return sizeof(knurl_gltf_report);
                 case "knurl_clock": return sizeof(knurl_clock);
@@ -654,7 +669,6 @@ namespace Knurl
         internal const int KNURL_VERSION_MAJOR = 0;
         internal const int KNURL_VERSION_MINOR = 1;
         internal const int KNURL_VERSION_PATCH = 0;
-        internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const double KNURL_LOCKED_CROSSOVER_HZ = 120.0;
@@ -667,6 +681,7 @@ namespace Knurl
         internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
+        internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const int KNURL_SESSION_HISTORY = 8192;
         internal const int KNURL_OK = 0;
         internal const int KNURL_ERROR_ARGUMENT = -1;
@@ -682,26 +697,6 @@ namespace Knurl
         internal const int KNURL_ERROR_SYSTEM = -11;
         internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
         internal const int KNURL_ERROR_CANCELLED = -13;
-        internal const int KNURL_FAULT_LOST = 1;
-        internal const int KNURL_FAULT_SILENT = 2;
-        internal const int KNURL_FAULT_CORRUPT = 3;
-        internal const int KNURL_FAULT_NOT_FINITE = 4;
-        internal const int KNURL_FAULT_JUMP = 5;
-        internal const int KNURL_FAULT_LATE = 6;
-        internal const int KNURL_FAULT_OVERRUN = 7;
-        internal const int KNURL_FAULT_WATCHDOG = 8;
-        internal const int KNURL_FAULT_HEARTBEAT = 9;
-        internal const int KNURL_FAULT_REFUSED = 10;
-        internal const int KNURL_FAULT_UNCALIBRATED = 11;
-        internal const int KNURL_FAULT_UNGUARDED = 12;
-        internal const int KNURL_FAULT_GAP = 13;
-        internal const int KNURL_FAULT_RESUMED = 32;
-        internal const int KNURL_FAULT_RECONNECTED = 33;
-        internal const int KNURL_STROKE_LINE = 1;
-        internal const int KNURL_STROKE_SWEEP = 2;
-        internal const int KNURL_STROKE_CIRCLE = 3;
-        internal const int KNURL_STROKE_PRESS = 4;
-        internal const int KNURL_STROKE_REST = 5;
         internal const int KNURL_T1 = 1;
         internal const int KNURL_T2 = 2;
         internal const int KNURL_T3 = 3;
@@ -744,6 +739,26 @@ namespace Knurl
         internal const int KNURL_LIMIT_PERIOD = 16;
         internal const int KNURL_LIMIT_FAR = 64;
         internal const int KNURL_LIMIT_STRETCH = 32;
+        internal const int KNURL_FAULT_LOST = 1;
+        internal const int KNURL_FAULT_SILENT = 2;
+        internal const int KNURL_FAULT_CORRUPT = 3;
+        internal const int KNURL_FAULT_NOT_FINITE = 4;
+        internal const int KNURL_FAULT_JUMP = 5;
+        internal const int KNURL_FAULT_LATE = 6;
+        internal const int KNURL_FAULT_OVERRUN = 7;
+        internal const int KNURL_FAULT_WATCHDOG = 8;
+        internal const int KNURL_FAULT_HEARTBEAT = 9;
+        internal const int KNURL_FAULT_REFUSED = 10;
+        internal const int KNURL_FAULT_UNCALIBRATED = 11;
+        internal const int KNURL_FAULT_UNGUARDED = 12;
+        internal const int KNURL_FAULT_GAP = 13;
+        internal const int KNURL_FAULT_RESUMED = 32;
+        internal const int KNURL_FAULT_RECONNECTED = 33;
+        internal const int KNURL_STROKE_LINE = 1;
+        internal const int KNURL_STROKE_SWEEP = 2;
+        internal const int KNURL_STROKE_CIRCLE = 3;
+        internal const int KNURL_STROKE_PRESS = 4;
+        internal const int KNURL_STROKE_REST = 5;
         internal const int KNURL_LOOP_IDLE = 0;
         internal const int KNURL_LOOP_RUNNING = 1;
         internal const int KNURL_LOOP_DONE = 2;
@@ -774,85 +789,6 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_mesh_desc_init(knurl_mesh_desc* desc, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_info_init(knurl_device_info* info, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_status_init(knurl_device_status* status, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_functions_init(knurl_device_functions* functions, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_open(byte* uri, knurl_device** device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
-            knurl_device** device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_close(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_device_list(knurl_device_listing* listings, uint capacity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_get_info(knurl_device* device, knurl_device_info* info);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_get_status(knurl_device* device, knurl_device_status* status);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_device_next_event(knurl_device* device, knurl_device_event* @event);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern byte* knurl_fault_name(int code);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern byte* knurl_fault_string(int code);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern byte* knurl_fault_unit(int code);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_start(knurl_device* device, double update_rate_hz);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_read(knurl_device* device, knurl_device_sample* sample);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_write(knurl_device* device, double* force);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_halt(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_release_halt(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_device_is_halted(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_zero_on_exit(uint faults_recover);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern byte* knurl_fake_keys();
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_fake_set_stroke(knurl_device* device, knurl_stroke_desc* desc);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_fake_get_truth(knurl_device* device, knurl_fake_truth* truth);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_fake_set_trace(knurl_device* device, double* rows, ulong row_count);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_stroke_from_name(byte* name, int* stroke);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_vibration_event_init(double period_ticks, double amplitude,
@@ -1010,6 +946,103 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_lock_memory(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_audio_desc_init(knurl_audio_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_audio_create(knurl_audio_desc* desc, knurl_audio** audio);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_audio_destroy(knurl_audio* audio);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_audio_take(knurl_tick_output* output, IntPtr audio);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_audio_fill(knurl_audio* audio, float* samples, uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern double knurl_audio_get_latency(knurl_audio* audio);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_info_init(knurl_device_info* info, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_status_init(knurl_device_status* status, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_functions_init(knurl_device_functions* functions, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_open(byte* uri, knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
+            knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_close(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_list(knurl_device_listing* listings, uint capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_get_info(knurl_device* device, knurl_device_info* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_get_status(knurl_device* device, knurl_device_status* status);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_next_event(knurl_device* device, knurl_device_event* @event);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_name(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_string(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_unit(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_start(knurl_device* device, double update_rate_hz);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_read(knurl_device* device, knurl_device_sample* sample);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_write(knurl_device* device, double* force);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_halt(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_release_halt(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_device_is_halted(knurl_device* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_zero_on_exit(uint faults_recover);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fake_keys();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_set_stroke(knurl_device* device, knurl_stroke_desc* desc);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_get_truth(knurl_device* device, knurl_fake_truth* truth);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_fake_set_trace(knurl_device* device, double* rows, ulong row_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_stroke_from_name(byte* name, int* stroke);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_gltf_budget_init(knurl_gltf_budget* budget, uint size);

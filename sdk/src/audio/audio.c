@@ -1,0 +1,229 @@
+/* The sound of a grating. The haptic thread writes a ring of ticks, the audio thread reads it: each tick is a step over
+ * the grating and a loudness. SPDX-License-Identifier: MIT */
+#include <knurl/audio.h>
+
+#include "audio/loudness.h"
+#include "audio/wave.h"
+#include "base/atomic.h"
+#include "base/base.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RING_TICKS    16384 /* 1.6 s at 10 kHz */
+#define LATE_S        0.02  /* more than this behind, ticks are left out */
+#define FADE_S        0.005 /* from silence to full scale and back */
+#define DRIFT_MAX     0.005 /* faster or slower than the ticks, at most */
+#define DRIFT_S       2.0   /* in which a lag is caught up with */
+#define EVEN_TICKS    2.0   /* a lag of so many is no drift but how threads take turns */
+#define HIGHEST_HZ    20000.0
+#define SMOOTH_S      0.004 /* how late steps are told, by a decay: four ticks of a Touch */
+#define SMALLEST_STEP 1e-6
+#define SMALLEST      1e-9 /* ticks: sums of fractions are not exact */
+
+typedef struct audio_tick {
+    double step[2];  /* cycles since the tick before */
+    double loudness; /* 0 to 1 */
+} audio_tick;
+
+struct knurl_audio {
+    uint32_t handle; /* KNURL_HANDLE_AUDIO, first */
+    uint32_t reserved;
+    knurl_audio_desc desc;
+    audio_tick *ring;
+    /* atomics */
+    uint64_t written, read;
+    /* the haptic thread's */
+    knurl_loudness loudness;
+    double cycles[2];
+    double due[2]; /* cycles that were passed and are not told yet */
+    double share;  /* of them that a tick tells */
+    uint32_t in_contact;
+    /* the audio thread's */
+    uint32_t plays; /* 1: there were ticks enough to begin */
+    double at;      /* between tick `read` and the next, 0 to 1 */
+    double place[2];
+    double level, latency;
+    knurl_wave_filter filter;
+};
+
+void knurl_audio_desc_init(knurl_audio_desc *desc, uint32_t size) {
+    const knurl_audio_desc defaults = {sizeof defaults, 0, 1000.0, 48000.0, 0.25, 0.01};
+    knurl_desc_write(&defaults, sizeof defaults, desc, size);
+}
+
+static knurl_result check(const char *key, const char *unit, double value, double least, double most) {
+    return knurl_is_within(value, least, most)
+               ? KNURL_OK
+               : knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected %g to %g %s, found %g", key, least, most, unit, value);
+}
+
+knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audio) {
+    knurl_audio_desc d;
+    if (KNURL_IS_NULL(audio)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_audio_desc_init(&d, sizeof d);
+    knurl_result result = desc ? knurl_desc_read("knurl_audio_desc", desc, &d, sizeof d) : KNURL_OK;
+    result =
+        result ? result : check("update_rate_hz", "Hz", d.update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX);
+    if (!result && d.is_offline > 1) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "is_offline: expected 0 or 1, found %u", (unsigned)d.is_offline);
+    }
+    result = result ? result : check("sample_rate_hz", "Hz", d.sample_rate_hz, 8000.0, 192000.0);
+    result = result ? result : check("full_scale", "N", d.full_scale, 1e-6, 1e6);
+    result = result ? result : check("latency_s", "s", d.latency_s, 0.0, 0.1);
+    if (result) {
+        return result;
+    }
+    knurl_audio *a = calloc(1, sizeof *a);
+    audio_tick *ring = calloc(RING_TICKS, sizeof *ring);
+    if (!a || !ring) {
+        free(a);
+        free(ring);
+        return knurl_fail(KNURL_ERROR_MEMORY, "knurl_audio_create: no memory for %d ticks", RING_TICKS);
+    }
+    a->desc = d;
+    a->ring = ring;
+    a->share = 1.0 - exp(-1.0 / (SMOOTH_S * d.update_rate_hz));
+    knurl_loudness_init(&a->loudness, d.update_rate_hz);
+    knurl_wave_filter_init(&a->filter, d.sample_rate_hz);
+    a->handle = KNURL_HANDLE_AUDIO;
+    *audio = a;
+    return KNURL_OK;
+}
+
+void knurl_audio_destroy(knurl_audio *audio) {
+    if (!audio || KNURL_BAD_HANDLE(audio, AUDIO)) {
+        return;
+    }
+    knurl_handle_clear(&audio->handle);
+    free(audio->ring);
+    free(audio);
+}
+
+/* --- the haptic thread --- */
+
+/* Cycles along one axis since the last tick. A jump that no motion made, as where uvs begin anew or a material was
+ * replaced, keeps its fraction of a cycle alone. likely: cycles, by f_t. */
+static double find_step(double to, double from, double likely, double most) {
+    double step = to - from;
+    if (!(fabs(step) <= 4.0 * likely + 1.0)) {
+        step -= floor(step + 0.5);
+    }
+    return fabs(step) <= most ? step : 0.0; /* what is not finite too */
+}
+
+/* Spreads a step, because an encoder's counts come in some ticks and not in others. None is lost. */
+static double smooth(knurl_audio *a, int axis, double step) {
+    const double due = a->due[axis] + step;
+    const double told = fabs(due) < SMALLEST_STEP ? due : due * a->share;
+    a->due[axis] = due - told;
+    return told;
+}
+
+void knurl_audio_take(const knurl_tick_output *output, void *audio) {
+    knurl_audio *a = audio;
+    if (!output || !KNURL_IS_HANDLE(a, AUDIO)) {
+        return;
+    }
+    const double rate = a->desc.update_rate_hz;
+    const double likely = output->temporal_frequency / rate;
+    const uint32_t in_contact = output->flags & KNURL_TICK_CONTACT;
+    audio_tick tick = {{0.0, 0.0}, 0.0};
+    tick.loudness = fmin(1.0, knurl_loudness_update(&a->loudness, output) / a->desc.full_scale);
+    for (int i = 0; i < 2; i++) {
+        const int moves = in_contact && a->in_contact;
+        tick.step[i] =
+            moves ? smooth(a, i, find_step(output->cycles[i], a->cycles[i], likely, HIGHEST_HZ / rate)) : 0.0;
+    }
+    a->in_contact = in_contact;
+    a->cycles[0] = output->cycles[0];
+    a->cycles[1] = output->cycles[1];
+    if (a->written - knurl_load_acquire(&a->read) < RING_TICKS) {
+        a->ring[a->written % RING_TICKS] = tick;
+        knurl_store_release(&a->written, a->written + 1);
+    }
+}
+
+/* --- the audio thread --- */
+
+/* Ticks a sample for the next `count` samples of which `written` ticks are there; 0: too few to begin with. What comes
+ * too late is left out. The tick after the one that plays has to be there too: see find_level(). */
+static double choose_pace(knurl_audio *a, uint64_t written, uint32_t count) {
+    const double rate = a->desc.update_rate_hz;
+    const double pace = rate / a->desc.sample_rate_hz;
+    const double reserve = (double)(written - a->read) - 1.0 - a->at - pace * count;
+    const double lag = reserve - rate * a->desc.latency_s;
+    a->plays |= lag >= -SMALLEST * count;
+    if (!a->plays) {
+        return 0.0;
+    }
+    if (a->desc.is_offline) {
+        return pace;
+    }
+    if (lag > rate * LATE_S) {
+        knurl_store_release(&a->read, a->read + (uint64_t)lag);
+        return pace;
+    }
+    return fabs(lag) < EVEN_TICKS ? pace : pace * (1.0 + fmax(-DRIFT_MAX, fmin(DRIFT_MAX, lag / (rate * DRIFT_S))));
+}
+
+/* Goes on by so many ticks, less than one, and no further than there are: the tick that plays and one more. */
+static void advance(knurl_audio *a, uint64_t written, double ticks) {
+    while (ticks > SMALLEST && a->plays) {
+        if (a->at > 1.0 - SMALLEST) {
+            a->plays = written - a->read > 2;
+            a->at = a->plays ? 0.0 : a->at;
+            knurl_store_release(&a->read, a->read + a->plays);
+            continue;
+        }
+        const double *step = a->ring[a->read % RING_TICKS].step;
+        const double part = fmin(ticks, 1.0 - a->at);
+        a->place[0] += part * step[0];
+        a->place[1] += part * step[1];
+        a->at += part;
+        ticks -= part;
+    }
+}
+
+/* The mean over the next eighth of a sample. */
+static double move(knurl_audio *a, uint64_t written, double ticks) {
+    a->place[0] -= floor(a->place[0]);
+    a->place[1] -= floor(a->place[1]);
+    const double from[2] = {a->place[0], a->place[1]};
+    advance(a, written, ticks);
+    return knurl_wave_mean(from, a->place);
+}
+
+/* The loudness of the tick that plays or the next one, so that an edge is not faded in; by a fade. */
+static double find_level(knurl_audio *a) {
+    const double most = 1.0 / (FADE_S * a->desc.sample_rate_hz);
+    double wanted = 0.0;
+    if (a->plays) {
+        wanted = fmax(a->ring[a->read % RING_TICKS].loudness, a->ring[(a->read + 1) % RING_TICKS].loudness);
+    }
+    a->level += fmax(-most, fmin(most, wanted - a->level));
+    return a->level;
+}
+
+void knurl_audio_fill(knurl_audio *a, float *samples, uint32_t count) {
+    if (!KNURL_IS_HANDLE(a, AUDIO) || !samples || count == 0) {
+        return;
+    }
+    const uint64_t written = knurl_load_acquire(&a->written);
+    const double ticks = choose_pace(a, written, count) / KNURL_WAVE_OVERSAMPLING;
+    for (uint32_t i = 0; i < count; i++) {
+        for (int k = 0; k < KNURL_WAVE_OVERSAMPLING; k++) {
+            knurl_wave_filter_push(&a->filter, move(a, written, ticks));
+        }
+        const double sample = 0.5 * find_level(a) * knurl_wave_filter_pull(&a->filter);
+        samples[i] = (float)fmax(-1.0, fmin(1.0, sample));
+    }
+    a->latency = ((double)(written - a->read) - a->at) / a->desc.update_rate_hz;
+}
+
+double knurl_audio_get_latency(const knurl_audio *audio) {
+    return KNURL_IS_HANDLE(audio, AUDIO) ? audio->latency : 0.0;
+}
