@@ -357,6 +357,27 @@ TEST(jump_passes_by_what_is_on_its_way) {
     }
 }
 
+/* Its way leads past the HIP, so that every tick looks at it, but it is still far off. */
+TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
+    surface_parts parts = wide_plane();
+    const pose low = at_height(0.0, 0.0, -0.2);
+    const pose high = at_height(0.0, 0.0, 0.2);
+    const pose above = at_height(0.0, 0.0, 0.004);
+    place(&parts, &low);
+    knurl_scene *scene = scene_of(&parts);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &high, 10.0);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &above, 0.0);
+    for (int k = 0; k < 5; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
+        assert_int_equal(out.contacts, 0);
+    }
+    knurl_scene_destroy(scene);
+}
+
 /* A HIP that was in contact has a first tick with it: held up to 10 mm deep, no contact beyond; slid past at no speed.
  */
 TEST(jump_of_what_is_touched_is_a_first_tick) {

@@ -143,9 +143,10 @@ void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motio
         }
         candidate->latest ^= 1;
         pose_at(motion, clock->time, &candidate->poses[candidate->latest]);
-        if (candidate->has_previous && candidate->jumps != motion->jumps) { /* what it passed is not touched */
+        if (was_seen && candidate->placed_jumps != motion->jumps) { /* what it passed is not touched */
             candidate->poses[candidate->latest ^ 1] = candidate->poses[candidate->latest];
         }
+        candidate->placed_jumps = motion->jumps;
         candidate->placed = clock->tick;
         candidate->settled = is_over ? motion : NULL;
         candidate->settled_start = motion->start_time;

@@ -34,9 +34,10 @@ typedef struct knurl_candidate {
     const knurl_motion *settled; /* what stood still, when it had begun, and from which tick on; or null */
     double settled_start;
     uint64_t settled_tick;
-    uint64_t placed;     /* the tick at which it was seen last; 0: none */
-    uint32_t latest;     /* its pose then, of these: this tick's and the last one's, whatever has moved it between */
-    knurl_pose poses[2]; /* of the shape's frame, scene */
+    uint64_t placed;       /* the tick at which it was seen last; 0: none */
+    uint64_t placed_jumps; /* the motion's, then */
+    uint32_t latest;       /* its pose then, of these: this tick's and the last one's, whatever has moved it between */
+    knurl_pose poses[2];   /* of the shape's frame, scene */
 } knurl_candidate;
 
 /* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of
