@@ -497,3 +497,55 @@ TEST(way_at_4_khz_takes_its_seconds) {
     }
     knurl_scene_destroy(scene);
 }
+
+/* The bounds of a turning rectangle against its corners along the way: they hold every one, and what they have to spare
+ * is at most the height of a corner's arc over its chord, not the ball in which it could turn.
+ */
+TEST(bounds_of_a_turn_hold_it_closely) {
+    static const double angles[] = {0.001, 0.01, 0.1, 0.5, 1.5, 3.1};
+    uint64_t seed = 5;
+    for (int round = 0; round < 20 * (int)COUNT_OF(angles); round++) {
+        const double angle = angles[round % (int)COUNT_OF(angles)];
+        surface_parts parts = surface_plane();
+        const pose start = random_pose(&seed);
+        pose end = random_pose(&seed);
+        double turning[4], axis[3] = {0.0, 0.0, 0.0}, least[3], greatest[3];
+        axis[round % 3] = 1.0;
+        turn_about(axis, angle, turning);
+        turn_after(turning, start.quaternion, end.quaternion);
+        parts.plane.half_extents[0] = 0.3;
+        place(&parts, &start);
+        knurl_scene *scene = scene_of(&parts);
+        const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+        move_to(scene, id, &end, 1.0);
+        knurl_surface_info info;
+        knurl_surface_info_init(&info, sizeof info);
+        assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+        for (int i = 0; i < 3; i++) {
+            least[i] = HUGE_VAL;
+            greatest[i] = -HUGE_VAL;
+        }
+        for (int k = 0; k < 4 * 101; k++) {
+            const double share = k / 4 / 100.0;
+            const double corner[3] = {k & 1 ? 0.3 : -0.3, k & 2 ? 0.05 : -0.05, 0.0};
+            pose now;
+            double at[3];
+            turn_about(axis, share * angle, turning);
+            turn_after(turning, start.quaternion, now.quaternion);
+            for (int i = 0; i < 3; i++) {
+                now.position[i] = start.position[i] + share * (end.position[i] - start.position[i]);
+            }
+            pose_point(&now, corner, at);
+            for (int i = 0; i < 3; i++) {
+                least[i] = fmin(least[i], at[i]);
+                greatest[i] = fmax(greatest[i], at[i]);
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            const double spare = hypot(0.3, 0.05) * fmin(angle * angle / 8.0, 2.0) + 1e-9;
+            assert_true(info.bounds_min[i] <= least[i] && info.bounds_max[i] >= greatest[i]);
+            assert_true(info.bounds_min[i] >= least[i] - spare && info.bounds_max[i] <= greatest[i] + spare);
+        }
+        knurl_scene_destroy(scene);
+    }
+}

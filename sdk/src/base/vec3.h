@@ -6,6 +6,15 @@
 
 #include <math.h>
 
+/* Of two numbers; of a NaN and a number, the second. fmin() and fmax() are calls. */
+static inline double knurl_min(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double knurl_max(double a, double b) {
+    return a > b ? a : b;
+}
+
 static inline void vec3_copy(const double a[3], double out[3]) {
     out[0] = a[0];
     out[1] = a[1];

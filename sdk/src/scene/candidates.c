@@ -76,12 +76,12 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
     size_t v = 0;
     for (; v < VIEWS && found > KNURL_CANDIDATES_MAX; v++) {
         c->depth = path->depth + (v < NARROWS ? DEEPER : 1e-4);
-        const double reach = 1e-9 + fmax(c->depth, path->is_first ? views[v].capture : 0.0);
+        const double reach = 1e-9 + knurl_max(c->depth, path->is_first ? views[v].capture : 0.0);
         double low[3];
         double high[3];
         for (int i = 0; i < 3; i++) {
-            c->low[i] = fmin(path->from[i], path->to[i]) - views[v].margin;
-            c->high[i] = fmax(path->from[i], path->to[i]) + views[v].margin;
+            c->low[i] = knurl_min(path->from[i], path->to[i]) - views[v].margin;
+            c->high[i] = knurl_max(path->from[i], path->to[i]) + views[v].margin;
             low[i] = c->low[i] - reach;
             high[i] = c->high[i] + reach;
         }
@@ -99,6 +99,7 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
         if (c->list[i].place < index->capacity) {
             load_box(index, &c->list[i]);
         }
+        c->list[i].swept_tick = 0; /* another surface may be in its place */
     }
 }
 
@@ -156,17 +157,39 @@ void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motio
     *before = &candidate->poses[candidate->latest ^ 1];
 }
 
-int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
+static int is_near(const float box[6], const knurl_hip_path *path, double margin) {
     for (int i = 0; i < 3; i++) {
         const double from = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
         const double to = path->from[i] < path->to[i] ? path->to[i] : path->from[i];
         const double low = path->proxy[i] < from ? path->proxy[i] : from;
         const double high = path->proxy[i] > to ? path->proxy[i] : to;
-        if (high < (double)candidate->box[i] - margin || low > (double)candidate->box[3 + i] + margin) {
+        if (high < (double)box[i] - margin || low > (double)box[3 + i] + margin) {
             return 0;
         }
     }
     return 1;
+}
+
+int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_path *path, double margin) {
+    return is_near(candidate->box, path, margin);
+}
+
+int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surface_data *surface,
+                                  const knurl_hip_clock *clock, const knurl_hip_path *path, double margin) {
+    const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
+    const double wide = margin + surface->shape.seam;
+    const int was_seen = candidate->swept_tick + 1 == clock->tick;
+    int near = !was_seen || is_near(candidate->swept, path, wide); /* a tick ago it was in there */
+    if (!was_seen || candidate->swept_of != record || candidate->swept_start != record->motion.start_time ||
+        candidate->swept_reach != record->reach) {
+        knurl_surface_box(surface, record, clock->previous_time, 0.0, candidate->swept);
+        candidate->swept_of = record;
+        candidate->swept_start = record->motion.start_time;
+        candidate->swept_reach = record->reach;
+        near = near || is_near(candidate->swept, path, wide);
+    }
+    candidate->swept_tick = clock->tick;
+    return near;
 }
 
 /* m along the axis where it is farthest: from a point to a candidate's box; negative inside. */
@@ -184,11 +207,11 @@ static double gap(const knurl_candidate *candidate, const double p[3]) {
 void knurl_candidates_measure(knurl_candidates *c, const double position[3], const double proxy[3], int again) {
     double distance = again || c->overflow ? -1.0 : HUGE_VAL;
     for (int i = 0; i < 3; i++) {
-        distance = fmin(distance, fmin(position[i] - c->low[i], c->high[i] - position[i]));
+        distance = knurl_min(distance, knurl_min(position[i] - c->low[i], c->high[i] - position[i]));
     }
     for (uint32_t i = 0; i < c->count; i++) {
         if (!c->list[i].in_contact) {
-            distance = fmin(distance, fmin(gap(&c->list[i], position), gap(&c->list[i], proxy)));
+            distance = knurl_min(distance, knurl_min(gap(&c->list[i], position), gap(&c->list[i], proxy)));
         }
     }
     c->clearance.distance = distance - ROUNDING;

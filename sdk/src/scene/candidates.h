@@ -28,16 +28,19 @@ typedef struct knurl_candidate {
     knurl_wall_state guard;
     double proxy[3]; /* of the latest contact, scene axes */
     double normal[3];
-    float box[6];     /* scene axes; outside it there is no contact */
-    double anchor[3]; /* friction: where the HIP sticks, shape's frame */
+    float box[6];                 /* scene axes; outside it there is no contact */
+    float swept[6];               /* scene axes: what the motion of this record sweeps, with its crests; no room */
+    const knurl_record *swept_of; /* or null; its motion's start and its reach, for a record in freed memory: */
+    double swept_start, swept_reach;
+    uint64_t swept_tick; /* the tick at which `swept` was looked at last */
+    double anchor[3];    /* friction: where the HIP sticks, shape's frame */
     knurl_facet facet;
     const knurl_motion *settled; /* what stood still, when it had begun, and from which tick on; or null */
     double settled_start;
     uint64_t settled_tick;
-    uint64_t placed;       /* the tick at which it was seen last; 0: none */
-    uint64_t placed_jumps; /* the motion's, then */
-    uint32_t latest;       /* its pose then, of these: this tick's and the last one's, whatever has moved it between */
-    knurl_pose poses[2];   /* of the shape's frame, scene */
+    uint64_t placed, placed_jumps; /* the tick at which it was seen last (0: none), and the motion's jumps then */
+    uint32_t latest;     /* its pose then, of these: this tick's and the last one's, whatever has moved it between */
+    knurl_pose poses[2]; /* of the shape's frame, scene */
 } knurl_candidate;
 
 /* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of
@@ -102,6 +105,12 @@ void knurl_candidate_place(knurl_candidate *candidate, const knurl_motion *motio
 /* 1: a path, with its proxy, comes into the candidate's box, or within `margin` (m) of it. */
 int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_path *path,
                             double margin) KNURL_NONBLOCKING;
+
+/* The same for the box of what its surface's motion sweeps, which is smaller where the surface moves. 1 also where it
+ * was not looked at in the last tick. */
+int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surface_data *surface,
+                                  const knurl_hip_clock *clock, const knurl_hip_path *path,
+                                  double margin) KNURL_NONBLOCKING;
 
 /* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick
  * has to look at all of them in any case. */

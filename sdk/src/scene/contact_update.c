@@ -16,14 +16,24 @@ static void make_query(const knurl_contacts *c, const knurl_active_contact *a, c
     query->facet = &a->candidate->facet;
 }
 
-/* Nothing but the one surface that is in contact is near: its shape alone is asked. 0 where that does not settle it,
- * and nothing has changed. */
-static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, const double position[3]) {
+/* 1 where a surface's proxy (scene) is still among what has been looked at. path: null where the clearance tells. */
+static int is_within_view(const knurl_contacts *c, const knurl_hip_path *path, const double proxy[3]) {
+    if (!path) {
+        return knurl_candidates_are_clear_of(&c->candidates, proxy);
+    }
+    const double room = knurl_hip_path_room(path);
+    return vec3_distance2(c->pressed ? c->proxy : path->from, proxy) <= room * room;
+}
+
+/* Nothing but `candidate`, which is in contact, is near: its shape alone is asked. 0 where that does not settle it, and
+ * nothing has changed. path: as for is_within_view(). */
+static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                      const double position[3], const knurl_hip_path *path) {
     knurl_active_contact *a = &c->active[0];
-    knurl_candidate *candidate = a->candidate;
     const knurl_pose *before;
     knurl_contact_query query;
     knurl_contact_state state = candidate->contact;
+    a->candidate = candidate;
     a->surface = knurl_contacts_surface(index, candidate);
     if (!a->surface) {
         return 0;
@@ -43,7 +53,7 @@ static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, const d
     double normal[3];
     knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
-    if (state.inside && !knurl_candidates_are_clear_of(&c->candidates, proxy)) {
+    if (state.inside && !is_within_view(c, path, proxy)) {
         return 0;
     }
     vec3_copy(proxy, candidate->proxy);
@@ -85,6 +95,49 @@ static void keep_proxy(knurl_contacts *c, const double position[3]) {
     }
 }
 
+/* 1 where the path comes near a candidate that is not in contact. */
+static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                      const knurl_hip_path *path, double room) {
+    if (!knurl_candidate_is_near(candidate, path, room)) {
+        return 0;
+    }
+    const knurl_surface_data *surface = knurl_contacts_surface(index, candidate);
+    return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, room);
+}
+
+/* The candidate that is in contact, where it is the only one and the path comes near no other; else null. */
+static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path) {
+    const double room = knurl_hip_path_room(path);
+    knurl_candidate *alone = NULL;
+    if (c->active_count != 1 || c->pressed > 1 || path->is_first || path->everything ||
+        knurl_contacts_have_slipped(c)) {
+        return NULL;
+    }
+    for (uint32_t i = 0; i < c->candidates.count; i++) {
+        knurl_candidate *candidate = &c->candidates.list[i];
+        if (candidate->in_contact && !alone) {
+            alone = candidate;
+        } else if (candidate->in_contact || comes_near(c, index, candidate, path, room)) {
+            return NULL;
+        }
+    }
+    return alone;
+}
+
+/* Only the candidate that is in contact is near. 0 where it does not settle the contact, and nothing has changed. */
+static int hold_near(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path) {
+    knurl_candidate *alone = find_alone(c, index, path);
+    if (!alone || !hold_alone(c, index, alone, path->to, path)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < c->candidates.count; i++) {
+        c->candidates.list[i].has_previous &= &c->candidates.list[i] == alone;
+    }
+    keep_proxy(c, path->to);
+    knurl_candidates_measure(&c->candidates, path->to, c->proxy, 0);
+    return 1;
+}
+
 /* What is looked for at several surfaces. */
 static void look_around(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                         uint32_t *flags) {
@@ -108,7 +161,7 @@ static void look_around(knurl_contacts *c, const knurl_broad_index *index, const
 void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                            const double position[3], uint32_t *flags) {
     const int clear = c->has_previous && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
-    if (clear && c->active_count == 1 && hold_alone(c, index, position)) {
+    if (clear && c->active_count == 1 && hold_alone(c, index, c->active[0].candidate, position, NULL)) {
         keep_proxy(c, position);
     } else if (!clear || c->active_count > 0 || knurl_contacts_have_slipped(c)) {
         const double *proxy = c->pressed ? c->proxy : position;
@@ -122,7 +175,9 @@ void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase, co
         if (!clear) {
             knurl_candidates_update(&c->candidates, phase, index, &path);
         }
-        look_around(c, index, &path, flags);
+        if (clear || !hold_near(c, index, &path)) {
+            look_around(c, index, &path, flags);
+        }
     }
     if (c->candidates.overflow) {
         *flags |= KNURL_TICK_CONTACTS_FULL;

@@ -28,7 +28,7 @@ typedef struct meeting {
 
 /* m: how far a path's proxy is from its ends, at most. */
 static double proxy_distance(const knurl_hip_path *path) {
-    return sqrt(fmax(vec3_distance2(path->proxy, path->from), vec3_distance2(path->proxy, path->to)));
+    return sqrt(knurl_max(vec3_distance2(path->proxy, path->from), vec3_distance2(path->proxy, path->to)));
 }
 
 /* What comes within `room` (m) of a path, and what was in contact. */
@@ -381,7 +381,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.index = index;
     m.path = path;
     m.hip = path->to;
-    m.room = 10.0 * ROUNDING + 2.0 * sqrt(vec3_distance2(path->from, path->to));
+    m.room = knurl_hip_path_room(path);
     collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.room);
     vec3_copy(c->normal, m.normal);
     if (!c->has_previous || m.jumped) {

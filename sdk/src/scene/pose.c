@@ -73,7 +73,7 @@ static double turn_between(const double a[9], const double b[9], double axis[3])
 
 /* s since the start, the whole way at most. */
 static double elapsed(const knurl_motion *motion, double time) {
-    return fmin(fmax(time - motion->start_time, 0.0), motion->end_time - motion->start_time);
+    return knurl_min(knurl_max(time - motion->start_time, 0.0), motion->end_time - motion->start_time);
 }
 
 void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) {

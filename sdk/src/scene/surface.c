@@ -100,8 +100,23 @@ static void add_box(const knurl_surface_data *surface, const knurl_pose *pose, d
             centre += cell * 0.5 * (surface->shape.low[column] + surface->shape.high[column]);
             half += fabs(cell) * 0.5 * (surface->shape.high[column] - surface->shape.low[column]);
         }
-        low[row] = fmin(low[row], centre - half);
-        high[row] = fmax(high[row], centre + half);
+        low[row] = knurl_min(low[row], centre - half);
+        high[row] = knurl_max(high[row], centre + half);
+    }
+}
+
+/* Between the two poses whose bounds are there, a corner's arc leaves its chord by up to radius * angle^2 / 8 (the
+ * error of linear interpolation), and never leaves the ball round the origin's way. The smaller of the two counts. */
+static void add_turning(const knurl_surface_data *surface, const knurl_motion *motion, double low[3], double high[3]) {
+    const double seconds = motion->end_time - motion->start_time;
+    const double angle = motion->rate * seconds;
+    const double radius = surface->radius;
+    const double bulge = 0.125 * radius * angle * angle;
+    for (int i = 0; i < 3; i++) {
+        const double from = motion->start.position[i] - motion->arm[i];
+        const double to = from + seconds * motion->velocity[i];
+        low[i] = knurl_max(low[i] - bulge, knurl_min(low[i], knurl_min(from, to) - radius));
+        high[i] = knurl_min(high[i] + bulge, knurl_max(high[i], knurl_max(from, to) + radius));
     }
 }
 
@@ -116,28 +131,13 @@ void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion 
         return;
     }
     add_box(surface, &motion->start, low, high);
-    if (motion->rate != 0.0) { /* what turns stays in a ball round the origin's way */
-        double radius2 = 0.0;
-        for (int corner = 0; corner < 8; corner++) {
-            const double own[3] = {corner & 1 ? surface->shape.high[0] : surface->shape.low[0],
-                                   corner & 2 ? surface->shape.high[1] : surface->shape.low[1],
-                                   corner & 4 ? surface->shape.high[2] : surface->shape.low[2]};
-            double there[3];
-            knurl_pose_to_parent(&surface->local, own, there);
-            radius2 = fmax(radius2, vec3_dot(there, there));
-        }
-        const double seconds = motion->end_time - motion->start_time;
-        for (int i = 0; i < 3; i++) {
-            const double from = motion->start.position[i] - motion->arm[i];
-            const double to = from + seconds * motion->velocity[i];
-            low[i] = fmin(low[i], fmin(from, to) - sqrt(radius2));
-            high[i] = fmax(high[i], fmax(from, to) + sqrt(radius2));
-        }
+    if (motion->rate != 0.0) {
+        add_turning(surface, motion, low, high);
     }
 }
 
 static float round_down(double value) {
-    const double near = fmin(fmax(value, -FAR_AWAY), FAR_AWAY);
+    const double near = knurl_min(knurl_max(value, -FAR_AWAY), FAR_AWAY);
     const float f = (float)near;
     return (double)f > near ? nextafterf(f, -HUGE_VALF) : f;
 }
@@ -171,6 +171,20 @@ void knurl_surface_release(knurl_heap *heap, knurl_retired *retired) {
     }
 }
 
+/* m: the farthest corner from the origin that the surface turns about. */
+static double find_radius(const knurl_surface_data *surface) {
+    double radius2 = 0.0;
+    for (int corner = 0; corner < 8; corner++) {
+        const double own[3] = {corner & 1 ? surface->shape.high[0] : surface->shape.low[0],
+                               corner & 2 ? surface->shape.high[1] : surface->shape.low[1],
+                               corner & 4 ? surface->shape.high[2] : surface->shape.low[2]};
+        double there[3];
+        knurl_pose_to_parent(&surface->local, own, there);
+        radius2 = knurl_max(radius2, vec3_dot(there, there));
+    }
+    return sqrt(radius2);
+}
+
 static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint32_t full_model,
                             const knurl_shared_shape *shared, knurl_surface_data *surface) {
     knurl_pose pose;
@@ -182,6 +196,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     result = result ? result : knurl_surface_check_pose(d->position, d->rotation, &pose);
     result = result || shared ? result : set_shape(heap, d, full_model, surface);
     knurl_pose_settle(&surface->local);
+    surface->radius = result ? 0.0 : find_radius(surface);
     surface->record = result ? NULL : knurl_record_copy(heap, NULL);
     result = !result && !surface->record ? KNURL_ERROR_MEMORY : result;
     result = result

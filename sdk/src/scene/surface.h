@@ -16,6 +16,7 @@ typedef struct knurl_surface_data {
     uint32_t moved; /* edits: 1 once it was moved since the broad phase's index was built */
     knurl_surface_id id;
     knurl_pose local; /* the shape's frame in the surface's */
+    double radius;    /* m: the shape's farthest corner from the surface's origin */
     double axis[3];   /* unit, surface's frame; 0: none was given */
     char *name;
     const char *given; /* "plane" or "mesh" */
