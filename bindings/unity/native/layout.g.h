@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "21cba5259148e6bb"
+#define KNURL_UNITY_INTERFACE "4f2fcf3d0124c9ea"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -228,10 +228,11 @@
     FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
     FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
     FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
-    STRUCT(knurl_device_sample, 32) \
+    STRUCT(knurl_device_sample, 64) \
     FIELD(knurl_device_sample, position, "position", 0, 24) \
     FIELD(knurl_device_sample, buttons, "buttons", 24, 4) \
     FIELD(knurl_device_sample, reserved, "reserved", 28, 4) \
+    FIELD(knurl_device_sample, orientation, "orientation", 32, 32) \
     STRUCT(knurl_device_listing, 1408) \
     FIELD(knurl_device_listing, uri, "uri", 0, 256) \
     FIELD(knurl_device_listing, name, "name", 256, 128) \
@@ -241,7 +242,7 @@
     FIELD(knurl_device_event, value, "value", 8, 8) \
     FIELD(knurl_device_event, code, "code", 16, 4) \
     FIELD(knurl_device_event, reserved, "reserved", 20, 4) \
-    STRUCT(knurl_device_status, 56) \
+    STRUCT(knurl_device_status, 88) \
     FIELD(knurl_device_status, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_status, lost, "lost", 4, 4) \
     FIELD(knurl_device_status, halted, "halted", 8, 4) \
@@ -251,6 +252,7 @@
     FIELD(knurl_device_status, events, "events", 32, 8) \
     FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
     FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
+    FIELD(knurl_device_status, orientation, "orientation", 56, 32) \
     STRUCT(knurl_device_functions, 64) \
     FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \

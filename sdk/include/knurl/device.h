@@ -34,9 +34,11 @@ typedef struct knurl_device_info {
 
 /** One reading. Device frame: x right, y up, z towards the user. */
 typedef struct knurl_device_sample {
-    double position[3]; /**< m */
-    uint32_t buttons;   /**< bit 0: first button */
-    uint32_t reserved;  /**< 0 */
+    double position[3];    /**< m */
+    uint32_t buttons;      /**< bit 0: first button */
+    uint32_t reserved;     /**< 0 */
+    double orientation[4]; /**< of the stylus: a unit quaternion x, y, z, w, from its axes to the device's. 0, 0, 0, 0:
+                                the device does not measure it. For drawing: contact stays a point's */
 } knurl_device_sample;
 
 /** A connected device, or a kind of device of which none is connected. */
@@ -58,7 +60,10 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still", "s")                                       \
     X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
     X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \
-    X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "the device does not know where it is: it needs homing", "")       \
+    X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated",                                                                    \
+      "the device does not know where it is and needs homing: pull a Falcon's grip out and push it in, put a Touch's " \
+      "stylus into its inkwell, hold a WoodenHaptics in its home pose and press its button",                           \
+      "")                                                                                                              \
     X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: when this one is killed, the force stays",   \
       "")                                                                                                              \
     X(KNURL_FAULT_GAP, 13, "gap", "the loop did not run for a while: the program or the machine stood still", "s")     \
@@ -92,6 +97,7 @@ typedef struct knurl_device_status {
     uint64_t events;        /**< reported so far, see knurl_device_next_event() */
     double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
     double exchange_ns_p99; /**< the same, 99th percentile */
+    double orientation[4];  /**< of the latest reading, as knurl_device_sample.orientation */
 } knurl_device_status;
 
 /** A caller's own device, for hardware that Knurl does not know. Each function gets `user`. */
@@ -199,7 +205,8 @@ KNURL_API void knurl_device_close(knurl_device *device);
 
 /** Lists the connected devices, and for each kind of which none is connected, why and what to do. Fills at most
  * `capacity` listings (none where `listings` is null) and returns how many there are. Looks at the USB devices: takes
- * some milliseconds. [game thread] */
+ * some milliseconds. A device whose library does not answer within 2 s is listed with that reason; the thread that
+ * waits for it, and its memory, are then never freed. [game thread] */
 KNURL_API uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity);
 
 /** Gets a device's properties. Errors: KNURL_ERROR_ARGUMENT. [any thread] */

@@ -104,6 +104,8 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
     made.lost = knurl_load_acquire(&device->lost);
     made.halted = knurl_device_is_halted(device);
     made.buttons = knurl_load_relaxed(&device->buttons);
+    knurl_seqlock_read(&device->orientation.sequence, device->orientation.words, made.orientation,
+                       sizeof made.orientation);
     made.events = knurl_load_acquire(&device->events.head);
     if (device->link) {
         knurl_link_get_status(device->link, &made);
@@ -196,6 +198,14 @@ static knurl_result check_position(knurl_device *device, const double position[3
     return KNURL_OK;
 }
 
+/* What is no unit quaternion is none. */
+static void check_orientation(double q[4]) {
+    const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (!(square > 0.98 && square < 1.02)) {
+        memset(q, 0, 4 * sizeof *q);
+    }
+}
+
 static void lose(knurl_device *device) {
     knurl_device_halt(device);
     if (!device->link) { /* an I/O thread has told already */
@@ -209,12 +219,16 @@ static knurl_result read_device(knurl_device *device, knurl_device_sample *sampl
         return KNURL_ERROR_DEVICE_LOST;
     }
     knurl_device_sample found;
+    memset(&found, 0, sizeof found);
     knurl_result result = device->link ? knurl_link_read(device->link, &found) : device->driver->read(device, &found);
     device->check.gap += device->period;
     result = result ? result : check_position(device, found.position);
     if (!result) {
+        check_orientation(found.orientation);
         *sample = found;
         knurl_store_relaxed(&device->buttons, found.buttons);
+        knurl_seqlock_write(&device->orientation.sequence, device->orientation.words, found.orientation,
+                            sizeof found.orientation);
         return KNURL_OK;
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

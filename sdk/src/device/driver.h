@@ -3,6 +3,7 @@
 #define KNURL_SRC_DRIVER_H
 
 #include "base/handle.h"
+#include "base/seqlock.h"
 #include "device/events.h"
 #include "device/motors.h"
 
@@ -81,6 +82,7 @@ struct knurl_device {
     uint32_t lost;    /* nobody but reopen() may call the driver any more */
     uint32_t quiet;   /* 1: the latest force that went out was 0, and none is on its way */
     uint32_t buttons; /* of the latest reading */
+    KNURL_SEQLOCK(double[4]) orientation;
 };
 
 /* What a driver's zeroed device begins with. */

@@ -1,9 +1,17 @@
 /* Finds the driver for a URI, and lists connected devices. SPDX-License-Identifier: MIT */
 #include "device/drivers.h"
 
+#include "base/atomic.h"
 #include "base/base.h"
+#include "base/system.h"
+#include "device/listings.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#define LISTING_ROOM 64 /* of one kind */
+#define LOOK_NS      INT64_C(2000000000)
+#define STACK_BYTES  ((size_t)256 * 1024)
 
 static const knurl_driver *const drivers[] = {&knurl_fake_driver, &knurl_touch_driver, &knurl_falcon_driver,
                                               &knurl_rawhid_driver};
@@ -28,10 +36,68 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
     return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon or rawhid, found '%s'", uri);
 }
 
+/* One driver's listing, on a thread of its own: a maker's library may hang. */
+typedef struct look {
+    const knurl_driver *driver;
+    knurl_thread *thread;
+    knurl_listings found;
+    knurl_device_listing room[LISTING_ROOM];
+    uint32_t is_done; /* atomic */
+} look;
+
+static void run_look(void *argument) {
+    look *l = argument;
+    l->driver->list(&l->found);
+    knurl_store_release(&l->is_done, 1u);
+}
+
+static look *start_look(const knurl_driver *driver) {
+    look *l = calloc(1, sizeof *l);
+    if (l) {
+        l->driver = driver;
+        l->found.to = l->room;
+        l->found.capacity = LISTING_ROOM;
+        l->thread = knurl_system_start_thread(run_look, l, STACK_BYTES);
+    }
+    if (l && !l->thread) {
+        free(l);
+        l = NULL;
+    }
+    return l;
+}
+
+/* Takes over what was found by `deadline`. A look that hangs keeps its thread and its memory. */
+static void finish_look(look *l, int64_t deadline, knurl_listings *listings) {
+    while (!knurl_load_acquire(&l->is_done) && knurl_system_now_ns() < deadline) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 500000);
+    }
+    if (!knurl_load_acquire(&l->is_done)) {
+        knurl_listings_add(listings, l->driver->uri, l->driver->uri,
+                           "its driver or its maker's library does not answer within %g s; end other programs that use "
+                           "the device, or unplug it for a moment",
+                           1e-9 * (double)LOOK_NS);
+        return;
+    }
+    for (uint32_t i = 0; i < l->found.count && i < LISTING_ROOM; i++) {
+        knurl_listings_add(listings, l->room[i].uri, l->room[i].name, "%s", l->room[i].reason);
+    }
+    knurl_system_join_thread(l->thread);
+    free(l);
+}
+
 uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
     knurl_listings found = {listings, listings ? capacity : 0, 0};
-    for (uint32_t i = 0; i < DRIVER_COUNT; i++) {
-        drivers[i]->list(&found);
+    look *looks[DRIVER_COUNT];
+    const int64_t deadline = knurl_system_now_ns() + LOOK_NS;
+    for (size_t i = 0; i < DRIVER_COUNT; i++) {
+        looks[i] = start_look(drivers[i]);
+    }
+    for (size_t i = 0; i < DRIVER_COUNT; i++) {
+        if (looks[i]) {
+            finish_look(looks[i], deadline, &found);
+        } else {
+            drivers[i]->list(&found);
+        }
     }
     return found.count;
 }

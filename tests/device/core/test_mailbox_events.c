@@ -238,7 +238,7 @@ static const struct {
     {KNURL_FAULT_WATCHDOG, 8, "watchdog", "haptic thread", "s"},
     {KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "game", "s"},
     {KNURL_FAULT_REFUSED, 10, "refused", "refused", "(its own code)"},
-    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "homing", ""},
+    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "needs homing", ""},
     {KNURL_FAULT_UNGUARDED, 12, "unguarded", "guard process", ""},
     {KNURL_FAULT_GAP, 13, "gap", "stood still", "s"},
     {KNURL_FAULT_RESUMED, 32, "resumed", "no fault", ""},

@@ -1,6 +1,6 @@
-/* umockdev-wrapper emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--unhomed FRAMES] -- COMMAND...: runs a
- * command on a machine to which an emulated Falcon is connected, its hand stroking along x a millimetre below the
- * middle of its workspace; exits as the command does. SPDX-License-Identifier: MIT */
+/* umockdev-wrapper emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--busy] [--unhomed FRAMES] --
+ * COMMAND...: runs a command on a machine to which an emulated Falcon is connected, its hand stroking along x a
+ * millimetre below the middle of its workspace; exits as the command does. SPDX-License-Identifier: MIT */
 #include "falcon_emulated.h"
 #include "falcon_image.h"
 
@@ -39,6 +39,8 @@ int main(int argc, char **argv) {
         } else if (strcmp(argv[at], "--no-firmware") == 0) {
             uint8_t image[IMAGE_SIZE];
             falcon_sim_forget_firmware(&setup.sim, IMAGE_SIZE, falcon_image_make(image, IMAGE_SIZE));
+        } else if (strcmp(argv[at], "--busy") == 0) {
+            setup.is_held = 1;
         } else if (strcmp(argv[at], "--split") == 0) {
             setup.is_split = 1;
         } else if (strcmp(argv[at], "--unhomed") == 0 && at + 1 < argc) {
@@ -48,8 +50,9 @@ int main(int argc, char **argv) {
         }
     }
     if (at + 1 >= argc) {
-        (void)fputs("emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--unhomed FRAMES] -- COMMAND...\n",
-                    stderr);
+        (void)fputs(
+            "emulate_falcon [--unplug-after S] [--no-firmware] [--split] [--busy] [--unhomed FRAMES] -- COMMAND...\n",
+            stderr);
         return 2;
     }
     if (!falcon_emulated_start(&setup)) {

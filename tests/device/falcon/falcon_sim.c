@@ -165,7 +165,9 @@ static void hear_boot(falcon_sim *sim, uint8_t byte) {
     static const uint8_t call[] = {0x0a, 0x43, 0x0d};
     if (sim->is_loading) {
         const int32_t at = (int32_t)sim->image_count++;
-        const uint8_t echo = at == sim->wrong_echo ? (uint8_t)~byte : byte;
+        const int is_bad = at == sim->wrong_echo || (at == 100 && sim->bad_loads > 0);
+        const uint8_t echo = is_bad ? (uint8_t)~byte : byte;
+        sim->bad_loads -= at == 100 && sim->bad_loads > 0;
         sim->loading_sum += byte;
         if (sim->no_echo < 0 || at < sim->no_echo) {
             say(sim, &echo, 1);

@@ -47,6 +47,7 @@ typedef struct falcon_sim {
     uint32_t image_sum;   /* what the right image's bytes add up to */
     uint32_t loading_sum; /* of what came */
     int32_t wrong_echo;   /* which of the image's bytes comes back wrong; -1: none */
+    uint32_t bad_loads;   /* so many loadings from now on get a wrong echo of byte 100 */
     int32_t no_echo;      /* from which one on none comes back; -1: all do */
     int is_loading;
 } falcon_sim;

@@ -142,6 +142,19 @@ TEST(a_byte_that_comes_back_wrong_ends_it) {
     }
 }
 
+TEST(an_image_is_loaded_up_to_ten_times) {
+    const uint32_t sum = write_image(2000);
+    plug_in();
+    falcon_sim_forget_firmware(&fake.sim, 2000, sum);
+    fake.sim.bad_loads = 9;
+    assert_int_equal(knurl_falcon_prepare(&transport, tool_path("image.bin")), KNURL_OK);
+    assert_true(fake.sim.has_firmware);
+    falcon_sim_forget_firmware(&fake.sim, 2000, sum);
+    fake.sim.bad_loads = 10;
+    check_fails(tool_path("image.bin"), KNURL_ERROR_DEVICE_LOST, "byte 100 |power");
+    plug_out();
+}
+
 TEST(an_echo_that_stays_away_ends_it) {
     const uint32_t sum = write_image(2000);
     plug_in();

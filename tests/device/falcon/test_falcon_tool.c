@@ -44,6 +44,37 @@ TEST(a_falcon_is_among_the_devices) {
     process_free(&p);
 }
 
+/* What stands below "uri" in the tool's listing. */
+static const char *line_below(const char *listing, const char *uri) {
+    const char *at = strstr(listing, uri);
+    const char *end = at ? strchr(at + 1, '\n') : NULL;
+    assert_non_null(end);
+    return end + 1;
+}
+
+TEST(a_hanging_library_a_garbage_handle_and_a_busy_falcon_are_a_line_each_within_3_s) {
+    static const char *const wishes[] = {"hang", "garbage"};
+    static const char *const words[] = {"does not answer within 2 s", "0x0302"};
+    assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
+    for (size_t i = 0; i < COUNT_OF(wishes); i++) {
+        struct timespec begin;
+        struct timespec end;
+        assert_int_equal(setenv("KNURL_STUB_HD", wishes[i], 1), 0);
+        (void)clock_gettime(CLOCK_MONOTONIC, &begin);
+        process p = run_with_falcon(OPTIONS("--busy"), ARGUMENTS("devices"));
+        (void)clock_gettime(CLOCK_MONOTONIC, &end);
+        check_done(&p);
+        const char *touch = line_below(p.out, "\ntouch");
+        const char *falcon = line_below(p.out, "\nfalcon");
+        assert_true(strstr(touch, words[i]) && strstr(touch, words[i]) < strchr(touch, '\n'));
+        assert_true(strstr(falcon, "it is in use") && strstr(falcon, "it is in use") < strchr(falcon, '\n'));
+        assert_true((double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec) < 3.0);
+        process_free(&p);
+    }
+    (void)unsetenv("KNURL_STUB_HD");
+    (void)unsetenv("KNURL_HD_LIBRARY");
+}
+
 TEST(a_plate_is_felt_through_a_falcon) {
     process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "1"));
     check_felt(&p);

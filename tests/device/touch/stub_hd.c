@@ -45,11 +45,12 @@ static simulated *current(void) {
 
 /* --- devices --- */
 
-/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in). */
+/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in), or hang (in
+ * hdInitDevice()), or garbage (absent, and as STUB_GARBAGE). */
 static void read_environment(simulated *d) {
     static int failed;
     const char *wish = getenv("KNURL_STUB_HD");
-    if (wish && strcmp(wish, "absent") == 0) {
+    if (wish && (strcmp(wish, "absent") == 0 || strcmp(wish, "garbage") == 0)) {
         d->settings[STUB_ABSENT] = 1.0;
     } else if (wish && strncmp(wish, "fail_at=", 8) == 0) {
         d->settings[STUB_FAIL_AT] = failed ? 0.0 : strtod(wish + 8, NULL);
@@ -119,7 +120,19 @@ void stub_move(simulated *d, double dt) {
 hd_device HD_CALL hdInitDevice(const char *name) {
     static const char *const names[] = {"Default Device", "Left Device", "Right Device"};
     hd_device made = HD_NO_DEVICE;
+    const char *wish = getenv("KNURL_STUB_HD");
+    while (wish && strcmp(wish, "hang") == 0) {
+        nap(1000000000);
+    }
     lock();
+    if (hd.runs) { /* SOFA stops the scheduler first */
+        misuse(0x0102);
+    }
+    if (hd.has_failed && (hd.settings[STUB_GARBAGE] > 0.0 || (wish && strcmp(wish, "garbage") == 0))) {
+        hd.has_failed = 0;
+        unlock();
+        return 70707;
+    }
     for (int i = 0; i < STUB_DEVICES; i++) {
         simulated *d = &hd.devices[i];
         if (strcmp(name ? name : names[STUB_DEFAULT], names[i]) != 0) {
@@ -145,7 +158,8 @@ hd_device HD_CALL hdInitDevice(const char *name) {
         hd.current = i;
         break;
     }
-    if (made == HD_NO_DEVICE) {
+    hd.has_failed = made == HD_NO_DEVICE;
+    if (hd.has_failed) {
         push(0x0302, NONE);
     }
     unlock();
@@ -296,14 +310,17 @@ static void tell_position(const simulated *d, double mm[3]) {
 
 void HD_CALL hdGetDoublev(hd_enum what, double *values) {
     static const double workspace[6] = {-80.0, -60.0, -35.0, 80.0, 60.0, 35.0};
+    static const double transform[16] = {[1] = 1.0, [6] = 1.0, [8] = 1.0, [15] = 1.0}; /* x to y, y to z, z to x */
     lock();
     const simulated *d = current();
     if (d && what == HD_POSITION) {
         tell_position(d, values);
+    } else if (d && what == HD_TRANSFORM && d->settings[STUB_RANDOM] == 0.0) {
+        memcpy(values, transform, sizeof transform);
     } else if (d && d->settings[STUB_TELLS_NOTHING] > 0.0) {
         push(0x0100, hd.current);
     } else if (d && d->settings[STUB_RANDOM] > 0.0) {
-        for (int i = 0; i < (what == HD_USABLE_WORKSPACE ? 6 : 1); i++) {
+        for (int i = 0; i < (what == HD_USABLE_WORKSPACE ? 6 : what == HD_TRANSFORM ? 16 : 1); i++) {
             values[i] = random_double();
         }
     } else if (d) {

@@ -24,6 +24,8 @@ enum {
     STUB_TELLS_NOTHING, /* 1: knows none of its properties */
     STUB_INIT_ERROR,    /* an error code that initialising brings */
     STUB_REFUSED_RATE,  /* library: Hz that the scheduler refuses */
+    STUB_RATE_ERROR,    /* library: an error code that setting any rate brings, and the rate stays */
+    STUB_GARBAGE,       /* library: 1: after a call of hdInitDevice() that failed, the next returns a great number */
     STUB_STALL,         /* library: 1: the scheduler stops calling */
     STUB_DRIFTS,        /* library: 1: in frames, the current device becomes another, as if another thread had changed
                            it */

@@ -96,7 +96,9 @@ void HD_CALL hdStopScheduler(void) {
 
 void HD_CALL hdSetSchedulerRate(unsigned long rate) {
     lock();
-    if (rate < 100 || rate > 4000 || (double)rate == hd.settings[STUB_REFUSED_RATE]) {
+    if (hd.settings[STUB_RATE_ERROR] > 0.0) {
+        push((uint32_t)hd.settings[STUB_RATE_ERROR], hd.current);
+    } else if (rate < 100 || rate > 4000 || (double)rate == hd.settings[STUB_REFUSED_RATE]) {
         push(0x0101, hd.current);
     } else {
         hd.rate = (double)rate;

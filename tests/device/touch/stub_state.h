@@ -40,6 +40,7 @@ typedef struct stub_state {
     double settings[STUB_SETTINGS];
     double answers[STUB_QUESTIONS];
     int current;
+    int has_failed; /* the latest hdInitDevice() */
     hd_error errors[ERRORS];
     int error_count;
     int64_t errors_taken;

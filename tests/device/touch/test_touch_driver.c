@@ -101,7 +101,31 @@ TEST_WITH(a_device_that_cannot_be_opened_is_given_back_and_says_why, stub_by_han
     }
 }
 
+/* HAPI warns of it: the second call, by another name of the default device, returns 70707 and no error. */
+TEST_WITH(a_handle_that_is_none_is_refused_with_the_first_calls_error, stub_by_hand, stub_check) {
+    knurl_device *device = NULL;
+    stub.set(0, STUB_GARBAGE, 1.0);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
+    CHECK_REFUSED(knurl_device_open("touch", &device), KNURL_ERROR_DEVICE_LOST, device);
+    check_message("0x0302");
+    CHECK_REFUSED(knurl_device_open("touch", &device), KNURL_ERROR_DEVICE_LOST, device);
+}
+
 /* --- positions and forces --- */
+
+/* The stub's stylus is turned by 120 degrees about (1, 1, 1): x to y, y to z, z to x. */
+TEST_WITH(the_orientation_of_the_stylus_is_told, stub_by_hand, stub_check) {
+    bench b;
+    knurl_device_status status;
+    start(&b, 0.0);
+    stub.turn(10);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(b.device, &status), KNURL_OK);
+    for (int i = 0; i < 4; i++) {
+        CHECK_CLOSE(status.orientation[i], 0.5, 1e-15); /* cos 60 degrees, and sin 60 degrees / sqrt 3 */
+    }
+    end(&b);
+}
 
 TEST_WITH(positions_come_in_metres_and_buttons_as_bits, stub_by_hand, stub_check) {
     bench b;
@@ -289,6 +313,39 @@ TEST_WITH(rates_that_the_scheduler_cannot_keep_are_refused, stub_by_hand, stub_c
     assert_int_equal(knurl_device_start(device, 1000.5), KNURL_ERROR_UNSUPPORTED);
     check_message("1000.5 Hz");
     assert_true(stub.ask(0, STUB_RATE) == 1000.0);
+    knurl_device_close(device);
+}
+
+TEST_WITH(a_scheduler_that_changes_no_rate_is_taken_at_the_rate_that_it_has, stub_by_hand, stub_check) {
+    bench b;
+    stub.set(0, STUB_RATE_ERROR, 0x0102); /* OpenHaptics 3.0 */
+    knurl_device *device = stub_open("touch");
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    assert_int_equal(knurl_device_start(device, 500.0), KNURL_ERROR_UNSUPPORTED);
+    check_message("expected 1000 Hz");
+    knurl_device_close(device);
+    start(&b, 1.0);
+    stub.turn(100);
+    CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_TOLD), 1.0, 1e-12);
+    end(&b);
+}
+
+TEST_WITH(a_timer_error_of_a_refused_rate_is_no_lost_device, stub_by_hand, stub_check) {
+    knurl_device *device = stub_open("touch");
+    knurl_device_status status;
+    stub.set(0, STUB_RATE_ERROR, 0x0304);
+    assert_int_equal(knurl_device_start(device, 2000.0), KNURL_ERROR_UNSUPPORTED);
+    stub.set(0, STUB_RATE_ERROR, 0.0);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    stub_push push = {.force = {0.0, 1.0, 0.0}};
+    const knurl_loop_desc desc = stub_loop_desc(device, &push);
+    knurl_loop *loop = stub_loop(&desc);
+    stub.turn(100);
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    assert_int_equal(status.lost, 0);
+    CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_TOLD), 1.0, 1e-12);
+    stub_end_loop(loop);
     knurl_device_close(device);
 }
 

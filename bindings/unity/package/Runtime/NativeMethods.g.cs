@@ -326,6 +326,7 @@ namespace Knurl
         public fixed double position[3];
         public uint buttons;
         public uint reserved;
+        public fixed double orientation[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -357,6 +358,7 @@ namespace Knurl
         public ulong events;
         public double exchange_ns_p50;
         public double exchange_ns_p99;
+        public fixed double orientation[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -612,7 +614,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "21cba5259148e6bb";
+        internal const string Interface = "4f2fcf3d0124c9ea";
 
         internal const string Version = "0.1.0";
 

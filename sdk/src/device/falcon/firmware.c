@@ -29,6 +29,7 @@ static const request load_mode[] = {{LINES, 0x100}, {BAUD, 0x15}};              
 
 #define PROBES      10 /* frames */
 #define PROBE_MS    20 /* for an answer to each */
+#define LOADS       10
 #define GREETINGS   60 /* 1.5 s in all, as long as libnifalcon waits */
 #define GREETING_MS 25 /* 7 characters at 9600 Bd, and the chip's 16 ms */
 #define ECHO_MS     500
@@ -177,6 +178,28 @@ static knurl_result load(const knurl_falcon_transport *t, const uint8_t *image, 
     return result ? result : set_up(t, normal_mode, COUNT(normal_mode), "start its firmware");
 }
 
+/* Users of libnifalcon need several tries before one gets through. */
+static knurl_result load_until_it_answers(const knurl_falcon_transport *t, const char *path, const uint8_t *image,
+                                          size_t size) {
+    knurl_result result = KNURL_OK;
+    for (int i = 0; i < LOADS; i++) {
+        result = load(t, image, size);
+        const int outcome = result ? KNURL_FALCON_NOTHING : probe(t);
+        if (outcome == KNURL_FALCON_DONE) {
+            return KNURL_OK;
+        }
+        if (outcome == KNURL_FALCON_GONE) {
+            return gone("it was looked at");
+        }
+        result =
+            result
+                ? result
+                : knurl_fail(KNURL_ERROR_FORMAT,
+                             "device 'falcon': firmware '%s' was loaded, but nothing answers: it is no Falcon's", path);
+    }
+    return result;
+}
+
 static knurl_result load_file(const knurl_falcon_transport *t, const char *path) {
     size_t size = 0;
     uint8_t *image = malloc(KNURL_FALCON_IMAGE_MOST + 1);
@@ -185,17 +208,19 @@ static knurl_result load_file(const knurl_falcon_transport *t, const char *path)
                           KNURL_FALCON_IMAGE_MOST + 1);
     }
     knurl_result result = knurl_falcon_read_image(path, image, &size);
-    result = result ? result : load(t, image, size);
+    if (!result) {
+        result = load_until_it_answers(t, path, image, size);
+    }
     free(image);
     return result;
 }
 
 knurl_result knurl_falcon_prepare(const knurl_falcon_transport *t, const char *path) {
-    knurl_result result = set_up(t, normal_mode, COUNT(normal_mode), "reach its firmware");
+    const knurl_result result = set_up(t, normal_mode, COUNT(normal_mode), "reach its firmware");
     if (result) {
         return result;
     }
-    int outcome = probe(t); /* the last program to use it may have loaded it */
+    const int outcome = probe(t); /* the last program to use it may have loaded it */
     if (outcome == KNURL_FALCON_NOTHING && !path[0]) {
         return knurl_fail(
             KNURL_ERROR_DEVICE_LOST,
@@ -204,14 +229,7 @@ knurl_result knurl_falcon_prepare(const knurl_falcon_transport *t, const char *p
             "such as the nvent_firmware.bin or novint.bin that come with libnifalcon or Novint's drivers");
     }
     if (outcome == KNURL_FALCON_NOTHING) {
-        result = load_file(t, path);
-        outcome = result ? outcome : probe(t);
+        return load_file(t, path);
     }
-    if (result || outcome == KNURL_FALCON_DONE) {
-        return result;
-    }
-    return outcome == KNURL_FALCON_GONE
-               ? gone("it was looked at")
-               : knurl_fail(KNURL_ERROR_FORMAT,
-                            "device 'falcon': firmware '%s' was loaded, but nothing answers: it is no Falcon's", path);
+    return outcome == KNURL_FALCON_GONE ? gone("it was looked at") : KNURL_OK;
 }

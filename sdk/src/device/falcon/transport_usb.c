@@ -91,6 +91,10 @@ static const char permission[] =
     "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
     "--reload' and 'udevadm trigger', and plug it in again";
 
+static const char in_use[] =
+    "it is in use: by another program, by this one, or by the kernel's ftdi_sio; close the one "
+    "or unload the other";
+
 typedef struct usb {
     libusb_context *context;
     libusb_device_handle *handle;
@@ -245,9 +249,7 @@ static knurl_result refused(const char *doing, int code) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", permission);
     }
     if (code == LIBUSB_ERROR_BUSY) {
-        return knurl_fail(KNURL_ERROR_SYSTEM,
-                          "device 'falcon': found (0403:cb48), but it is in use: by another program, by this one, "
-                          "or by the kernel's ftdi_sio; close the one or unload the other");
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", in_use);
     }
     if (code == LIBUSB_ERROR_NO_DEVICE) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'falcon': it was unplugged while it was opened");
@@ -279,11 +281,19 @@ static long visit_falcons(libusb_context *context, int (*visit)(libusb_device *d
 static int visit_to_list(libusb_device *device, void *user) {
     knurl_listings *listings = user;
     libusb_device_handle *handle = NULL;
-    const int code = lib.open(device, &handle);
-    if (code == 0) {
+    int code = lib.open(device, &handle);
+    if (code == 0) { /* that another program uses it shows when its interface is claimed */
+        (void)lib.set_auto_detach_kernel_driver(handle, 1);
+        code = lib.claim_interface(handle, 0);
+        if (code == 0) {
+            (void)lib.release_interface(handle, 0);
+        }
         lib.close(handle);
     }
-    const char *why = code == LIBUSB_ERROR_ACCESS ? permission : code ? lib.strerror((enum libusb_error)code) : "";
+    const char *why = code == LIBUSB_ERROR_ACCESS ? permission
+                      : code == LIBUSB_ERROR_BUSY ? in_use
+                      : code                      ? lib.strerror((enum libusb_error)code)
+                                                  : "";
     knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", why);
     return 0; /* the first one is the one that is opened */
 }

@@ -29,6 +29,10 @@ typedef struct hd_error {
 
 #define HD_NO_DEVICE ((hd_device)0xFFFFFFFF)
 
+/* Handles count from 0. After a call of hdInitDevice() that failed, the next one may return a greater number without an
+ * error, which is no device (a warning in HAPI's PhantomHapticsDevice.cpp). */
+#define HD_DEVICE_MOST 1024u
+
 /* What a callback returns. */
 enum { HD_DONE = 0, HD_AGAIN = 1 };
 
@@ -36,7 +40,8 @@ enum { HD_DONE = 0, HD_AGAIN = 1 };
 
 enum {
     HD_BUTTONS = 0x2000,
-    HD_POSITION = 0x2050, /* 3 doubles, mm */
+    HD_POSITION = 0x2050,  /* 3 doubles, mm */
+    HD_TRANSFORM = 0x2052, /* 16 doubles, column by column: from the stylus' axes to the device's, mm */
     HD_VERSION = 0x2500,
     HD_MODEL = 0x2501,
     HD_DRIVER_VERSION = 0x2502,

@@ -23,7 +23,7 @@ const char *hd_error_sentence(uint32_t code) {
 }
 
 int hd_error_is_loss(uint32_t code) {
-    return code == 0x0104 || (code >= 0x0300 && code <= 0x0304);
+    return code == 0x0104 || (code >= 0x0300 && code <= 0x0303);
 }
 
 int hd_error_is_refusal(uint32_t code) {

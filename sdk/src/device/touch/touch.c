@@ -13,13 +13,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static unsigned long rate_now; /* Hz of the scheduler, as set by the latest start */
-static uint32_t busy;          /* atomic: held by who opens, closes, starts or looks again; never by a servo thread */
+static unsigned long rate_now; /* Hz of the scheduler: HD's own when the first device is opened, then as it was set */
 
-static void lock(void) {
+#define HD_RATE 1000  /* HD's own */
+static uint32_t busy; /* atomic: held by who opens, closes, starts or looks again; never by a servo thread */
+
+/* hdInitDevice() takes a second or two. One that takes this long hangs, and keeps the lock. */
+#define LOCK_NS INT64_C(10000000000)
+
+static knurl_result lock(void) {
+    const int64_t until = knurl_system_now_ns() + LOCK_NS;
     while (__atomic_exchange_n(&busy, 1u, __ATOMIC_ACQUIRE)) {
+        if (knurl_system_now_ns() > until) {
+            return knurl_fail(KNURL_ERROR_SYSTEM,
+                              "device 'touch': HD's library hangs in an earlier call; unplug the device for a moment, "
+                              "and start this program again");
+        }
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
     }
+    return KNURL_OK;
 }
 
 static void unlock(void) {
@@ -40,6 +52,10 @@ static void take_slot(touch *t) {
 }
 
 static knurl_result open_locked(const char *name, const char *library, knurl_device **device) {
+    int is_first = 1;
+    for (int i = 0; i < TOUCH_ROOM; i++) {
+        is_first &= !touch_slots[i].owner;
+    }
     const hd_api *hd = NULL;
     if (!touch_find_slot(HD_NO_DEVICE)) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'touch': expected at most %d open ones", TOUCH_ROOM);
@@ -64,6 +80,7 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
         free(made);
         return result;
     }
+    rate_now = is_first ? HD_RATE : rate_now;
     take_slot(made);
     knurl_device_init(&made->base, &knurl_touch_driver);
     made->base.max_force = made->info.max_force;
@@ -86,8 +103,8 @@ static knurl_result touch_open(const char *options, knurl_device **device) {
                             "device 'touch': guard: cannot: 3D Systems' library drives it from inside of this process, "
                             "by a protocol that is not published");
     }
+    result = result ? result : lock();
     if (!result) {
-        lock();
         result = open_locked(name, library, device);
         unlock();
     }
@@ -96,7 +113,10 @@ static knurl_result touch_open(const char *options, knurl_device **device) {
 
 static void touch_close(knurl_device *device) {
     touch *t = of(device);
-    lock();
+    if (lock()) {
+        knurl_handle_clear(&device->handle); /* as below */
+        return;
+    }
     if (touch_detach(t)) {
         touch_unschedule(t);
         touch_disconnect(t);
@@ -136,6 +156,14 @@ static knurl_result start_locked(touch *t, double rate) {
     (void)touch_take_errors(t->hd, t->slot);
     t->hd->set_rate(whole);
     const uint32_t code = touch_take_errors(t->hd, t->slot);
+    if (code == 0x0102 && whole == rate_now) {
+        return KNURL_OK; /* OpenHaptics 3.0 changes none, and has the one that is wanted */
+    }
+    if (code == 0x0102) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "device '%s': expected %lu Hz, found %lu Hz; this version of HD's scheduler changes no rate",
+                          t->uri, rate_now, whole);
+    }
     if (code) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,
                           "device '%s': HD's scheduler refuses %lu Hz (0x%04x: %s); 500, 1000 and mostly 2000 Hz "
@@ -147,16 +175,20 @@ static knurl_result start_locked(touch *t, double rate) {
 }
 
 static knurl_result touch_start(knurl_device *device, double update_rate_hz) {
-    lock();
-    const knurl_result result = start_locked(of(device), update_rate_hz);
-    unlock();
+    knurl_result result = lock();
+    if (!result) {
+        result = start_locked(of(device), update_rate_hz);
+        unlock();
+    }
     return result;
 }
 
 static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *argument), void *argument) {
     touch *t = of(device);
-    lock();
-    knurl_result result = KNURL_OK;
+    knurl_result result = lock();
+    if (result) {
+        return result;
+    }
     if (!touch_detach(t)) { /* the latest loop's last call */
         result =
             knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the latest loop", t->uri);
@@ -172,7 +204,9 @@ static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *arg
 
 static knurl_result touch_reopen(knurl_device *device) {
     touch *t = of(device);
-    lock();
+    if (lock()) {
+        return KNURL_ERROR_DEVICE_LOST;
+    }
     knurl_result result = KNURL_ERROR_DEVICE_LOST;
     if (touch_detach(t)) {
         touch_unschedule(t);
@@ -191,7 +225,8 @@ static knurl_result touch_reopen(knurl_device *device) {
 
 static uint32_t touch_leave(knurl_device *device) {
     touch *t = of(device); /* HD may hang: it is asked for nothing here */
-    return !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) && touch_detach(t);
+    return !knurl_load_acquire(&touch_is_paused) && !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) &&
+           touch_detach(t);
 }
 
 /* One look at the default device, where nobody in this process has one. */
@@ -214,7 +249,10 @@ static void list_default(knurl_listings *listings) {
 
 static void touch_list(knurl_listings *listings) {
     uint32_t open = 0;
-    lock();
+    if (lock()) {
+        knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
+        return;
+    }
     for (int i = 0; i < TOUCH_ROOM; i++) {
         const touch *t = touch_slots[i].owner;
         if (t) {

@@ -18,7 +18,11 @@ static const char udev_help[] =
     "--reload' and 'udevadm trigger', and plug it in again";
 #endif
 
+/* How long the forces of other devices are waited for before the scheduler is paused, ns. */
+#define PAUSE_NS 20000000
+
 static uint32_t users; /* devices for which the scheduler runs */
+uint32_t touch_is_paused;
 
 int touch_detach(touch *t) {
     const int64_t until = knurl_system_now_ns() + PATIENCE_NS;
@@ -91,6 +95,7 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
         handle = hd->init(name[0] ? name : defaults[i]);
         const uint32_t told = touch_take_errors(hd, NULL);
         *code = *code ? *code : told; /* the first name's */
+        handle = handle <= HD_DEVICE_MOST ? handle : HD_NO_DEVICE;
         if (handle != HD_NO_DEVICE && touch_find_slot(handle)) {
             *code = 0x0301;
             return HD_NO_DEVICE; /* another of ours: nothing to give back */
@@ -136,17 +141,49 @@ static uint32_t HD_CALL switch_off(void *user) {
     return HD_DONE;
 }
 
+/* OpenHaptics' documents do not say whether hdInitDevice() may be called while the scheduler runs; SOFA stops it first.
+ * So does this: the forces of the others go to zero before, and come back by their loops' ramps. */
+static int pause_scheduler(touch *t) {
+    const int64_t until = knurl_system_now_ns() + PAUSE_NS;
+    if (users == 0) {
+        return 0;
+    }
+    for (int i = 0; i < TOUCH_ROOM; i++) {
+        touch *other = touch_slots[i].owner;
+        if (other && other != t) {
+            knurl_device_halt(&other->base);
+            while (!knurl_load_acquire(&other->base.quiet) && knurl_system_now_ns() < until) {
+                knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
+            }
+        }
+    }
+    knurl_store_release(&touch_is_paused, 1u);
+    t->hd->stop_scheduler();
+    return 1;
+}
+
+static void resume_scheduler(const touch *t) {
+    t->hd->start_scheduler();
+    knurl_store_release(&touch_is_paused, 0u);
+}
+
 knurl_result touch_connect(touch *t) {
     uint32_t code = 0;
+    const int was_running = pause_scheduler(t);
     t->handle = initialise(t->hd, t->name, &code);
     if (t->handle != HD_NO_DEVICE) {
-        in_turn(t, prepare);
+        (void)prepare(t);
         code = t->trouble;
-        if (!code) {
-            return KNURL_OK;
+        if (code) {
+            t->hd->disable_device(t->handle);
+            t->handle = HD_NO_DEVICE;
         }
-        t->hd->disable_device(t->handle);
-        t->handle = HD_NO_DEVICE;
+    }
+    if (was_running) {
+        resume_scheduler(t);
+    }
+    if (t->handle != HD_NO_DEVICE) {
+        return KNURL_OK;
     }
     const int unreachable = code == 0 || (code >= 0x0300 && code != 0x0301 && code < 0x0400);
     return knurl_fail(unreachable ? KNURL_ERROR_DEVICE_LOST : KNURL_ERROR_SYSTEM,

@@ -63,6 +63,9 @@ knurl_result touch_write(knurl_device *device, const double force[3]);
  * Returns the oldest that is not another's, 0: there is none. [any thread] */
 uint32_t touch_take_errors(const hd_api *hd, touch_slot *own);
 
+/* 1: the scheduler stands still because another device is being opened. Atomic. */
+extern uint32_t touch_is_paused;
+
 /* touch_info.c: asks what the device is, for info and title; current, and not in a frame. */
 void touch_ask_info(touch *t);
 

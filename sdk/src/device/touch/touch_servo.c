@@ -6,6 +6,7 @@
 #include "base/atomic.h"
 #include "base/system.h"
 #include "base/vec3.h"
+#include "device/quaternion.h"
 
 #include <string.h>
 
@@ -66,10 +67,12 @@ static void keep_calibration(touch *t) {
  * whatever thread: then what was read was perhaps that one's, and is read again. */
 static void read_frame(touch *t) {
     double position[3] = {NAN, NAN, NAN};
+    double transform[16] = {0.0};
     int32_t buttons = 0;
     for (int attempt = 0; attempt < 2; attempt++) {
         t->hd->get_doubles(HD_POSITION, position);
         t->hd->get_integers(HD_BUTTONS, &buttons);
+        t->hd->get_doubles(HD_TRANSFORM, transform);
         if (t->hd->current() == t->handle) {
             break;
         }
@@ -78,6 +81,7 @@ static void read_frame(touch *t) {
     memset(&t->sample, 0, sizeof t->sample);
     vec3_scale(1e-3, position, t->sample.position);
     t->sample.buttons = (uint32_t)buttons;
+    quaternion_from_axes(&transform[0], &transform[4], &transform[8], t->sample.orientation);
     memset(t->force, 0, sizeof t->force); /* a tick that writes nothing leaves no force */
 }
 
