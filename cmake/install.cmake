@@ -1,0 +1,54 @@
+# What `cmake --install` puts where: libraries (component runtime), headers and what finds them (dev), the tool and the
+# rules for devices (tool). Everything finds the rest relative to itself: an installed tree can be moved.
+include(CMakePackageConfigHelpers)
+set(_package ${CMAKE_INSTALL_LIBDIR}/cmake/knurl)
+set(_libraries knurl)
+if(KNURL_GLTF)
+  list(APPEND _libraries knurl_gltf)
+  set_target_properties(knurl_gltf PROPERTIES EXPORT_NAME gltf)
+endif()
+# For pkg-config: the prefix from where its files are, and what static libraries need besides.
+file(RELATIVE_PATH KNURL_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+if(NOT BUILD_SHARED_LIBS)
+  set(KNURL_PC_LIBS " -lm -pthread")
+  set(KNURL_PC_CXX_LIBS " -lstdc++")
+  if(WIN32)
+    string(APPEND KNURL_PC_LIBS " -lwinmm")
+    set(KNURL_PC_DEFINES " -DKNURL_STATIC")
+  elseif(CMAKE_DL_LIBS)
+    string(APPEND KNURL_PC_LIBS " -l${CMAKE_DL_LIBS}")
+  endif()
+endif()
+foreach(library ${_libraries})
+  install(TARGETS ${library} EXPORT ${library}
+    RUNTIME COMPONENT runtime
+    LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+    ARCHIVE COMPONENT dev)
+  install(EXPORT ${library} NAMESPACE knurl:: FILE ${library}-targets.cmake DESTINATION ${_package} COMPONENT dev)
+  set_target_properties(${library} PROPERTIES INSTALL_RPATH $ORIGIN)
+  configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${library}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endforeach()
+install(DIRECTORY sdk/include/knurl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+
+configure_package_config_file(cmake/knurl-config.cmake.in knurl-config.cmake INSTALL_DESTINATION ${_package}
+  NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(knurl-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/knurl-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/knurl-config-version.cmake
+  DESTINATION ${_package} COMPONENT dev)
+install(FILES LICENSE README.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
+if(TARGET knurl_tool)
+  file(RELATIVE_PATH _up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  foreach(program knurl_tool knurl_study_tool) # the tool runs the other one
+    if(TARGET ${program})
+      if(BUILD_SHARED_LIBS)
+        set_target_properties(${program} PROPERTIES INSTALL_RPATH $ORIGIN/${_up})
+      endif()
+      install(TARGETS ${program} RUNTIME COMPONENT tool OPTIONAL)
+    endif()
+  endforeach()
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    install(FILES sdk/udev/70-knurl.rules DESTINATION lib/udev/rules.d COMPONENT tool)
+  endif()
+endif()

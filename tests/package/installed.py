@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""Builds and installs Knurl as others do, moves the tree, and builds consumers against it: C and C++, by find_package()
+and by pkg-config; shared, static, and the core alone without a C++ compiler.
+usage: installed.py SOURCE FOLDER C_COMPILER CXX_COMPILER     FOLDER is kept for the next time.
+SPDX-License-Identifier: MIT"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+SOURCE, FOLDER, CC, CXX = sys.argv[1:]
+CONSUMER = os.path.join(SOURCE, "tests/package/consumer")
+SCENE = os.path.join(SOURCE, "assets/plate_1d.glb")
+
+
+def run(*command, env=None, fails=False):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
+                          env={**os.environ, **(env or {})})
+    if (done.returncode != 0) != fails:
+        sys.exit(f"installed: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
+    return done.stdout
+
+
+def check(what, good):
+    print(f"installed: {'ok  ' if good else 'FAIL'} {what}")
+    if not good:
+        sys.exit(1)
+
+
+def install(name, targets, *options):
+    """Configures, builds, installs and moves; returns where to."""
+    build, first, prefix = (os.path.join(FOLDER, name + part) for part in (".build", ".first", ""))
+    run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
+        "-DCMAKE_C_FLAGS_RELEASE=-O2", "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF",
+        "-DKNURL_UNITY=OFF", f"-DCMAKE_INSTALL_PREFIX={first}", "-DCMAKE_INSTALL_LIBDIR=lib", *options)
+    run("cmake", "--build", build, "--target", *targets)
+    for path in (first, prefix):
+        shutil.rmtree(path, ignore_errors=True)
+    for component in ("runtime", "dev") + (("tool",) if "knurl_tool" in targets else ()):
+        run("cmake", "--install", build, "--component", component)
+    os.rename(first, prefix)
+    return prefix
+
+
+def configure_consumer(prefix, *options, fails=False):
+    shutil.rmtree(prefix + ".consumer", ignore_errors=True)
+    return run("cmake", "-G", "Ninja", "-S", CONSUMER, "-B", prefix + ".consumer", f"-DCMAKE_PREFIX_PATH={prefix}",
+               f"-DCMAKE_C_COMPILER={CC}", *options, fails=fails)
+
+
+def check_programs(prefix, folder, programs, kind, version):
+    env = {"LD_LIBRARY_PATH": os.path.join(prefix, "lib") if kind == "pkg-config" else ""}
+    output = run(os.path.join(folder, "plate"), env=env)
+    check(f"{os.path.basename(prefix)}, {kind}, C: {output.strip()}", output == f"0.400000 N, knurl {version}\n")
+    if "scene" in programs:
+        output = run(os.path.join(folder, "scene"), SCENE, env=env)
+        check(f"{os.path.basename(prefix)}, {kind}, C++: {output.strip()}", output.startswith("3 surfaces, "))
+
+
+def check_pkg_config(prefix, programs, version):
+    env = {"PKG_CONFIG_PATH": os.path.join(prefix, "lib/pkgconfig")}
+    folder = prefix + ".pkg-config"
+    os.makedirs(folder, exist_ok=True)
+    for program in programs:
+        package, compiler, source = (("knurl", CC, "plate.c"), ("knurl_gltf", CXX, "scene.cpp"))[program == "scene"]
+        flags = run("pkg-config", "--cflags", "--libs", package, env=env).split()
+        run(compiler, os.path.join(CONSUMER, source), "-o", os.path.join(folder, program), *flags, "-lm")
+    check_programs(prefix, folder, programs, "pkg-config", version)
+
+
+def check_tree(prefix, programs, version, *options):
+    configure_consumer(prefix, f"-DWANTED={version}", *options)
+    run("cmake", "--build", prefix + ".consumer")
+    check_programs(prefix, prefix + ".consumer", programs, "find_package", version)
+    check_pkg_config(prefix, programs, version)
+    said = configure_consumer(prefix, "-DWANTED=99.0", *options, fails=True)
+    check(f"{os.path.basename(prefix)}: another version is not found", "99.0" in said)
+
+
+def check_exports(prefix):
+    """Only what the headers declare can be seen from outside."""
+    folder = os.path.join(prefix, "lib")
+    for library in ("libknurl.so", "libknurl_gltf.so"):
+        path = os.path.join(folder, library)
+        names = [line.split()[-1] for line in run("nm", "--dynamic", "--defined-only", path).splitlines()]
+        strangers = [name for name in names if not name.startswith("knurl_")]
+        check(f"{library} exports {len(names)} functions of ours, and {strangers}", names and not strangers)
+        soname = re.search(r"SONAME.*\[(.*)\]", run("readelf", "--dynamic", path)).group(1)
+        check(f"{library} is {soname}", os.path.exists(os.path.join(folder, soname)))
+
+
+def main():
+    os.makedirs(FOLDER, exist_ok=True)
+    with open(os.path.join(SOURCE, "sdk/include/knurl/base.h"), encoding="utf-8") as header:
+        version = ".".join(re.findall(r"#define KNURL_VERSION_[A-Z]+ (\d+)", header.read()))
+    libraries, both = ("knurl", "knurl_gltf"), ("plate", "scene")
+    with_gltf = ("-DGLTF=ON", f"-DCMAKE_CXX_COMPILER={CXX}")
+
+    prefix = install("shared", libraries + ("knurl_tool",), "-DBUILD_SHARED_LIBS=ON", f"-DCMAKE_CXX_COMPILER={CXX}")
+    check_exports(prefix)
+    check_tree(prefix, both, version, *with_gltf)
+    said = run(os.path.join(prefix, "bin/knurl"), "--version", env={"LD_LIBRARY_PATH": ""})
+    check(f"the tool runs where it was moved to: {said.strip()}", said == f"knurl {version}\n")
+
+    prefix = install("static", libraries, f"-DCMAKE_CXX_COMPILER={CXX}")
+    check_tree(prefix, both, version, *with_gltf)
+
+    prefix = install("core", libraries[:1], "-DKNURL_GLTF=OFF", "-DCMAKE_CXX_COMPILER=/bin/false")
+    check_tree(prefix, both[:1], version, "-DCMAKE_CXX_COMPILER=/bin/false")
+    said = configure_consumer(prefix, f"-DWANTED={version}", *with_gltf, fails=True)
+    check("core: the loader, which is not there, is told to be missing", "without its component gltf" in said)
+
+
+main()
