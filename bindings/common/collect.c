@@ -186,8 +186,9 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
     memset(&counts, 0, sizeof counts);
     if (look(session, &sent)) {
         (void)knurl_scene_get_tick(session->scene, 0, NULL, &counts);
-        memcpy(state->hip, sent.hip, sizeof state->hip);
-        memcpy(state->proxy, sent.proxy, sizeof state->proxy);
+        const int stays = sent.tick <= session->clutch_tick;
+        memcpy(state->hip, stays ? session->clutched_at : sent.hip, sizeof state->hip);
+        memcpy(state->proxy, stays ? session->clutched_at : sent.proxy, sizeof state->proxy);
         memcpy(state->force, sent.force, sizeof state->force);
         memcpy(state->velocity, sent.velocity, sizeof state->velocity);
         memcpy(state->impulse, sent.impulse, sizeof state->impulse);

@@ -69,6 +69,7 @@ knurl_result knurl_session_create(knurl_session **session) {
         return result;
     }
     made->handle = KNURL_HANDLE_SESSION;
+    made->gain = 1.0;
     enter(made);
     *session = made;
     return KNURL_OK;

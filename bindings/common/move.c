@@ -2,6 +2,7 @@
 #include "parts.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /* m/s: what moves faster is put there, and not dragged through what it passes. */
@@ -29,16 +30,13 @@ knurl_result knurl_session_move_hip(knurl_session *session, const double positio
     return KNURL_OK;
 }
 
-knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface, knurl_session_way *way,
-                                        const double position[3], const double rotation[4]) {
-    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(way) || KNURL_IS_NULL(position) ||
-        KNURL_IS_NULL(rotation)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    if (way->clock >= KNURL_SESSION_CLOCKS) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "way.clock: expected 0 (frames) or 1 (steps), found %u",
-                          (unsigned)way->clock);
-    }
+static knurl_result fail_clock(const char *name, uint32_t clock) {
+    return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected 0 (frames) or 1 (steps), found %u", name, (unsigned)clock);
+}
+
+/* How long a move to a position takes: s; 0: a leap. *next: the way after it. */
+static double plan_move(const knurl_session *session, const knurl_session_way *way, const double position[3],
+                        knurl_session_way *next) {
     knurl_board_tick sent;
     knurl_session_pace pace = {0.0, 0.0, 0.0};
     double length = 0.0;
@@ -51,15 +49,60 @@ knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id
     for (int i = 0; i < 3; i++) {
         length += (position[i] - way->position[i]) * (position[i] - way->position[i]);
     }
+    *next = *way;
+    next->tick = sent.tick;
+    memcpy(next->position, position, sizeof next->position);
+    next->time = session->clocks[way->clock].time;
+    next->lag = pace.lag;
+    next->moved = (uint32_t)is_paced;
     const double step = pace.step > LONGEST ? FIRST_MOVE : fmax(pace.step, FIRST_MOVE);
-    const double seconds = sqrt(length) > FASTEST * step ? 0.0 : pace.seconds;
+    return sqrt(length) > FASTEST * step ? 0.0 : pace.seconds;
+}
+
+knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface, knurl_session_way *way,
+                                        const double position[3], const double rotation[4]) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(way) || KNURL_IS_NULL(position) ||
+        KNURL_IS_NULL(rotation)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    if (way->clock >= KNURL_SESSION_CLOCKS) {
+        return fail_clock("way.clock", way->clock);
+    }
+    knurl_session_way next;
+    const double seconds = plan_move(session, way, position, &next);
     const knurl_result result = knurl_scene_set_transform(session->scene, surface, position, rotation, seconds);
     if (!result) {
-        way->tick = sent.tick;
-        memcpy(way->position, position, sizeof way->position);
-        way->time = session->clocks[way->clock].time;
-        way->lag = pace.lag;
-        way->moved = (uint32_t)is_paced;
+        *way = next;
+    }
+    return result;
+}
+
+knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock, const double position[3],
+                                          const double rotation[9]) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    if (clock >= KNURL_SESSION_CLOCKS) {
+        return fail_clock("clock", clock);
+    }
+    knurl_result result = knurl_session_check_run(session);
+    if (result) {
+        return result;
+    }
+    knurl_session_way next;
+    knurl_workspace to = session->desc.workspace;
+    session->way.clock = clock;
+    const double seconds = plan_move(session, &session->way, position, &next);
+    for (int i = 0; i < 3; i++) {
+        const double *row = rotation + (ptrdiff_t)3 * i;
+        to.origin[i] =
+            position[i] + row[0] * session->shift[0] + row[1] * session->shift[1] + row[2] * session->shift[2];
+    }
+    memcpy(to.rotation, rotation, sizeof to.rotation);
+    result = knurl_scene_set_workspace(session->scene, 0, &to, seconds);
+    if (!result) {
+        session->desc.workspace = to;
+        session->way = next;
     }
     return result;
 }

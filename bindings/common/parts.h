@@ -31,7 +31,13 @@ struct knurl_session {
     int32_t stroke; /* KNURL_STROKE_, or 0: none */
     uint32_t is_fake;
     uint32_t paused;
-    uint32_t runs; /* 1: the haptic thread was started, and was not seen to have ended */
+    double gain;
+    uint32_t is_clutched;
+    double clutched_at[3]; /* m, scene: where the HIP stays meanwhile */
+    uint64_t clutch_tick;  /* up to this tick the HIP is told to be there */
+    double shift[3];       /* m, workspace axes: how far clutches have moved the workspace off its node */
+    knurl_session_way way; /* the workspace's; its position is the node's */
+    uint32_t runs;         /* 1: the haptic thread was started, and was not seen to have ended */
     /* what the latest update found, for knurl_session_next_event() */
     knurl_surface_id
         touches[KNURL_SESSION_TOUCHES]; /* a ring: what was touched after one another, with 0 for nothing */
@@ -57,6 +63,9 @@ typedef struct knurl_session_pace {
     double step;    /* s: what it is the motion of */
     double lag;     /* s: of the way from now on */
 } knurl_session_pace;
+
+/* force.c: KNURL_OK, or KNURL_ERROR_STATE where it was neither started nor played. */
+knurl_result knurl_session_check_run(const knurl_session *session);
 
 /* clock.c: the pace of what moves now by the way's clock: 1, or 0 where nobody has told that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);

@@ -89,6 +89,7 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     if (!result) {
         session->desc = *desc;
         session->desc.device = session->desc.stroke = NULL; /* the caller's, and looked at */
+        memcpy(session->way.position, desc->workspace.origin, sizeof session->way.position);
         session->is_fake = is_fake;
         session->stroke = stroke;
     }
@@ -144,6 +145,7 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
     result = result ? result : make_loop(session, session->desc.heartbeat_s);
     if (!result) {
         knurl_session_set_paused(session, session->paused);
+        (void)knurl_loop_set_gain(session->loop, session->gain);
         result = knurl_loop_start(session->loop);
     }
     if (!result) {
@@ -159,7 +161,7 @@ void knurl_session_set_paused(knurl_session *session, uint32_t paused) {
         return;
     }
     session->paused = paused != 0;
-    if (session->loop && session->paused) {
+    if (session->loop && (session->paused || session->is_clutched)) {
         knurl_loop_pause(session->loop);
     } else if (session->loop) {
         knurl_loop_resume(session->loop);
@@ -220,6 +222,10 @@ void knurl_session_close(knurl_session *session) {
     session->runs = session->is_fake = 0;
     memset(&session->board, 0, sizeof session->board);
     memset(session->clocks, 0, sizeof session->clocks);
+    memset(&session->way, 0, sizeof session->way);
+    memset(session->shift, 0, sizeof session->shift);
+    session->is_clutched = 0;
+    session->clutch_tick = 0;
     session->mouse = NULL;
     knurl_session_forget(session);
 }

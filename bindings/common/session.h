@@ -169,6 +169,29 @@ KNURL_API uint32_t knurl_session_get_history(const knurl_session *session, uint3
  * KNURL_ERROR_STATE (another device, or none), KNURL_ERROR_ARGUMENT (not finite). [game thread] */
 KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]);
 
+/** Moves a running session's workspace along with the engine's node: as surfaces are, see knurl_session_move_surface(),
+ * so that a HIP is carried through what is in its way; or as a leap where it is faster than 10 m/s: then what lies in
+ * between is not touched. clock: what moves it. position: m; rotation: row-major, as knurl_workspace's. Errors:
+ * KNURL_ERROR_STATE (it does not run), those of knurl_scene_set_workspace(), KNURL_ERROR_ARGUMENT (clock). [game
+ * thread] */
+KNURL_API knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock, const double position[3],
+                                                    const double rotation[9]);
+
+/** 1: nothing is felt, and the HIP stays where it is in the scene, while the hand moves its device elsewhere; 0: the
+ * HIP follows the hand again, from where it stayed, and walls come back as after a pause. Errors: KNURL_ERROR_STATE (it
+ * does not run). [game thread] */
+KNURL_API knurl_result knurl_session_set_clutch(knurl_session *session, uint32_t on);
+
+/** See knurl_loop_set_gain(). It counts for this run and for later ones, until it is set anew; 1 before. Errors:
+ * KNURL_ERROR_ARGUMENT. [game thread] */
+KNURL_API knurl_result knurl_session_set_gain(knurl_session *session, double gain);
+
+/** See knurl_loop_set_force() and knurl_loop_vibrate(); until the run ends. Errors: theirs, KNURL_ERROR_STATE (it does
+ * not run). [game thread] */
+KNURL_API knurl_result knurl_session_set_force(knurl_session *session, const double force[3]);
+KNURL_API knurl_result knurl_session_vibrate(knurl_session *session, int32_t method, double frequency_hz,
+                                             double amplitude, const double direction[3], double seconds);
+
 /** Tells how far one of the engine's clocks has come, once a frame, before surfaces are moved. clock:
  * KNURL_SESSION_FRAMES: the sum of the frames' lengths, as objects that are moved in frames are given them; or _STEPS:
  * the physics steps so far times their length. seconds: in real time, that is, divided by a time scale. Surfaces are

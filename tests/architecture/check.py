@@ -23,7 +23,7 @@ ROOMS = {
     "device": {"base"},
     "scene": {"base", "grating", "motion", "contact"},
     "audio": {"base", "scene"},  # of the scene what a tick tells
-    "loop": {"base", "scene", "device", "motion"},  # a HIP's workspace is motion's
+    "loop": {"base", "scene", "device", "motion", "vibration"},  # workspaces are motion's; games add vibrations
     "gltf": {"scene", "grating", "contact"},
 }
 # Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.

@@ -29,7 +29,7 @@ BOXES = {
     "edits": (330, 206, 180, "edits, questions", "from other threads",
               ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info",
                "scene/walk"]),
-    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "scene/hip"]),
+    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "scene/hip", "scene/hip_workspace"]),
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["scene/broad_phase"]),
     "candidates": (363, 372, 108, "candidates", "what may be met", ["scene/candidates", "scene/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["scene/contact_update"]),

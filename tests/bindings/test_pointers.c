@@ -38,7 +38,7 @@ typedef struct fixture {
     unsigned char file[65536];
     uint64_t file_size, count;
     int32_t number;
-    double vector[4], quaternion[4], matrix[12], rows[8], out[4], forces[12];
+    double vector[4], axis[4], quaternion[4], matrix[12], rows[8], out[4], forces[12];
     float history[2];
     char text[256];
 } fixture;
@@ -172,7 +172,7 @@ static void destroy_some(fixture *f) {
 
 static void make(fixture *f) {
     memset(f, 0, sizeof *f);
-    f->quaternion[3] = f->matrix[0] = f->matrix[5] = f->matrix[10] = 1.0;
+    f->axis[0] = f->quaternion[3] = f->matrix[0] = f->matrix[5] = f->matrix[10] = 1.0;
     f->rows[4] = 1.0;
     f->number = 1;
     fill_structs(f);

@@ -20,9 +20,9 @@ func press(at: Vector3) -> float:
 	return forces[1198] if forces.size() == 1200 else NAN
 
 
-func holds(what: String, s: Node3D, at: Vector3, expected := 0.4) -> void:
+func holds(what: String, s: Node3D, at: Vector3, expected := 0.4, tolerance := 1e-3) -> void:
 	check("%s has nothing to say" % what, s.get_warnings().is_empty(), s.get_warnings())
-	check_near("%s is felt" % what, press(at), expected, 1e-3)
+	check_near("%s is felt" % what, press(at), expected, tolerance)
 
 
 func tests() -> void:
@@ -78,7 +78,30 @@ func tests() -> void:
 	d.stop()
 	clear()
 
-	for row: Array in [[CollisionShape3D.new(), "only a ConcavePolygonShape3D"], [Label3D.new(), "Its parent is a Label3D"],
+	var box := BoxShape3D.new()
+	box.size = Vector3(0.1, 0.02, 0.1)
+	var ball := SphereShape3D.new()
+	ball.radius = 0.02
+	var rod := CylinderShape3D.new()
+	rod.radius = 0.02
+	rod.height = 0.04
+	var pill := CapsuleShape3D.new()
+	pill.radius = 0.02
+	pill.height = 0.08
+	for row: Array in [[box, 0.01], [ball, 0.02], [rod, 0.02], [pill, 0.04]]:
+		var holder := CollisionShape3D.new()
+		holder.shape = row[0]
+		root.add_child(holder)
+		holds("a %s" % row[0].get_class(), surface_below(holder), Vector3(0, row[1] - 0.001, 0), 0.4, 4e-3) # a round mesh has corners
+		clear()
+
+	var convex := CollisionShape3D.new()
+	convex.shape = plate().create_convex_shape()
+	root.add_child(convex)
+	check("a convex shape is refused", "ConvexPolygonShape3D: expected a box" in " ".join(surface_below(convex).get_warnings()))
+	clear()
+
+	for row: Array in [[CollisionShape3D.new(), "ConcavePolygonShape3D"], [Label3D.new(), "Its parent is a Label3D"],
 			[MultiMeshInstance3D.new(), "no multimesh"], [Node3D.new(), "Its parent is a Node3D"]]:
 		root.add_child(row[0])
 		var s := surface_below(row[0])

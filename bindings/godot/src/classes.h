@@ -5,6 +5,8 @@
 
 #include "api.h"
 
+enum { GD_MOST_ARGUMENTS = 5 };
+
 typedef struct gd_class gd_class;
 
 /* First member of every instance's own struct. */
@@ -43,7 +45,7 @@ typedef struct gd_method_row {
     GDExtensionVariantType result; /* NIL: none */
     gd_function call;
     uint32_t argument_count;
-    gd_argument arguments[2];
+    gd_argument arguments[GD_MOST_ARGUMENTS];
 } gd_method_row;
 
 typedef struct gd_signal_row {
@@ -75,7 +77,7 @@ struct gd_class {
     uint32_t constant_count;
 };
 
-enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_RESOURCE_TYPE = 17 };
+enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_FLAGS = 6, GD_HINT_RESOURCE_TYPE = 17 };
 
 enum {
     GD_PREDELETE = 1,

@@ -1,11 +1,11 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
 #include "device.h"
 
-#include "describe.h"
 #include "explain.h"
 #include "follow.h"
 #include "serve.h"
 #include "signals.h"
+#include "surface_node.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -65,7 +65,7 @@ static knurl_result take_slot(device *d) {
 /* Where the node stands, the workspace is; its scale is a property, not the node's. */
 static knurl_result place(device *d) {
     knurl_session_pose at;
-    if (!describe_pose(d->base.object, &at)) {
+    if (!node_pose(d->base.object, &at)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "expected a transform with axes, found one that is scaled to nothing");
     }
     knurl_workspace_init(&d->workspace);
@@ -91,6 +91,13 @@ static knurl_result open_session(device *d) {
     return knurl_session_open(d->session, &desc);
 }
 
+void device_put_surfaces(device *d) {
+    for (surface *s = surfaces; s; s = s->next) {
+        follow_put(d, s);
+    }
+    follow_count_failures(d);
+}
+
 knurl_result device_prepare(device *d) {
     uint8_t is_inside = 0;
     gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
@@ -101,10 +108,9 @@ knurl_result device_prepare(device *d) {
     result = result ? result : place(d);
     result = result ? result : device_make_session(d);
     result = result ? result : open_session(d);
-    for (surface *s = result ? NULL : surfaces; s; s = s->next) {
-        follow_put(d, s);
+    if (!result) {
+        device_put_surfaces(d);
     }
-    follow_count_failures(d);
     d->gratings_seen = grating_changes;
     return result;
 }
@@ -130,15 +136,26 @@ void device_release(device *d) {
     }
 }
 
+void device_apply_force(const device *d) {
+    const double force[3] = {(double)d->added_force[0], (double)d->added_force[1], (double)d->added_force[2]};
+    if (d->runs && knurl_session_set_force(d->session, force)) {
+        (void)device_fail("KnurlDevice.added_force", KNURL_ERROR_ARGUMENT);
+    }
+}
+
 /* Opens and runs. warning: 512 bytes. */
 static knurl_result run(device *d, char *warning) {
     knurl_result result = device_prepare(d);
     if (!result) {
         knurl_session_set_paused(d->session, d->paused || d->tree_paused);
+        (void)knurl_session_set_gain(d->session, d->gain);
     }
     result = result ? result : knurl_session_start(d->session, warning, 512);
     if (!result) {
         d->runs = 1;
+        d->moved = 0;
+        device_apply_force(d);
+        (void)knurl_session_set_clutch(d->session, d->clutch);
         d->ridges = 0.0;
         memset(d->impulse, 0, sizeof d->impulse);
         explain_start();
@@ -219,7 +236,7 @@ static void tell_time(device *d) {
 /* What is touched gets the opposite of the forces that the hand got since the last frame, as its body's impulse. */
 static void react(device *d, const knurl_session_state *state) {
     const surface *s = d->touched_node ? gd_instance_of(d->touched_node, &surface_class) : NULL;
-    GDExtensionObjectPtr body = s && s->reaction ? describe_parent(s) : NULL;
+    GDExtensionObjectPtr body = s && s->reaction ? surface_parent(s) : NULL;
     float impulse[3];
     float arm[3];
     knurl_session_pose at;
@@ -228,7 +245,7 @@ static void react(device *d, const knurl_session_state *state) {
         gd_call(gd_method.Node_get_parent, body, NULL, &parent);
         body = parent;
     }
-    if (body && describe_pose(body, &at)) {
+    if (body && node_pose(body, &at)) {
         for (int i = 0; i < 3; i++) {
             impulse[i] = (float)(d->impulse[i] - state->impulse[i]);
             arm[i] = (float)(state->proxy[i] - at.position[i]);
@@ -239,6 +256,18 @@ static void react(device *d, const knurl_session_state *state) {
         gd.variant_destroy(&result);
     }
     memcpy(d->impulse, state->impulse, sizeof d->impulse);
+}
+
+/* The workspace goes where its node went. */
+static void move_workspace(device *d) {
+    knurl_session_pose at;
+    if (d->moved && node_pose(d->base.object, &at) &&
+        !knurl_session_move_workspace(d->session, d->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES,
+                                      at.position, at.rotation)) {
+        memcpy(d->workspace.origin, at.position, sizeof at.position);
+        memcpy(d->workspace.rotation, at.rotation, sizeof at.rotation);
+    }
+    d->moved = 0;
 }
 
 static void tell_state(device *d) {
@@ -259,6 +288,7 @@ void device_process(device *d) {
     }
     if (d->runs) {
         tell_time(d);
+        move_workspace(d);
         follow_all(d);
         knurl_session_update(d->session);
         tell_state(d);

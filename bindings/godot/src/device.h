@@ -16,6 +16,12 @@ knurl_result device_make_session(device *d);
 knurl_result device_prepare(device *d);
 void device_release(device *d);
 
+/* All surfaces as they are now into an opened session's scene, or out of it. */
+void device_put_surfaces(device *d);
+
+/* What it adds to its surfaces' forces, as its properties have it. */
+void device_apply_force(const device *d);
+
 /* Pushes knurl_error_message() as an error; the engine's Error of a result. */
 int64_t device_fail(const char *where, knurl_result result);
 

@@ -1,11 +1,12 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "explain.h"
-#include "said.h"
 #include "status.h"
 #include "trace.h"
+#include "warnings.h"
 
 #include <knurl/gltf.h>
+#include <knurl/vibration.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +24,8 @@ static int init(void *self) {
     d->uri = copy("fake");
     d->stroke = copy("");
     d->rate = 1000.0;
-    d->workspace_scale = 1.0;
+    d->workspace_scale = d->gain = 1.0;
+    d->layers = 1;
     d->autostart = d->reconnect = d->clamp = 1;
     d->slot = -1;
     return d->uri && d->stroke;
@@ -51,8 +53,34 @@ static void pause(void *self) {
 static void explain_anew(void *self) {
     const device *d = self;
     if (gd_is_in_editor()) {
-        said_again(&d->base);
-        said_all_again();
+        warnings_refresh(&d->base);
+        warnings_refresh_all();
+    }
+}
+
+static void change_gain(void *self) {
+    const device *d = self;
+    if (d->session) {
+        (void)knurl_session_set_gain(d->session, d->gain);
+    }
+}
+
+static void change_force(void *self) {
+    device_apply_force(self);
+}
+
+static void change_clutch(void *self) {
+    const device *d = self;
+    if (d->runs) {
+        (void)knurl_session_set_clutch(d->session, d->clutch);
+    }
+}
+
+static void change_layers(void *self) {
+    device *d = self;
+    explain_anew(d);
+    if (d->runs) {
+        device_put_surfaces(d);
     }
 }
 
@@ -78,7 +106,7 @@ static void get_warnings(void *self, const void *const *arguments, void *result)
     char text[512];
     (void)arguments;
     explain_device(self, text, sizeof text);
-    said_give(text, result);
+    warnings_append(text, result);
 }
 
 static void notify(void *self, int32_t what) {
@@ -98,6 +126,8 @@ static void notify(void *self, int32_t what) {
         device_stop(d);
         break;
     case GD_TRANSFORM_CHANGED:
+        d->moved = 1;
+        gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &d->by_physics);
         explain_anew(d);
         break;
     case GD_PAUSED:
@@ -220,6 +250,24 @@ static void move_hip(void *self, const void *const *arguments, void *result) {
     }
 }
 
+static void vibrate(void *self, const void *const *arguments, void *result) {
+    device *d = self;
+    int64_t method;
+    double numbers[3]; /* Hz, N, s */
+    const float *given = arguments[4];
+    const double direction[3] = {(double)given[0], (double)given[1], (double)given[2]};
+    (void)result;
+    memcpy(&method, arguments[0], sizeof method);
+    for (int i = 0; i < 3; i++) {
+        memcpy(&numbers[i], arguments[1 + i], sizeof numbers[i]);
+    }
+    const knurl_result failed = device_make_session(d) || knurl_session_vibrate(d->session, (int32_t)method, numbers[0],
+                                                                                numbers[1], direction, numbers[2]);
+    if (failed) {
+        (void)device_fail("KnurlDevice.vibrate", KNURL_ERROR_ARGUMENT);
+    }
+}
+
 static void get_history(void *self, const void *const *arguments, void *result) {
     const device *d = self;
     int64_t count;
@@ -290,6 +338,11 @@ static const gd_property properties[] = {
      .hint = GD_HINT_ENUM,
      .hints = ",line,sweep,circle,press,rest"},
     {.name = "paused", .type = BOOL, .offset = offsetof(device, paused), .changed = pause},
+    {"gain", FLOAT, offsetof(device, gain), 0.0, 1.0, 0.01, NULL, 0, NULL, NULL, change_gain},
+    {.name = "added_force", .type = VECTOR3, .offset = offsetof(device, added_force), .changed = change_force},
+    {.name = "clutch", .type = BOOL, .offset = offsetof(device, clutch), .changed = change_clutch},
+    {"layers", INT, offsetof(device, layers), 0.0, 255.0, 1.0, "1,2,3,4,5,6,7,8", GD_HINT_FLAGS, NULL, NULL,
+     change_layers},
     {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},
     {.name = "proxy_position", .type = VECTOR3, .get = get_proxy_position},
     {.name = "force", .type = VECTOR3, .get = get_force},
@@ -312,6 +365,15 @@ static const gd_method_row methods[] = {
     {"get_touched_surface", OBJECT, get_touched, 0, {{NULL}}},
     {"stop", NOTHING, stop, 0, {{NULL}}},
     {"move_hip", NOTHING, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
+    {"vibrate",
+     NOTHING,
+     vibrate,
+     5,
+     {{"method", INT, NULL},
+      {"frequency", FLOAT, NULL},
+      {"amplitude", FLOAT, NULL},
+      {"duration", FLOAT, NULL},
+      {"direction", VECTOR3, NULL}}},
     {"get_history", FLOATS, get_history, 1, {{"count", INT, NULL}}},
     {"load_gltf", INT, load_gltf, 1, {{"path", STRING, NULL}}},
     {"play_trace", DOUBLES, trace_play, 2, {{"rows", DOUBLES, NULL}, {"ticks", INT, NULL}}},
@@ -326,9 +388,11 @@ static const gd_signal_row signals[] = {
     {"fault", 2, {{"code", INT, NULL}, {"text", STRING, NULL}}},
 };
 
-static const gd_constant_row constants[] = {
+static const gd_constant_row constants[] = {{"Vibration", "VIBRATION_T1", KNURL_T1},
+                                            {"Vibration", "VIBRATION_T2", KNURL_T2},
+                                            {"Vibration", "VIBRATION_T3", KNURL_T3},
 #define FAULT_ROW(code, number, name, text, unit) {"Fault", &#code[sizeof "KNURL_" - 1], number},
-    KNURL_FAULTS(FAULT_ROW)
+                                            KNURL_FAULTS(FAULT_ROW)
 #undef FAULT_ROW
 };
 

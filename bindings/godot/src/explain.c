@@ -1,10 +1,10 @@
 /* Why surfaces cannot be felt, or not as asked for. SPDX-License-Identifier: MIT */
 #include "explain.h"
 
-#include "describe.h"
 #include "geometry.h"
 #include "preview.h"
-#include "said.h"
+#include "surface_node.h"
+#include "warnings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -94,10 +94,21 @@ static void say_world(const surface *s, const device *d, char *text, size_t size
     }
 }
 
+static void say_layers(const surface *s, char *text, size_t size) {
+    int is_on_any = placed_devices == NULL;
+    for (const device *d = placed_devices; d; d = d->next_placed) {
+        is_on_any |= surface_is_on_layer_of(s, d);
+    }
+    if (!is_on_any) {
+        say(text, size, "No KnurlDevice in the scene has one of its layers.");
+    }
+}
+
 /* What its nodes say. */
 static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
     say_away(s, text, size);
-    say_bends(describe_parent(s), text, size);
+    say_layers(s, text, size);
+    say_bends(surface_parent(s), text, size);
     say_scale(at, text, size);
     for (const device *d = placed_devices; d; d = d->next_placed) {
         say_world(s, d, text, size);
@@ -124,7 +135,7 @@ void explain_surface(surface *s, char *text, size_t size) {
     char why[4096];
     uint8_t is_inside = 0;
     knurl_session_pose at;
-    geometry_refuse(describe_parent(s), text, size);
+    geometry_refuse(surface_parent(s), text, size);
     const int has_shape = text[0] == '\0';
     gd_call(gd_method.Node_is_inside_tree, s->base.object, NULL, &is_inside);
     if (!s->grating) {
@@ -133,7 +144,7 @@ void explain_surface(surface *s, char *text, size_t size) {
     if (!is_inside) {
         return;
     }
-    if (!describe_pose(s->base.object, &at)) {
+    if (!node_pose(s->base.object, &at)) {
         say(text, size, "It is scaled to nothing.");
         return;
     }
@@ -163,7 +174,7 @@ void explain_device(const device *d, char *text, size_t size) {
         (void)snprintf(text, size, "Its device is '%s': expected auto, fake, touch, falcon, rawhid or mouse.", uri);
     }
     gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
-    if (is_inside && !describe_pose(d->base.object, &at)) {
+    if (is_inside && !node_pose(d->base.object, &at)) {
         say(text, size, "It is scaled to nothing: its workspace has no axes.");
     } else if (is_inside && fabs(at.rest[0] - 1.0) + fabs(at.rest[4] - 1.0) + fabs(at.rest[8] - 1.0) > 1e-3) {
         say(text, size, "Its node is scaled, which does not count: its workspace goes by workspace_scale.");
@@ -182,7 +193,7 @@ void explain_start(void) {
             const int length = (int)(end - line);
             end += *end == '\n';
             if (told++ < MOST_WARNINGS) {
-                gd_node_name(describe_parent(s), name, sizeof name);
+                gd_node_name(surface_parent(s), name, sizeof name);
                 gd_warning("KnurlSurface", "KnurlSurface of '%s': %.*s", name, length, line);
             }
         }

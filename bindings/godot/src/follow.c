@@ -1,9 +1,9 @@
 /* Surfaces follow their nodes into the scenes of running devices. SPDX-License-Identifier: MIT */
 #include "follow.h"
 
-#include "describe.h"
 #include "geometry.h"
-#include "said.h"
+#include "surface_node.h"
+#include "warnings.h"
 #include "watch.h"
 
 #include <stdio.h>
@@ -16,9 +16,9 @@ static void complain(device *d, surface *s) {
     char name[128];
     char sentence[1024];
     (void)snprintf(sentence, sizeof sentence, "It cannot be felt: %s.", knurl_error_message());
-    said_keep(s, sentence);
+    warnings_keep(s, sentence);
     if (d->failures++ < MOST_ERRORS) {
-        gd_node_name(describe_parent(s), name, sizeof name);
+        gd_node_name(surface_parent(s), name, sizeof name);
         gd_error("KnurlSurface", "KnurlSurface of '%s': %s", name, knurl_error_message());
     }
 }
@@ -33,7 +33,7 @@ void follow_count_failures(device *d) {
 
 static int can_be_felt(const surface *s) {
     char refusal[512];
-    geometry_refuse(describe_parent(s), refusal, sizeof refusal);
+    geometry_refuse(surface_parent(s), refusal, sizeof refusal);
     return s->enabled && s->grating && !s->is_leaving && !refusal[0];
 }
 
@@ -49,21 +49,21 @@ void follow_put(device *d, surface *s) {
     if (!s->is_leaving) {
         watch_mesh(s);
     }
-    if (!can_be_felt(s)) {
+    if (!can_be_felt(s) || !surface_is_on_layer_of(s, d)) {
         follow_remove(d, s);
         return;
     }
-    if (!describe_pose(s->base.object, &at)) {
+    if (!node_pose(s->base.object, &at)) {
         s->flat |= bit;
         follow_remove(d, s);
         return;
     }
-    if (describe_surface(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
+    if (surface_put(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
         complain(d, s);
         follow_remove(d, s);
         return;
     }
-    said_keep(s, NULL);
+    warnings_keep(s, NULL);
     knurl_session_way *way = &s->ways[d->slot];
     if (!before) {
         memset(way, 0, sizeof *way);
@@ -84,7 +84,7 @@ void follow_remove(device *d, surface *s) {
 static void move(device *d, surface *s) {
     const int slot = d->slot;
     knurl_session_pose at;
-    if (!describe_pose(s->base.object, &at) || !knurl_session_same_rest(at.rest, s->rest[slot])) {
+    if (!node_pose(s->base.object, &at) || !knurl_session_same_rest(at.rest, s->rest[slot])) {
         follow_put(d, s);
         return;
     }

@@ -1,10 +1,12 @@
 /* What a node shows, as triangles. SPDX-License-Identifier: MIT */
 #include "geometry.h"
 
+#include "primitive.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#define NODES "a MeshInstance3D, MultiMeshInstance3D, CSGShape3D, GridMap, or a CollisionShape3D of triangles"
+#define NODES "a MeshInstance3D, MultiMeshInstance3D, CSGShape3D, GridMap, or CollisionShape3D"
 
 GDExtensionObjectPtr geometry_mesh(GDExtensionObjectPtr node, gd_variant *held) {
     GDExtensionObjectPtr mesh = NULL;
@@ -108,6 +110,18 @@ static int read_faces(GDExtensionObjectPtr shape, const mesh_place *place, mesh_
     return fits;
 }
 
+static int read_shape(GDExtensionObjectPtr shape, const mesh_place *place, mesh_data *data) {
+    gd_variant held;
+    int fits = 1;
+    if (gd_cast(shape, "ConcavePolygonShape3D")) {
+        fits = read_faces(shape, place, data);
+    } else if (primitive_is_known(shape)) {
+        fits = mesh_add(primitive_mesh(shape, &held), place, data);
+        gd.variant_destroy(&held);
+    }
+    return fits;
+}
+
 /* What a node takes its shape from, in a Variant that holds it: to be ended. */
 static GDExtensionObjectPtr resource_of(GDExtensionObjectPtr node, const char *getter, gd_variant *held) {
     *held = gd_call_named(node, getter, NULL, 0);
@@ -130,7 +144,7 @@ int geometry_read(GDExtensionObjectPtr node, const double baked[9], mesh_data *d
         fits = read_pairs(node, baked, data);
     } else if (gd_cast(node, "CollisionShape3D")) {
         const GDExtensionObjectPtr shape = resource_of(node, "get_shape", &held);
-        fits = gd_cast(shape, "ConcavePolygonShape3D") ? read_faces(shape, &place, data) : 1;
+        fits = read_shape(shape, &place, data);
     }
     gd.variant_destroy(&held);
     return fits;
@@ -143,10 +157,11 @@ static void refuse_shape(GDExtensionObjectPtr node, char *text, size_t size) {
     if (shape) {
         class_of(shape, name, sizeof name);
     }
-    if (!gd_cast(shape, "ConcavePolygonShape3D")) {
+    if (!gd_cast(shape, "ConcavePolygonShape3D") && !primitive_is_known(shape)) {
         (void)snprintf(text, size,
-                       "Its parent is a CollisionShape3D with %s: only a ConcavePolygonShape3D has triangles to feel; "
-                       "put it below a MeshInstance3D of that shape.",
+                       "Its parent is a CollisionShape3D with %s: expected a box, sphere, capsule, cylinder or "
+                       "ConcavePolygonShape3D, which have triangles to feel; put it below a MeshInstance3D of that "
+                       "shape.",
                        name);
     }
     gd.variant_destroy(&held);

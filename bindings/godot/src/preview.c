@@ -2,8 +2,8 @@
  * device with the real one's limits. For the editor. SPDX-License-Identifier: MIT */
 #include "preview.h"
 
-#include "describe.h"
-#include "said.h"
+#include "surface_node.h"
+#include "warnings.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,13 +24,15 @@ static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     uint64_t key = hash(UINT64_C(0xcbf29ce484222325), at, sizeof *at);
     key = hash(key, &material, sizeof material);
     key = hash(key, s->axis, sizeof s->axis);
+    key = hash(key, &s->layers, sizeof s->layers);
     key = hash(key, &s->double_sided, sizeof s->double_sided);
     key = hash(key, &s->meshes_seen, sizeof s->meshes_seen);
     for (const device *d = placed_devices; d; d = d->next_placed) {
         memset(&place, 0, sizeof place);
-        (void)describe_pose(d->base.object, &place);
+        (void)node_pose(d->base.object, &place);
         key = hash(key, &place, sizeof place);
         key = hash(key, &d->rate, sizeof d->rate);
+        key = hash(key, &d->layers, sizeof d->layers);
         key = hash(key, &d->workspace_scale, sizeof d->workspace_scale);
         key = hash(key, d->uri ? d->uri : "", d->uri ? strlen(d->uri) : 0);
     }
@@ -58,7 +60,7 @@ static knurl_result hold_against(const device *d, const char *preset, knurl_sess
     knurl_session_desc_init(&desc, sizeof desc);
     desc.device = preset;
     desc.update_rate_hz = d->rate;
-    if (describe_pose(d->base.object, &place)) {
+    if (node_pose(d->base.object, &place)) {
         memcpy(desc.workspace.origin, place.position, sizeof place.position);
         memcpy(desc.workspace.rotation, place.rotation, sizeof place.rotation);
     }
@@ -74,7 +76,7 @@ static int explain(surface *s, const knurl_session_pose *at, const device *d, ch
     knurl_session *session = NULL;
     knurl_surface_id id = 0;
     knurl_result result = knurl_session_create(&session);
-    result = result ? result : describe_surface(s, knurl_session_get_scene(session), at, &id);
+    result = result ? result : surface_put(s, knurl_session_get_scene(session), at, &id);
     if (result) {
         (void)snprintf(why, sizeof why, "It cannot be felt: %s.", knurl_error_message());
     } else if (d && !hold_against(d, preset_of(d), session)) {
@@ -101,10 +103,10 @@ void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_
     }
     int can_be_felt = explain(s, at, NULL, text, size);
     for (const device *d = placed_devices; d && can_be_felt; d = d->next_placed) {
-        if (preset_of(d)) {
+        if (preset_of(d) && surface_is_on_layer_of(s, d)) {
             can_be_felt = explain(s, at, d, text, size);
         }
     }
-    said_keep(s, text);
+    warnings_keep(s, text);
     s->explained = s->explanation ? key : 0;
 }

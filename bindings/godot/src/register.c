@@ -47,9 +47,9 @@ typedef struct method_entry {
 
 static void register_method(const gd_class *class, const method_entry *entry) {
     description result;
-    description arguments[2];
-    GDExtensionPropertyInfo infos[2];
-    GDExtensionClassMethodArgumentMetadata metadata[2];
+    description arguments[GD_MOST_ARGUMENTS];
+    GDExtensionPropertyInfo infos[GD_MOST_ARGUMENTS];
+    GDExtensionClassMethodArgumentMetadata metadata[GD_MOST_ARGUMENTS];
     GDExtensionClassMethodInfo info;
     gd_name class_name = gd_name_new(class->name);
     gd_name name = gd_name_new(entry->name);
@@ -100,7 +100,7 @@ static void register_accessors(const gd_class *class, const gd_property *propert
 
 static void register_property(const gd_class *class, const gd_property *property) {
     const int is_boolean = property->type == GDEXTENSION_VARIANT_TYPE_BOOL;
-    const int has_range = property->most > property->least && property->hint != GD_HINT_ENUM;
+    const int has_range = property->most > property->least && property->hint == GD_HINT_NONE;
     const int is_read_only = property->get && !property->set;
     const gd_argument argument = {property->name, property->type, class_of(property)};
     char getter[64];

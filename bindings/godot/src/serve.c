@@ -201,9 +201,12 @@ static void begin_value(GDExtensionVariantType type, gd_value *value) {
 void gd_method_call(void *row, GDExtensionClassInstancePtr self, const GDExtensionConstVariantPtr *arguments,
                     GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError *error) {
     const gd_method_row *method = row;
-    gd_value values[2];
+    gd_value values[GD_MOST_ARGUMENTS];
     gd_value made;
-    const void *pointers[2] = {&values[0], &values[1]};
+    const void *pointers[GD_MOST_ARGUMENTS];
+    for (int i = 0; i < GD_MOST_ARGUMENTS; i++) {
+        pointers[i] = &values[i];
+    }
     if (take_arguments(method->arguments, method->argument_count, arguments, count, values, error)) {
         begin_value(method->result, &made);
         method->call(self, pointers, &made);

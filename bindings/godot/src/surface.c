@@ -1,9 +1,9 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
 #include "explain.h"
 #include "follow.h"
-#include "said.h"
 #include "serve.h"
 #include "signals.h"
+#include "warnings.h"
 #include "watch.h"
 
 #include <stdlib.h>
@@ -12,6 +12,7 @@
 static int init(void *self) {
     surface *s = self;
     s->enabled = 1;
+    s->layers = 1;
     gd.variant_new_nil(&s->held);
     gd.variant_new_nil(&s->watched);
     return 1;
@@ -29,7 +30,7 @@ static void make_anew(void *self) {
     s->made_anew = ALL_SLOTS;
     surface_mark(s);
     if (gd_is_in_editor()) {
-        said_again(&s->base);
+        warnings_refresh(&s->base);
     }
 }
 
@@ -74,7 +75,7 @@ static void set_grating(void *self, const void *value) {
     s->grating = given;
     s->changed = ALL_SLOTS;
     surface_mark(s);
-    said_again(&s->base);
+    warnings_refresh(&s->base);
 }
 
 /* For the first device that feels it. */
@@ -97,7 +98,7 @@ static void get_warnings(void *self, const void *const *arguments, void *result)
     static char text[8192];
     (void)arguments;
     explain_surface(self, text, sizeof text);
-    said_give(text, result);
+    warnings_append(text, result);
 }
 
 static void is_touched(void *self, const void *const *arguments, void *result) {
@@ -171,7 +172,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_TRANSFORM_CHANGED:
         if (gd_is_in_editor()) {
-            said_again(&s->base);
+            warnings_refresh(&s->base);
         }
         s->moved = ALL_SLOTS;
         gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &s->by_physics);
@@ -207,6 +208,8 @@ static const gd_property properties[] = {
      .type = GDEXTENSION_VARIANT_TYPE_BOOL,
      .offset = offsetof(surface, enabled),
      .changed = make_anew},
+    {"layers", GDEXTENSION_VARIANT_TYPE_INT, offsetof(surface, layers), 0.0, 255.0, 1.0, "1,2,3,4,5,6,7,8",
+     GD_HINT_FLAGS, NULL, NULL, make_anew},
     {.name = "reaction", .type = GDEXTENSION_VARIANT_TYPE_BOOL, .offset = offsetof(surface, reaction)},
 };
 

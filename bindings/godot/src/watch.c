@@ -1,8 +1,8 @@
 /* A MeshInstance3D tells when it gets another mesh, and a mesh when it changes. SPDX-License-Identifier: MIT */
 #include "watch.h"
 
-#include "describe.h"
 #include "geometry.h"
+#include "surface_node.h"
 
 void unwatch_mesh(surface *s) {
     GDExtensionObjectPtr mesh = NULL;
@@ -20,7 +20,7 @@ void unwatch_mesh(surface *s) {
 
 void watch_mesh(surface *s) {
     gd_variant held;
-    const GDExtensionObjectPtr parent = describe_parent(s);
+    const GDExtensionObjectPtr parent = surface_parent(s);
     if (s->watched_parent || !gd_cast(parent, "MeshInstance3D")) {
         return;
     }

@@ -14,6 +14,7 @@ typedef struct surface {
     gd_variant held; /* keeps the grating's reference */
     grating *grating;
     uint8_t double_sided, enabled, reaction;
+    int64_t layers; /* felt by devices that have one of them */
     float axis[3];
     struct surface *next_marked, **marked_at; /* the link that leads here; or null: not marked */
     struct surface *next, *previous;          /* of those in a tree */
@@ -37,7 +38,11 @@ typedef struct device {
     gd_instance base;
     struct device *next_placed; /* of those in a tree */
     char *uri, *stroke;
-    double rate, workspace_scale;
+    double rate, workspace_scale, gain;
+    int64_t layers;
+    float added_force[3]; /* N */
+    uint8_t clutch;
+    uint8_t moved, by_physics; /* 1: its node was moved since the last frame; by a step of the physics */
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */
     double retry;        /* s after which a start of its own that failed is tried again; 0: never */

@@ -135,6 +135,25 @@ KNURL_API void knurl_loop_pause(knurl_loop *loop);
  * mm inside a surface is in contact with it, under the entry ramp. May be repeated. [any thread] */
 KNURL_API void knurl_loop_resume(knurl_loop *loop);
 
+/** Sets a gain for all forces that the loop sends, for a player's setting. gain: 0 to 1, initially 1. It is approached
+ * by the ramp. At 0 no force is sent; contacts go on. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+KNURL_API knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain);
+
+/** Adds a force to that of the scene's surfaces, until the next call. force: N, scene axes, at most 1000 N; zeros end
+ * it. The sum passes the HIP's protections: the slew limit, the heat limit and max_force. It ramps down to zero in a
+ * pause and without a heartbeat. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the loop has a force callback). [game
+ * thread] */
+KNURL_API knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]);
+
+/** Adds a vibration to the force, starting with the next tick; it replaces one that plays. method: KNURL_T1, KNURL_T2
+ * or KNURL_T3 (a T3 vibration ends after a complete event). frequency_hz: 0.1 to half the update rate. amplitude: 0 to
+ * 1000 N. direction: scene axes, any length > 0. seconds: 0 to 3600; 0 ends the vibration that plays. The sum passes
+ * the HIP's protections, except that the slew limit lets the vibration's own steps through. Errors:
+ * KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_STATE (the loop has a force callback). [game thread]
+ */
+KNURL_API knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequency_hz, double amplitude,
+                                          const double direction[3], double seconds);
+
 /** Tells the loop that the game is alive; see heartbeat_s. [any thread] */
 KNURL_API void knurl_loop_heartbeat(knurl_loop *loop);
 

@@ -320,10 +320,18 @@ KNURL_API void knurl_scene_collect(knurl_scene *scene);
  * tick that HIP] */
 KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
 
-/** The workspace map of a HIP, also where the scene chose it at the commit.
+/** The workspace map of a HIP, also where the scene chose it at the commit; of one that moves, where it will be.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (to be chosen by the scene, which is not committed). [any thread but
  * the haptic] */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
+
+/** Moves a HIP's workspace, also while it ticks. It moves evenly over `seconds` (0 to 10) and carries the HIP with it,
+ * in contact with what it meets. With 0 it jumps: contacts end, and the next tick is a first one. workspace: of the
+ * scale that the HIP was configured with. A loop that is created later keeps it; knurl_scene_configure_hip() replaces
+ * it. Errors: KNURL_ERROR_ARGUMENT (hip, workspace, scale, seconds), KNURL_ERROR_STATE (not committed). [any thread but
+ * the haptic] */
+KNURL_API knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const knurl_workspace *workspace,
+                                                 double seconds);
 
 /** The limits of a device that a surface can exceed. K s is its stiffness in device metres. */
 enum {

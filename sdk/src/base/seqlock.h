@@ -56,17 +56,18 @@ static inline void knurl_seqlock_write(uint64_t *sequence, uint64_t *words, cons
     knurl_seqlock_end(sequence);
 }
 
+/* Reads once: 1 where *value is consistent, 0 where a writer was inside. For a reader that must not wait. */
+static inline int knurl_seqlock_try_read(const uint64_t *sequence, const uint64_t *words, void *value, size_t size) {
+    const uint64_t before = knurl_load_acquire(sequence);
+    for (size_t i = 0; i < size / sizeof(uint64_t); i++) {
+        const uint64_t word = knurl_load_acquire(&words[i]);
+        memcpy((char *)value + i * sizeof word, &word, sizeof word);
+    }
+    return before % 2 == 0 && before == knurl_load_relaxed(sequence);
+}
+
 static inline void knurl_seqlock_read(const uint64_t *sequence, const uint64_t *words, void *value, size_t size) {
-    uint64_t before;
-    uint64_t after;
-    do { /* the writer is inside for some ten nanoseconds a tick */
-        before = knurl_load_acquire(sequence);
-        for (size_t i = 0; i < size / sizeof(uint64_t); i++) {
-            const uint64_t word = knurl_load_acquire(&words[i]);
-            memcpy((char *)value + i * sizeof word, &word, sizeof word);
-        }
-        after = knurl_load_relaxed(sequence);
-    } while (before != after || before % 2 != 0);
+    while (!knurl_seqlock_try_read(sequence, words, value, size)) {} /* the writer is inside for some ten ns a tick */
 }
 
 #endif

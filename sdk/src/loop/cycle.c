@@ -34,11 +34,16 @@ static int game_lives(knurl_loop *loop, int paused) {
     return lives;
 }
 
+/* How far a gain may go in a tick. */
+static double gain_step(const knurl_loop *loop) {
+    return 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
+}
+
 /* The gain on this tick's force: after a halt it ramps up again; while paused or without a heartbeat it ramps down.
  * loop->was_halted: 1 where the device was halted. The halt lasts until this tick's force is written, because an I/O
  * thread may still hold an older one. */
 static double next_gain(knurl_loop *loop, int paused) {
-    const double step = 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
+    const double step = gain_step(loop);
     loop->was_halted = knurl_device_is_halted(loop->desc.device) != 0;
     const int was_down = loop->was_halted || !loop->wanted;
     double gain = loop->was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
@@ -73,19 +78,23 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
 /* Computes the force to send, from the scene or from the caller. */
 static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
     const int paused = knurl_load_acquire(&loop->paused) != 0;
+    const double game_gain = knurl_loop_game_gain(&loop->added, gain_step(loop));
     if (loop->desc.scene) {
         knurl_tick_input input;
+        knurl_added_force sum;
         memset(&input, 0, sizeof input);
         memcpy(input.position, sample->position, sizeof input.position);
         const double gain = next_gain(loop, paused);
-        input.attenuation = 1.0 - gain;
+        input.attenuation = 1.0 - gain * game_gain;
         input.paused = paused && gain == 0.0;
-        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, output); /* on an error its force is 0 */
+        const knurl_added_force *added = knurl_loop_next_added(&loop->added, &sum);
+        /* on an error its force is 0 */
+        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, added, output);
         vec3_copy(output->device_force, loop->force);
         vec3_copy(output->force, loop->scene_force);
     } else {
         call_back(loop, sample);
-        vec3_scale(next_gain(loop, paused), loop->force, loop->force);
+        vec3_scale(game_gain * next_gain(loop, paused), loop->force, loop->force);
     }
     knurl_loop_add_heat(loop, 1.0);
 }
@@ -105,7 +114,7 @@ static int be_absent(knurl_loop *loop, knurl_result why) {
         knurl_tick_output output;
         memset(&input, 0, sizeof input);
         input.absent = 1;
-        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, &output);
+        (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, NULL, &output);
     }
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
         (void)knurl_device_write(loop->desc.device, loop->force); /* zero; for drivers without a thread that would write

@@ -238,7 +238,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->handle = KNURL_HANDLE_LOOP;
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
-    made->gain = 1.0;
+    made->gain = made->added.gain = made->added.gain_now = 1.0;
     made->game_lives = made->wanted = 1;
     made->max_force = facts.max_force;
     if (d.scene) {

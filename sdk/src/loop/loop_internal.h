@@ -9,6 +9,7 @@
 #include "scene/hip.h"
 
 #include <knurl/loop.h>
+#include <knurl/vibration.h>
 
 /* An absolute-deadline rhythm (pace.c). */
 typedef struct knurl_pace {
@@ -24,6 +25,29 @@ void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
 /* Sleeps until the next deadline. Returns how late it woke, ns; *overrun: 1 where that was more than half a period.
  * Missed periods are skipped, not made up for. [haptic thread] */
 int64_t knurl_pace_wait(knurl_pace *pace, int *overrun);
+
+/* A vibration of the game's. */
+typedef struct knurl_vibration {
+    knurl_wave wave;     /* N */
+    double direction[3]; /* unit, scene */
+    uint64_t ticks;      /* that it lasts */
+} knurl_vibration;
+
+/* What the game adds to its surfaces' forces (added.c). */
+typedef struct knurl_loop_added {
+    /* atomics, written by the game thread: two seqlocks and a number */
+    double gain; /* 0 to 1 */
+    uint64_t force_sequence, force_words[3];
+    uint64_t cue_sequence, cue_words[sizeof(knurl_vibration) / sizeof(uint64_t)];
+    /* the haptic thread's */
+    uint64_t force_seen, cue_seen; /* the sequences at which they were copied */
+    double gain_now;               /* on its way to `gain` */
+    double force[3];               /* N, scene */
+    int32_t has_force;
+    knurl_vibration cue;
+    uint64_t cue_tick; /* of the vibration, that is next */
+    double latest;     /* N: its value at the latest tick */
+} knurl_loop_added;
 
 struct knurl_loop {
     uint32_t handle; /* KNURL_HANDLE_LOOP, first */
@@ -51,6 +75,7 @@ struct knurl_loop {
     int has_position;
     double position[3]; /* the latest cycle's, device, m */
     knurl_hip scratch;  /* the HIP of dry ticks */
+    knurl_loop_added added;
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -90,6 +115,12 @@ void knurl_loop_add_heat(knurl_loop *loop, double share);
 
 /* A cycle begins: the motors' heat advances by the periods that were missed. */
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
+
+/* added.c: what is added in this tick; null: nothing. */
+const knurl_added_force *knurl_loop_next_added(knurl_loop_added *added, knurl_added_force *sum);
+
+/* The game's gain in this tick; it changes by `step` at most. */
+double knurl_loop_game_gain(knurl_loop_added *added, double step);
 
 /* cycle.c */
 int knurl_loop_at_end(const knurl_loop *loop);

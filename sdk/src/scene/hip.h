@@ -4,7 +4,14 @@
 
 #include "scene/contact_update.h"
 #include "scene/guard.h"
+#include "scene/hip_workspace.h"
 #include "scene/snapshot.h"
+
+/* A force that a game adds to what surfaces give, in one tick. */
+typedef struct knurl_added_force {
+    double force[3]; /* N, scene; finite */
+    double step;     /* N: how far a vibration in it jumps, which the slew limit lets through */
+} knurl_added_force;
 
 /* The list of candidates, which is long, comes last: at 1 kHz a tick finds all of this in a cold cache. */
 typedef struct knurl_hip {
@@ -19,6 +26,7 @@ typedef struct knurl_hip {
     knurl_hip_counts counts;
     knurl_published published; /* read by any thread, without the lock */
     knurl_hip_desc given;      /* as configured; what it leaves open a loop fills in */
+    knurl_workspace_move move; /* the workspace's */
     knurl_contacts contacts;
 } knurl_hip;
 

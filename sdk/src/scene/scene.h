@@ -48,9 +48,9 @@ void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
 /* 1: its owner has destroyed it. [any thread] */
 int knurl_scene_is_destroyed(const knurl_scene *scene);
 
-/* knurl_scene_tick() for the loop that has claimed the HIP. */
+/* knurl_scene_tick() for the loop that has claimed the HIP. added: or null. */
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
-                            knurl_tick_output *output) KNURL_NONBLOCKING;
+                            const knurl_added_force *added, knurl_tick_output *output) KNURL_NONBLOCKING;
 
 /* The scratch HIP of dry ticks: a copy of the claimed HIP that touches nothing, whose contacts share no memory with the
  * HIP's. [game thread, while the HIP does not tick] */

@@ -54,7 +54,8 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
     knurl_result result;
     knurl_scene_lock(scene);
     knurl_hip_desc d = h->given;
-    const knurl_workspace workspace = h->workspace;
+    knurl_workspace workspace;
+    knurl_workspace_target(&h->move, &h->workspace, &workspace);
     d.workspace = h->centred ? NULL : &workspace;
     if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
         result = knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -79,7 +80,43 @@ knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, k
     if (scene->hips[hip].centred && !scene->committed) {
         result = knurl_fail(KNURL_ERROR_STATE, "workspace: it is chosen at the commit, and the scene is not committed");
     } else {
-        *workspace = scene->hips[hip].workspace;
+        knurl_workspace_target(&scene->hips[hip].move, &scene->hips[hip].workspace, workspace);
+    }
+    knurl_scene_unlock(scene);
+    return result;
+}
+
+static knurl_result check_move(const knurl_scene *scene, const knurl_hip *hip, const knurl_workspace *workspace) {
+    if (!scene->committed) {
+        return knurl_fail(KNURL_ERROR_STATE, "workspace: expected a scene that is committed, found one that is not");
+    }
+    if (workspace->scale != hip->workspace.scale) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "knurl_workspace.scale: expected %g, as the HIP was configured with, found %g",
+                          hip->workspace.scale, workspace->scale);
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const knurl_workspace *workspace,
+                                       double seconds) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_result result = check_hip(scene, hip);
+    result = result ? result : knurl_workspace_check(workspace);
+    if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "seconds: expected 0 to 10, found %g", seconds);
+    }
+    if (result) {
+        return result;
+    }
+    knurl_scene_lock(scene);
+    knurl_hip *h = &scene->hips[hip];
+    result = check_move(scene, h, workspace);
+    if (!result) {
+        knurl_workspace_go(&h->move, &h->workspace, workspace, knurl_load_double(&h->contacts.clock.time), seconds);
+        h->centred = 0;
     }
     knurl_scene_unlock(scene);
     return result;

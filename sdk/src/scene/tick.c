@@ -31,6 +31,21 @@ static void clear_contact_output(knurl_tick_output *out) {
     out->surface = 0;
 }
 
+/* Puts the workspace where it is in this tick. Contacts end where it jumped: what lies on the way is not touched. */
+static void move_workspace(knurl_hip *hip) {
+    if (knurl_workspace_advance(&hip->move, hip->contacts.clock.time, &hip->workspace, &hip->is_rotated)) {
+        knurl_contacts_reset(&hip->contacts);
+    }
+}
+
+/* Adds the velocity of the workspace at a HIP, m/s. */
+static void add_workspace_velocity(const knurl_hip *hip, const double at[3], double velocity[3]) {
+    const knurl_hip_clock *clock = &hip->contacts.clock;
+    double own[3];
+    knurl_motion_velocity(&hip->move.motion, clock->time, clock->period, at, own);
+    vec3_madd(velocity, 1.0, own, velocity);
+}
+
 /* Maps the device's position and velocity into the scene. A velocity that is not given is estimated in device axes,
  * where the quantisation is. Returns 0 where the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
@@ -47,12 +62,19 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         knurl_velocity_update(&hip->velocity, input->position, estimate);
         velocity = estimate;
     }
+    const int is_moving = knurl_workspace_is_moving(&hip->move);
+    if (is_moving) {
+        move_workspace(hip);
+    }
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
         knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
     } else {
         vec3_madd(w->origin, w->scale, input->position, out->hip);
         vec3_scale(w->scale, velocity, out->hip_velocity);
+    }
+    if (is_moving) {
+        add_workspace_velocity(hip, out->hip, out->hip_velocity);
     }
     begin_output(out);
     return vec3_finite_both(out->hip, out->hip_velocity);
@@ -106,11 +128,15 @@ static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knur
     return step;
 }
 
-/* Sums all contacts' forces and limits the sum (N, scene). Returns its length. */
-static double sum_forces(knurl_hip *hip, knurl_tick_output *out) {
+/* Sums all contacts' forces and what the game adds, and limits the sum (N, scene). Returns its length. */
+static double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
         steps += render_contact(hip, &hip->contacts.active[i], out);
+    }
+    if (added) {
+        vec3_madd(out->force, 1.0, added->force, out->force);
+        steps += added->step;
     }
     return knurl_guard_limit(&hip->guard, steps, out->force, &out->flags);
 }
@@ -133,7 +159,8 @@ static void reset(knurl_hip *hip, uint32_t why, knurl_tick_output *out) {
 }
 
 /* Computes the device's force at the HIP's position. Returns its length, N. */
-static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
+static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input,
+                     const knurl_added_force *added, knurl_tick_output *out) {
     const knurl_broad_index *index = __atomic_load_n(&scene->broad_phase.index, __ATOMIC_SEQ_CST);
     knurl_guard_begin(&hip->guard, input->attenuation);
     if (input->paused) {
@@ -143,7 +170,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         return 0.0;
     }
     knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
-    const double length = sum_forces(hip, out);
+    const double length = sum_forces(hip, added, out);
     if (!knurl_is_finite(length)) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;
@@ -172,13 +199,14 @@ static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_ou
 }
 
 /* The whole tick. */
-static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *output) {
+static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
+                 knurl_tick_output *output) {
     double force = 0.0;
     output->tick = hip->counts.ticks;
     knurl_epoch_pin(&scene->epoch, &hip->pinned);
     knurl_hip_clock_advance(&hip->contacts.clock);
     if (read_hip(hip, input, output)) {
-        force = render(scene, hip, input, output);
+        force = render(scene, hip, input, added, output);
     } else {
         reset(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
     }
@@ -199,11 +227,11 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: hip: expected one that no loop has, found a loop's",
                       output);
     }
-    return knurl_hip_tick(scene, hip_index, input, output);
+    return knurl_hip_tick(scene, hip_index, input, NULL, output);
 }
 
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
-                            knurl_tick_output *output) {
+                            const knurl_added_force *added, knurl_tick_output *output) {
     if (hip_index >= scene->hip_count) {
         return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: hip: expected below hip_count, found more", output);
     }
@@ -211,7 +239,7 @@ knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",
                       output);
     }
-    tick(scene, &scene->hips[hip_index], input, output);
+    tick(scene, &scene->hips[hip_index], input, added, output);
     return KNURL_OK;
 }
 
@@ -228,6 +256,7 @@ static void fetch_hip(const knurl_hip *hip) {
     fetch(hip, offsetof(knurl_hip, velocity));
     fetch(v->history[phase], sizeof v->history[phase]);
     fetch(v->held, offsetof(knurl_hip, given) - offsetof(knurl_hip, velocity) - offsetof(knurl_velocity, held));
+    fetch(&hip->move, offsetof(knurl_workspace_move, motion));
     fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, list) +
                               hip->contacts.candidates.count * sizeof(knurl_candidate));
 }
@@ -246,6 +275,8 @@ void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip_index, knurl_hip *scrat
     knurl_epoch_pin(&scene->epoch, &hip->pinned); /* edits do not know the scratch HIP's */
     fetch_hip(hip);
     scratch->contacts.clock = hip->contacts.clock;
-    tick(scene, scratch, &input, &output);
+    scratch->workspace = hip->workspace;
+    scratch->is_rotated = hip->is_rotated;
+    tick(scene, scratch, &input, NULL, &output);
     knurl_epoch_unpin(&hip->pinned);
 }

@@ -614,7 +614,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "4f2fcf3d0124c9ea";
+        internal const string Interface = "246347539ae3f0c0";
 
         internal const string Version = "0.1.0";
 
@@ -932,6 +932,10 @@ namespace Knurl
         internal static extern int knurl_scene_get_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace,
+            double seconds);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_surface_check_init(knurl_surface_check* check, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1090,6 +1094,16 @@ namespace Knurl
         internal static extern void knurl_loop_resume(knurl_loop* loop);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_set_gain(knurl_loop* loop, double gain);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_set_force(knurl_loop* loop, double* force);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_loop_vibrate(knurl_loop* loop, int method, double frequency_hz,
+            double amplitude, double* direction, double seconds);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_heartbeat(knurl_loop* loop);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1159,6 +1173,23 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_move_hip(SessionHandle session, double* position);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_move_workspace(SessionHandle session, uint clock, double* position,
+            double* rotation);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_set_clutch(SessionHandle session, uint on);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_set_gain(SessionHandle session, double gain);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_set_force(SessionHandle session, double* force);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_vibrate(SessionHandle session, int method, double frequency_hz,
+            double amplitude, double* direction, double seconds);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_tell_time(SessionHandle session, uint clock, double seconds);

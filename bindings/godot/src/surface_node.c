@@ -1,17 +1,21 @@
-/* What a surface is, as its nodes say. SPDX-License-Identifier: MIT */
-#include "describe.h"
+/* A surface as its nodes have it. SPDX-License-Identifier: MIT */
+#include "surface_node.h"
 
 #include "geometry.h"
 
 #include <string.h>
 
-GDExtensionObjectPtr describe_parent(const surface *s) {
+GDExtensionObjectPtr surface_parent(const surface *s) {
     GDExtensionObjectPtr parent = NULL;
     gd_call(gd_method.Node_get_parent, s->base.object, NULL, &parent);
     return parent;
 }
 
-int describe_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
+int surface_is_on_layer_of(const surface *s, const device *d) {
+    return (s->layers & d->layers) != 0;
+}
+
+int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
     gd_transform transform;
     double matrix[12];
     gd_call(gd_method.Node3D_get_global_transform, node, NULL, &transform);
@@ -28,13 +32,13 @@ static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc 
     return *id ? knurl_scene_replace_surface(scene, *id, desc) : knurl_scene_add_surface(scene, desc, id);
 }
 
-knurl_result describe_surface(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
+knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
     char name[128];
     mesh_data data;
     knurl_surface_desc desc;
     knurl_mesh_desc mesh;
     knurl_material_desc material;
-    gd_node_name(describe_parent(s), name, sizeof name);
+    gd_node_name(surface_parent(s), name, sizeof name);
     knurl_surface_desc_init(&desc, sizeof desc);
     grating_describe(s->grating, &material);
     desc.name = name;
@@ -50,7 +54,7 @@ knurl_result describe_surface(surface *s, knurl_scene *scene, const knurl_sessio
         }
         desc.axis[i] = (double)axis;
     }
-    const int fits = geometry_read(describe_parent(s), at->rest, &data);
+    const int fits = geometry_read(surface_parent(s), at->rest, &data);
     knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
     if (fits && data.index_count == 0) {
         result = knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles");

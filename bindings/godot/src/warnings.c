@@ -1,10 +1,10 @@
 /* Warnings: kept with their surface, and given to the editor. SPDX-License-Identifier: MIT */
-#include "said.h"
+#include "warnings.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void said_keep(surface *s, const char *text) {
+void warnings_keep(surface *s, const char *text) {
     free(s->explanation);
     s->explanation = text ? malloc(strlen(text) + 1) : NULL;
     if (s->explanation) {
@@ -12,17 +12,17 @@ void said_keep(surface *s, const char *text) {
     }
 }
 
-void said_again(const gd_instance *node) {
+void warnings_refresh(const gd_instance *node) {
     gd_call(gd_method.Node_update_configuration_warnings, node->object, NULL, NULL);
 }
 
-void said_all_again(void) {
+void warnings_refresh_all(void) {
     for (const surface *s = surfaces; s; s = s->next) {
-        said_again(&s->base);
+        warnings_refresh(&s->base);
     }
 }
 
-void said_give(char *text, void *strings) {
+void warnings_append(char *text, void *strings) {
     for (char *line = text, *end; *line; line = end) {
         gd_string string;
         int64_t failed = 0;

@@ -1,0 +1,123 @@
+/* What a game asks of the force beside its surfaces, and a workspace that goes with its node.
+ * SPDX-License-Identifier: MIT */
+#include "session_rig.h"
+
+static const double upright[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
+/* A finger that the fake hand holds 5 mm deep in a plate at 0: 2 N. */
+static knurl_session *pressed(void) {
+    const knurl_session_desc desc = describe("fake", "");
+    knurl_session *s = make_session();
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    open_session(s, &desc);
+    begin(s);
+    press(s, 0.0, 0.0);
+    hold(s, 0.0, 0.0, -0.005, 100);
+    return s;
+}
+
+TEST(a_gain_counts_for_this_run_and_for_later_ones) {
+    knurl_session *s = pressed();
+    CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
+    assert_int_equal(knurl_session_set_gain(s, 0.5), KNURL_OK);
+    step(s, 40);
+    CHECK_CLOSE(state_of(s).force[2], 1.0, 1e-6);
+    knurl_session_close(s);
+    CHECK_CLOSE(s->gain, 0.5, 0.0);
+    assert_int_equal(knurl_session_set_gain(s, 1.5), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_session_set_gain(s, NAN), KNURL_ERROR_ARGUMENT);
+    CHECK_CLOSE(s->gain, 0.5, 0.0);
+    knurl_session_destroy(s);
+}
+
+TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
+    static const double force[3] = {0.5, 0.0, 0.0};
+    static const double along[3] = {0.0, 1.0, 0.0};
+    const knurl_session_desc desc = describe("fake", "");
+    knurl_session *s = make_session();
+    assert_int_equal(knurl_session_set_force(s, force), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_session_vibrate(s, KNURL_T1, 100.0, 1.0, along, 1.0), KNURL_ERROR_STATE);
+    open_session(s, &desc);
+    begin(s);
+    assert_int_equal(knurl_session_set_force(s, force), KNURL_OK);
+    assert_int_equal(knurl_session_vibrate(s, KNURL_T1, 100.0, 1.0, along, 1.0), KNURL_OK);
+    step(s, 4);
+    CHECK_VECTOR(state_of(s).force, 0.5, 1.0, 0.0, 1e-9);
+    knurl_session_close(s);
+    open_session(s, &desc);
+    begin(s);
+    step(s, 4);
+    CHECK_VECTOR(state_of(s).force, 0.0, 0.0, 0.0, 0.0);
+    knurl_session_destroy(s);
+}
+
+TEST(a_workspace_follows_its_node_by_the_engines_clock_and_is_where_it_stands) {
+    static const double to[3] = {0.0, 0.0, 0.01};
+    knurl_session *s = pressed();
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    step(s, 60);
+    CHECK_CLOSE(state_of(s).hip[2], 0.005, 1e-9); /* out of the plate, with a hand that held still */
+    assert_int_equal(state_of(s).in_contact, 0);
+    knurl_session_destroy(s);
+}
+
+TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
+    static const double to[3] = {0.0, 0.0, -2.0};
+    knurl_session *s = make_session();
+    const knurl_session_desc desc = describe("fake", "");
+    (void)add_plate(s, 0.0, 0.0, 0.0);
+    open_session(s, &desc);
+    begin(s);
+    hold(s, 0.0, 0.0, 0.02, 100);
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    step(s, 1);
+    CHECK_CLOSE(state_of(s).hip[2], -1.98, 1e-9);
+    assert_int_equal(state_of(s).in_contact, 0);
+    knurl_session_destroy(s);
+}
+
+TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
+    static const double to[3] = {0.1, 0.0, 0.0};
+    static const double there[3] = {0.03, 0.02, 0.01};
+    knurl_session *s = make_session();
+    const knurl_session_desc desc = describe("mouse", "");
+    open_session(s, &desc);
+    assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
+    CHECK_UNTIL(s, fabs(state_of(s).hip[0] - 0.03) < 1e-6);
+    CHECK_VECTOR(state_of(s).hip, 0.03, 0.02, 0.01, 1e-5);
+    knurl_session_destroy(s);
+}
+
+/* The hand goes 30 mm to the left with the clutch held; then as far to the right without. */
+TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
+    knurl_session *s = pressed();
+    hold(s, 0.02, 0.0, -0.005, 100);
+    assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
+    hold(s, -0.01, 0.0, -0.005, 100);
+    CHECK_VECTOR(state_of(s).hip, 0.02, 0.0, -0.005, 1e-9);
+    CHECK_VECTOR(state_of(s).force, 0.0, 0.0, 0.0, 0.0);
+    assert_int_equal(knurl_session_set_clutch(s, 0), KNURL_OK);
+    hold(s, -0.01, 0.0, -0.005, 100);
+    CHECK_VECTOR(state_of(s).hip, 0.02, 0.0, -0.005, 1e-9);
+    CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
+    hold(s, 0.01, 0.0, -0.005, 100);
+    CHECK_VECTOR(state_of(s).hip, 0.04, 0.0, -0.005, 1e-9);
+    knurl_session_destroy(s);
+}
+
+/* A quarter turn about z of the node: what the clutch has moved the workspace by is turned along. */
+TEST(what_a_clutch_has_moved_goes_with_the_node) {
+    static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    knurl_session *s = pressed();
+    hold(s, 0.02, 0.0, 0.02, 100);
+    assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
+    hold(s, 0.0, 0.0, 0.02, 100);
+    assert_int_equal(knurl_session_set_clutch(s, 0), KNURL_OK);
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, origin, quarter), KNURL_OK);
+    hold(s, 0.0, 0.0, 0.02, 200);
+    CHECK_VECTOR(state_of(s).hip, 0.0, 0.02, 0.02, 1e-9);
+    knurl_session_destroy(s);
+}
