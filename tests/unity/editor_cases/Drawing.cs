@@ -236,9 +236,9 @@ namespace Knurl.Cases
             return Gizmos.WireCubes.Single().MultiplyPoint3x4(Vector3.zero);
         }
 
-        /// <summary>Where it is felt: the workspace stays while the object is moved.</summary>
+        /// <summary>Where it is felt: the workspace goes with the object, at the scale of the start.</summary>
         [Test]
-        public void A_running_devices_box_stays_where_it_started()
+        public void A_running_devices_box_goes_with_its_object()
         {
             KnurlDevice device = MakeDevice();
             device.transform.position = Vector3.up;
@@ -247,7 +247,7 @@ namespace Knurl.Cases
             device.transform.position = Vector3.right;
             device.WorkspaceScale = 3f;
             Player.Frames(2);
-            Assert.AreEqual(Vector3.up, BoxCentre(device));
+            Assert.AreEqual(Vector3.right, BoxCentre(device));
             Assert.AreEqual(1f, Gizmos.WireCubes.Single().MultiplyVector(Vector3.right).magnitude, 1e-6f);
             device.StopDevice();
             Assert.AreEqual(Vector3.right, BoxCentre(device));

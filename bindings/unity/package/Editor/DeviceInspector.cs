@@ -35,6 +35,14 @@ namespace Knurl.Editing
         static readonly GUIContent Paused = new GUIContent("Paused", "Nothing is felt, and where it is goes on being " +
             "told. Counts at once");
 
+        static readonly GUIContent Gain = new GUIContent("Gain", "How much of every force is sent, 0 to 1. Counts at once");
+        static readonly GUIContent AddedForce = new GUIContent("Added Force (N)", "A force of the game's own, global, that " +
+            "is added to what surfaces give. Counts at once");
+        static readonly GUIContent Clutch = new GUIContent("Clutch", "While it is on, nothing is felt and the HIP stays, so " +
+            "that the hand can go back to where it has room");
+        static readonly GUIContent Layers = new GUIContent("Layers", "It feels the surfaces that have one of these layers " +
+            "too: a bit each. Counts at once");
+
         bool showEvents;
 
         public override void OnInspectorGUI()
@@ -61,6 +69,10 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("paused"), Paused);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("gain"), Gain);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("addedForce"), AddedForce);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("clutch"), Clutch);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("layers"), Layers);
             showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
             for (int i = 0; showEvents && i < Events.Length; i++)
             {

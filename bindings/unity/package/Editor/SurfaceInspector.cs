@@ -20,7 +20,13 @@ namespace Knurl.Editing
         static readonly GUIContent Reaction = new GUIContent("Reaction", "Whether the nearest Rigidbody at or above it is " +
             "pushed by the opposite of what the hand feels");
 
+        static readonly GUIContent Layers = new GUIContent("Layers", "Only devices feel it that have one of these layers too: " +
+            "a bit each");
+
+        static readonly string[] Events = { "touched", "released", "ridgesPassed" };
+
         string[] warnings = new string[0];
+        bool showEvents;
         double lookAgain;
 
         public override void OnInspectorGUI()
@@ -32,9 +38,15 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("reaction"), Reaction);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("layers"), Layers);
             if (EditorGUI.EndChangeCheck())
             {
                 lookAgain = 0.0;
+            }
+            showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
+            for (int i = 0; showEvents && i < Events.Length; i++)
+            {
+                EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
             }
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects)

@@ -21,7 +21,8 @@ namespace Knurl
             f->made = surface.Made;
             f->felt = surface.Felt;
             f->isFlat = Split(&f->seen, &pose) ? 0 : 1;
-            if (f->isFlat != 0 || surface.Grating == null || !PutMesh(surface, f, &pose))
+            f->isOnLayer = IsOnLayer(surface);
+            if (f->isFlat != 0 || f->isOnLayer == 0 || surface.Grating == null || !PutMesh(surface, f, &pose))
             {
                 Remove(f);
                 return;
@@ -50,9 +51,9 @@ namespace Knurl
         }
 
         /// <summary>A body that is not interpolated moves its objects in physics steps.</summary>
-        static bool IsMovedBySteps(KnurlSurface surface)
+        internal static bool IsMovedBySteps(Component moved)
         {
-            var body = surface.GetComponentInParent<Rigidbody>();
+            var body = moved.GetComponentInParent<Rigidbody>();
             return body != null && body.interpolation == RigidbodyInterpolation.None;
         }
 

@@ -14,6 +14,7 @@ namespace Knurl
             internal ulong id;       // in the scene, or 0: it is not there
             internal int made, felt; // of its surface, when it was last added or given a material
             internal int isFlat;     // 1: scaled to nothing, so not in the scene
+            internal int isOnLayer;  // 1: it has a layer in common with the device
             internal Matrix4x4 seen; // of its transform
             internal knurl_session_way way;
             internal fixed double rest[9]; // scale, shear and mirror that are worked into its mesh
@@ -26,10 +27,12 @@ namespace Knurl
         Follower[] followers = new Follower[16];
         int count;
         long gratingsSeen;
+        int layers; // the device's
 
-        internal Following(SessionHandle session)
+        internal Following(SessionHandle session, int layers)
         {
             this.session = session;
+            this.layers = layers;
             scene = NativeMethods.knurl_session_get_scene(session);
         }
 
@@ -40,7 +43,7 @@ namespace Knurl
             {
                 Enlist(World.Surfaces[i]);
             }
-            Follow();
+            Follow(layers);
         }
 
         /// <summary>A surface that was enabled: it is added by the next <see cref="Follow"/>, with all that is set
@@ -89,8 +92,9 @@ namespace Knurl
         }
 
         /// <summary>Once a frame: adds what is new, moves what has moved, gives what was changed another material.</summary>
-        internal void Follow()
+        internal void Follow(int layersOfDevice)
         {
+            layers = layersOfDevice;
             long changes = KnurlGrating.Changes;
             for (int i = 0; i < count; i++)
             {
@@ -157,12 +161,17 @@ namespace Knurl
             return -1;
         }
 
+        int IsOnLayer(KnurlSurface surface)
+        {
+            return (surface.Layers & layers) != 0 ? 1 : 0;
+        }
+
         void FollowOne(KnurlSurface surface, Follower* f, Matrix4x4* now, bool gratingsChanged)
         {
             bool hasMoved = !IsSame(now, &f->seen);
             bool isFeltAnew = f->felt != surface.Felt || (gratingsChanged && surface.WasChangedSince(gratingsSeen));
             f->seen = *now;
-            if (f->made != surface.Made || (f->id == 0 && (f->isFlat != 0 ? hasMoved : isFeltAnew)))
+            if (f->made != surface.Made || f->isOnLayer != IsOnLayer(surface) || (f->id == 0 && (f->isFlat != 0 ? hasMoved : isFeltAnew)))
             {
                 Put(surface, f);
             }

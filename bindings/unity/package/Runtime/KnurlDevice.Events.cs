@@ -2,6 +2,7 @@
 // anew, or destroy it. SPDX-License-Identifier: MIT
 using System;
 using UnityEngine;
+using UnityEngine.Events;
 
 namespace Knurl
 {
@@ -59,6 +60,10 @@ namespace Knurl
             touchedId = id;
             touched = surface;
             Tell(contactStarted, surface);
+            if (surface != null && touchedId == id) // a handler may have stopped the device, or destroyed the surface
+            {
+                Tell(surface.touched, this);
+            }
         }
 
         void LetGo()
@@ -69,18 +74,45 @@ namespace Knurl
                 touchedId = 0;
                 touched = null;
                 Tell(contactEnded, surface);
+                if ((object)surface != null)
+                {
+                    Tell(surface.released, this);
+                }
             }
         }
 
-        void Tell(KnurlContactEvent what, KnurlSurface surface)
+        void Tell<T>(UnityEvent<T> what, T value)
         {
             try
             {
-                what.Invoke(surface);
+                what.Invoke(value);
             }
             catch (Exception e)
             {
                 Debug.LogException(e, this);
+            }
+        }
+
+        /// <summary>Tells what is touched how many ridges passed since the last frame.</summary>
+        void TellRidges()
+        {
+            double now = isRunning ? GetState().ridges : 0.0;
+            int count = (int)Math.Min(int.MaxValue, now - ridges);
+            if (count > 0)
+            {
+                KnurlSurface surface = touched;
+                ridges = surface != null ? ridges + count : now;
+                try
+                {
+                    if (surface != null)
+                    {
+                        surface.ridgesPassed.Invoke(this, count);
+                    }
+                }
+                catch (Exception e)
+                {
+                    Debug.LogException(e, this);
+                }
             }
         }
 

@@ -18,7 +18,13 @@ namespace Knurl
         [NonSerialized] Vector3 impulse; // N s: of the run, as of the latest frame
         [NonSerialized] int runs;        // so far
         [NonSerialized] string deviceName;
-        [NonSerialized] Matrix4x4 workspace; // of the run: it stays where it was at the start
+        [NonSerialized] Vector3 latestPosition;       // where the workspace was told to be
+        [NonSerialized] Quaternion latestRotation;
+        [NonSerialized] float runningScale;           // of the run
+        [NonSerialized] Vector3 latestForce;          // as told to the run
+        [NonSerialized] float latestGain;
+        [NonSerialized] bool latestClutch;
+        [NonSerialized] double ridges;                // as told to the surfaces that were touched
         [NonSerialized] double framesTime, stepsTime; // s: how far the game's frames and physics steps have come
 
         /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component
@@ -141,7 +147,9 @@ namespace Knurl
             desc.reconnect = reconnect ? 1u : 0u;
             desc.clamp = clamp ? 1u : 0u;
             desc.update_rate_hz = rate;
-            workspace = WorkspaceHere();
+            runningScale = workspaceScale;
+            latestPosition = transform.position;
+            latestRotation = transform.rotation;
             Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
             fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"))
             {
@@ -149,14 +157,57 @@ namespace Knurl
                 desc.stroke = hand;
                 KnurlException.Check(NativeMethods.knurl_session_open(session, &desc));
             }
-            following = new Following(session);
+            following = new Following(session, layers);
             following.Fill();
         }
 
-        /// <summary>Without the object's scale, which does not count.</summary>
-        Matrix4x4 WorkspaceHere()
+        /// <summary>Tells the run what is another since the last frame; all of it at the start.</summary>
+        unsafe void TellSettings(bool all)
         {
-            return Matrix4x4.TRS(transform.position, transform.rotation, workspaceScale * Vector3.one);
+            float wanted = Mathf.Clamp01(gain);
+            double* force = stackalloc double[3];
+            if (all || wanted != latestGain)
+            {
+                latestGain = wanted;
+                NativeMethods.knurl_session_set_gain(session, wanted);
+            }
+            if (all || !addedForce.Equals(latestForce))
+            {
+                latestForce = addedForce;
+                Axes.ToScene(addedForce, force);
+                Check("AddedForce", NativeMethods.knurl_session_set_force(session, force));
+            }
+            if (all || clutch != latestClutch)
+            {
+                latestClutch = clutch;
+                NativeMethods.knurl_session_set_clutch(session, clutch ? 1u : 0u);
+            }
+        }
+
+        /// <summary>The workspace goes where the object went.</summary>
+        unsafe void MoveWorkspace()
+        {
+            Vector3 position = transform.position;
+            Quaternion rotation = transform.rotation;
+            knurl_workspace to;
+            if (position.Equals(latestPosition) && rotation.Equals(latestRotation))
+            {
+                return;
+            }
+            latestPosition = position;
+            latestRotation = rotation;
+            Axes.ToWorkspace(position, rotation, runningScale, &to);
+            uint clock = (uint)(Following.IsMovedBySteps(this) ? NativeMethods.KNURL_SESSION_STEPS
+                : NativeMethods.KNURL_SESSION_FRAMES);
+            Check("move", NativeMethods.knurl_session_move_workspace(session, clock, to.origin, to.rotation));
+        }
+
+        unsafe void Check(string what, int result)
+        {
+            if (result != NativeMethods.KNURL_OK)
+            {
+                Complain(what, Utf8.Read(NativeMethods.knurl_error_message()));
+            }
         }
 
         unsafe void Begin()
@@ -168,6 +219,8 @@ namespace Knurl
             KnurlException.Check(NativeMethods.knurl_session_start(session, warning, size));
             isRunning = true;
             runs++;
+            ridges = 0.0;
+            TellSettings(true);
             NativeMethods.knurl_device_info_init(&info, (uint)sizeof(knurl_device_info));
             NativeMethods.knurl_device_get_info(NativeMethods.knurl_session_get_device(session), &info);
             deviceName = Utf8.Read(info.name);
@@ -238,9 +291,12 @@ namespace Knurl
                 Pause();
                 NativeMethods.knurl_unity_update(session);
                 TellTime();
-                following.Follow();
+                TellSettings(false);
+                MoveWorkspace();
+                following.Follow(layers);
                 React();
                 TellEvents();
+                TellRidges();
             }
         }
 

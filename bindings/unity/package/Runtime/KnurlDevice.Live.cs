@@ -160,6 +160,27 @@ namespace Knurl
             }
         }
 
+        /// <summary>Adds a square wave to the force, as a cue, in place of one that plays. Bounded like <see
+        /// cref="AddedForce"/>. What cannot be played is an error in the console.</summary>
+        /// <param name="method">How its periods are made of whole ticks.</param>
+        /// <param name="frequency">Hz, 0.1 to half of <see cref="Rate"/>.</param>
+        /// <param name="amplitude">N, half peak to peak.</param>
+        /// <param name="duration">s; 0 ends the one that plays.</param>
+        /// <param name="direction">Global, of any length above 0.</param>
+        public unsafe void Vibrate(KnurlVibration method, float frequency, float amplitude, float duration,
+            Vector3 direction)
+        {
+            double* along = stackalloc double[3];
+            Axes.ToScene(direction, along);
+            if (!isRunning)
+            {
+                Complain("Vibrate", "expected a device that runs, found one that does not");
+                return;
+            }
+            Check("Vibrate", NativeMethods.knurl_session_vibrate(session, (int)method, frequency, amplitude, along,
+                duration));
+        }
+
         /// <summary>Adds all surfaces that are tagged in the extras of a .gltf or .glb file, at the scene's origin,
         /// without any object; they stay as long as this component, and are told as null by its events. Play mode
         /// only.</summary>
@@ -221,11 +242,15 @@ namespace Knurl
             return isRunning ? KnurlStatus.Of(session) : default(KnurlStatus);
         }
 
-        /// <summary>Where the workspace lies, in device metres to global: while it runs, where the object was when it
-        /// started.</summary>
+        /// <summary>Where the workspace lies, in device metres to global, but for what a clutch has moved it by. The
+        /// object's scale does not count; while it runs, the workspace scale is that of its start.</summary>
         internal Matrix4x4 Workspace
         {
-            get { return isRunning ? workspace : WorkspaceHere(); }
+            get
+            {
+                float scale = isRunning ? runningScale : workspaceScale;
+                return Matrix4x4.TRS(transform.position, transform.rotation, scale * Vector3.one);
+            }
         }
 
         internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)

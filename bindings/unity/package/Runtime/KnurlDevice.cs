@@ -5,9 +5,10 @@ namespace Knurl
 {
     /// <summary>A force-feedback device, or a simulated one, whose workspace lies in the scene. It runs a haptic
     /// thread, commonly a thousand times a second, that lets the device feel all <see cref="KnurlSurface"/> components;
-    /// in play mode only. Where the object stands and how it is turned when the device starts, there lies the device's
-    /// workspace: x to the right, y up, the user looking along the object's z, origin at the object; the object's scale
-    /// does not count. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or
+    /// in play mode only. Where the object stands and how it is turned, there lies the device's workspace: x to the
+    /// right, y up, the user looking along the object's z, origin at the object; the object's scale does not count. An
+    /// object that moves takes the workspace and the hand with it, through what is in the way; one that jumps (faster
+    /// than 10 m/s) touches nothing in between. A game that is paused, has a time scale of 0, hangs for more than a quarter of a second, or
     /// disables the device zeroes the force. All members: main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Device")]
     [DefaultExecutionOrder(1000)] // last in a frame, so that what others have moved in it is followed
@@ -47,6 +48,20 @@ namespace Knurl
         [SerializeField, Tooltip("A pause of this device: nothing is felt, and where it is goes on being told. Counts at "
             + "once.")]
         bool paused;
+
+        [SerializeField, Range(0f, 1f), Tooltip("How much of every force is sent, 0 to 1: for a player's setting. Counts at "
+            + "once.")]
+        float gain = 1f;
+
+        [SerializeField, Tooltip("A force of the game's own that is added to what surfaces give, global. N")]
+        Vector3 addedForce;
+
+        [SerializeField, Tooltip("While it is on, nothing is felt and the HIP stays, so that the hand can go back to where "
+            + "it has room.")]
+        bool clutch;
+
+        [SerializeField, Tooltip("It feels the surfaces that have one of these layers too: a bit each.")]
+        int layers = 1;
 
         /// <summary>A surface is touched; of several, the one pressed deepest. Null for a surface of <see
         /// cref="LoadGltf"/>. Told in LateUpdate; a touch shorter than a frame is told as well.</summary>
@@ -141,6 +156,40 @@ namespace Knurl
                 paused = value;
                 Pause();
             }
+        }
+
+        /// <summary>How much of every force is sent, 0 to 1 (else set to the nearest of these), for a player's setting.
+        /// Reached by a ramp. Default 1.</summary>
+        public float Gain
+        {
+            get { return gain; }
+            set { gain = value; }
+        }
+
+        /// <summary>A force of the game's own (N, global) that is added to what surfaces give until it is set anew. The
+        /// sum grows no faster than the device's protections let it, is shortened to what its motors can do, and goes to
+        /// zero in a pause and when the game hangs. Default zero.</summary>
+        public Vector3 AddedForce
+        {
+            get { return addedForce; }
+            set { addedForce = value; }
+        }
+
+        /// <summary>While it is on, nothing is felt and <see cref="HipPosition"/> stays, so that the hand can go back to
+        /// where it has room; afterwards the point goes on from where it stayed. As with a mouse that is lifted. What
+        /// was gained so goes with the object, and is forgotten at the next start. Default false.</summary>
+        public bool Clutch
+        {
+            get { return clutch; }
+            set { clutch = value; }
+        }
+
+        /// <summary>It feels the surfaces that have one of these layers too (a bit each), see <see
+        /// cref="KnurlSurface.Layers"/>. Default 1.</summary>
+        public int Layers
+        {
+            get { return layers; }
+            set { layers = value; }
         }
 
         void Complain(string what, string sentence)

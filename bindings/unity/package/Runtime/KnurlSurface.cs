@@ -30,6 +30,18 @@ namespace Knurl
             + "feels.")]
         bool reaction;
 
+        [SerializeField, Tooltip("Only devices feel it that have one of these layers too: a bit each.")]
+        int layers = 1;
+
+        /// <summary>A device touches it, see <see cref="KnurlDevice.contactStarted"/>.</summary>
+        public KnurlTouchEvent touched = new KnurlTouchEvent();
+
+        /// <summary>A device does not touch it any more, see <see cref="KnurlDevice.contactEnded"/>.</summary>
+        public KnurlTouchEvent released = new KnurlTouchEvent();
+
+        /// <summary>So many ridges passed under the finger since the last frame: for sounds.</summary>
+        public KnurlRidgesEvent ridgesPassed = new KnurlRidgesEvent();
+
         // As counted in Made and Felt.
         [NonSerialized] KnurlGrating latestGrating;
         [NonSerialized] Vector3 latestAxis;
@@ -70,6 +82,14 @@ namespace Knurl
         {
             get { return reaction; }
             set { reaction = value; }
+        }
+
+        /// <summary>Only devices feel it that have one of these layers too (a bit each), see <see
+        /// cref="KnurlDevice.Layers"/>. Default 1.</summary>
+        public int Layers
+        {
+            get { return layers; }
+            set { layers = value; }
         }
 
         /// <summary>How many triangles are felt with the first device that feels it; 0 while no running device
@@ -139,9 +159,15 @@ namespace Knurl
             {
                 warnings.Add("It is scaled to nothing.");
             }
+            bool isOnLayer = World.Devices.Count == 0;
             for (int i = 0; i < World.Devices.Count; i++)
             {
                 World.Devices[i].Explain(this, warnings);
+                isOnLayer |= (World.Devices[i].Layers & layers) != 0;
+            }
+            if (!isOnLayer)
+            {
+                warnings.Add("No running KnurlDevice has one of its layers.");
             }
             return warnings.ToArray();
         }

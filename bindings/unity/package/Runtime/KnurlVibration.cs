@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+namespace Knurl
+{
+    /// <summary>How the periods of a vibration are made of whole ticks. See <see cref="KnurlDevice.Vibrate"/>.</summary>
+    public enum KnurlVibration
+    {
+        /// <summary>A sampled square wave: its mean need not be zero.</summary>
+        T1 = 1,
+
+        /// <summary>Two even periods mixed: the frequency is exact.</summary>
+        T2 = 2,
+
+        /// <summary>Whole events whose impulse is zero: it pushes nobody's hand away.</summary>
+        T3 = 3
+    }
+}
