@@ -55,11 +55,12 @@ static void collect_touches(knurl_session *s) {
     }
 }
 
-static void collect_buttons(knurl_session *s) {
+static void collect_status(knurl_session *s) {
     knurl_device_status status;
     knurl_device_status_init(&status, sizeof status);
     if (!knurl_device_get_status(s->device, &status)) {
         s->buttons = status.buttons;
+        memcpy(s->orientation, status.orientation, sizeof s->orientation);
     }
 }
 
@@ -83,7 +84,7 @@ void knurl_session_update(knurl_session *session) {
         knurl_loop_heartbeat(session->loop);
         const uint32_t is_over = knurl_loop_wait(session->loop, 0.0); /* before its last events are collected */
         collect_touches(session);
-        collect_buttons(session);
+        collect_status(session);
         collect_overruns(session);
         session->faults_due = MOST_FAULTS;
         session->has_ended = is_over;
@@ -98,6 +99,7 @@ void knurl_session_forget(knurl_session *session) {
         touch(session, 0);
     }
     session->buttons = session->told_buttons = 0;
+    memset(session->orientation, 0, sizeof session->orientation);
     session->faults_due = session->has_ended = 0;
     session->overruns = session->counted_at = 0;
 }
@@ -168,6 +170,26 @@ uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *e
     return (uint32_t)is_found;
 }
 
+/* a * b, of quaternions x, y, z, w. */
+static void multiply(const double a[4], const double b[4], double out[4]) {
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        out[i] = a[3] * b[i] + b[3] * a[i] + a[j] * b[k] - a[k] * b[j];
+    }
+    out[3] = a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2];
+}
+
+/* From device axes to the scene's; zeros stay zeros. */
+static void turn_stylus(const knurl_session *s, double stylus[4]) {
+    static const double none[4];
+    double workspace[4];
+    if (memcmp(s->orientation, none, sizeof none) != 0) {
+        knurl_session_to_quaternion(s->desc.workspace.rotation, workspace);
+        multiply(workspace, s->orientation, stylus);
+    }
+}
+
 void knurl_session_get_state(const knurl_session *session, knurl_session_state *state) {
     if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(state)) {
         return;
@@ -183,6 +205,7 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
     state->surface = session->touched;
     state->buttons = session->buttons;
     state->overruns = session->overruns;
+    turn_stylus(session, state->stylus);
     memset(&counts, 0, sizeof counts);
     if (look(session, &sent)) {
         (void)knurl_scene_get_tick(session->scene, 0, NULL, &counts);

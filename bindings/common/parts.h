@@ -45,6 +45,7 @@ struct knurl_session {
     knurl_surface_id latest;  /* the touch after the ring's last */
     knurl_surface_id touched; /* as told */
     uint32_t buttons, told_buttons;
+    double orientation[4];         /* of the stylus, device axes */
     uint32_t faults_due;           /* at most so many: who handles each slower than they come would never be done */
     uint32_t has_ended;            /* by itself, and it is to be told */
     uint64_t overruns, counted_at; /* and the tick when they were counted */
@@ -69,6 +70,9 @@ knurl_result knurl_session_check_run(const knurl_session *session);
 
 /* clock.c: the pace of what moves now by the way's clock: 1, or 0 where nobody has told that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
+
+/* pose.c: of a right-handed rotation, row-major: x, y, z, w. */
+void knurl_session_to_quaternion(const double rotation[9], double quaternion[4]);
 
 /* text.c: makes a caller's text empty; adds a sentence to it, on a line of its own. Both do nothing where there is no
  * text, and what does not fit is cut off after a whole character. */

@@ -1,7 +1,6 @@
 /* Splits an engine's matrices into position and rotation, which a surface has, and scale, which is baked into its mesh.
  * SPDX-License-Identifier: MIT */
-#include "base/handle.h"
-#include "session.h"
+#include "parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,7 +24,7 @@ static int normalise(double v[3]) {
 }
 
 /* Of a right-handed rotation, by its largest part, so that nothing small is divided by. */
-static void to_quaternion(const double r[9], double q[4]) {
+void knurl_session_to_quaternion(const double r[9], double q[4]) {
     const double four[4] = {1.0 + r[0] - r[4] - r[8], 1.0 - r[0] + r[4] - r[8], 1.0 - r[0] - r[4] + r[8],
                             1.0 + r[0] + r[4] + r[8]};
     const double sums[4][4] = {{four[0], r[1] + r[3], r[2] + r[6], r[7] - r[5]},
@@ -103,7 +102,7 @@ uint32_t knurl_session_split_pose(const double matrix[12], knurl_session_pose *p
     if (knurl_session_same_rest(made.rest, identity)) {
         memcpy(made.rest, identity, sizeof identity);
     }
-    to_quaternion(made.rotation, made.quaternion);
+    knurl_session_to_quaternion(made.rotation, made.quaternion);
     *pose = made;
     return 1;
 }

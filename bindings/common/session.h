@@ -53,6 +53,8 @@ typedef struct knurl_session_state {
     double depth;              /**< m: how deep the HIP is in what is touched; negative among a grating's crests */
     double impulse[3];         /**< N s: the sum of all forces over time since the start: what is touched has got the
                                     opposite of what came in since the last look */
+    double stylus[4];          /**< unit quaternion x, y, z, w from the stylus's axes to the scene's, as of the latest
+                                    update; zeros where the device does not measure it */
     double ridges;             /**< passed since the start, of all surfaces touched */
 } knurl_session_state;
 

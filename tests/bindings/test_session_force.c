@@ -121,3 +121,46 @@ TEST(what_a_clutch_has_moved_goes_with_the_node) {
     CHECK_VECTOR(state_of(s).hip, 0.0, 0.02, 0.02, 1e-9);
     knurl_session_destroy(s);
 }
+
+/* A device whose stylus is turned by a quarter about its z, in a workspace that is turned by a quarter about x. */
+static knurl_result read_turned(void *user, knurl_device_sample *sample) {
+    (void)user;
+    memset(sample, 0, sizeof *sample);
+    sample->orientation[2] = sample->orientation[3] = 0.70710678118654752;
+    return KNURL_OK;
+}
+
+static knurl_result write_nothing(void *user, const double force[3]) {
+    (void)user;
+    (void)force;
+    return KNURL_OK;
+}
+
+static void get_info(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = 1.0;
+}
+
+TEST(a_styluss_orientation_is_told_in_scene_axes) {
+    static const double over[9] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0};
+    knurl_session *s = make_session();
+    knurl_session_desc desc = describe("fake", "");
+    knurl_device_functions functions;
+    memcpy(desc.workspace.rotation, over, sizeof over);
+    open_session(s, &desc);
+    knurl_device_close(s->device);
+    knurl_device_functions_init(&functions, sizeof functions);
+    functions.get_info = get_info;
+    functions.read = read_turned;
+    functions.write = write_nothing;
+    assert_int_equal(knurl_device_open_functions(&functions, &s->device), KNURL_OK);
+    s->is_fake = 0;
+    assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
+    CHECK_UNTIL(s, state_of(s).stylus[3] != 0.0);
+    const knurl_session_state now = state_of(s); /* (1, 0, 0; 1) (0, 0, 1; 1) / 2 = (1, -1, 1; 1) / 2 */
+    CHECK_VECTOR(now.stylus, 0.5, -0.5, 0.5, 1e-12);
+    CHECK_CLOSE(now.stylus[3], 0.5, 1e-12);
+    knurl_session_close(s);
+    CHECK_VECTOR(state_of(s).stylus, 0.0, 0.0, 0.0, 0.0);
+    knurl_session_destroy(s);
+}

@@ -205,6 +205,18 @@ static void get_buttons(void *self, void *value) {
     *(int64_t *)value = (int64_t)look(self).buttons;
 }
 
+/* The identity where the device does not measure it. */
+static void get_stylus_rotation(void *self, void *value) {
+    static const double none[4];
+    const knurl_session_state state = look(self);
+    const int is_measured = memcmp(state.stylus, none, sizeof none) != 0;
+    float rotation[4] = {0.0F, 0.0F, 0.0F, 1.0F};
+    for (int i = 0; i < 4 && is_measured; i++) {
+        rotation[i] = (float)state.stylus[i];
+    }
+    memcpy(value, rotation, sizeof rotation);
+}
+
 static void get_touched(void *self, const void *const *arguments, void *result) {
     const device *d = self;
     (void)arguments;
@@ -351,6 +363,7 @@ static const gd_property properties[] = {
     {.name = "velocity", .type = VECTOR3, .get = get_velocity},
     {.name = "depth", .type = FLOAT, .get = get_depth},
     {.name = "buttons", .type = INT, .get = get_buttons},
+    {.name = "stylus_rotation", .type = GDEXTENSION_VARIANT_TYPE_QUATERNION, .get = get_stylus_rotation},
     {.name = "temporal_frequency", .type = FLOAT, .get = get_temporal_frequency},
     {.name = "height", .type = FLOAT, .get = get_height},
     {.name = "device_name", .type = STRING, .get = get_device_name},

@@ -69,6 +69,8 @@ static size_t size_of(GDExtensionVariantType type) {
         return 2 * sizeof(float);
     case GDEXTENSION_VARIANT_TYPE_VECTOR3:
         return 3 * sizeof(float);
+    case GDEXTENSION_VARIANT_TYPE_QUATERNION:
+        return 4 * sizeof(float);
     default:
         return 8;
     }

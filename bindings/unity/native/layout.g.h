@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "246347539ae3f0c0"
+#define KNURL_UNITY_INTERFACE "e9a379e3c40ce30a"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -355,7 +355,7 @@
     FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
     FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
     FIELD(knurl_session_desc, workspace, "workspace", 48, 112) \
-    STRUCT(knurl_session_state, 192) \
+    STRUCT(knurl_session_state, 224) \
     FIELD(knurl_session_state, hip, "hip", 0, 24) \
     FIELD(knurl_session_state, proxy, "proxy", 24, 24) \
     FIELD(knurl_session_state, force, "force", 48, 24) \
@@ -371,7 +371,8 @@
     FIELD(knurl_session_state, velocity, "velocity", 128, 24) \
     FIELD(knurl_session_state, depth, "depth", 152, 8) \
     FIELD(knurl_session_state, impulse, "impulse", 160, 24) \
-    FIELD(knurl_session_state, ridges, "ridges", 184, 8) \
+    FIELD(knurl_session_state, stylus, "stylus", 184, 32) \
+    FIELD(knurl_session_state, ridges, "ridges", 216, 8) \
     STRUCT(knurl_session_event, 24) \
     FIELD(knurl_session_event, kind, "kind", 0, 4) \
     FIELD(knurl_session_event, code, "code", 4, 4) \

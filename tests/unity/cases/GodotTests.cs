@@ -67,6 +67,10 @@ namespace Knurl.Tests
             {
                 return new Vector3((float)numbers[0], (float)numbers[1], (float)numbers[2]);
             }
+            if (type == typeof(Quaternion))
+            {
+                return new Quaternion((float)numbers[0], (float)numbers[1], (float)numbers[2], (float)numbers[3]);
+            }
             return type.IsEnum ? Enum.ToObject(type, (int)numbers[0]) : Convert.ChangeType(numbers[0], type);
         }
 

@@ -62,6 +62,15 @@ namespace Knurl
             r[8] = -(1.0 - twice * (x * x + y * y));
         }
 
+        /// <summary>A stylus's rotation from its own axes, whose z is towards the user, as that of an object that looks
+        /// along its z: M becomes F M D. F M F is the quaternion (x, -y, -z, w), F D half a turn about y. The identity
+        /// for zeros.</summary>
+        internal static Quaternion ToRotation(double* q)
+        {
+            return q[0] == 0.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0 ? Quaternion.identity
+                : new Quaternion((float)q[2], (float)q[3], (float)q[0], (float)q[1]);
+        }
+
         /// <summary>The direction in a mesh that an object's scale, shear and mirror turn into another, which is given in
         /// the object's own axes: what <see cref="KnurlTag.Axis"/> is for <see cref="KnurlSurface.Axis"/>. Zero where the
         /// object has no volume.</summary>

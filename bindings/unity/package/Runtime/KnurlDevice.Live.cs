@@ -93,6 +93,17 @@ namespace Knurl
             get { return (int)GetState().buttons; }
         }
 
+        /// <summary>How the stylus is turned (global), as of the latest frame, to draw one: contact is a point's. The
+        /// identity with a device that does not measure it.</summary>
+        public unsafe Quaternion StylusRotation
+        {
+            get
+            {
+                knurl_session_state state = GetState();
+                return Axes.ToRotation(state.stylus);
+            }
+        }
+
         /// <summary>What is wrong with how it is set up: a sentence each. Empty where all is well.</summary>
         public string[] GetWarnings()
         {

@@ -525,6 +525,7 @@ namespace Knurl
         public fixed double velocity[3];
         public double depth;
         public fixed double impulse[3];
+        public fixed double stylus[4];
         public double ridges;
     }
 
@@ -614,7 +615,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "246347539ae3f0c0";
+        internal const string Interface = "e9a379e3c40ce30a";
 
         internal const string Version = "0.1.0";
 

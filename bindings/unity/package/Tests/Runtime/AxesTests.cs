@@ -240,6 +240,30 @@ namespace Knurl.Tests
             device.StopDevice();
         }
 
+        /// <summary>A stylus whose axes are the device's looks along the z of the device's object.</summary>
+        [Test]
+        public unsafe void AStylusThatIsNotTurnedStandsAsItsDevicesObject()
+        {
+            knurl_workspace workspace;
+            knurl_session_pose pose;
+            double* rows = stackalloc double[12];
+            Quaternion turned = Quaternion.Euler(Skew);
+            Axes.ToWorkspace(Vector3.zero, turned, 1.0, &workspace);
+            for (int i = 0; i < 12; i++)
+            {
+                rows[i] = i % 4 == 3 ? 0.0 : workspace.rotation[3 * (i / 4) + i % 4];
+            }
+            Assert.AreEqual(1, NativeMethods.knurl_session_split_pose(rows, &pose));
+            Quaternion found = Axes.ToRotation(pose.quaternion);
+            AreNear(turned * Vector3.forward, found * Vector3.forward, 1e-6, "forward");
+            AreNear(turned * Vector3.up, found * Vector3.up, 1e-6, "up");
+            for (int i = 0; i < 4; i++)
+            {
+                pose.quaternion[i] = 0.0;
+            }
+            Assert.AreEqual(Quaternion.identity, Axes.ToRotation(pose.quaternion));
+        }
+
         static unsafe Vector3 ToUnity(knurl_workspace* workspace, double right, double up, double towards)
         {
             double* from = stackalloc double[3];
