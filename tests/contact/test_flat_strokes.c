@@ -1,5 +1,6 @@
 /* Strokes over flat meshes as planes and as meshes: the same contacts, to within what floats leave.
  * SPDX-License-Identifier: MIT */
+#include "contact/plane_hold.h"
 #include "support/flat.h"
 
 /* A mesh both ways. */

@@ -59,12 +59,8 @@ static int within_outline(const knurl_plane *plane, const double p[2]) {
     return inside;
 }
 
-/* m that a rectangle reaches beyond its edges: rounding leaves no gap between planes side by side. */
-#define EDGE_SLACK 1e-10
-
 static inline int covers(const knurl_plane *plane, const double p[2]) {
-    return fabs(p[0]) <= plane->half_extents[0] + EDGE_SLACK && fabs(p[1]) <= plane->half_extents[1] + EDGE_SLACK &&
-           (!plane->outline || within_outline(plane, p));
+    return knurl_plane_spans(plane, p) && (!plane->outline || within_outline(plane, p));
 }
 
 int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
@@ -165,14 +161,7 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
         memset(state, 0, sizeof *state);
         return 0;
     }
-    state->inside = z <= KNURL_ON_SURFACE;
-    contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
-    contact->proxy[1] = hip[1];
-    contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;
-    contact->normal[2] = state->side;
-    contact->z = z;
-    contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
-    contact->triangle = 0;
+    knurl_plane_set_contact(hip, z, state, contact);
     return 1;
 }
 

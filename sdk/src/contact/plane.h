@@ -63,6 +63,28 @@ int knurl_plane_covers(const knurl_plane *plane, const double p[2]) KNURL_NONBLO
 
 uint64_t knurl_plane_bytes(const knurl_plane *plane);
 
+/* m that a rectangle reaches beyond its edges: rounding leaves no gap between planes side by side. */
+#define KNURL_EDGE_SLACK 1e-10
+
+/* 1 for a point (of z = 0) within the bounding rectangle. */
+static inline int knurl_plane_spans(const knurl_plane *plane, const double p[2]) {
+    return fabs(p[0]) <= plane->half_extents[0] + KNURL_EDGE_SLACK &&
+           fabs(p[1]) <= plane->half_extents[1] + KNURL_EDGE_SLACK;
+}
+
+/* The contact of a HIP that is at a height of z (m) over the plane, on the state's side. */
+static inline void knurl_plane_set_contact(const double hip[3], double z, knurl_contact_state *state,
+                                           knurl_contact *contact) {
+    state->inside = z <= KNURL_ON_SURFACE;
+    contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
+    contact->proxy[1] = hip[1];
+    contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;
+    contact->normal[2] = state->side;
+    contact->z = z;
+    contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
+    contact->triangle = 0;
+}
+
 /* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
  * state. Allowed in a tick. */
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
@@ -77,23 +99,6 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
 
 /* Sets the seam, by the plane's size and how far it is off what was given. */
 void knurl_plane_set_seam(knurl_plane *plane);
-
-/* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
- * not turned by the material's orientation). Allowed in a tick. */
-static inline void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
-                                     double coordinates[2]) {
-    const double *p = contact->proxy;
-    const double side = contact->normal[2];
-    const double normal[3] = {0.0, 0.0, side};
-    x[0] = plane->x[0];
-    x[1] = plane->x[1];
-    x[2] = 0.0;
-    vec3_cross(normal, x, y);
-    for (int i = 0; i < 2; i++) {
-        coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
-    }
-    coordinates[1] *= side; /* from behind y runs the other way */
-}
 
 /* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
  * 0: the plane has no coordinates. Allowed in a tick. */

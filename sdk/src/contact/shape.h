@@ -6,7 +6,7 @@
 
 #include "base/heap.h"
 #include "contact/mesh_frame.h"
-#include "contact/plane.h"
+#include "contact/plane_hold.h"
 #include "contact/shape_facts.h"
 
 #include <knurl/contact.h>

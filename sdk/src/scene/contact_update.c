@@ -1,37 +1,43 @@
-/* Begins, holds and ends contacts. Read knurl_contacts_update(), at the end, first. SPDX-License-Identifier: MIT */
+/* Begins, holds and ends contacts. Read knurl_contacts_find(), at the end, first. SPDX-License-Identifier: MIT */
 #include "scene/contact_update.h"
 
 #include "scene/joint_contact.h"
 
 #include <string.h>
 
-/* The HIP in the shape's frame, now and before. pose: of that frame, now. */
-static void make_query(const knurl_contacts *c, const knurl_active_contact *a, const double position[3],
-                       knurl_contact_query *query) {
-    knurl_pose_to_own(a->pose, position, query->hip);
-    vec3_copy(a->candidate->previous, query->previous);
-    query->has_previous = c->has_previous;
-    query->reach = a->record->reach;
-    query->double_sided = a->surface->double_sided;
-    query->facet = &a->candidate->facet;
+/* Asks a shape for its contact with the HIP. hip: in the shape's frame. Returns 0 where that does not settle it. */
+static inline int ask_shape(const knurl_contacts *c, knurl_active_contact *a, const double hip[3],
+                            knurl_contact_state *state) {
+    const knurl_shape *shape = &a->surface->shape;
+    knurl_contact_query query;
+    if (shape->plane && knurl_plane_hold(shape->plane, hip, state, &a->contact)) {
+        return 1;
+    }
+    vec3_copy(hip, query.hip);
+    vec3_copy(a->candidate->previous, query.previous);
+    query.has_previous = c->has_previous;
+    query.reach = a->record->reach;
+    query.double_sided = a->surface->double_sided;
+    query.facet = &a->candidate->facet;
+    return knurl_shape_contact(shape, &query, state, &a->contact) && !a->contact.unsure;
 }
 
-/* 1 where a surface's proxy (scene) is still among what has been looked at. path: null where the clearance tells. */
-static int is_within_view(const knurl_contacts *c, const knurl_hip_path *path, const double proxy[3]) {
-    if (!path) {
+/* 1 where a surface's proxy (scene) is still among what has been looked at: within `room` (m) of where the last tick's
+ * was; or below 0: where the clearance says so. */
+static inline int is_within_view(const knurl_contacts *c, double room, const double proxy[3]) {
+    if (room < 0.0) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
     }
-    const double room = knurl_hip_path_room(path);
-    return vec3_distance2(c->pressed ? c->proxy : path->from, proxy) <= room * room;
+    return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= room * room;
 }
 
 /* Nothing but `candidate`, which is in contact, is near: its shape alone is asked. 0 where that does not settle it, and
- * nothing has changed. path: as for is_within_view(). */
-static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
-                      const double position[3], const knurl_hip_path *path) {
+ * nothing has changed. room: as for is_within_view(). */
+static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                             const double position[3], double room) {
     knurl_active_contact *a = &c->active[0];
     const knurl_pose *before;
-    knurl_contact_query query;
+    double hip[3], proxy[3], normal[3];
     knurl_contact_state state = candidate->contact;
     a->candidate = candidate;
     a->surface = knurl_contacts_surface(index, candidate);
@@ -45,20 +51,18 @@ static int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_c
     }
     knurl_contacts_catch_up(c, motion);
     knurl_candidate_place(candidate, motion, &c->clock, &a->pose, &before);
-    make_query(c, a, position, &query);
-    if (!knurl_shape_contact(&a->surface->shape, &query, &state, &a->contact) || a->contact.unsure) {
+    knurl_pose_to_own(a->pose, position, hip);
+    if (!ask_shape(c, a, hip, &state)) {
         return 0;
     }
-    double proxy[3];
-    double normal[3];
     knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
-    if (state.inside && !is_within_view(c, path, proxy)) {
+    if (state.inside && !is_within_view(c, room, proxy)) {
         return 0;
     }
     vec3_copy(proxy, candidate->proxy);
     vec3_copy(normal, candidate->normal);
-    vec3_copy(query.hip, candidate->previous);
+    vec3_copy(hip, candidate->previous);
     candidate->contact = state;
     a->begins = 0;
     c->active_count = 1;
@@ -106,8 +110,8 @@ static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, k
 }
 
 /* The candidate that is in contact, where it is the only one and the path comes near no other; else null. */
-static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path) {
-    const double room = knurl_hip_path_room(path);
+static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
+                                   double room) {
     knurl_candidate *alone = NULL;
     if (c->active_count != 1 || c->pressed > 1 || path->is_first || path->everything ||
         knurl_contacts_have_slipped(c)) {
@@ -124,23 +128,38 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
     return alone;
 }
 
-/* Only the candidate that is in contact is near. 0 where it does not settle the contact, and nothing has changed. */
-static int hold_near(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path) {
-    knurl_candidate *alone = find_alone(c, index, path);
-    if (!alone || !hold_alone(c, index, alone, path->to, path)) {
-        return 0;
-    }
+/* How the HIP goes in this tick. */
+static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
+    const knurl_hip_path path = {c->has_previous ? c->previous : position,
+                                 position,
+                                 c->pressed ? c->proxy : position,
+                                 c->depth,
+                                 c->clock.time,
+                                 !c->has_previous,
+                                 c->everything};
+    return path;
+}
+
+/* Makes the list complete where there is no clearance. Returns what find_alone() does. *room: m, for hold_alone(). */
+static knurl_candidate *look(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                             const double position[3], double *room) {
+    const knurl_hip_path path = find_path(c, position);
+    *room = knurl_hip_path_room(&path);
+    knurl_candidates_update(&c->candidates, phase, index, &path);
+    return find_alone(c, index, &path, *room);
+}
+
+/* All that was looked at has the clearance of a HIP that one surface, `alone`, holds. */
+static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         c->candidates.list[i].has_previous &= &c->candidates.list[i] == alone;
     }
-    keep_proxy(c, path->to);
-    knurl_candidates_measure(&c->candidates, path->to, c->proxy, 0);
-    return 1;
+    knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
 }
 
 /* What is looked for at several surfaces. */
-static void look_around(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
-                        uint32_t *flags) {
+static void look_around(knurl_contacts *c, const knurl_broad_index *index, const double position[3], uint32_t *flags) {
+    const knurl_hip_path path = find_path(c, position);
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
     for (uint32_t i = 0; i < c->candidates.count && c->pressed; i++) {
@@ -148,35 +167,29 @@ static void look_around(knurl_contacts *c, const knurl_broad_index *index, const
         c->ramped_depth = candidate->in_contact && candidate->guard.depth > c->ramped_depth ? candidate->guard.depth
                                                                                             : c->ramped_depth;
     }
-    knurl_joint_contact(c, index, path, flags);
+    knurl_joint_contact(c, index, &path, flags);
     c->depth = 0.0;
     if (c->pressed) {
         double way[3];
-        vec3_sub(c->proxy, path->to, way);
+        vec3_sub(c->proxy, position, way);
         c->depth = vec3_length(way);
     }
-    knurl_candidates_measure(&c->candidates, path->to, c->proxy, c->active_count < before || path->everything);
+    knurl_candidates_measure(&c->candidates, position, c->proxy, c->active_count < before || c->everything);
 }
 
-void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                           const double position[3], uint32_t *flags) {
-    const int clear = c->has_previous && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
-    if (clear && c->active_count == 1 && hold_alone(c, index, c->active[0].candidate, position, NULL)) {
+void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                         const double position[3], int clear, uint32_t *flags) {
+    double room = -1.0;
+    knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;
+    if (!clear) {
+        alone = look(c, phase, index, position, &room);
+    }
+    if (!alone || !hold_alone(c, index, alone, position, room)) {
+        look_around(c, index, position, flags);
+    } else {
         keep_proxy(c, position);
-    } else if (!clear || c->active_count > 0 || knurl_contacts_have_slipped(c)) {
-        const double *proxy = c->pressed ? c->proxy : position;
-        const knurl_hip_path path = {c->has_previous ? c->previous : position,
-                                     position,
-                                     proxy,
-                                     c->depth,
-                                     c->clock.time,
-                                     !c->has_previous,
-                                     c->everything};
         if (!clear) {
-            knurl_candidates_update(&c->candidates, phase, index, &path);
-        }
-        if (clear || !hold_near(c, index, &path)) {
-            look_around(c, index, &path, flags);
+            measure_alone(c, alone, position);
         }
     }
     if (c->candidates.overflow) {

@@ -3,33 +3,23 @@
 
 #include <string.h>
 
-/* s that a HIP may be behind another before it takes over its time: it has not ticked for a while. */
-#define MAX_LAG 0.05
-
 void knurl_contacts_end(knurl_candidate *candidate) {
     candidate->in_contact = 0;
     memset(&candidate->contact, 0, sizeof candidate->contact);
     knurl_wall_end(&candidate->guard);
 }
 
-void knurl_contacts_catch_up(knurl_contacts *c, const knurl_motion *motion) {
-    if (motion->start_time - c->clock.time > MAX_LAG) {
-        knurl_store_double(&c->clock.time, motion->start_time);
-        c->clock.previous_time = motion->start_time - c->clock.period;
-    }
+void knurl_contacts_take_time(knurl_contacts *c, double time) {
+    knurl_store_double(&c->clock.time, time);
+    c->clock.previous_time = time - c->clock.period;
 }
 
-const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index, knurl_candidate *candidate) {
-    const knurl_surface_data *surface =
-        candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
-    if (!surface || candidate->generation != surface->generation) {
-        if (!surface || candidate->in_contact) {
-            knurl_contacts_end(candidate);
-        }
-        candidate->generation = surface ? surface->generation : candidate->generation;
-        candidate->has_previous = 0;
+void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) {
+    if (!surface || candidate->in_contact) {
+        knurl_contacts_end(candidate);
     }
-    return surface;
+    candidate->generation = surface ? surface->generation : candidate->generation;
+    candidate->has_previous = 0;
 }
 
 int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knurl_surface_data *surface,

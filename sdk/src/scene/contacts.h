@@ -12,6 +12,9 @@
 /* s that a HIP may be between two surfaces: beyond what a seam bridges, a tick may fall into a crack. */
 #define KNURL_SLIP_SECONDS 0.005
 
+/* s that a HIP may be behind another before it takes over its time: it has not ticked for a while. */
+#define KNURL_MAX_LAG 0.05
+
 /* One surface that the HIP is in contact with in this tick. */
 typedef struct knurl_active_contact {
     const knurl_surface_data *surface;
@@ -54,10 +57,21 @@ typedef struct knurl_contacts {
     knurl_candidates candidates;
 } knurl_contacts;
 
+/* What is rare: called by knurl_contacts_surface() and knurl_contacts_catch_up(). */
+void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) KNURL_NONBLOCKING;
+void knurl_contacts_take_time(knurl_contacts *contacts, double time) KNURL_NONBLOCKING;
+
 /* The candidate's surface, or null where it was taken out; another may be in its place since, and then the contact has
  * ended. */
-const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index,
-                                                 knurl_candidate *candidate) KNURL_NONBLOCKING;
+static inline const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index,
+                                                               knurl_candidate *candidate) {
+    const knurl_surface_data *surface =
+        candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
+    if (!surface || candidate->generation != surface->generation) {
+        knurl_contacts_note_change(candidate, surface);
+    }
+    return surface;
+}
 
 /* 1 for a while after the HIP has come off a rim. */
 static inline int knurl_contacts_have_slipped(const knurl_contacts *c) {
@@ -74,6 +88,10 @@ int knurl_contacts_add(knurl_contacts *contacts, knurl_candidate *candidate, con
                        const knurl_touched *touched) KNURL_NONBLOCKING;
 
 /* A HIP that has not ticked for a while takes over the time of a surface that moves. */
-void knurl_contacts_catch_up(knurl_contacts *contacts, const knurl_motion *motion) KNURL_NONBLOCKING;
+static inline void knurl_contacts_catch_up(knurl_contacts *contacts, const knurl_motion *motion) {
+    if (motion->start_time - contacts->clock.time > KNURL_MAX_LAG) {
+        knurl_contacts_take_time(contacts, motion->start_time);
+    }
+}
 
 #endif

@@ -48,8 +48,8 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         out->cycles[0] = out->cycles[1] = 0.0;
         return;
     }
-    out->cycles[0] = m->spatial_frequency[0] * coordinates[0];
-    out->cycles[1] = m->spatial_frequency[1] * coordinates[1];
+    out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* no -0 where there are no ridges */
+    out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
     double velocity[2] = {out->velocity[0], out->velocity[1]};
     double steepest = 1.0;
     if (m->method >= KNURL_LOCKED && /* or AREA */

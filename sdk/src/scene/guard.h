@@ -36,7 +36,7 @@ static inline void knurl_guard_clamp(const knurl_guard *guard, knurl_wall *wall)
 
 /* A tick begins. attenuation: the share of its force, 0 to 1, that will not be sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
-    guard->gain = knurl_is_within(attenuation, 0.0, 1.0) ? 1.0 - attenuation : 0.0;
+    guard->gain = attenuation == 0.0 ? 1.0 : knurl_is_within(attenuation, 0.0, 1.0) ? 1.0 - attenuation : 0.0;
     if (guard->passivity.busy) {
         knurl_passivity_follow(&guard->passivity);
     }

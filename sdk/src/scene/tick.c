@@ -128,6 +128,12 @@ static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knur
     return step;
 }
 
+/* 1 where nothing is in contact, no force is added and the latest tick's was 0: there is nothing to limit. */
+static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
+    const double *force = hip->guard.force;
+    return (hip->contacts.active_count == 0) & !added & (force[0] == 0.0) & (force[1] == 0.0) & (force[2] == 0.0);
+}
+
 /* Sums all contacts' forces and what the game adds, and limits the sum (N, scene). Returns its length. */
 static double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
     double steps = 0.0;
@@ -170,7 +176,12 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         return 0.0;
     }
     knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
-    const double length = sum_forces(hip, added, out);
+    double length = 0.0;
+    if (is_at_rest(hip, added)) {
+        knurl_heat_add(&hip->guard.heat, 0.0);
+    } else {
+        length = sum_forces(hip, added, out);
+    }
     if (!knurl_is_finite(length)) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;

@@ -1,0 +1,38 @@
+/* What a tick asks of a plane that holds its HIP, inline: a call would cost as much as what it does. SPDX-License-Identifier:
+ * MIT */
+#ifndef KNURL_SRC_PLANE_HOLD_H
+#define KNURL_SRC_PLANE_HOLD_H
+
+#include "contact/plane.h"
+
+/* The usual tick of knurl_plane_contact(), which gives the same: the HIP was inside, and still is over a rectangle. 0,
+ * and nothing is changed, where it is not as usual. */
+static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3], knurl_contact_state *state,
+                                   knurl_contact *contact) {
+    const double z = hip[2] * state->side;
+    if (!state->inside || plane->outline || z > KNURL_ON_SURFACE || !knurl_plane_spans(plane, hip)) {
+        return 0;
+    }
+    knurl_plane_set_contact(hip, z, state, contact);
+    contact->unsure = 0;
+    return 1;
+}
+
+/* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
+ * not turned by the material's orientation). Allowed in a tick. */
+static inline void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
+                                     double coordinates[2]) {
+    const double *p = contact->proxy;
+    const double side = contact->normal[2];
+    const double normal[3] = {0.0, 0.0, side};
+    x[0] = plane->x[0];
+    x[1] = plane->x[1];
+    x[2] = 0.0;
+    vec3_cross(normal, x, y);
+    for (int i = 0; i < 2; i++) {
+        coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
+    }
+    coordinates[1] *= side; /* from behind y runs the other way */
+}
+
+#endif
