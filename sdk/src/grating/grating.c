@@ -43,6 +43,9 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
     if (KNURL_IS_NULL(grating)) {
         return KNURL_ERROR_ARGUMENT;
     }
+    if (grating->reserved != 0) { /* or a later version could not give it a meaning */
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "reserved: expected 0, found %lu", (unsigned long)grating->reserved);
+    }
     const double *fs = grating->spatial_frequency;
     if (!(fs[0] >= 0.0 && knurl_is_finite(fs[0]) && fs[1] >= 0.0 && knurl_is_finite(fs[1]))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,

@@ -29,6 +29,9 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.scale: expected a finite number > 0, found %g",
                           workspace->scale);
     }
+    if (workspace->reserved != 0.0) { /* or a later version could not give it a meaning */
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.reserved: expected 0, found %g", workspace->reserved);
+    }
     vec3_cross(r, r + 3, cross); /* the third row of a rotation is the cross product of the others */
     const double off =
         fmax(fabs(vec3_dot(r, r) - 1.0), fmax(fabs(vec3_dot(r + 3, r + 3) - 1.0), fabs(vec3_dot(r, r + 3))));

@@ -234,6 +234,10 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
                       "knurl_scene_tick: expected a scene, an input and an output, found null or a handle that is none",
                       output);
     }
+    if (input->reserved != 0) { /* or a later version could not give it a meaning */
+        return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: input.reserved: expected 0, found another number",
+                      output);
+    }
     if (hip_index < scene->hip_count && knurl_load_relaxed(&scene->use) >> hip_index & 1) {
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: hip: expected one that no loop has, found a loop's",
                       output);
