@@ -25,6 +25,7 @@ VALUES = {
     "knurl_scene_find_surface.name": '"plate"',
     "knurl_scene_get_surface_name.name": "&f->name",
     "knurl_scene_commit.scene": "f->open_scene",
+    "knurl_scene_tick_batch.count": "1",
     "knurl_session_start.session": "f->open_session",
     "knurl_session_play.session": "f->open_session",
     "knurl_session_move_hip.session": "f->mouse_session",

@@ -325,6 +325,33 @@ TEST(hips_are_independent) {
     knurl_scene_destroy(alone[1]);
 }
 
+TEST(a_batch_is_its_ticks_one_by_one) {
+    enum { TICKS = 500 };
+    static knurl_tick_input inputs[TICKS];
+    static knurl_tick_output outputs[TICKS];
+    surface_parts parts = s2_plane();
+    knurl_scene *single = scene_of(&parts);
+    knurl_scene *batched = scene_of(&parts);
+    for (int k = 0; k < TICKS; k++) {
+        inputs[k].position[0] = 0.03 * sin(0.023 * k);
+        inputs[k].position[2] = 0.003 * cos(0.016 * k);
+        inputs[k].absent = k == 100;
+    }
+    assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, TICKS, outputs), KNURL_OK);
+    for (int k = 0; k < TICKS; k++) {
+        knurl_tick_output expected;
+        assert_int_equal(knurl_scene_tick(single, 0, &inputs[k], &expected), KNURL_OK);
+        assert_true(outputs[k].tick == (uint64_t)k);
+        check_same_output(&outputs[k], &expected);
+    }
+    inputs[1].reserved = 1;
+    assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 3, outputs), KNURL_ERROR_ARGUMENT);
+    assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was none */
+    assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 0, outputs), KNURL_OK);
+    knurl_scene_destroy(single);
+    knurl_scene_destroy(batched);
+}
+
 TEST(configuring_a_hip_forgets_what_it_did) {
     surface_parts parts = s2_plane();
     knurl_scene *scene = scene_of(&parts);

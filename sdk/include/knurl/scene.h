@@ -387,6 +387,13 @@ KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint3
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
                                         knurl_tick_output *output) KNURL_NONBLOCKING;
 
+/** Runs `count` ticks one after another, each as knurl_scene_tick(), for simulations and for callers to whom each call
+ * is costly. inputs, outputs: `count` each, the caller's; all outputs are filled in unless scene, inputs or outputs is
+ * invalid. Returns the first error; later ticks run all the same. Errors: those of knurl_scene_tick(). [haptic thread,
+ * one per HIP] */
+KNURL_API knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip, const knurl_tick_input *inputs,
+                                              uint64_t count, knurl_tick_output *outputs) KNURL_NONBLOCKING;
+
 /** A consistent snapshot of the latest tick of a HIP, for cursors and plots; all zeros before the first tick. output,
  * counts: either may be null.
  * Errors: KNURL_ERROR_ARGUMENT. [any thread] */

@@ -245,6 +245,21 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
     return knurl_hip_tick(scene, hip_index, input, NULL, output);
 }
 
+knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *inputs,
+                                    uint64_t count, knurl_tick_output *outputs) {
+    if (!KNURL_IS_HANDLE(scene, SCENE) || !inputs || !outputs) {
+        return refuse(
+            KNURL_ERROR_ARGUMENT,
+            "knurl_scene_tick_batch: expected a scene, inputs and outputs, found null or a handle that is none", NULL);
+    }
+    knurl_result first = KNURL_OK;
+    for (uint64_t i = 0; i < count; i++) {
+        const knurl_result result = knurl_scene_tick(scene, hip_index, &inputs[i], &outputs[i]);
+        first = first ? first : result;
+    }
+    return first;
+}
+
 knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                             const knurl_added_force *added, knurl_tick_output *output) {
     if (hip_index >= scene->hip_count) {

@@ -615,7 +615,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "e9a379e3c40ce30a";
+        internal const string Interface = "a89c9724d9b7f851";
 
         internal const string Version = "0.1.0";
 
@@ -946,6 +946,10 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_tick(knurl_scene* scene, uint hip, knurl_tick_input* input,
             knurl_tick_output* output);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_tick_batch(knurl_scene* scene, uint hip, knurl_tick_input* inputs,
+            ulong count, knurl_tick_output* outputs);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_tick(knurl_scene* scene, uint hip, knurl_tick_output* output,

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""Builds the Python module's wheel as pip does, installs it into an empty environment, and runs its tests and example.
+usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER     FOLDER is kept for the next time. Exit 77: a package is missing.
+SPDX-License-Identifier: MIT"""
+import glob
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+
+SOURCE, FOLDER, CC, CXX = sys.argv[1:]
+PACKAGES = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "python3-setuptools",
+            "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv"}
+
+
+def run(*command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
+                          env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja"})
+    if done.returncode:
+        sys.exit(f"python: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
+    return done.stdout
+
+
+def mirror_tree(tree):
+    """The sources by links, but for the module: pip builds where it stands."""
+    module = os.path.join(tree, "bindings/python")
+    os.makedirs(os.path.dirname(module), exist_ok=True)
+    for name in os.listdir(SOURCE):
+        link = os.path.join(tree, name)
+        if name not in ("bindings", "build", ".git") and not os.path.lexists(link):
+            os.symlink(os.path.join(SOURCE, name), link)
+    shutil.copytree(os.path.join(SOURCE, "bindings/python"), module, dirs_exist_ok=True)
+    return module
+
+
+def main():
+    missing = [package for name, package in PACKAGES.items() if importlib.util.find_spec(name) is None]
+    if missing:
+        print(f"skipped: apt-get install {' '.join(missing)}; ./run test python does it")
+        sys.exit(77)
+    os.makedirs(FOLDER, exist_ok=True)
+    wheels, environment = os.path.join(FOLDER, "wheels"), os.path.join(FOLDER, "environment")
+    for path in (wheels, environment):
+        shutil.rmtree(path, ignore_errors=True)
+    run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir", wheels,
+        mirror_tree(os.path.join(FOLDER, "tree")))
+    wheel, = glob.glob(os.path.join(wheels, "*.whl"))
+    print(f"python: {os.path.basename(wheel)}, {os.path.getsize(wheel) // 1000} kB")
+    run(sys.executable, "-m", "venv", "--system-site-packages", environment) # numpy and cffi are the system's
+    python = os.path.join(environment, "bin/python")
+    run(python, "-m", "pip", "install", "--no-index", wheel)
+    print(run(python, "-B", os.path.join(SOURCE, "bindings/python/examples/stroke.py")).strip())
+    print(run(python, "-B", os.path.join(SOURCE, "tests/python/test_knurl.py"), "-v", os.path.join(SOURCE, "assets")))
+
+
+main()

@@ -1,0 +1,137 @@
+"""The Python module, as it is installed. usage: test_knurl.py [-v] ASSETS
+SPDX-License-Identifier: MIT"""
+import gc
+import os
+import sys
+import time
+import unittest
+
+import numpy as np
+
+import knurl
+
+ASSETS = sys.argv.pop()
+STRAIGHT = {"resolution": 0.0, "workspace": ((0, 0, 0), np.eye(3), 1.0)}
+
+
+def pressed(depth, rows=1000):
+    """Positions that come down to so deep below z = 0 and stay there."""
+    z = np.maximum(-depth, 0.001 - 1e-5 * np.arange(rows))
+    return np.column_stack([np.zeros(rows), np.zeros(rows), z])
+
+
+class Module(unittest.TestCase):
+    def test_a_smooth_plate_answers_with_stiffness_times_depth(self):
+        scene = knurl.Scene()
+        plate = scene.add_plane(name="plate", material=knurl.Material(stiffness=500.0))
+        scene.configure_hip(**STRAIGHT)
+        scene.commit()
+        ticks = scene.tick(pressed(0.002))
+        self.assertEqual(ticks["force"].shape, (1000, 3))
+        np.testing.assert_allclose(ticks["force"][-1], [0.0, 0.0, 1.0], atol=1e-12)
+        np.testing.assert_allclose(ticks["depth"][-1], 0.002)
+        np.testing.assert_array_equal(ticks["force"][:100], 0.0)
+        np.testing.assert_array_equal(ticks["tick"], np.arange(1000))
+        self.assertEqual(ticks["surface"][-1], plate.id)
+        self.assertEqual([surface.name for surface in scene.surfaces], ["plate"])
+        latest, counts = scene.latest()
+        np.testing.assert_array_equal(latest["force"], ticks["force"][-1])
+        self.assertEqual(counts["ticks"], 1000)
+
+    def test_a_mesh_of_arrays_is_felt_as_the_plane_is(self):
+        corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * 0.05
+        scene = knurl.Scene()
+        scene.add_mesh(corners, [[0, 1, 2], [0, 2, 3]], axis=(1, 0, 0), material=knurl.Material(stiffness=400.0))
+        scene.configure_hip(**STRAIGHT)
+        scene.commit()
+        np.testing.assert_allclose(scene.tick(pressed(0.001))["force"][-1], [0.0, 0.0, 0.4], atol=1e-7)
+
+    def test_a_batch_is_the_same_as_its_rows_one_by_one(self):
+        results = []
+        for parts in (1, 500):
+            scene = knurl.Scene()
+            scene.add_plane(material=knurl.Material(400.0, (700.0, 0.0), 2e-4, method="S2"))
+            scene.configure_hip(**STRAIGHT)
+            scene.commit()
+            positions = pressed(0.001)
+            positions[:, 0] = 0.00007 * np.arange(1000)
+            results.append(np.concatenate([scene.tick(part) for part in np.array_split(positions, parts)]))
+        for name in set(results[0].dtype.names) - {"surface"}: # an id is of its scene
+            np.testing.assert_array_equal(results[0][name], results[1][name])
+        self.assertGreater(results[0]["event"].max(), 10)
+
+    def test_a_gltf_file_is_loaded_and_stroked_by_the_fake_device(self):
+        scene = knurl.Scene()
+        surfaces = scene.load(os.path.join(ASSETS, "plate_1d.glb"))
+        self.assertEqual(len(surfaces), 3)
+        scene.commit()
+        device = knurl.Device("fake")
+        device.lay_stroke(scene, surfaces[0])
+        loop = knurl.Loop(scene, device, tick_limit=2000)
+        loop.step(2000)
+        self.assertEqual(loop.stats, {"state": "done", "ticks": 2000, "overruns": 0})
+        self.assertGreater(scene.latest()[1]["contact_ticks"], 1000)
+
+    def test_a_loop_runs_beside_python(self):
+        scene = knurl.Scene()
+        scene.add_plane()
+        scene.commit()
+        with knurl.Loop(scene, knurl.Device("fake")) as loop:
+            deadline = time.monotonic() + 10.0
+            while loop.stats["ticks"] < 20 and time.monotonic() < deadline:
+                time.sleep(0.01)
+            self.assertGreaterEqual(loop.stats["ticks"], 20)
+        self.assertEqual(loop.stats["state"], "done")
+
+    def test_what_is_wrong_is_told_in_the_librarys_words(self):
+        scene = knurl.Scene()
+        with self.assertRaisesRegex(knurl.KnurlError, "stiffness: expected") as caught:
+            scene.add_plane(material=knurl.Material(stiffness=-1.0))
+        self.assertEqual(caught.exception.code, knurl.lib.KNURL_ERROR_ARGUMENT)
+        with self.assertRaisesRegex(knurl.KnurlError, "nowhere.glb: no such file"):
+            scene.load("nowhere.glb")
+        with self.assertRaisesRegex(knurl.KnurlError, "S1"):
+            scene.add_plane(material=knurl.Material(method="S9"))
+        with self.assertRaisesRegex(knurl.KnurlError, "committed"):
+            scene.tick([[0, 0, 0]])
+        with self.assertRaises(knurl.KnurlError):
+            knurl.Device("nothing")
+        surface = scene.add_plane()
+        surface.remove()
+        with self.assertRaises(knurl.KnurlError):
+            surface.move((0, 0, 0))
+
+    def test_arrays_of_another_shape_are_refused_before_the_library_sees_them(self):
+        scene = knurl.Scene()
+        for wrong in ([0, 0, 0], [[0, 0]], np.zeros((2, 2, 3))):
+            with self.assertRaisesRegex(ValueError, "positions"):
+                scene.tick(wrong)
+        with self.assertRaisesRegex(ValueError, "uvs: expected 3 rows"):
+            scene.add_mesh(np.eye(3), uvs=[[0, 0]])
+        with self.assertRaisesRegex(ValueError, "half_extents"):
+            scene.add_plane(half_extents=(1, 2, 3))
+
+    def test_strided_and_integer_arrays_are_taken(self):
+        scene = knurl.Scene()
+        scene.add_plane()
+        scene.configure_hip(**STRAIGHT)
+        scene.commit()
+        wide = np.zeros((10, 6), dtype=int)
+        self.assertEqual(len(scene.tick(wide[:, ::2])), 10)
+        self.assertEqual(len(scene.tick(np.zeros((0, 3)))), 0)
+
+    def test_objects_go_in_any_order(self):
+        for order in ("scene", "device", "loop"):
+            parts = {"scene": knurl.Scene(), "device": knurl.Device("fake")}
+            parts["scene"].add_plane()
+            parts["scene"].commit()
+            parts["loop"] = knurl.Loop(parts["scene"], parts["device"])
+            parts["loop"].start()
+            del parts[order]
+            gc.collect()
+            parts.clear()
+            gc.collect()
+
+
+if __name__ == "__main__":
+    unittest.main()
