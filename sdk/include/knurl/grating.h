@@ -52,8 +52,8 @@ typedef struct knurl_grating_state {
     int64_t event_count;         /**< events started since the state was zeroed; AREA: ridges begun */
     int32_t next_tick;           /**< all but S1: index into the event of the next tick; AREA: 0 outside of events */
     int32_t playing;             /**< all but S1: 1 while an event has ticks left */
-    double phase;                /**< LOCKED: cycles crossed in the direction of motion, from a rising edge; AREA
- too, on a grid and near f_h/2 */
+    double phase;                /**< LOCKED; AREA on a grid and near f_h/2: cycles crossed in the direction of motion,
+                                      from a rising edge */
     double played;               /**< LOCKED, AREA: cycles played up to the end of the event, counted as phase is */
     double held;                 /**< LOCKED, AREA: the position after hysteresis, m; on a grid along `axis` */
     int32_t direction;           /**< LOCKED, AREA: +1 or -1; 0 before the first tick */
