@@ -9,6 +9,7 @@
 #include "device/core/home.h"
 #include "device/falcon/falcon_double.h"
 #include "device/rawhid/rawhid_double.h"
+#include "device/rawhid/serial_double.h"
 #include "device/touch/touch_double.h"
 
 #include <knurl/loop.h>
@@ -24,6 +25,7 @@ static const device_double *const doubles[] = {
     &touch_double,
     &falcon_double,
     &rawhid_double,
+    &serial_double,
     &functions_double,
 };
 

@@ -115,6 +115,7 @@ void hid_sim_init(hid_sim *sim, size_t report_bytes, const knurl_stroke_desc *st
     static const double middle[3] = {0.0, 0.0, 0.0};
     memset(sim, 0, sizeof *sim);
     sim->report_bytes = report_bytes;
+    sim->watchdog = 0.5;
     if (stroke) {
         knurl_hand_init(&sim->hand, stroke, 0.0, 1);
         knurl_hand_target(&sim->hand, 0.0, STEP, sim->target);
@@ -127,9 +128,9 @@ static void step(hid_sim *sim) {
     double force[3];
     double velocity[3] = {0.0, 0.0, 0.0};
     sim->time += STEP;
-    if (sim->limp_from < 0.0 && sim->time - sim->heard_at > 0.5) { /* the firmware's watchdog */
+    if (sim->limp_from < 0.0 && sim->time - sim->heard_at > sim->watchdog) {
         memset(sim->current, 0, sizeof sim->current);
-        sim->limp_from = sim->heard_at + 0.5;
+        sim->limp_from = sim->heard_at + sim->watchdog;
     }
     if (sim->hand.stroke.speed > 0.0) {
         const double before[3] = {sim->target[0], sim->target[1], sim->target[2]};
@@ -196,5 +197,7 @@ void hid_sim_forget(hid_sim *sim) {
 }
 
 double hid_sim_limp_since(const hid_sim *sim, double time) {
-    return sim->limp_from >= 0.0 ? sim->limp_from : time - sim->heard_at > 0.5 ? sim->heard_at + 0.5 : -1.0;
+    return sim->limp_from >= 0.0                  ? sim->limp_from
+           : time - sim->heard_at > sim->watchdog ? sim->heard_at + sim->watchdog
+                                                  : -1.0;
 }

@@ -17,6 +17,7 @@ typedef struct hid_sim {
     knurl_plant plant; /* Knurl's device frame */
     knurl_hand hand;
     double target[3];
+    double watchdog;    /* s without a report after which its motors get nothing */
     double time;        /* s, up to which it has moved */
     double heard_at;    /* s, the latest report */
     double begun_at;    /* s, the first report: the hand comes down then */

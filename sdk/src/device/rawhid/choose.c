@@ -71,9 +71,12 @@ static void explain(const knurl_rawhid_wanted *wanted, const knurl_rawhid_found 
     case OTHER_SIZE:
         (void)snprintf(text, size,
                        "%04x:%04x (%s) is there, but its reports are of %u bytes in and %u out; expected %s. It runs "
-                       "another firmware",
+                       "another firmware%s",
                        found->vendor, found->product, found->path, (unsigned)found->sizes.in,
-                       (unsigned)found->sizes.out, expected);
+                       (unsigned)found->sizes.out, expected,
+                       found->sizes.in == 8 ? ": mbed 1.5's; load the one of woody-experimental of May 2019 or later, "
+                                              "whose reports have 14 bytes"
+                                            : "");
         break;
     case DENIED:
         (void)snprintf(text, size,

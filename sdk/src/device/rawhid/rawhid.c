@@ -9,6 +9,7 @@
 #include "device/listings.h"
 #include "device/rawhid/choose.h"
 #include "device/rawhid/kinematics.h"
+#include "device/rawhid/serial.h"
 #include "device/uri.h"
 
 #include <stdio.h>
@@ -26,7 +27,8 @@ typedef struct rawhid {
     knurl_device base;
     knurl_link link;
     const knurl_rawhid_bus *bus;
-    knurl_rawhid_port port; /* self: null where it is closed */
+    knurl_serial_bus serial; /* of a device on a serial port; its ports are null where it is on USB HID */
+    knurl_rawhid_port port;  /* self: null where it is closed */
     knurl_rawhid_geometry geometry;
     knurl_rawhid_arm arm;
     knurl_rawhid_wanted wanted;
@@ -171,12 +173,11 @@ static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
     if (outcome == REPORT) {
         return KNURL_OK;
     }
-    return knurl_fail(
-        KNURL_ERROR_DEVICE_LOST,
-        "device 'rawhid' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
-        "bytes that make none; switch its power on, or plug it in again",
-        r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
-        outcome == GONE ? "that it went away" : "none within 0.5 s", (unsigned long)r->bad_bytes);
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                      "device '%s' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
+                      "bytes that make none; switch its power on, or plug it in again",
+                      r->base.driver->uri, r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
+                      outcome == GONE ? "that it went away" : "none within 0.5 s", (unsigned long)r->bad_bytes);
 }
 
 static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
@@ -198,10 +199,10 @@ static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
         }
     }
     return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                      "device 'rawhid' (%04x:%04x): homing: expected its encoders at %d, %d, %d, found %d, %d, %d; its "
+                      "device '%s' (%04x:%04x): homing: expected its encoders at %d, %d, %d, found %d, %d, %d; its "
                       "firmware does not set counters, or the grip was moved",
-                      r->wanted.vendor, r->wanted.product, r->home[0], r->home[1], r->home[2], in->counts[0],
-                      in->counts[1], in->counts[2]);
+                      r->base.driver->uri, r->wanted.vendor, r->wanted.product, r->home[0], r->home[1], r->home[2],
+                      in->counts[0], in->counts[1], in->counts[2]);
 }
 
 /* Where it is wanted. */
@@ -218,8 +219,8 @@ static knurl_result start_guard(rawhid *r, const knurl_rawhid_found *found) {
         r->link.guard = knurl_guard_process_start(shared, &order, why, sizeof why);
     }
     return r->link.guard ? KNURL_OK
-                         : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'rawhid' (%04x:%04x): guard: %s", found->vendor,
-                                      found->product, why);
+                         : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device '%s' (%04x:%04x): guard: %s",
+                                      r->base.driver->uri, found->vendor, found->product, why);
 }
 
 static void close_port(rawhid *r) {
@@ -231,17 +232,31 @@ static void close_port(rawhid *r) {
     }
 }
 
+/* The one that is meant, and the length of its reports. */
+static knurl_result find_port(rawhid *r, knurl_rawhid_found *found) {
+    if (!r->serial.ports) {
+        return knurl_rawhid_choose(r->bus, &r->wanted, found, &r->report_bytes);
+    }
+    r->report_bytes = KNURL_RAWHID_LEAST_BYTES;
+    return r->bus->look(r->bus->user, 0, 0, found, 1)
+               ? KNURL_OK
+               : knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                            "device 'serial': looked for the serial port of a Teensy (%04x:%04x) and found none; plug "
+                            "it in, or name its port as serial:/dev/ttyACM0",
+                            KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
+}
+
 static knurl_result open_port(rawhid *r, knurl_rawhid_found *chosen) {
     knurl_rawhid_found found;
     char why[256] = "";
-    const knurl_result result = knurl_rawhid_choose(r->bus, &r->wanted, &found, &r->report_bytes);
+    const knurl_result result = find_port(r, &found);
     if (result) {
         return result;
     }
     if (!r->bus->open(r->bus->user, &found, &r->port, why, sizeof why)) {
         return knurl_fail(KNURL_ERROR_SYSTEM,
-                          "device 'rawhid' (%04x:%04x): %s could not be opened: %s; end other programs that use it",
-                          found.vendor, found.product, found.path, why);
+                          "device '%s' (%04x:%04x): %s could not be opened: %s; end other programs that use it",
+                          r->base.driver->uri, found.vendor, found.product, found.path, why);
     }
     r->wanted.vendor = found.vendor; /* from now on it is this one that is meant */
     r->wanted.product = found.product;
@@ -255,6 +270,7 @@ static knurl_result connect(rawhid *r, int is_again) {
     double angles[3];
     knurl_rawhid_found found;
     r->knows_angles = r->is_corrupt = r->is_lost = r->strange = r->hold = 0;
+    r->serial.is_again = (uint32_t)is_again;
     knurl_result result = open_port(r, &found);
     if (result) {
         return result;
@@ -273,37 +289,50 @@ static knurl_result connect(rawhid *r, int is_again) {
     return result;
 }
 
-static knurl_result read_options(const char *options, rawhid *r) {
+static knurl_result read_options(const char *options, const knurl_serial_ports *ports, rawhid *r) {
     char id[KNURL_URI_ROOM];
     char geometry[KNURL_URI_ROOM];
     char homing[KNURL_URI_ROOM];
     char guard[KNURL_URI_ROOM];
     uint32_t homes = 0;
+    const char *driver = r->base.driver->uri;
     const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}, {"guard", guard}};
-    knurl_result result = knurl_uri_parse("rawhid", options, id, keys, sizeof keys / sizeof *keys);
-    result = result ? result : knurl_uri_flag("rawhid", "home", homing, &homes);
-    result = result ? result : knurl_uri_flag("rawhid", "guard", guard, &r->wants_guard);
+    knurl_result result = knurl_uri_parse(driver, options, id, keys, sizeof keys / sizeof *keys);
+    result = result ? result : knurl_uri_flag(driver, "home", homing, &homes);
+    result = result ? result : knurl_uri_flag(driver, "guard", guard, &r->wants_guard);
     knurl_rawhid_geometry_init(&r->geometry);
+    if (ports) { /* hfabapi's, for this firmware: motors b and c turn the other way */
+        r->geometry.sign[1] = r->geometry.sign[2] = -1.0;
+        r->geometry.home[2] = -6000.0;
+    }
     if (!result && geometry[0]) {
         result = knurl_rawhid_geometry_load(geometry, &r->geometry);
     }
-    result = result ? result : knurl_rawhid_want(id, &r->geometry, &r->wanted);
+    result = result ? result : knurl_rawhid_want(ports ? "" : id, &r->geometry, &r->wanted);
     knurl_rawhid_arm_init(&r->arm, &r->geometry);
     for (int i = 0; i < 3; i++) {
         r->home[i] = (int16_t)r->geometry.home[i];
     }
     r->home_on_open = homing[0] ? homes : r->geometry.home_on_open > 0.0;
+    if (ports) {
+        knurl_serial_bus_init(&r->serial, ports, id, r->home);
+        r->bus = &r->serial.bus;
+    }
     return result;
 }
 
-knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus, knurl_device **device) {
+/* One of `bus` and `ports`. */
+static knurl_result open_on(const char *options, const knurl_rawhid_bus *bus, const knurl_serial_ports *ports,
+                            knurl_device **device) {
+    const knurl_driver *driver = ports ? &knurl_serial_driver : &knurl_rawhid_driver;
     rawhid *made = calloc(1, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device 'rawhid': could not get %u bytes", (unsigned)sizeof *made);
+        return knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %u bytes", driver->uri,
+                          (unsigned)sizeof *made);
     }
     made->bus = bus;
-    knurl_result result = read_options(options, made);
-    knurl_device_init(&made->base, &knurl_rawhid_driver);
+    knurl_device_init(&made->base, driver);
+    knurl_result result = read_options(options, ports, made);
     made->base.max_force = made->geometry.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     result = result ? result : connect(made, 0);
@@ -314,6 +343,14 @@ knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus,
     }
     *device = &made->base;
     return KNURL_OK;
+}
+
+knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus, knurl_device **device) {
+    return open_on(options, bus, NULL, device);
+}
+
+knurl_result knurl_serial_open(const char *options, const knurl_serial_ports *ports, knurl_device **device) {
+    return open_on(options, NULL, ports, device);
 }
 
 /* --- the driver --- */
@@ -380,6 +417,40 @@ const knurl_driver knurl_rawhid_driver = {
     .keeps_heat = 1,
     .list = rawhid_list,
     .open = rawhid_open,
+    .close = rawhid_close,
+    .get_info = rawhid_info,
+    .get_status = rawhid_status,
+    .reopen = rawhid_reopen,
+};
+
+static void serial_list(knurl_listings *listings) {
+    static const char name[] = "WoodenHaptics on a serial port";
+    const knurl_serial_ports *ports = knurl_serial_tty();
+    char path[64];
+    if (!ports) {
+        knurl_listings_add(listings, "serial", name, "this build has no serial ports: they are for Linux and macOS");
+    } else if (ports->find(ports->user, path, sizeof path)) {
+        knurl_listings_add(listings, "serial", name, "%s", "");
+    } else {
+        knurl_listings_add(
+            listings, "serial", name,
+            "none is connected (looked for a Teensy, %04x:%04x, among /dev/ttyACM*): plug it in; another "
+            "port is opened as serial:PATH",
+            KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
+    }
+}
+
+static knurl_result serial_open(const char *options, knurl_device **device) {
+    const knurl_serial_ports *ports = knurl_serial_tty();
+    return ports ? knurl_serial_open(options, ports, device)
+                 : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'serial': this build has no serial ports");
+}
+
+const knurl_driver knurl_serial_driver = {
+    .uri = "serial",
+    .keeps_heat = 1,
+    .list = serial_list,
+    .open = serial_open,
     .close = rawhid_close,
     .get_info = rawhid_info,
     .get_status = rawhid_status,
