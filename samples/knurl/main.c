@@ -16,7 +16,7 @@ static const char help[] =
     "      --budget NAME=N,...             what loading may cost: surfaces, bytes, vertices, triangles, seconds\n"
     "                                      (knurl/gltf.h has the defaults)\n"
     "  knurl run FILE [options]            load, feel or stroke, tick; a summary (JSON)\n"
-    "      --device URI                    fake (default), touch, falcon, rawhid, serial; see 'knurl devices'\n"
+    "      --device URI                    fake (default), touch, falcon, rawhid, serial, dhd; see 'knurl devices'\n"
     "      --reconnect                     look for a device that got lost, instead of ending\n"
     "      --surface NAME                  which surface to stroke (default: the first)\n"
     "      --stroke NAME                   of the fake device's hand, 1 mm below the surface: line (default), sweep,\n"

@@ -180,6 +180,10 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  *   gain.
  * - rawhid, rawhid:VID:PID: the first known one, or the one with these hexadecimal ids. ?geometry=PATH: a file that
  *   describes its mechanics, see assets/devices. ?home=1: the device rests in its home pose now.
+ * - serial, serial:PATH: WoodenHaptics with its makers' Teensy 4.0 firmware, on the first Teensy's serial port or on this
+ *   one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
+ * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
+ *   before the environment variable KNURL_DHD_LIBRARY and the usual names.
  *
  * falcon and rawhid on Linux: ?guard=1 starts a small process in a session of its own that also holds the device. It
  * sends zero force when this process is gone (SIGKILL, _exit()) or has not run for 50 ms (SIGSTOP, a frozen machine),

@@ -9,5 +9,6 @@ extern const knurl_driver knurl_touch_driver;
 extern const knurl_driver knurl_falcon_driver;
 extern const knurl_driver knurl_rawhid_driver;
 extern const knurl_driver knurl_serial_driver;
+extern const knurl_driver knurl_dhd_driver;
 
 #endif

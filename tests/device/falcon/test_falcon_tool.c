@@ -48,7 +48,10 @@ TEST(a_falcon_is_among_the_devices) {
 static const char *line_below(const char *listing, const char *uri) {
     const char *at = strstr(listing, uri);
     const char *end = at ? strchr(at + 1, '\n') : NULL;
-    assert_non_null(end);
+    if (!end) {
+        fail_msg("no %s in: %s", uri, listing);
+        return "";
+    }
     return end + 1;
 }
 

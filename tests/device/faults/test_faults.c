@@ -7,6 +7,7 @@
 #include "table.h"
 
 #include "device/core/home.h"
+#include "device/dhd/dhd_double.h"
 #include "device/falcon/falcon_double.h"
 #include "device/rawhid/rawhid_double.h"
 #include "device/rawhid/serial_double.h"
@@ -22,11 +23,7 @@
 
 /* A driver's double is added here, and its files in CMakeLists.txt. */
 static const device_double *const doubles[] = {
-    &touch_double,
-    &falcon_double,
-    &rawhid_double,
-    &serial_double,
-    &functions_double,
+    &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &functions_double,
 };
 
 #define ROOM 64

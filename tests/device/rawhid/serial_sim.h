@@ -39,7 +39,8 @@ static inline int serial_sim_hear(hid_sim *sim, double time, const char *line, c
     int ma[3];
     uint8_t report[14] = {0};
     const char *begin = strchr(line, '[');
-    if (!begin || sscanf(begin, "[%d,%d,%d]", &ma[0], &ma[1], &ma[2]) != 3) { /* NOLINT(cert-err34-c): as it does */
+    /* NOLINTNEXTLINE(bugprone-unchecked-string-to-number-conversion,cert-err34-c): as the firmware does */
+    if (!begin || sscanf(begin, "[%d,%d,%d]", &ma[0], &ma[1], &ma[2]) != 3) {
         return serial_sim_answer(sim, 1024, text, size);
     }
     for (int i = 0; i < 3; i++) {

@@ -1,0 +1,294 @@
+/* Force Dimension's omega, delta, sigma and lambda, and a Falcon under its maker's DHD library: an I/O thread hands
+ * over a force and asks for a position. Read exchange() first. SPDX-License-Identifier: MIT */
+#include "device/dhd/dhd.h"
+
+#include "base/vec3.h"
+#include "device/drivers.h"
+#include "device/dynlib.h"
+#include "device/link.h"
+#include "device/listings.h"
+#include "device/number.h"
+#include "device/quaternion.h"
+#include "device/uri.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
+#define STATUS_CYCLES 100u   /* exchanges between two looks at the status */
+
+/* What each can do. Force, stiffness, damping and the workspace's radius: CHAI3D's cDeltaDevices; lambda.7: taken for a
+ * sigma.7. A continuous force is not published: a third of the peak. */
+static const struct {
+    int type;
+    double max_force, max_stiffness, max_damping, radius;
+} models[] = {
+    {DHD_OMEGA, 12.0, 5000.0, 30.0, 0.075},  {DHD_OMEGA3, 12.0, 5000.0, 30.0, 0.075},
+    {DHD_OMEGA6, 12.0, 5000.0, 30.0, 0.075}, {DHD_OMEGA6_LEFT, 12.0, 5000.0, 30.0, 0.075},
+    {DHD_OMEGA7, 12.0, 5000.0, 30.0, 0.075}, {DHD_OMEGA7_LEFT, 12.0, 5000.0, 30.0, 0.075},
+    {DHD_DELTA3, 20.0, 5000.0, 30.0, 0.15},  {DHD_DELTA6, 20.0, 5000.0, 30.0, 0.15},
+    {DHD_SIGMA7, 12.0, 4000.0, 30.0, 0.09},  {DHD_SIGMA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
+    {DHD_LAMBDA7, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
+    {DHD_FALCON, 8.0, 3000.0, 20.0, 0.04}, /* also the weakest: what another one is taken for */
+};
+
+#define MODEL_COUNT (sizeof models / sizeof *models)
+
+typedef struct dhd {
+    knurl_device base;
+    knurl_link link;
+    char index; /* among those that are connected */
+    char id;    /* what the library calls it while it is open */
+    uint32_t is_open;
+    size_t model; /* of models[] */
+    char name[64];
+    /* the I/O thread's */
+    uint32_t until_status;
+    uint32_t is_unhomed;
+} dhd;
+
+static dhd_api api;
+
+static dhd *of(knurl_device *device) {
+    return (dhd *)(void *)device; /* its first member */
+}
+
+static int load_functions(const char *path, char *why, size_t why_size) {
+#if defined(_WIN64)
+    static const char *const usual[] = {"dhd64.dll"};
+#elif defined(_WIN32)
+    static const char *const usual[] = {"dhd.dll"};
+#else
+    static const char *const usual[] = {"libdhd.so", "libdhd.so.3", "libdrd.so", "libdrd.so.3"};
+#endif
+#define FUNCTION(field, result, symbol, arguments) {#symbol, &api.field},
+    static const knurl_dynlib_function functions[] = {DHD_FUNCTIONS(FUNCTION)};
+#undef FUNCTION
+    const char *named = path[0] ? path : getenv("KNURL_DHD_LIBRARY");
+    const int is_named = named && named[0];
+    return api.count || knurl_dynlib_load(is_named ? &named : usual, is_named ? 1 : sizeof usual / sizeof *usual,
+                                          functions, sizeof functions / sizeof *functions, why, why_size);
+}
+
+#define NO_LIBRARY                                                                                                     \
+    "Force Dimension's DHD library cannot be loaded: %s; install its SDK, and name the library by ?library=PATH or "   \
+    "KNURL_DHD_LIBRARY where it lies elsewhere"
+
+/* --- the exchange --- */
+
+static int is_gone(void) {
+    const int error = api.error();
+    return error == DHD_ERROR_COM || error == DHD_ERROR_NO_DEVICE || error == DHD_ERROR_NOT_AVAILABLE;
+}
+
+/* KNURL_LINK_POSITION where there may be one. */
+static int look_at_status(dhd *d) {
+    int status[DHD_STATUS_ROOM] = {0};
+    if (d->until_status > 0) {
+        d->until_status--;
+        return d->is_unhomed ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+    }
+    d->until_status = STATUS_CYCLES - 1;
+    if (api.status(status, d->id) < 0) {
+        return is_gone() ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
+    }
+    if (!status[DHD_STATUS_CONNECTED]) {
+        return KNURL_LINK_LOST;
+    }
+    const uint32_t is_unhomed = !status[DHD_STATUS_RESET];
+    if (is_unhomed && !d->is_unhomed) {
+        knurl_device_halt(&d->base);
+        knurl_events_report(&d->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+    }
+    d->is_unhomed = is_unhomed;
+    return is_unhomed ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+}
+
+/* From the library's axes. Its rows are a matrix whose columns are the stylus' axes x, y, z. */
+static void tell_orientation(dhd *d, double q[4]) {
+    double rows[9] = {0.0};
+    if (api.get_orientation(rows, d->id) < 0) {
+        return;
+    }
+    double columns[3][3];
+    for (int axis = 0; axis < 3; axis++) {
+        columns[axis][0] = rows[3 + axis];
+        columns[axis][1] = rows[6 + axis];
+        columns[axis][2] = rows[axis];
+    }
+    quaternion_from_axes(columns[1], columns[2], columns[0], q);
+}
+
+static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+    dhd *d = of(device);
+    double x = NAN;
+    double y = NAN;
+    double z = NAN;
+    const int is_told = api.set_force(force[2], force[0], force[1], 0.0, 0.0, 0.0, 0.0, d->id) >= 0;
+    if (!is_told && is_gone()) {
+        return KNURL_LINK_LOST;
+    }
+    const int outcome = look_at_status(d);
+    if (outcome != KNURL_LINK_POSITION) {
+        return outcome;
+    }
+    if (api.get_position(&x, &y, &z, d->id) < 0) {
+        return is_gone() ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
+    }
+    sample->position[0] = y;
+    sample->position[1] = z;
+    sample->position[2] = x;
+    sample->buttons = api.buttons(d->id);
+    tell_orientation(d, sample->orientation);
+    return is_told ? KNURL_LINK_POSITION : KNURL_LINK_NOTHING;
+}
+
+/* --- opening --- */
+
+static knurl_result refuse(const dhd *d, const char *doing) {
+    return knurl_fail(is_gone() ? KNURL_ERROR_DEVICE_LOST : KNURL_ERROR_SYSTEM, "device 'dhd:%d': it cannot %s: %s",
+                      d->index, doing, api.error_text());
+}
+
+static void disconnect(dhd *d) {
+    knurl_link_close(&d->link); /* its last exchanges carry no force */
+    if (d->is_open) {
+        (void)api.enable_force(0, d->id);
+        (void)api.close(d->id);
+        d->is_open = 0;
+    }
+}
+
+static void ask_what_it_is(dhd *d) {
+    const int type = api.type(d->id);
+    const char *name = api.name(d->id);
+    d->model = 0;
+    while (d->model + 1 < MODEL_COUNT && models[d->model].type != type) {
+        d->model++;
+    }
+    (void)snprintf(d->name, sizeof d->name, "Force Dimension %.40s", name ? name : "device");
+}
+
+static knurl_result connect(dhd *d) {
+    const int count = api.count();
+    if (d->index >= count) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                          "device 'dhd:%d': found %d Force Dimension devices; plug it in, and its power supply as well",
+                          d->index, count > 0 ? count : 0);
+    }
+    const int id = api.open(d->index);
+    if (id < 0) {
+        return refuse(d, "be opened");
+    }
+    d->id = (char)id;
+    d->is_open = 1;
+    d->until_status = d->is_unhomed = 0;
+    ask_what_it_is(d);
+    knurl_result result = api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
+    result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
+    if (result) {
+        disconnect(d);
+    }
+    return result;
+}
+
+static knurl_result parse(const char *options, dhd *d) {
+    char index[KNURL_URI_ROOM];
+    char library[KNURL_URI_ROOM];
+    char why[512];
+    double number = 0.0;
+    const knurl_uri_key keys[] = {{"library", library}};
+    const knurl_result result = knurl_uri_parse("dhd", options, index, keys, 1);
+    if (result) {
+        return result;
+    }
+    if (index[0] && !(knurl_number(index, strlen(index), &number) && knurl_is_within(number, 0.0, 15.0) &&
+                      number == floor(number))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device 'dhd': expected dhd or dhd:0 to dhd:15, found 'dhd:%.100s'",
+                          index);
+    }
+    d->index = (char)number;
+    return load_functions(library, why, sizeof why)
+               ? KNURL_OK
+               : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'dhd': " NO_LIBRARY, why);
+}
+
+static knurl_result dhd_open(const char *options, knurl_device **device) {
+    dhd *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'dhd': could not get %lu bytes", (unsigned long)sizeof *made);
+    }
+    knurl_device_init(&made->base, &knurl_dhd_driver);
+    made->base.max_speed = KNURL_HAND_SPEED;
+    knurl_result result = parse(options, made);
+    result = result ? result : connect(made);
+    made->base.max_force = models[made->model].max_force;
+    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    if (result) {
+        disconnect(made);
+        free(made);
+        return result;
+    }
+    *device = &made->base;
+    return KNURL_OK;
+}
+
+static knurl_result dhd_reopen(knurl_device *device) {
+    disconnect(of(device)); /* the thread has ended by itself */
+    return connect(of(device));
+}
+
+static void dhd_close(knurl_device *device) {
+    disconnect(of(device));
+    knurl_device_free(device);
+}
+
+static void dhd_list(knurl_listings *listings) {
+    static const char name[] = "Force Dimension omega, delta, sigma or lambda";
+    char why[512];
+    char uri[16];
+    if (!load_functions("", why, sizeof why)) {
+        knurl_listings_add(listings, "dhd", name, NO_LIBRARY, why);
+        return;
+    }
+    const int count = api.count();
+    for (int i = 0; i < count; i++) {
+        (void)snprintf(uri, sizeof uri, "dhd:%d", i);
+        knurl_listings_add(listings, uri, name, "%s", "");
+    }
+    if (count <= 0) {
+        knurl_listings_add(listings, "dhd", name, "none is connected: plug it in, and its power supply as well");
+    }
+}
+
+static void dhd_info(const knurl_device *device, knurl_device_info *info) {
+    const dhd *d = (const dhd *)(const void *)device;
+    (void)snprintf(info->name, sizeof info->name, "%s", d->name);
+    for (int axis = 0; axis < 3; axis++) { /* the cube in the sphere */
+        info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
+        info->workspace_min[axis] = -info->workspace_max[axis];
+    }
+    info->resolution = 0.00001; /* assumed */
+    info->max_force = device->max_force;
+    info->max_stiffness = models[d->model].max_stiffness;
+    info->max_damping = models[d->model].max_damping;
+    info->continuous_force = device->max_force / 3.0; /* assumed */
+    info->heat_time = 60.0;                           /* assumed */
+    info->mass = 0.25;                                /* assumed */
+    info->viscous = 0.5;                              /* assumed */
+    info->coulomb = 0.3;                              /* assumed */
+    info->delay = 1.0;                                /* assumed */
+    info->native_rate = NATIVE_RATE;
+}
+
+const knurl_driver knurl_dhd_driver = {
+    .uri = "dhd",
+    .keeps_heat = 1,
+    .list = dhd_list,
+    .open = dhd_open,
+    .close = dhd_close,
+    .get_info = dhd_info,
+    .reopen = dhd_reopen,
+};

@@ -1,0 +1,63 @@
+/* The part of Force Dimension's DHD library that is needed: numbers and functions, written down anew from its public
+ * header (3.7 and later). The library itself is loaded at run time. Axes: x towards the user, y right, z up; m, N.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_DHD_H
+#define KNURL_SRC_DHD_H
+
+#include <knurl/base.h>
+
+#if defined(_WIN32) && !defined(_WIN64)
+#define DHD_CALL __stdcall
+#else
+#define DHD_CALL
+#endif
+
+/* What dhdGetSystemType() tells. */
+enum {
+    DHD_OMEGA = 32,
+    DHD_OMEGA3 = 33,
+    DHD_OMEGA6 = 34,
+    DHD_OMEGA7 = 35,
+    DHD_OMEGA6_LEFT = 36,
+    DHD_OMEGA7_LEFT = 37,
+    DHD_FALCON = 60,
+    DHD_DELTA3 = 63,
+    DHD_DELTA6 = 64,
+    DHD_SIGMA7 = 104,
+    DHD_SIGMA7_LEFT = 105,
+    DHD_LAMBDA7 = 108, /* 3.8 and later */
+    DHD_LAMBDA7_LEFT = 109
+};
+
+/* Places in what dhdGetStatus() fills in. */
+enum { DHD_STATUS_CONNECTED = 1, DHD_STATUS_RESET = 3, DHD_STATUS_ROOM = 64 /* 16 in 3.7, more in later ones */ };
+
+/* What dhdErrorGetLast() tells when the device is gone. */
+enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 };
+
+/* Every function that is needed: field, what it returns, symbol, what it takes. All or none is loaded. Below 0 is an
+ * error; 1 and 2 tell that the library has waited, or that a motor is at its limit. */
+#define DHD_FUNCTIONS(X)                                                                                               \
+    X(count, int, dhdGetDeviceCount, (void))                                                                           \
+    X(open, int, dhdOpenID, (char index))                                                                              \
+    X(close, int, dhdClose, (char id))                                                                                 \
+    X(enable_force, int, dhdEnableForce, (unsigned char on, char id))                                                  \
+    X(type, int, dhdGetSystemType, (char id))                                                                          \
+    X(name, const char *, dhdGetSystemName, (char id))                                                                 \
+    X(status, int, dhdGetStatus, (int *status, char id))                                                               \
+    X(buttons, unsigned, dhdGetButtonMask, (char id))                                                                  \
+    X(get_position, int, dhdGetPosition, (double *x, double *y, double *z, char id))                                   \
+    X(get_orientation, int, dhdGetOrientationFrame, (double *rows, char id))                                           \
+    X(set_force, int, dhdSetForceAndTorqueAndGripperForce,                                                             \
+      (double fx, double fy, double fz, double tx, double ty, double tz, double grip, char id))                        \
+    X(error, int, dhdErrorGetLast, (void))                                                                             \
+    X(error_text, const char *, dhdErrorGetLastStr, (void))
+
+typedef struct dhd_api {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a list of parameters cannot stand in any */
+#define DHD_FIELD(field, result, symbol, arguments) result(DHD_CALL *field) arguments;
+    DHD_FUNCTIONS(DHD_FIELD)
+#undef DHD_FIELD
+} dhd_api;
+
+#endif
