@@ -1,0 +1,81 @@
+"""Checks the documentation: links lead somewhere, functions exist, README's C stands in the sample that it names, and
+README is short.
+
+SPDX-License-Identifier: MIT
+"""
+import pathlib
+import re
+import sys
+import urllib.parse
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+README_MOST = 6 * 1024  # bytes
+SAMPLE = "samples/feel_scene.c"
+
+
+def pages():
+    skipped = {"build", "third_party", ".git", "node_modules"}
+    return [page for page in sorted(ROOT.rglob("*.md")) if not skipped & set(page.relative_to(ROOT).parts)]
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub makes them."""
+    found = set()
+    for heading in re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M):
+        plain = re.sub(r"[^\w\- ]", "", re.sub(r"[`*]", "", heading).strip().lower())
+        found.add(plain.replace(" ", "-"))
+    return found
+
+
+def links(text):
+    """(target) of every link and picture outside of code."""
+    text = re.sub(r"```.*?```", "", text, flags=re.S)
+    text = re.sub(r"`[^`\n]*`", "", text)
+    return re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'(?:src|srcset)="([^"]+)"', text)
+
+
+def broken_links(page):
+    count = 0
+    for target in links(page.read_text(encoding="utf-8")):
+        if re.match(r"[a-z]+:", target):
+            continue
+        count += 1
+        path, _, anchor = target.partition("#")
+        file = (page.parent / urllib.parse.unquote(path)) if path else page
+        if not file.exists():
+            yield f"{page.relative_to(ROOT)}: expected a file or folder, found none: {target}"
+        elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+            yield f"{page.relative_to(ROOT)}: expected a heading, found none: {target}"
+    broken_links.count += count
+
+
+def shown_c(text):
+    """The snippets of C in a page."""
+    return re.findall(r"```c\n(.*?)```", text, re.S)
+
+
+def unknown_functions():
+    """Functions that README or docs/ name and no public header declares."""
+    headers = [*ROOT.glob("sdk/include/knurl/*.h"), *ROOT.glob("bindings/common/*.h")]
+    declared = set(re.findall(r"\bknurl_\w+(?=\()", "".join(header.read_text(encoding="utf-8") for header in headers)))
+    for page in [ROOT / "README.md", *sorted(ROOT.glob("docs/*.md"))]:
+        for name in sorted(set(re.findall(r"\bknurl_\w+(?=\()", page.read_text(encoding="utf-8"))) - declared):
+            yield f"{page.relative_to(ROOT)}: expected a public function, found {name}()"
+
+
+def main():
+    broken_links.count = 0
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    problems = [problem for page in pages() for problem in broken_links(page)]
+    problems += unknown_functions()
+    if len(readme.encode()) > README_MOST:
+        problems.append(f"README.md: expected at most {README_MOST} bytes, found {len(readme.encode())}")
+    sample = (ROOT / SAMPLE).read_text(encoding="utf-8").split("README: begin */\n")[1].split("    /* README: end")[0]
+    if shown_c(readme) != [sample]:
+        problems.append(f"README.md: expected the lines of {SAMPLE} between its marks, found others")
+    print("\n".join(problems) if problems else f"{len(pages())} pages, {broken_links.count} links inside, all good")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
