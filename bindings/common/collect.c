@@ -16,7 +16,7 @@ static void touch(knurl_session *s, knurl_surface_id id) {
     s->touches[(s->first_touch + s->touch_count) % KNURL_SESSION_TOUCHES] = id;
     if (s->touch_count < KNURL_SESSION_TOUCHES) {
         s->touch_count++;
-    } else { /* nobody fetches them: the oldest is forgotten */
+    } else { /* the queue is full: drop the oldest */
         s->first_touch = (s->first_touch + 1) % KNURL_SESSION_TOUCHES;
     }
 }
@@ -34,7 +34,7 @@ static int look(const knurl_session *s, knurl_board_tick *sent) {
     return sent->tick > 0;
 }
 
-/* A touch shorter than a frame is told as well; what comes back within a frame was never away. */
+/* Touches shorter than a frame are reported too. A touch that is interrupted within a frame goes on. */
 static void collect_touches(knurl_session *s) {
     knurl_surface_id met[KNURL_BOARD_CHANGES];
     knurl_board_tick sent;
@@ -146,7 +146,7 @@ static int next_fault(knurl_session *s, knurl_session_event *event) {
             return 0;
         }
         s->faults_due--;
-    } while (s->mouse && fault.code == KNURL_FAULT_SILENT); /* nobody has moved it yet */
+    } while (s->mouse && fault.code == KNURL_FAULT_SILENT); /* the game has not moved it yet: no fault */
     event->kind = KNURL_SESSION_FAULT;
     event->code = fault.code;
     event->value = fault.value;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The process's sessions. A runtime may destroy what nobody uses on a thread of its own, so the list has a lock; it is
- * held for the time of a close, and nobody asks for it in a frame: spinning is all it takes. */
+/* The process's sessions. A garbage collector may destroy one on a thread of its own, so the list has a lock. It is
+ * taken when sessions are made and destroyed, never in a frame: a spin lock is enough. */
 static knurl_session *sessions;
 static uint32_t is_locked;
 
@@ -62,7 +62,7 @@ knurl_result knurl_session_create(knurl_session **session) {
     }
     knurl_scene_desc desc;
     knurl_scene_desc_init(&desc, sizeof desc);
-    desc.max_surfaces = 1u << 20; /* as many as there can be: a scene costs what is in it */
+    desc.max_surfaces = 1u << 20; /* the maximum: a scene only takes memory for what is in it */
     const knurl_result result = knurl_scene_create(&desc, &made->scene);
     if (result) {
         free(made);

@@ -20,7 +20,7 @@ static void get_info(void *user, knurl_device_info *info) {
         info->workspace_min[axis] = -BOUNDS;
         info->workspace_max[axis] = BOUNDS;
     }
-    info->max_force = 3.3; /* a Touch's: what is shown is what could be felt */
+    info->max_force = 3.3; /* N, a Touch's: no force is played, but it is shown */
 }
 
 static knurl_result start(void *user, double update_rate_hz) {

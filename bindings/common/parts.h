@@ -9,7 +9,7 @@
 #include "mouse.h"
 #include "session.h"
 
-/* Touches that nobody has fetched yet; two updates' worth at the most that a board can tell. */
+/* Room for touches that the game has not fetched: twice what one update can bring. */
 enum { KNURL_SESSION_TOUCHES = 128 };
 
 /* An engine's clock against the ticks. */
@@ -45,9 +45,9 @@ struct knurl_session {
     knurl_surface_id latest;  /* the touch after the ring's last */
     knurl_surface_id touched; /* as told */
     uint32_t buttons, told_buttons;
-    double orientation[4];         /* of the stylus, device axes */
-    uint32_t faults_due;           /* at most so many: who handles each slower than they come would never be done */
-    uint32_t has_ended;            /* by itself, and it is to be told */
+    double orientation[4]; /* of the stylus, device axes */
+    uint32_t faults_due; /* how many more are reported before the next update, so that a slow handler gets to its end */
+    uint32_t has_ended;  /* by itself, and it is to be told */
     uint64_t overruns, counted_at; /* and the tick when they were counted */
     knurl_session_clock clocks[KNURL_SESSION_CLOCKS];
     knurl_board board;
@@ -68,7 +68,7 @@ typedef struct knurl_session_pace {
 /* force.c: KNURL_OK, or KNURL_ERROR_STATE where it was neither started nor played. */
 knurl_result knurl_session_check_run(const knurl_session *session);
 
-/* clock.c: the pace of what moves now by the way's clock: 1, or 0 where nobody has told that clock in this run. */
+/* clock.c: the pace of a move by the way's clock. Returns 0 where the engine has not told that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
 
 /* pose.c: of a right-handed rotation, row-major: x, y, z, w. */

@@ -60,7 +60,7 @@ static knurl_result open_device(knurl_session *session, const char *device) {
         return knurl_mouse_open(&session->mouse, &session->device);
     }
     const knurl_result result = knurl_device_open(device, &session->device);
-    if (result == KNURL_ERROR_UNKNOWN) { /* it does not know what is known here */
+    if (result == KNURL_ERROR_UNKNOWN) { /* knurl_device_open() does not know the names that sessions add */
         (void)snprintf(unknown, sizeof unknown, "%s", knurl_error_message());
         return knurl_fail(result, "%s; or mouse, which the game moves; or auto", unknown);
     }

@@ -1,4 +1,4 @@
-extends Node3D
+extends "res://demo.gd"
 ## Three gratings side by side, felt with a device, or with the mouse where there is none.
 ##
 ## Arguments after "--":
@@ -13,7 +13,6 @@ const Gltf := preload("res://addons/knurl/import.gd")
 const HANDLE := "res://knurled_handle.glb"
 const HANDLE_SCALE := 0.65  # its 110 mm on a plate of 70
 const STROKE_SECONDS := 2.0
-const WARM_UP_FRAMES := 5  # late, for shaders are compiled; a device's force is zero while a game hangs
 
 @onready var _device: KnurlDevice = $KnurlDevice
 
@@ -22,14 +21,11 @@ func _ready() -> void:
 	_add_handle()
 	$Hud.name_meshes()
 	Overlay.set_shown(self, true)
-	if _is_drawn_by_cpu():
-		_draw_coarsely(true)
 	var stroke: bool = OS.get_cmdline_user_args().has("--stroke")
-	_device.device = "fake" if stroke else _argument("--device", "mouse")
+	_device.device = "fake" if stroke else argument("--device", "mouse")
 	if stroke:
 		_device.stroke = "sweep"
-	for i: int in WARM_UP_FRAMES:
-		await get_tree().process_frame
+	await warm_up()
 	if _device.start() != OK:
 		return  # the device said why
 	if stroke:
@@ -60,28 +56,4 @@ func _end_after_stroke() -> void:
 			% [_device.ticks, _device.overruns, _device.in_contact]
 		)
 	)
-	var path: String = _argument("--shot", "")
-	var status: int = OK
-	if not path.is_empty():
-		_draw_coarsely(false)
-		await RenderingServer.frame_post_draw
-		status = get_viewport().get_texture().get_image().save_png(path)
-	_device.stop()
-	get_tree().quit(0 if status == OK else 1)
-
-
-## Where the CPU draws, frames would else be so late that the device, which takes the game to hang,
-## sets its force to zero.
-func _draw_coarsely(coarsely: bool) -> void:
-	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
-	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0
-
-
-func _is_drawn_by_cpu() -> bool:
-	return RenderingServer.get_video_adapter_name().contains("llvmpipe")
-
-
-func _argument(name: String, default: String) -> String:
-	var arguments: PackedStringArray = OS.get_cmdline_user_args()
-	var at: int = arguments.find(name)
-	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default
+	await end(_device)

@@ -1,4 +1,4 @@
-extends Node3D
+extends "res://demo.gd"
 ## What moves, what is round and what gives way: a roller that turns, a marble that rolls and a
 ## drawer that slides when they are pushed.
 ##
@@ -11,7 +11,6 @@ extends Node3D
 
 const Overlay := preload("res://addons/knurl/overlay.gd")
 const TURN := 1.0  # rad/s
-const WARM_UP_FRAMES := 5  # shaders are compiled meanwhile
 const HEIGHT := 0.03  # m: where the finger goes from one to the next
 
 var _ridges := 0
@@ -25,15 +24,12 @@ var _ridges := 0
 func _ready() -> void:
 	$Hud.name_meshes()
 	Overlay.set_shown(self, true)
-	if RenderingServer.get_video_adapter_name().contains("llvmpipe"):
-		_draw_coarsely(true)
 	var plays: bool = OS.get_cmdline_user_args().has("--play")
-	_device.device = "mouse" if plays else _argument("--device", "mouse")
+	_device.device = "mouse" if plays else argument("--device", "mouse")
 	$"Surfaces/Roller/Roller, turning/KnurlSurface".ridges_passed.connect(
 		func(_by: KnurlDevice, count: int) -> void: _ridges += count
 	)
-	for i: int in WARM_UP_FRAMES:
-		await get_tree().process_frame
+	await warm_up()
 	if _device.start() == OK and plays:
 		_play()
 
@@ -69,7 +65,7 @@ func _play() -> void:
 			]
 		)
 	)
-	await _end()
+	await end(_device)
 
 
 ## The finger goes from place to place, evenly, each in so many seconds.
@@ -83,26 +79,3 @@ func _go(places: Array, seconds: float) -> void:
 			share = minf(1e-6 * (Time.get_ticks_usec() - begin) / seconds, 1.0)
 			_device.move_hip(from.lerp(to, share))
 		from = to
-
-
-func _end() -> void:
-	var path: String = _argument("--shot", "")
-	var status: int = OK
-	if not path.is_empty():
-		_draw_coarsely(false)
-		await RenderingServer.frame_post_draw
-		status = get_viewport().get_texture().get_image().save_png(path)
-	_device.stop()
-	get_tree().quit(0 if status == OK else 1)
-
-
-## Where the CPU draws, frames would else be late.
-func _draw_coarsely(coarsely: bool) -> void:
-	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
-	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0
-
-
-func _argument(name: String, default: String) -> String:
-	var arguments: PackedStringArray = OS.get_cmdline_user_args()
-	var at: int = arguments.find(name)
-	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default

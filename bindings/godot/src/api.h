@@ -155,7 +155,7 @@ extern gd_type gd_types[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
 extern GDExtensionClassLibraryPtr gd_library;
 extern GDExtensionObjectPtr gd_engine; /* the singleton Engine */
 
-/* The engine's types do not say what is only read. */
+/* Removes const: the engine's functions take pointers to read-only values without it. */
 static inline void *gd_unconst(const void *pointer) {
     void *copy;
     memcpy(&copy, &pointer, sizeof copy);

@@ -131,7 +131,7 @@ void device_release(device *d) {
         devices[d->slot] = NULL;
         d->slot = -1;
     }
-    if (d->session) { /* what is left are files' surfaces */
+    if (d->session) { /* only surfaces of load_gltf() are left */
         knurl_scene_collect(knurl_session_get_scene(d->session));
     }
 }
@@ -186,7 +186,7 @@ int64_t device_start(device *d) {
     return OK;
 }
 
-/* A start of its own: what fails is a signal, and an error once for all that is tried in a row. */
+/* A start by autostart. Of several failures in a row the first is reported, as an error and a signal. */
 static void start_by_itself(device *d) {
     char text[1024];
     char warning[512] = "";
@@ -233,7 +233,7 @@ static void tell_time(device *d) {
     (void)knurl_session_tell_time(d->session, KNURL_SESSION_STEPS, d->steps_time);
 }
 
-/* What is touched gets the opposite of the forces that the hand got since the last frame, as its body's impulse. */
+/* Applies the opposite of the hand's impulse since the last frame to the body of the touched surface. */
 static void react(device *d, const knurl_session_state *state) {
     const surface *s = d->touched_node ? gd_instance_of(d->touched_node, &surface_class) : NULL;
     GDExtensionObjectPtr body = s && s->reaction ? surface_parent(s) : NULL;

@@ -19,7 +19,7 @@ void device_release(device *d);
 /* All surfaces as they are now into an opened session's scene, or out of it. */
 void device_put_surfaces(device *d);
 
-/* What it adds to its surfaces' forces, as its properties have it. */
+/* Tells the session the property added_force. */
 void device_apply_force(const device *d);
 
 /* Pushes knurl_error_message() as an error; the engine's Error of a result. */

@@ -20,7 +20,7 @@ static void say(char *text, size_t size, const char *sentence) {
     (void)snprintf(text + length, size - length, "%s%s", line, sentence);
 }
 
-/* An object that a getter returns, to compare it: what is not held elsewhere may be gone. */
+/* The object that a getter returns, for comparisons only: it may be freed already. */
 static GDExtensionObjectPtr result_of(GDExtensionObjectPtr object, const char *method) {
     GDExtensionObjectPtr found = NULL;
     gd_variant held = gd_call_named(object, method, NULL, 0);
@@ -104,7 +104,7 @@ static void say_layers(const surface *s, char *text, size_t size) {
     }
 }
 
-/* What its nodes say. */
+/* Warnings that follow from its nodes. */
 static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
     say_away(s, text, size);
     say_layers(s, text, size);

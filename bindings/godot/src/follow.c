@@ -76,7 +76,7 @@ void follow_remove(device *d, surface *s) {
     const knurl_surface_id id = s->ids[d->slot];
     if (id) {
         s->ids[d->slot] = 0;
-        /* what that ends is told by signals.c */
+        /* signals.c reports the end of a contact */
         (void)knurl_scene_remove_surface(knurl_session_get_scene(d->session), id);
     }
 }

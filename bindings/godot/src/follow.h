@@ -5,7 +5,8 @@
 
 #include "world.h"
 
-/* As it is now, in the place of what the device's scene has of it; out, where it cannot be felt. */
+/* Puts a surface as it is now into the device's scene, in place of its former state; removes one that cannot be felt.
+ */
 void follow_put(device *d, surface *s);
 void follow_remove(device *d, surface *s);
 

@@ -1,4 +1,4 @@
-/* What a node shows, as triangles. SPDX-License-Identifier: MIT */
+/* The triangles of a node. SPDX-License-Identifier: MIT */
 #include "geometry.h"
 
 #include "primitive.h"
@@ -122,7 +122,7 @@ static int read_shape(GDExtensionObjectPtr shape, const mesh_place *place, mesh_
     return fits;
 }
 
-/* What a node takes its shape from, in a Variant that holds it: to be ended. */
+/* A node's shape or multimesh, in a Variant that holds it: to be ended. */
 static GDExtensionObjectPtr resource_of(GDExtensionObjectPtr node, const char *getter, gd_variant *held) {
     *held = gd_call_named(node, getter, NULL, 0);
     return object_in(held);

@@ -1,4 +1,4 @@
-/* What a node shows, as triangles. SPDX-License-Identifier: MIT */
+/* The triangles of a node. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_GEOMETRY_H
 #define KNURL_GODOT_GEOMETRY_H
 

@@ -20,7 +20,7 @@ typedef struct grating {
 
 extern const gd_class grating_class;
 
-/* Changes of any grating so far: who has seen as many need not look. */
+/* Counts changes of all gratings: a reader that has seen this number need not look at them. */
 extern uint64_t grating_changes;
 
 void grating_describe(const grating *g, knurl_material_desc *material);

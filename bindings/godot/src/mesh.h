@@ -32,7 +32,7 @@ int mesh_add(GDExtensionObjectPtr mesh, const mesh_place *place, mesh_data *data
 int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data);
 void mesh_end(mesh_data *data);
 
-/* What knurl_scene_add_surface() wants of it. */
+/* The description that knurl_scene_add_surface() takes; it points into the data. */
 void mesh_describe(const mesh_data *data, knurl_mesh_desc *desc);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a device would say of a surface, were it running: the surface in a scene of its own, held against a simulated
+/* Warnings in the editor, where no device runs: the surface in a scene of its own, checked against a simulated
  * device with the real one's limits. For the editor. SPDX-License-Identifier: MIT */
 #include "preview.h"
 
@@ -39,7 +39,7 @@ static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     return key ? key : 1;
 }
 
-/* A simulated device with a device's limits; null where nobody knows them. */
+/* The URI of a simulated device with the same limits; null where they are unknown. */
 static const char *preset_of(const device *d) {
     const char *uri = d->uri ? d->uri : "";
     if (strncmp(uri, "fake", 4) == 0) {

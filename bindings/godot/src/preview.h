@@ -1,4 +1,4 @@
-/* What a device would say of a surface, were it running. SPDX-License-Identifier: MIT */
+/* Warnings that a device would give in a game, for the editor. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_PREVIEW_H
 #define KNURL_GODOT_PREVIEW_H
 

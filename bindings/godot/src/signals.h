@@ -5,7 +5,7 @@
 
 #include "world.h"
 
-/* What happened since the last frame. 1: the session has ended, and what else has happened since is still to be told.
+/* What happened since the last frame. 1: the session has ended; events after its end are still to be reported.
  */
 int signals_tell(device *d);
 

@@ -136,7 +136,7 @@ static void enter(surface *s) {
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
-/* Out of all scenes and of the list, and what that ends is told. */
+/* Removes it from all scenes and from the list, and reports contacts that end. */
 static void remove_now(surface *s) {
     for (int i = 0; i < DEVICE_SLOTS; i++) {
         if (devices[i]) {
@@ -144,16 +144,15 @@ static void remove_now(surface *s) {
         }
     }
     surface_unlist(s);
-    for (int i = 0; i < DEVICE_SLOTS; i++) { /* last: a handler may do what it likes */
+    for (int i = 0; i < DEVICE_SLOTS; i++) { /* last, because a handler may free anything */
         if (devices[i] && devices[i]->touched_node == s->base.object) {
             signals_end_contact(devices[i]);
         }
     }
 }
 
-/* What a game puts elsewhere in the tree leaves it and comes back within a frame: only what is being freed goes at
- * once.
- */
+/* A surface that is reparented leaves the tree and enters it again within a frame, so it is removed in the next frame;
+ * at once only where it is being freed. */
 static void leave(surface *s) {
     unwatch_mesh(s);
     if (s->is_dying || !follow_is_felt(s)) {

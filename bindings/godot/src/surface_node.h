@@ -11,7 +11,7 @@ GDExtensionObjectPtr surface_parent(const surface *s);
 /* Where a Node3D stands, in the world: 1, or 0 where it is scaled to nothing. */
 int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
 
-/* 1: the device feels what it is told of the surface: they have a layer in common. */
+/* 1: surface and device have a layer in common. */
 int surface_is_on_layer_of(const surface *s, const device *d);
 
 /* Puts a surface into a scene, in the place of *id, or where that is 0 beside what is there: then it gets the id. It

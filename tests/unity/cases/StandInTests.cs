@@ -42,6 +42,53 @@ namespace Knurl.Tests
             Told.Clear();
         }
 
+        sealed class Listener : MonoBehaviour
+        {
+            internal void Hear(int value) { Told.Add(name + " " + value); }
+        }
+
+        [Test]
+        public void AListenerOfADestroyedObjectIsNotCalled()
+        {
+            var told = new UnityEvent<int>();
+            Listener gone = MakeObject("gone").AddComponent<Listener>(), there = MakeObject("there").AddComponent<Listener>();
+            told.AddListener(gone.Hear);
+            told.AddListener(there.Hear);
+            Object.DestroyImmediate(gone);
+            told.Invoke(7);
+            Assert.AreEqual("there 7", Words(Told));
+        }
+
+        [Test]
+        public void VectorsThatAreNoNumbersEqualNone()
+        {
+            var nothing = new Vector3(float.NaN, 0f, 0f);
+            Assert.IsFalse(nothing.Equals(nothing));
+            Vector3 same = nothing;
+            Assert.IsFalse(nothing == same);
+            Assert.Throws<IndexOutOfRangeException>(() => nothing[3] = 1f);
+            Assert.AreEqual(Vector3.right, Vector3.ProjectOnPlane(Vector3.right, Vector3.zero));
+        }
+
+        [Test]
+        public void AnglesArePositiveAndRaysOfLength1()
+        {
+            Assert.AreEqual(330f, Quaternion.Euler(-30f, 0f, 0f).eulerAngles.x, 1e-3f);
+            Assert.AreEqual(Vector3.up, new Ray(Vector3.zero, 5f * Vector3.up).direction);
+            float enter;
+            Assert.IsTrue(new Plane(Vector3.up, Vector3.zero).Raycast(new Ray(Vector3.up, new Vector3(1f, -1e-5f, 0f)),
+                out enter));
+        }
+
+        [Test]
+        public void BoundsFollowIndicesAndNotVertices()
+        {
+            Mesh mesh = Made(new Mesh { vertices = new[] { Vector3.zero, Vector3.right, Vector3.up } });
+            Assert.AreEqual(Vector3.zero, mesh.bounds.size);
+            mesh.triangles = new[] { 0, 1, 2 };
+            Assert.AreEqual(new Vector3(1f, 1f, 0f), mesh.bounds.size);
+        }
+
         [Test]
         public void MessagesComeInUnitysOrder()
         {

@@ -16,6 +16,12 @@ namespace Knurl
             scene[2] = unity.z;
         }
 
+        /// <summary>Unlike Vector3.Equals(), true of what is no number as well.</summary>
+        internal static bool IsSame(Vector3 a, Vector3 b)
+        {
+            return a.x.Equals(b.x) && a.y.Equals(b.y) && a.z.Equals(b.z);
+        }
+
         /// <summary>A position (m), a direction or a force (N).</summary>
         internal static Vector3 ToUnity(double* scene)
         {

@@ -171,7 +171,7 @@ namespace Knurl
                 latestGain = wanted;
                 NativeMethods.knurl_session_set_gain(session, wanted);
             }
-            if (all || !addedForce.Equals(latestForce))
+            if (all || !Axes.IsSame(addedForce, latestForce))
             {
                 latestForce = addedForce;
                 Axes.ToScene(addedForce, force);
@@ -190,7 +190,7 @@ namespace Knurl
             Vector3 position = transform.position;
             Quaternion rotation = transform.rotation;
             knurl_workspace to;
-            if (position.Equals(latestPosition) && rotation.Equals(latestRotation))
+            if (Axes.IsSame(position, latestPosition) && rotation.Equals(latestRotation))
             {
                 return;
             }

@@ -231,7 +231,7 @@ namespace Knurl
         /// the mesh is read anew for it.</summary>
         void OnDidApplyAnimationProperties()
         {
-            bool isMadeAnew = latestDoubleSided != doubleSided || !latestAxis.Equals(axis)
+            bool isMadeAnew = latestDoubleSided != doubleSided || !Axes.IsSame(latestAxis, axis)
                 || (latestGrating == null) != (grating == null);
             Made += isMadeAnew ? 1 : 0;
             Felt += ReferenceEquals(latestGrating, grating) ? 0 : 1;

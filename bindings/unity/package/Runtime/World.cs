@@ -1,4 +1,4 @@
-// What there is to be felt, and who feels. SPDX-License-Identifier: MIT
+// All surfaces and devices. SPDX-License-Identifier: MIT
 using System.Collections.Generic;
 using UnityEngine;
 

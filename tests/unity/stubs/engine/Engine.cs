@@ -198,17 +198,23 @@ namespace UnityEngine
 
     public struct Ray
     {
-        public Vector3 origin;
-        public Vector3 direction;
-        public Ray(Vector3 origin, Vector3 direction) { this.origin = origin; this.direction = direction; }
+        Vector3 along;
+        public Vector3 origin { get; set; }
+        public Vector3 direction { get { return along; } set { along = value.normalized; } }
+        public Ray(Vector3 origin, Vector3 direction) : this()
+        {
+            this.origin = origin;
+            this.direction = direction;
+        }
+
         public Vector3 GetPoint(float distance) { return origin + direction * distance; }
     }
 
     public struct Plane
     {
-        public Vector3 normal;
-        public float distance;
-        public Plane(Vector3 normal, Vector3 point)
+        public Vector3 normal { get; set; }
+        public float distance { get; set; }
+        public Plane(Vector3 normal, Vector3 point) : this()
         {
             this.normal = normal.normalized;
             distance = -Vector3.Dot(this.normal, point);
@@ -217,12 +223,12 @@ namespace UnityEngine
         public bool Raycast(Ray ray, out float enter)
         {
             float along = Vector3.Dot(ray.direction, normal);
-            enter = Mathf.Abs(along) < 1e-6f ? 0f : -(Vector3.Dot(ray.origin, normal) + distance) / along;
+            enter = Mathf.Approximately(along, 0f) ? 0f : -(Vector3.Dot(ray.origin, normal) + distance) / along;
             return enter > 0f;
         }
     }
 
-    /// Looks straight ahead, one pixel a millimetre, without perspective.
+    /// Looks straight ahead, one pixel a millimetre, without perspective. Not: tags; main is the first that is active.
     public sealed class Camera : Behaviour
     {
         public float nearClipPlane { get; set; }

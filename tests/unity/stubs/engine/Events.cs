@@ -1,6 +1,6 @@
 // Test-only stand-ins, never shipped. Faithful: a listener's exception leaves Invoke and keeps those behind it from
-// being called; who is added during a call is called from the next on; nothing is allocated by a call. Not: listeners
-// that a scene stores.
+// being called; who is added during a call is called from the next on; who belongs to a destroyed object is not called;
+// nothing is allocated by a call. Not: listeners that a scene stores.
 using System;
 using System.Collections.Generic;
 
@@ -13,18 +13,35 @@ namespace UnityEngine.Events
     public abstract class UnityEventBase
     {
         readonly List<Delegate> listeners = new List<Delegate>();
-        Delegate[] ready;
+        readonly List<Delegate> executing = new List<Delegate>(); // one for all calls, also for one inside of another
+        bool isChanged;
 
-        protected void Add(Delegate call) { listeners.Add(call); ready = null; }
+        protected void Add(Delegate call) { listeners.Add(call); isChanged = true; }
 
         protected void Remove(Delegate call)
         {
             listeners.RemoveAll(held => held.Equals(call));
-            ready = null;
+            isChanged = true;
         }
 
-        protected Delegate[] Prepare() { return ready ?? (ready = listeners.ToArray()); }
-        public void RemoveAllListeners() { listeners.Clear(); ready = null; }
+        protected List<Delegate> Prepare()
+        {
+            if (isChanged)
+            {
+                executing.Clear();
+                executing.AddRange(listeners);
+                isChanged = false;
+            }
+            return executing;
+        }
+
+        protected static bool Allows(Delegate call)
+        {
+            var target = call.Target as Object;
+            return ReferenceEquals(target, null) || target != null;
+        }
+
+        public void RemoveAllListeners() { listeners.Clear(); isChanged = true; }
         public int GetPersistentEventCount() { return 0; }
     }
 
@@ -35,9 +52,13 @@ namespace UnityEngine.Events
         public void RemoveListener(UnityAction call) { Remove(call); }
         public void Invoke()
         {
-            foreach (Delegate call in Prepare())
+            List<Delegate> calls = Prepare();
+            for (int i = 0; i < calls.Count; i++)
             {
-                ((UnityAction)call)();
+                if (Allows(calls[i]))
+                {
+                    ((UnityAction)calls[i])();
+                }
             }
         }
     }
@@ -49,9 +70,13 @@ namespace UnityEngine.Events
         public void RemoveListener(UnityAction<T0> call) { Remove(call); }
         public void Invoke(T0 arg0)
         {
-            foreach (Delegate call in Prepare())
+            List<Delegate> calls = Prepare();
+            for (int i = 0; i < calls.Count; i++)
             {
-                ((UnityAction<T0>)call)(arg0);
+                if (Allows(calls[i]))
+                {
+                    ((UnityAction<T0>)calls[i])(arg0);
+                }
             }
         }
     }
@@ -63,9 +88,13 @@ namespace UnityEngine.Events
         public void RemoveListener(UnityAction<T0, T1> call) { Remove(call); }
         public void Invoke(T0 arg0, T1 arg1)
         {
-            foreach (Delegate call in Prepare())
+            List<Delegate> calls = Prepare();
+            for (int i = 0; i < calls.Count; i++)
             {
-                ((UnityAction<T0, T1>)call)(arg0, arg1);
+                if (Allows(calls[i]))
+                {
+                    ((UnityAction<T0, T1>)calls[i])(arg0, arg1);
+                }
             }
         }
     }

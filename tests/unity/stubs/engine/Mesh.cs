@@ -44,8 +44,8 @@ namespace UnityEngine
         }
     }
 
-    /// Faithful: arrays are copies, what is not readable gives an error and nothing, submeshes and topologies.
-    /// Not: checks of index ranges, base vertices (always 0), compression, GPU buffers, skins.
+    /// Faithful: arrays are copies, what is not readable gives an error and nothing, submeshes and topologies, bounds that
+    /// indices bring up to date and vertices do not. Not: checks of index ranges and of lengths, base vertices (always 0), compression, GPU buffers, skins.
     public sealed class Mesh : Object
     {
         sealed class Part
@@ -151,7 +151,6 @@ namespace UnityEngine
         public void SetVertices(Vector3[] value)
         {
             positions = (Vector3[])value.Clone();
-            RecalculateBounds();
         }
 
         public void SetNormals(List<Vector3> value) { normals = value.ToArray(); }
@@ -167,6 +166,7 @@ namespace UnityEngine
         {
             subMeshes[part].indices = (int[])value.Clone();
             subMeshes[part].topology = topology;
+            RecalculateBounds();
         }
 
         public void GetVertices(List<Vector3> to) { Fill(to, Allowed("vertices") ? positions : new Vector3[0]); }

@@ -80,7 +80,6 @@ namespace UnityEngine
         public override string ToString() { return destroyed ? "null" : held + " (" + GetType().FullName + ")"; }
 
         public static void Destroy(Object obj) { Player.DestroyLater(obj); }
-        public static void Destroy(Object obj, float t) { Player.DestroyLater(obj); }
         public static void DestroyImmediate(Object obj) { Player.DestroyNow(obj); }
         public static void DestroyImmediate(Object obj, bool allowDestroyingAssets) { Player.DestroyNow(obj); }
         public static void DontDestroyOnLoad(Object target) { Player.Keep(target); }
@@ -434,7 +433,7 @@ namespace UnityEngine
 
     public class Renderer : Component
     {
-        public bool enabled { get; set; }
+        public bool enabled { get; set; } = true;
         public Material[] sharedMaterials { get; set; } = { new Material(new Shader()) };
         public Material sharedMaterial
         {
@@ -465,13 +464,17 @@ namespace UnityEngine
         Acceleration = 5
     }
 
-    /// Does not move; keeps the impulses that it is given.
+    /// Does not move; keeps the impulses that it is given, none where it is kinematic. Its mass is 1 kg.
     public sealed class Rigidbody : Component
     {
         public Vector3 Impulse;
         public void AddForceAtPosition(Vector3 force, Vector3 position, ForceMode mode)
         {
-            Impulse += mode == ForceMode.Impulse ? force : force * Time.fixedDeltaTime;
+            if (isKinematic)
+            {
+                return;
+            }
+            Impulse += mode == ForceMode.Impulse || mode == ForceMode.VelocityChange ? force : force * Time.fixedDeltaTime;
         }
 
         public RigidbodyInterpolation interpolation { get; set; }

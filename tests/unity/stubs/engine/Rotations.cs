@@ -17,7 +17,7 @@ namespace UnityEngine
             get
             {
                 float length = (float)Math.Sqrt(Dot(this, this));
-                return length < 1e-6f ? identity : new Quaternion(x / length, y / length, z / length, w / length);
+                return length < Mathf.Epsilon ? identity : new Quaternion(x / length, y / length, z / length, w / length);
             }
         }
 
@@ -76,9 +76,15 @@ namespace UnityEngine
                 Matrix4x4 m = Matrix4x4.Rotate(this);
                 double sinX = Math.Max(-1.0, Math.Min(1.0, -m.m12));
                 double degrees = 180.0 / Math.PI;
-                return new Vector3((float)(Math.Asin(sinX) * degrees), (float)(Math.Atan2(m.m02, m.m22) * degrees),
-                                   (float)(Math.Atan2(m.m10, m.m11) * degrees));
+                return new Vector3(Positive(Math.Asin(sinX) * degrees), Positive(Math.Atan2(m.m02, m.m22) * degrees),
+                                   Positive(Math.Atan2(m.m10, m.m11) * degrees));
             }
+        }
+
+        /// 0 to 360 degrees, but for a little below 0.
+        static float Positive(double angle)
+        {
+            return (float)(angle < -0.0001 * 180.0 / Math.PI ? angle + 360.0 : angle);
         }
 
         public static Quaternion operator *(Quaternion a, Quaternion b)

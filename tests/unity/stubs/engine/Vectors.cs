@@ -20,8 +20,8 @@ namespace UnityEngine
 
         public float this[int index]
         {
-            get { return index == 0 ? x : y; }
-            set { if (index == 0) x = value; else y = value; }
+            get { Index.Check(index, 2, "Vector2"); return index == 0 ? x : y; }
+            set { Index.Check(index, 2, "Vector2"); if (index == 0) x = value; else y = value; }
         }
 
         public void Set(float newX, float newY) { x = newX; y = newY; }
@@ -36,7 +36,7 @@ namespace UnityEngine
         public static bool operator !=(Vector2 a, Vector2 b) { return !(a == b); }
         public static implicit operator Vector3(Vector2 v) { return new Vector3(v.x, v.y, 0f); }
         public static implicit operator Vector2(Vector3 v) { return new Vector2(v.x, v.y); }
-        public bool Equals(Vector2 other) { return x.Equals(other.x) && y.Equals(other.y); }
+        public bool Equals(Vector2 other) { return x == other.x && y == other.y; } // not of what is no number
         public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2); }
         public override string ToString() { return Text.Of(x, y); }
@@ -67,8 +67,14 @@ namespace UnityEngine
 
         public float this[int index]
         {
-            get { return index == 0 ? x : index == 1 ? y : z; }
-            set { if (index == 0) x = value; else if (index == 1) y = value; else z = value; }
+            get { Index.Check(index, 3, "Vector3"); return index == 0 ? x : index == 1 ? y : z; }
+            set
+            {
+                Index.Check(index, 3, "Vector3");
+                if (index == 0) x = value;
+                else if (index == 1) y = value;
+                else z = value;
+            }
         }
 
         public void Set(float newX, float newY, float newZ) { x = newX; y = newY; z = newZ; }
@@ -94,7 +100,10 @@ namespace UnityEngine
         {
             return new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
         }
-        public static Vector3 ProjectOnPlane(Vector3 v, Vector3 n) { return v - n * (Dot(v, n) / Dot(n, n)); }
+        public static Vector3 ProjectOnPlane(Vector3 v, Vector3 n)
+        {
+            return Dot(n, n) < Mathf.Epsilon ? v : v - n * (Dot(v, n) / Dot(n, n));
+        }
         public static Vector3 operator +(Vector3 a, Vector3 b) { return new Vector3(a.x + b.x, a.y + b.y, a.z + b.z); }
         public static Vector3 operator -(Vector3 a, Vector3 b) { return new Vector3(a.x - b.x, a.y - b.y, a.z - b.z); }
         public static Vector3 operator -(Vector3 a) { return new Vector3(-a.x, -a.y, -a.z); }
@@ -103,7 +112,7 @@ namespace UnityEngine
         public static Vector3 operator /(Vector3 a, float s) { return new Vector3(a.x / s, a.y / s, a.z / s); }
         public static bool operator ==(Vector3 a, Vector3 b) { return (a - b).sqrMagnitude < 9.99999944e-11f; }
         public static bool operator !=(Vector3 a, Vector3 b) { return !(a == b); }
-        public bool Equals(Vector3 other) { return x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z); }
+        public bool Equals(Vector3 other) { return x == other.x && y == other.y && z == other.z; }
         public override bool Equals(object other) { return other is Vector3 && Equals((Vector3)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2); }
         public override string ToString() { return Text.Of(x, y, z); }
@@ -122,9 +131,10 @@ namespace UnityEngine
 
         public float this[int index]
         {
-            get { return index == 0 ? x : index == 1 ? y : index == 2 ? z : w; }
+            get { Index.Check(index, 4, "Vector4"); return index == 0 ? x : index == 1 ? y : index == 2 ? z : w; }
             set
             {
+                Index.Check(index, 4, "Vector4");
                 if (index == 0) x = value;
                 else if (index == 1) y = value;
                 else if (index == 2) z = value;
@@ -140,7 +150,7 @@ namespace UnityEngine
         public static bool operator !=(Vector4 a, Vector4 b) { return !(a == b); }
         public static implicit operator Vector4(Vector3 v) { return new Vector4(v.x, v.y, v.z, 0f); }
         public static implicit operator Vector3(Vector4 v) { return new Vector3(v.x, v.y, v.z); }
-        public bool Equals(Vector4 o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
+        public bool Equals(Vector4 o) { return x == o.x && y == o.y && z == o.z && w == o.w; }
         public override bool Equals(object other) { return other is Vector4 && Equals((Vector4)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
         public override string ToString() { return Text.Of(x, y, z, w); }
@@ -163,11 +173,15 @@ namespace UnityEngine
         public static Color green { get { return new Color(0f, 1f, 0f); } }
         public static Color blue { get { return new Color(0f, 0f, 1f); } }
         public static Color cyan { get { return new Color(0f, 1f, 1f); } }
-        public static Color yellow { get { return new Color(1f, 0.92f, 0.016f); } }
+        public static Color yellow { get { return new Color(1f, 235f / 255f, 4f / 255f); } }
         public static Color clear { get { return new Color(0f, 0f, 0f, 0f); } }
         public static Color operator *(Color c, float s) { return new Color(c.r * s, c.g * s, c.b * s, c.a * s); }
-        public static bool operator ==(Color a, Color b) { return a.Equals(b); }
-        public static bool operator !=(Color a, Color b) { return !a.Equals(b); }
+        public static bool operator ==(Color a, Color b)
+        {
+            return new Vector4(a.r, a.g, a.b, a.a) == new Vector4(b.r, b.g, b.b, b.a);
+        }
+
+        public static bool operator !=(Color a, Color b) { return !(a == b); }
         public static Color Lerp(Color p, Color q, float t)
         {
             t = Math.Max(0f, Math.Min(1f, t));
@@ -237,7 +251,7 @@ namespace UnityEngine
         public const float Deg2Rad = PI / 180f;
         public const float Rad2Deg = 180f / PI;
         public const float Infinity = float.PositiveInfinity;
-        public const float Epsilon = 1.17549435E-38f;
+        public const float Epsilon = float.Epsilon; // where numbers below the normal ones are not flushed to 0
 
         public static float Abs(float f) { return Math.Abs(f); }
         public static int Abs(int f) { return Math.Abs(f); }
@@ -261,11 +275,22 @@ namespace UnityEngine
         public static int Clamp(int v, int low, int high) { return v < low ? low : v > high ? high : v; }
         public static float Clamp01(float v) { return Clamp(v, 0f, 1f); }
         public static float Lerp(float a, float b, float t) { return a + (b - a) * Clamp01(t); }
-        public static float Repeat(float t, float length) { return t - Floor(t / length) * length; }
+        public static float Repeat(float t, float length) { return Clamp(t - Floor(t / length) * length, 0f, length); }
         public static float Sign(float f) { return f >= 0f ? 1f : -1f; }
         public static bool Approximately(float a, float b)
         {
             return Abs(b - a) < Max(1E-06f * Max(Abs(a), Abs(b)), Epsilon * 8f);
+        }
+    }
+
+    internal static class Index
+    {
+        internal static void Check(int index, int count, string type)
+        {
+            if (index < 0 || index >= count)
+            {
+                throw new IndexOutOfRangeException("Invalid " + type + " index!");
+            }
         }
     }
 

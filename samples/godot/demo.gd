@@ -1,0 +1,36 @@
+extends Node3D
+## What both demo scenes need: arguments after "--", drawing on a CPU, and a picture at the end.
+
+const WARM_UP_FRAMES := 5  # shaders are compiled meanwhile; a device's force is zero while a game hangs
+
+
+## Frames that are drawn before a device starts.
+func warm_up() -> void:
+	if RenderingServer.get_video_adapter_name().contains("llvmpipe"):
+		_draw_coarsely(true)
+	for i: int in WARM_UP_FRAMES:
+		await get_tree().process_frame
+
+
+## Saves a picture where --shot asks for one, and ends the demo.
+func end(device: KnurlDevice) -> void:
+	var path: String = argument("--shot", "")
+	var status: int = OK
+	if not path.is_empty():
+		_draw_coarsely(false)
+		await RenderingServer.frame_post_draw
+		status = get_viewport().get_texture().get_image().save_png(path)
+	device.stop()
+	get_tree().quit(0 if status == OK else 1)
+
+
+func argument(option: String, default: String) -> String:
+	var arguments: PackedStringArray = OS.get_cmdline_user_args()
+	var at: int = arguments.find(option)
+	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default
+
+
+## Where the CPU draws, whole frames take so long that the device, which takes the game to hang, sets its force to zero.
+func _draw_coarsely(coarsely: bool) -> void:
+	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
+	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0
