@@ -47,18 +47,91 @@ static int set_value(const tool_option *option, const char *text) {
     return TOOL_OK;
 }
 
-static const tool_option *find(const tool_option *options, size_t count, const char *name) {
+#define WORD_MAX 32
+
+/* Letters to change, insert, remove or swap with a neighbour, to turn one word into another; of long words WORD_MAX. */
+static size_t edit_distance(const char *a, const char *b) {
+    size_t rows[WORD_MAX + 1][WORD_MAX + 1];
+    const size_t n = strlen(a);
+    const size_t m = strlen(b);
+    if (n > WORD_MAX || m > WORD_MAX) {
+        return WORD_MAX;
+    }
+    for (size_t i = 0; i <= n; i++) {
+        for (size_t j = 0; j <= m; j++) {
+            size_t best = i == 0 ? j : i;
+            if (i > 0 && j > 0) {
+                const size_t change = rows[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+                const size_t remove = rows[i - 1][j] + 1;
+                const size_t insert = rows[i][j - 1] + 1;
+                best = change < remove ? change : remove;
+                best = insert < best ? insert : best;
+                if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && rows[i - 2][j - 2] + 1 < best) {
+                    best = rows[i - 2][j - 2] + 1;
+                }
+            }
+            rows[i][j] = best;
+        }
+    }
+    return rows[n][m];
+}
+
+const char *tool_nearest(const char *word, const char *const *names, size_t count) {
+    const char *nearest = NULL;
+    size_t least = 3;
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(options[i].name, name) == 0) {
+        const size_t distance = edit_distance(word, names[i]);
+        if (distance < least && distance < strlen(names[i])) {
+            least = distance;
+            nearest = names[i];
+        }
+    }
+    return nearest;
+}
+
+/* The option of an argument, which may be --name=value. */
+static const tool_option *find(const tool_option *options, size_t count, const char *argument) {
+    const size_t length = strcspn(argument, "=");
+    for (size_t i = 0; i < count; i++) {
+        if (strlen(options[i].name) == length && strncmp(options[i].name, argument, length) == 0) {
             return &options[i];
         }
     }
     return NULL;
 }
 
+static int unknown_option(const char *command, const tool_option *options, size_t count, const char *argument) {
+    const char *names[32];
+    const size_t some = count < 32 ? count : 32;
+    for (size_t i = 0; i < some; i++) {
+        names[i] = options[i].name;
+    }
+    char word[WORD_MAX + 2];
+    (void)snprintf(word, sizeof word, "%.*s", (int)strcspn(argument, "="), argument);
+    const char *near = tool_nearest(word, names, some);
+    return tool_error(TOOL_USAGE, "%s: unknown option '%s'%s%s%s; see '%s --help'", command, argument,
+                      near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", tool_name);
+}
+
+/* One option at argv[*i], which goes on to its value where that is an argument of its own. */
+static int parse_option(int argc, char **argv, int *i, const tool_option *option) {
+    const char *value = strchr(argv[*i], '=');
+    if (option->kind == TOOL_FLAG) {
+        if (value) {
+            return tool_error(TOOL_USAGE, "%s: %s takes no value, found '%s'", argv[0], option->name, value + 1);
+        }
+        *(int *)option->value = 1;
+        return TOOL_OK;
+    }
+    if (!value && *i + 1 == argc) {
+        return tool_error(TOOL_USAGE, "%s: expected a value after %s, found none", argv[0], option->name);
+    }
+    return set_value(option, value ? value + 1 : argv[++*i]);
+}
+
 int tool_parse(int argc, char **argv, const tool_option *options, size_t count, const char **positional) {
     for (int i = 1; i < argc; i++) {
-        if (strncmp(argv[i], "--", 2) != 0) {
+        if (argv[i][0] != '-' || !argv[i][1]) {
             if (!positional || *positional) {
                 return tool_error(TOOL_USAGE, "%s: unexpected argument '%s'; see '%s --help'", argv[0], argv[i],
                                   tool_name);
@@ -67,15 +140,10 @@ int tool_parse(int argc, char **argv, const tool_option *options, size_t count, 
             continue;
         }
         const tool_option *option = find(options, count, argv[i]);
-        if (!option) {
-            return tool_error(TOOL_USAGE, "%s: unknown option '%s'; see '%s --help'", argv[0], argv[i], tool_name);
-        }
-        if (option->kind == TOOL_FLAG) {
-            *(int *)option->value = 1;
-        } else if (i + 1 == argc) {
-            return tool_error(TOOL_USAGE, "%s: expected a value after %s, found none", argv[0], argv[i]);
-        } else if (set_value(option, argv[++i]) != TOOL_OK) {
-            return TOOL_USAGE;
+        const int code =
+            option ? parse_option(argc, argv, &i, option) : unknown_option(argv[0], options, count, argv[i]);
+        if (code != TOOL_OK) {
+            return code;
         }
     }
     return TOOL_OK;

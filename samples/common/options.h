@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
-enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_NO_CONTACT = 4, TOOL_INTERRUPTED = 128 };
+enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_CHECK = 3, TOOL_NO_CONTACT = 4, TOOL_INTERRUPTED = 128 };
 
 /* Who says what is wrong, and whose --help is named: "knurl", unless main() sets another. */
 extern const char *tool_name;
@@ -32,7 +32,11 @@ typedef struct tool_option {
     const char *unit; /* for messages */
 } tool_option;
 
-/* Reads options and at most one positional argument. Returns TOOL_OK or TOOL_USAGE, having said why. */
+/* The name that was likely meant by a word: the nearest within two wrong letters, or null. */
+const char *tool_nearest(const char *word, const char *const *names, size_t count);
+
+/* Reads options (--name value or --name=value) and at most one positional argument. Returns TOOL_OK or TOOL_USAGE,
+ * having said why. */
 int tool_parse(int argc, char **argv, const tool_option *options, size_t count, const char **positional);
 
 /* One or two numbers with a comma between; 0 unless the whole text is that. */

@@ -67,8 +67,10 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, int
     json_close(json, '}');
 }
 
-static void print_scene(json_writer *json, const knurl_scene *scene, const knurl_device_info *device,
-                        uint32_t skipped) {
+/* Returns the number of surfaces out of reach. */
+static uint32_t print_scene(json_writer *json, const knurl_scene *scene, const knurl_device_info *device,
+                            uint32_t skipped) {
+    uint32_t out_of_reach = 0;
     const uint32_t count = knurl_scene_get_surface_count(scene);
     json_open(json, NULL, '{');
     json_open(json, "surfaces", '[');
@@ -76,7 +78,9 @@ static void print_scene(json_writer *json, const knurl_scene *scene, const knurl
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
         if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK) {
-            print_surface(json, &info, in_reach(scene, device, &info));
+            const int reachable = in_reach(scene, device, &info);
+            out_of_reach += !reachable;
+            print_surface(json, &info, reachable);
         }
     }
     json_close(json, ']');
@@ -86,6 +90,18 @@ static void print_scene(json_writer *json, const knurl_scene *scene, const knurl
         json_string(json, "hint", hint);
     }
     json_close(json, '}');
+    return out_of_reach;
+}
+
+/* --check: for build pipelines. warnings: of surfaces against the device's limits. */
+static int check(const char *path, const knurl_scene *scene, uint32_t warnings, uint32_t out_of_reach) {
+    if (knurl_scene_get_surface_count(scene) > 0 && warnings == 0 && out_of_reach == 0) {
+        return TOOL_OK;
+    }
+    return tool_error(TOOL_CHECK,
+                      "inspect: --check: %s: expected tagged surfaces within a Touch's limits and reach, found "
+                      "%u surfaces, %u warnings, %u out of reach",
+                      path, knurl_scene_get_surface_count(scene), warnings, out_of_reach);
 }
 
 /* The Touch, as the fake device has it. */
@@ -101,12 +117,15 @@ int cmd_inspect(int argc, char **argv) {
     const char *path = NULL;
     int pretty = 0;
     int full = 0;
+    int checks = 0;
     const char *limits = "";
     knurl_gltf_budget budget;
     const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
                                    {"--full-model", TOOL_FLAG, &full, 0, 0, ""},
+                                   {"--check", TOOL_FLAG, &checks, 0, 0, ""},
                                    {"--budget", TOOL_TEXT, &limits, 0, 0, ""}};
-    if (tool_parse(argc, argv, options, 3, &path) != TOOL_OK || tool_parse_budget(limits, &budget) != TOOL_OK) {
+    if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &path) != TOOL_OK ||
+        tool_parse_budget(limits, &budget) != TOOL_OK) {
         return TOOL_USAGE;
     }
     if (!path) {
@@ -126,11 +145,12 @@ int cmd_inspect(int argc, char **argv) {
     }
     json_writer json;
     json_start(&json, stdout, pretty);
-    print_scene(&json, scene, &device, skipped);
-    tool_warn(scene);
+    const uint32_t out_of_reach = print_scene(&json, scene, &device, skipped);
+    const uint32_t warnings = tool_warn(scene);
     if (knurl_scene_get_surface_count(scene) == 0) {
         (void)tool_error(TOOL_OK, "hint: %s: %s", path, hint);
     }
+    const int code = checks ? check(path, scene, warnings, out_of_reach) : TOOL_OK;
     knurl_scene_destroy(scene);
-    return TOOL_OK;
+    return code;
 }

@@ -224,7 +224,7 @@ static int make_loop(run *r) {
     if (knurl_loop_create(&desc, &r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    tool_warn(r->scene); /* after the loop has told the scene what its device is */
+    (void)tool_warn(r->scene); /* after the loop has told the scene what its device is */
     return TOOL_OK;
 }
 

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/types.h>
 
 #define MAX_COLUMNS 64
@@ -40,15 +41,29 @@ static int column_of(char *const *cells, uint32_t count, const char *name) {
     return -1;
 }
 
+/* What a header without the expected names looks like. Its words are not repeated: it may be any file's first line. */
+static const char *describe_header(const char *line, char *const *cells, uint32_t count, const char *name) {
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcasecmp(cells[i], name) == 0) {
+            return "it in other case";
+        }
+    }
+    return strchr(line, ';')                       ? "columns separated by ';'"
+           : strchr(line, '\t')                    ? "columns separated by tabs"
+           : line[strspn(line, "+-.eE0123456789")] ? "none"
+                                                   : "numbers instead of names";
+}
+
 /* Finds each name's column in the header. */
 static int read_header(const char *path, char *line, const char *const *names, uint32_t count, int *columns) {
     char *cells[MAX_COLUMNS];
+    line += strncmp(line, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark, as spreadsheets write it */
     const uint32_t found = split(line, cells);
     for (uint32_t i = 0; i < count; i++) {
         columns[i] = column_of(cells, found, names[i]);
         if (columns[i] < 0) {
-            return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found none", path,
-                              names[i]);
+            return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found %s", path,
+                              names[i], describe_header(cells[0], cells, found, names[i]));
         }
     }
     return TOOL_OK;
@@ -147,7 +162,7 @@ int tool_csv_has(const char *path, const char *name) {
     int too_long = 0;
     if (stream && in_line(stream, &line, &size, &too_long) != -1) {
         char *cells[MAX_COLUMNS];
-        const uint32_t count = split(line, cells);
+        const uint32_t count = split(line + (strncmp(line, "\xef\xbb\xbf", 3) == 0 ? 3 : 0), cells);
         found = column_of(cells, count, name) >= 0;
     }
     free(line);

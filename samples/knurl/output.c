@@ -20,7 +20,8 @@ void tool_print_cell(FILE *stream, const char *name) {
     fputc('"', stream);
 }
 
-void tool_warn(const knurl_scene *scene) {
+uint32_t tool_warn(const knurl_scene *scene) {
+    uint32_t warnings = 0;
     for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); i++) {
         knurl_surface_check check;
         knurl_surface_check_init(&check, sizeof check);
@@ -31,6 +32,8 @@ void tool_warn(const knurl_scene *scene) {
             end = line + strcspn(line, "\n");
             fprintf(stderr, "knurl: warning: %.*s\n", (int)(end - line), line);
             end += *end == '\n';
+            warnings++;
         }
     }
+    return warnings;
 }

@@ -70,6 +70,26 @@ int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface_id surfac
     return TOOL_OK;
 }
 
+/* m: no device reaches so far: a trace that spans more was likely written in mm. */
+#define TRACE_SPAN_MAX 2.0
+
+static void warn_of_millimetres(const char *path, const tool_table *table) {
+    for (uint32_t axis = 1; axis <= 3; axis++) {
+        double low = table->cells[axis];
+        double high = low;
+        for (uint64_t i = 1; i < table->row_count; i++) {
+            low = fmin(low, table->cells[4 * i + axis]);
+            high = fmax(high, table->cells[4 * i + axis]);
+        }
+        if (high - low > TRACE_SPAN_MAX) {
+            fprintf(stderr,
+                    "knurl: warning: %s: %c spans %g m; positions are taken as metres: are these millimetres?\n", path,
+                    "txyz"[axis], high - low);
+            return;
+        }
+    }
+}
+
 int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, double *last_t) {
     static const char *const columns[] = {"t", "x", "y", "z"};
     tool_table table;
@@ -78,6 +98,7 @@ int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, doub
     if (code != TOOL_OK) {
         return code;
     }
+    warn_of_millimetres(path, &table);
     knurl_result result = knurl_scene_get_workspace(scene, 0, &workspace);
     for (uint64_t i = 0; i < table.row_count && !result; i++) {
         double *row = &table.cells[4 * i];

@@ -17,8 +17,8 @@
 /* A CSV cell, quoted where it must be (RFC 4180). */
 void tool_print_cell(FILE *stream, const char *name);
 
-/* A line on stderr for each limit of HIP 0's device that a surface exceeds. */
-void tool_warn(const knurl_scene *scene);
+/* A line on stderr for each limit of HIP 0's device that a surface exceeds. Returns how many. */
+uint32_t tool_warn(const knurl_scene *scene);
 
 /* --- loading (load.c) --- */
 

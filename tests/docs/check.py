@@ -63,11 +63,26 @@ def unknown_functions():
             yield f"{page.relative_to(ROOT)}: expected a public function, found {name}()"
 
 
+def options_without_help():
+    """Options that a command of the tool takes and its help does not show; studies likewise."""
+    table = (ROOT / "samples/knurl/help.c").read_text(encoding="utf-8")
+    for source in [*ROOT.glob("samples/knurl/cmd_*.c"), ROOT / "samples/common/wave_options.c",
+                   *ROOT.glob("samples/study/programs/cmd_*.c")]:
+        for option in re.findall(r'\{"(--[\w-]+)", TOOL_', source.read_text(encoding="utf-8")):
+            if f'"{option}"' not in table:
+                yield f"{source.relative_to(ROOT)}: expected {option} in samples/knurl/help.c, found none"
+    studies = re.findall(r'^    \{"(\w+)",', (ROOT / "samples/study/studies.c").read_text(encoding="utf-8"), re.M)
+    for name in studies:
+        if not re.search(rf"\b{name}\b", table):
+            yield f"samples/study/studies.c: expected {name} in samples/knurl/help.c, found none"
+
+
 def main():
     broken_links.count = 0
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     problems = [problem for page in pages() for problem in broken_links(page)]
     problems += unknown_functions()
+    problems += options_without_help()
     if len(readme.encode()) > README_MOST:
         problems.append(f"README.md: expected at most {README_MOST} bytes, found {len(readme.encode())}")
     sample = (ROOT / SAMPLE).read_text(encoding="utf-8").split("README: begin */\n")[1].split("    /* README: end")[0]

@@ -1,0 +1,250 @@
+/* The commands of the tool in one table: help, a man page and completions. SPDX-License-Identifier: MIT */
+#include "help.h"
+
+#include "tool.h"
+
+#include <knurl/knurl.h>
+
+#include <string.h>
+
+#define OPTIONS_MAX 17
+#define INDENT      30
+
+typedef struct help_option {
+    const char *name;
+    const char *argument; /* or "" */
+    const char *text;
+} help_option;
+
+typedef struct help_command {
+    const char *name;
+    const char *arguments; /* that are not options */
+    const char *text;
+    help_option options[OPTIONS_MAX]; /* ended by a null name */
+    const char *details;
+    const char *(*more)(void); /* or null: further details */
+} help_command;
+
+#define METHODS "S1|S2|locked|area"
+#define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
+#define PRETTY  {"--pretty", "", "JSON over several lines"}
+#define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}
+#define WAVE                                                                                                           \
+    {"--method", "T1|T2|T3", "the temporal method"}, {"--period-ms", "P", "period, ms"},                               \
+        {"--amplitude", "A", "half peak to peak; default 1"}, {"--rate", "HZ", "update rate; default 1000"}
+
+static const help_command commands[] = {
+    {"inspect",
+     "FILE",
+     "describe a file's tagged surfaces as JSON",
+     {PRETTY,
+      FULL,
+      BUDGET,
+      {"--check", "", "exit with 3 where a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
+     "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, bytes, why, model_error, seam,\n"
+     "touching_pairs, in_reach, double_sided, material, stretch, stretch_y}], skipped, bytes, hint.",
+     NULL},
+    {"run",
+     "FILE",
+     "load a scene, feel or stroke it, and summarise as JSON",
+     {{"--device", "URI", "fake (default), touch, falcon, rawhid, serial, dhd; see 'knurl devices'"},
+      {"--reconnect", "", "search for a lost device instead of ending"},
+      {"--surface", "NAME", "the surface to stroke; default: the first"},
+      {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},
+      {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand"},
+      {"--seconds", "S", "of the clock, with fake of its ticks; default 5, or the trace's length"},
+      {"--rate", "HZ", "update rate, 100 to 10000; default 1000"},
+      {"--method", METHODS, "for all surfaces, instead of their own"},
+      {"--fast", "", "fake only: as fast as the machine can, with the same forces"},
+      {"--out", "CSV", "writes a row per tick; - is standard output"},
+      {"--wav", "FILE", "writes the sound of what is felt: mono, 48 kHz, 16 bits"},
+      FULL,
+      BUDGET,
+      {"--clamp", "", "limits walls and textures to what the device can do"},
+      PRETTY},
+     "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres.\n"
+     "CSV out (--out): t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz. x..z and f in scene axes (m, N), v in the\n"
+     "surface's frame (m/s), surface a name or none.\n"
+     "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
+     "watchdogs, absences, saturations, frequency_saturations, not_finite, entries, slews, heats, passivities, heat,\n"
+     "force_max_n, faults, tick_ns and jitter_us {p50, p99, max}.\n"
+     "Files are written completely or not at all, and never replace one that is read.\n"
+     "Keys of --device fake:?key=value&key=value:\n",
+     knurl_fake_keys},
+    {"signal", "", "print a temporal vibration as CSV", {WAVE, {"--ticks", "N", "how many"}}, "CSV: tick,value.", NULL},
+    {"metrics",
+     "",
+     "measure a temporal vibration over whole periods, as JSON",
+     {WAVE, PRETTY},
+     "JSON: actual_period_ms, dominant_hz, dominant_amplitude, net, rms, pcc {T1, T2, T3}.",
+     NULL},
+    {"scan",
+     "",
+     "run a grating over given motion, as CSV",
+     {{"--method", METHODS, "the spatial method"},
+      {"--fs", "FSX,FSY", "spatial frequency along x and y, cycles/m"},
+      {"--amplitude", "A", "half peak to peak, m"},
+      {"--rate", "HZ", "update rate; default 1000"},
+      {"--in", "CSV", "a row per tick: positions x,y (m) or velocities vx,vy (m/s)"}},
+     "CSV out: tick,height,fs,ft,event.",
+     NULL},
+    {"study",
+     "NAME",
+     "compute the numbers of a figure or chart",
+     {{"--out", "DIR", "writes NAME.csv and NAME.json there; samples/study/figures.py draws them"}},
+     "Names: signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, locked, area, half_cycles,\n"
+     "transitions, failures, stability.",
+     NULL},
+    {"bench",
+     "",
+     "time ticks on this machine (about half a minute)",
+     {{"--json", "", "as JSON"},
+      {"--case", "NAME", "one case only; a wrong name lists all"},
+      {"--ticks", "N", "ticks to time per case"}},
+     "JSON: version, timer_ns, clock_step_ns, machine, cases [{case, batch_ns, p50_ns, p99_ns, p999_ns, max_ns, bytes,\n"
+     "build_ms, ...}], skipped [{case, why}].",
+     NULL},
+    {"devices",
+     "",
+     "list connected devices, problems, and the fake device's keys",
+     {{"--json", "", "as JSON"}, PRETTY},
+     "JSON: [{uri, name, unusable}].",
+     NULL}};
+
+#define COMMAND_COUNT (sizeof commands / sizeof *commands)
+
+static const char exit_codes[] =
+    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 3 inspect --check found a problem,\n"
+    "4 a simulated run that touched nothing or hardly moved (its output is written all the same), 128 + N ended by\n"
+    "signal N (130: Ctrl-C; nothing is written then).\n";
+
+static const help_command *find(const char *name) {
+    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(commands[i].name, name) == 0) {
+            return &commands[i];
+        }
+    }
+    return NULL;
+}
+
+static void print_overview(void) {
+    fputs("knurl: feel the gratings of a glTF scene, with or without a device\n\n", stdout);
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf("  knurl %-8s %-6s %s\n", c->name, c->arguments, c->text);
+    }
+    fputs("\n  knurl help COMMAND     its options, columns and keys (also: knurl COMMAND --help)\n"
+          "  knurl man              a man page: knurl man | man -l -\n"
+          "  knurl completion SHELL a script for bash, zsh or fish: source <(knurl completion bash)\n"
+          "  knurl --version\n\n",
+          stdout);
+    fputs(exit_codes, stdout);
+}
+
+int help_print(const char *command) {
+    const help_command *c = command ? find(command) : NULL;
+    if (!c) {
+        if (!command) {
+            print_overview();
+        }
+        return command != NULL;
+    }
+    printf("usage: knurl %s%s%s [options]: %s\n\n", c->name, c->arguments[0] ? " " : "", c->arguments, c->text);
+    for (const help_option *o = c->options; o->name; o++) {
+        const int width = printf("  %s %s", o->name, o->argument);
+        printf("%*s%s\n", width < INDENT ? INDENT - width : 1, "", o->text);
+    }
+    printf("\n%s\n%s", c->details, c->more ? c->more() : "");
+    return 0;
+}
+
+static void print_roff(const char *text) {
+    for (const char *c = text; *c; c++) {
+        fputs(*c == '-' ? "\\-" : *c == '\\' ? "\\e" : "", stdout);
+        if (*c == '\n' && c[1]) {
+            fputs("\n.br\n", stdout);
+        } else if (*c != '-' && *c != '\\') {
+            putchar(*c);
+        }
+    }
+}
+
+void help_print_man(void) {
+    printf(".TH KNURL 1 \"\" \"knurl %s\"\n.SH NAME\nknurl \\- feel the gratings of a glTF scene\n.SH SYNOPSIS\n",
+           knurl_version_string());
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf(".B \"knurl %s\"\n[options] %s\n.br\n", c->name, c->arguments);
+    }
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf(".SH \"knurl %s\"\n", c->name);
+        print_roff(c->text);
+        for (const help_option *o = c->options; o->name; o++) {
+            fputs("\n.TP\n.B ", stdout);
+            print_roff(o->name);
+            printf(" %s\n", o->argument);
+            print_roff(o->text);
+        }
+        fputs("\n.PP\n", stdout);
+        print_roff(c->details);
+        fputs("\n.br\n", stdout);
+        print_roff(c->more ? c->more() : "");
+    }
+    fputs("\n.SH \"EXIT CODES\"\n", stdout);
+    print_roff(exit_codes);
+}
+
+static void print_names(const help_command *only) {
+    for (const help_command *c = commands; !only && c < commands + COMMAND_COUNT; c++) {
+        printf("%s ", c->name);
+    }
+    for (const help_option *o = only ? only->options : NULL; o && o->name; o++) {
+        printf("%s ", o->name);
+    }
+}
+
+/* bash and zsh, which understands bash's after bashcompinit. */
+static void complete_bash(void) {
+    fputs("_knurl() {\n  local word=${COMP_WORDS[COMP_CWORD]} words\n  case $COMP_CWORD:${COMP_WORDS[1]} in\n"
+          "  1:*) words='help man completion ",
+          stdout);
+    print_names(NULL);
+    fputs("' ;;\n", stdout);
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf("  *:%s) words='", c->name);
+        print_names(c);
+        fputs("--help' ;;\n", stdout);
+    }
+    fputs("  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n}\ncomplete -o default -F _knurl knurl\n",
+          stdout);
+}
+
+static void complete_fish(void) {
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf("complete -c knurl -n __fish_use_subcommand -a %s -d \"%s\"\n", c->name, c->text);
+        for (const help_option *o = c->options; o->name; o++) {
+            printf("complete -c knurl -n \"__fish_seen_subcommand_from %s\" -l %s %s-d \"%s\"\n", c->name, o->name + 2,
+                   o->argument[0] ? "-r " : "", o->text);
+        }
+    }
+}
+
+int help_print_completion(const char *shell) {
+    if (strcmp(shell, "fish") == 0) {
+        complete_fish();
+        return 0;
+    }
+    if (strcmp(shell, "zsh") == 0) {
+        fputs("autoload -U +X bashcompinit && bashcompinit\n", stdout);
+    } else if (strcmp(shell, "bash") != 0) {
+        return 1;
+    }
+    complete_bash();
+    return 0;
+}
+
+const char *help_nearest_command(const char *word) {
+    const char *names[COMMAND_COUNT];
+    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+        names[i] = commands[i].name;
+    }
+    return tool_nearest(word, names, COMMAND_COUNT);
+}

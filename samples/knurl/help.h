@@ -1,0 +1,17 @@
+/* The commands of the tool in one table: help, a man page and completions. SPDX-License-Identifier: MIT */
+#ifndef KNURL_HELP_H
+#define KNURL_HELP_H
+
+/* Prints the overview (null) or a command's help. Returns 0, or 1 where there is no such command. */
+int help_print(const char *command);
+
+/* Prints a man page (roff). */
+void help_print_man(void);
+
+/* Prints a completion script for bash, zsh or fish. Returns 0, or 1 for another shell. */
+int help_print_completion(const char *shell);
+
+/* The command that was likely meant, or null. */
+const char *help_nearest_command(const char *word);
+
+#endif
