@@ -55,7 +55,7 @@ BOXES = {
     "mesh_frame": (462, 702, 160, "mesh_frame", "x, y, coordinates", ["contact/mesh_frame"]),
     "mesh_walk": (654, 702, 160, "mesh_walk", "downhill to the nearest", ["contact/mesh_walk"]),
     "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast"]),
-    "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact"]),
+    "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact", "contact/visits"]),
     "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh"]),
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),
     "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point", "contact/facet"]),

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "a89c9724d9b7f851"
+#define KNURL_UNITY_INTERFACE "2d883fabd23b6062"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -108,7 +108,7 @@
     FIELD(knurl_surface_desc, rotation, "rotation", 64, 32) \
     FIELD(knurl_surface_desc, axis, "axis", 96, 24) \
     FIELD(knurl_surface_desc, shape_of, "shape_of", 120, 8) \
-    STRUCT(knurl_hip_desc, 96) \
+    STRUCT(knurl_hip_desc, 104) \
     FIELD(knurl_hip_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_hip_desc, velocity_method, "velocity_method", 4, 4) \
     FIELD(knurl_hip_desc, update_rate_hz, "update_rate_hz", 8, 8) \
@@ -123,6 +123,8 @@
     FIELD(knurl_hip_desc, slew_rate, "slew_rate", 80, 8) \
     FIELD(knurl_hip_desc, protections, "protections", 88, 4) \
     FIELD(knurl_hip_desc, clamp, "clamp", 92, 4) \
+    FIELD(knurl_hip_desc, max_visits, "max_visits", 96, 4) \
+    FIELD(knurl_hip_desc, reserved, "reserved", 100, 4) \
     STRUCT(knurl_scene_desc, 24) \
     FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_scene_desc, max_surfaces, "max_surfaces", 4, 4) \
@@ -180,7 +182,7 @@
     FIELD(knurl_tick_output, flags, "flags", 216, 4) \
     FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
     FIELD(knurl_tick_output, cycles, "cycles", 224, 16) \
-    STRUCT(knurl_hip_counts, 120) \
+    STRUCT(knurl_hip_counts, 128) \
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
@@ -196,6 +198,7 @@
     FIELD(knurl_hip_counts, half_cycles_crossed, "half_cycles_crossed", 96, 8) \
     FIELD(knurl_hip_counts, half_cycles_played, "half_cycles_played", 104, 8) \
     FIELD(knurl_hip_counts, squeezed_ticks, "squeezed_ticks", 112, 8) \
+    FIELD(knurl_hip_counts, visit_limit_ticks, "visit_limit_ticks", 120, 8) \
     STRUCT(knurl_surface_check, 1064) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \

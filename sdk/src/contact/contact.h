@@ -3,7 +3,7 @@
 #ifndef KNURL_SRC_CONTACT_H
 #define KNURL_SRC_CONTACT_H
 
-#include <stdint.h>
+#include "contact/visits.h"
 
 /* A HIP that is seen for the first time counts as pressed in when it is at most this deep (m) behind a front face.
  * Later it must have come through the face. 10 mm: deeper than any hand presses before the force limit holds it. */
@@ -33,7 +33,8 @@ typedef struct knurl_contact_query {
     double reach;         /* m in front of the surface that count as contact: the highest crest */
     int32_t has_previous; /* 0: a first tick; KNURL_CAPTURE_DEPTH applies */
     int32_t double_sided;
-    knurl_facet *facet; /* this contact's, zero when it begins; or null: none is kept */
+    knurl_facet *facet;   /* this contact's, zero when it begins; or null: none is kept */
+    knurl_visits *visits; /* what it may look at; null: no limit */
 } knurl_contact_query;
 
 typedef struct knurl_contact {
@@ -52,6 +53,7 @@ typedef struct knurl_cast {
     double from[3];
     double to[3];
     int32_t double_sided;
+    knurl_visits *visits; /* what it may look at; null: no limit */
 } knurl_cast;
 
 /* Faces reach beyond their edges by a shape's seam, so that no way leads between two that touch. */

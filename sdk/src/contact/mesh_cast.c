@@ -80,6 +80,9 @@ int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_h
         if (!knurl_bvh_overlaps(node, cast->from, cast->to, margin)) {
             continue;
         }
+        if (!knurl_visits_take(cast->visits, 1 + node->count)) {
+            return 0;
+        }
         for (uint32_t i = 0; i < node->count; i++) {
             (void)cast_at(mesh, node->first + i, cast, hit);
         }

@@ -25,7 +25,8 @@ static double off_boundary(const knurl_closest_point *closest, double along[3]) 
 
 /* From a closest point to a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped over
  * the boundary of an open mesh. */
-static int set_contact(const knurl_mesh *mesh, int32_t side, const knurl_closest_point *closest, knurl_contact *c) {
+static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t side, const knurl_closest_point *closest,
+                       knurl_contact *c) {
     vec3_copy(closest->point, c->proxy);
     vec3_copy(closest->weights, c->weights);
     c->triangle = closest->triangle;
@@ -38,7 +39,7 @@ static int set_contact(const knurl_mesh *mesh, int32_t side, const knurl_closest
     double outwards[3], offset[3];
     int boundary;
     const double distance = sqrt(closest->distance2);
-    const int inside = knurl_mesh_side(mesh, closest, &boundary) * side < 0;
+    const int inside = knurl_mesh_side(mesh, closest, visits, &boundary) * side < 0;
     vec3_copy(closest->offset, offset);
     if (boundary) {
         if (off_boundary(closest, outwards) > BOUNDARY_SLACK + 1e-6 * distance) {
@@ -56,14 +57,15 @@ static int set_contact(const knurl_mesh *mesh, int32_t side, const knurl_closest
 }
 
 /* The contact with what is nearest of all, within `radius`. */
-static int contact_nearest(const knurl_mesh *mesh, const double hip[3], double radius, int32_t side, knurl_contact *c) {
+static int contact_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, double radius, int32_t side,
+                           knurl_contact *c) {
     knurl_contact nearest;
     knurl_closest_point closest;
-    if (!knurl_mesh_closest(mesh, hip, radius, &nearest)) {
+    if (!knurl_mesh_closest(mesh, query->hip, radius, query->visits, &nearest)) {
         return 0;
     }
-    knurl_closest_on_triangle(mesh, nearest.triangle, hip, &closest);
-    return set_contact(mesh, side, &closest, c);
+    knurl_closest_on_triangle(mesh, nearest.triangle, query->hip, &closest);
+    return set_contact(mesh, query->visits, side, &closest, c);
 }
 
 /* The HIP is in front of its proxy: is another part of the mesh between the two? Then the contact is with that: within
@@ -77,14 +79,14 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
         knurl_closest_point closest;
         double from[3];
         knurl_offset_towards(part.proxy, query->hip, from);
-        const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, &triangle);
+        const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, query->visits, &triangle);
         if (met == 0) {
             break;
         }
         last = met;
         knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);
-        (void)knurl_mesh_walk(mesh, query->hip, met, &closest);
-        if (!set_contact(mesh, met, &closest, &part)) {
+        (void)knurl_mesh_walk(mesh, query->hip, met, query->visits, &closest);
+        if (!set_contact(mesh, query->visits, met, &closest, &part)) {
             break;
         }
         if (part.z <= 0.0) {
@@ -94,7 +96,7 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
             return 1;
         }
     }
-    if (last == 0 || !contact_nearest(mesh, query->hip, c->z, last, &part) || !(part.z < 0.0)) {
+    if (last == 0 || !contact_nearest(mesh, query, c->z, last, &part) || !(part.z < 0.0)) {
         return 0;
     }
     *side = last;
@@ -121,40 +123,50 @@ static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_q
     const double off = off_boundary(boundary, at);
     c->unsure = 1;
     vec3_madd(boundary->point, 1.0, at, at);
-    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), &other)) {
+    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), query->visits, &other)) {
         knurl_closest_on_triangle(mesh, other.triangle, query->hip, &closest);
         if (vec3_dot(closest.normal, boundary->normal) > 0.0) {
-            (void)knurl_mesh_walk(mesh, query->hip, *side, &closest);
-            if (set_contact(mesh, *side, &closest, c) && is_contact(mesh, query, reach, side, c)) {
+            (void)knurl_mesh_walk(mesh, query->hip, *side, query->visits, &closest);
+            if (set_contact(mesh, query->visits, *side, &closest, c) && is_contact(mesh, query, reach, side, c)) {
                 return 1;
             }
         }
     }
-    return contact_nearest(mesh, query->hip, sqrt(boundary->distance2), *side, c) && c->z <= reach;
+    return contact_nearest(mesh, query, sqrt(boundary->distance2), *side, c) && c->z <= reach;
 }
 
 /* The contact at a closest point, or at what continues the surface beyond its boundary. */
 static int contact_at(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                       const knurl_closest_point *closest, int32_t *side, knurl_contact *c) {
-    return set_contact(mesh, *side, closest, c) ? is_contact(mesh, query, reach, side, c)
-                                                : contact_beyond_boundary(mesh, query, reach, closest, side, c);
+    return set_contact(mesh, query->visits, *side, closest, c)
+               ? is_contact(mesh, query, reach, side, c)
+               : contact_beyond_boundary(mesh, query, reach, closest, side, c);
 }
 
 /* The closest point to a HIP in front: from where it was a tick ago, if there was one, and by the hierarchy, which then
- * has little to search. 0 where there is none within `radius`. */
-static int find_closest(const knurl_mesh *mesh, const double hip[3], double radius, const knurl_contact_state *state,
-                        knurl_closest_point *closest) {
+ * has little to search. 0 where there is none within `radius`. Where crests reach farther than a mesh is wide, all of
+ * its triangles may be as near: half of the visits that are left are spent on them, and the rest is for crossings. */
+static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query, double radius,
+                        const knurl_contact_state *state, knurl_closest_point *closest) {
+    const double *hip = query->hip;
+    knurl_visits half = {query->visits ? query->visits->left / 2 : 0, 0};
+    knurl_visits *visits = query->visits ? &half : NULL;
+    const uint32_t before = half.left;
     knurl_contact nearest;
     int found = 0;
     if (state->side != 0) {
         knurl_closest_on_triangle(mesh, state->triangle, hip, closest);
-        (void)knurl_mesh_walk(mesh, hip, state->side, closest);
+        (void)knurl_mesh_walk(mesh, hip, state->side, visits, closest);
         found = closest->distance2 <= radius * radius;
         radius = found ? sqrt(closest->distance2) * (1.0 - 1e-9) : radius;
     }
-    if (knurl_mesh_closest(mesh, hip, radius, &nearest)) {
+    if (knurl_mesh_closest(mesh, hip, radius, visits, &nearest)) {
         knurl_closest_on_triangle(mesh, nearest.triangle, hip, closest);
         found = 1;
+    }
+    if (visits) {
+        query->visits->left -= before - half.left;
+        query->visits->exhausted |= half.exhausted;
     }
     return found;
 }
@@ -164,12 +176,12 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
                              knurl_contact_state *state, knurl_contact *c) {
     uint32_t triangle;
     knurl_closest_point closest;
-    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &triangle);
+    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, query->visits, &triangle);
     if (side == 0) {
         return 0;
     }
     knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);
-    c->unsure |= knurl_mesh_walk(mesh, query->hip, side, &closest) | (mesh->touching > 0);
+    c->unsure |= knurl_mesh_walk(mesh, query->hip, side, query->visits, &closest) | (mesh->touching > 0);
     if (!contact_at(mesh, query, reach, &closest, &side, c)) {
         c->unsure = 1;
         return 0;
@@ -182,7 +194,7 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
 static int cannot_have_crossed(const knurl_contact_query *query, double distance2) {
     double way[3];
     vec3_sub(query->hip, query->previous, way);
-    return vec3_dot(way, way) < distance2 * (1.0 - 1e-9);
+    return !(query->visits && query->visits->exhausted) && vec3_dot(way, way) < distance2 * (1.0 - 1e-9);
 }
 
 /* A HIP outside: contact begins where it has crossed the surface, is in reach, or (first tick) is pressed in from the
@@ -194,21 +206,21 @@ static int begin_contact(const knurl_mesh *mesh, const knurl_contact_query *quer
     const int captures = !query->has_previous && !query->double_sided;
     const double radius = captures ? fmax(in_reach, KNURL_CAPTURE_DEPTH) : in_reach;
     knurl_closest_point closest;
-    const int was_near = state->side != 0 && find_closest(mesh, query->hip, radius, state, &closest);
+    const int was_near = state->side != 0 && find_closest(mesh, query, radius, state, &closest);
     if (query->has_previous && !(was_near && cannot_have_crossed(query, closest.distance2)) &&
         begin_by_crossing(mesh, query, reach, state, c)) {
         return 1;
     }
-    if (!was_near && (!(radius > 0.0) || !find_closest(mesh, query->hip, radius, state, &closest))) {
+    if (!was_near && (!(radius > 0.0) || !find_closest(mesh, query, radius, state, &closest))) {
         return 0;
     }
     state->side = 1;
-    if (!set_contact(mesh, 1, &closest, c)) {
+    if (!set_contact(mesh, query->visits, 1, &closest, c)) {
         return 0;
     }
     if (query->double_sided && c->z < 0.0) { /* in reach from behind */
         state->side = -1;
-        return set_contact(mesh, -1, &closest, c);
+        return set_contact(mesh, query->visits, -1, &closest, c);
     }
     return c->z >= 0.0 ? c->z <= reach : captures;
 }
@@ -225,7 +237,7 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
     }
     knurl_closest_on_triangle(mesh, state->triangle, query->hip, &closest);
     if (closest.feature != 7) {
-        c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, &closest);
+        c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, query->visits, &closest);
     }
     const int held = contact_at(mesh, query, reach, &closest, &state->side, c);
     if (facet && held && closest.feature == 7 && c->triangle == closest.triangle && c->triangle == state->triangle) {

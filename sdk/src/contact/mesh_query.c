@@ -1,5 +1,5 @@
-/* Searches a mesh's hierarchy for the nearest point and for crossings. Iterative, bounded by the number of nodes.
- * SPDX-License-Identifier: MIT */
+/* Searches a mesh's hierarchy for the nearest point and for crossings. Iterative, bounded by the visits that they are
+ * given. SPDX-License-Identifier: MIT */
 #include "contact/mesh_query.h"
 
 #include "contact/closest_point.h"
@@ -20,7 +20,8 @@ static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, con
     return closest.distance2;
 }
 
-int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_contact *nearest) {
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_visits *visits,
+                       knurl_contact *nearest) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
@@ -31,6 +32,9 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
         const knurl_bvh_node *node = &mesh->nodes[index];
         if (knurl_bvh_distance2(node, p) >= best2) {
             continue;
+        }
+        if (!knurl_visits_take(visits, 1 + node->count)) {
+            break;
         }
         for (uint32_t i = 0; i < node->count; i++) {
             best2 = closest_in_triangle(mesh, node->first + i, p, best2, nearest);
@@ -74,7 +78,7 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
 }
 
 int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
-                     uint32_t *triangle) {
+                     knurl_visits *visits, uint32_t *triangle) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     double direction[3];
@@ -88,6 +92,9 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
         const knurl_bvh_node *node = &mesh->nodes[index];
         if (!knurl_bvh_overlaps(node, a, b, margin)) {
             continue;
+        }
+        if (!knurl_visits_take(visits, 1 + node->count)) {
+            return 0;
         }
         for (uint32_t i = 0; i < node->count; i++) {
             double corners[3][3];
@@ -104,6 +111,47 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
         }
     }
     return best < 1.5 ? side : 0;
+}
+
+/* Triangles that knurl_mesh_exceeds_visits() looks at: a place where many lie over one another has many of them. */
+#define SAMPLES 64
+
+/* m: what a fast hand goes in a tick. */
+#define SAMPLE_STEP 1e-3
+
+/* In front, contact gets half of a tick's visits; a way through a face is cast for several times. */
+static int exceeds_visits_at(const knurl_mesh *mesh, const double p[3], const double normal[3], double reach,
+                             uint32_t max_visits) {
+    knurl_visits nearest = {max_visits / 2, 0};
+    knurl_visits crossing = {max_visits / 4, 0};
+    knurl_contact found;
+    uint32_t triangle;
+    double front[3], behind[3];
+    vec3_madd(p, reach, normal, front);
+    (void)knurl_mesh_closest(mesh, front, reach, &nearest, &found);
+    vec3_madd(p, 0.5 * SAMPLE_STEP, normal, front);
+    vec3_madd(p, -0.5 * SAMPLE_STEP, normal, behind);
+    (void)knurl_mesh_cross(mesh, front, behind, 0, &crossing, &triangle);
+    return nearest.exhausted || crossing.exhausted;
+}
+
+int knurl_mesh_exceeds_visits(const knurl_mesh *mesh, double reach, uint32_t max_visits) {
+    static const double nowhere[3] = {0.0, 0.0, 0.0};
+    const uint32_t samples = mesh->triangle_count < SAMPLES ? mesh->triangle_count : SAMPLES;
+    double middle[3];
+    for (int i = 0; i < 3; i++) {
+        middle[i] = 0.5 * ((double)mesh->nodes[0].min[i] + (double)mesh->nodes[0].max[i]);
+    }
+    int exceeds = exceeds_visits_at(mesh, middle, nowhere, reach, max_visits);
+    for (uint32_t i = 0; i < samples && !exceeds; i++) {
+        knurl_triangle t;
+        knurl_mesh_triangle(mesh, (uint32_t)((uint64_t)i * mesh->triangle_count / samples), &t);
+        for (int k = 0; k < 3; k++) {
+            middle[k] = (t.corners[0][k] + t.corners[1][k] + t.corners[2][k]) / 3.0;
+        }
+        exceeds = exceeds_visits_at(mesh, middle, t.normal, reach, max_visits);
+    }
+    return exceeds;
 }
 
 /* The first front face on, then beside, then under the middle of the bounds; else what is nearest to the middle. */
@@ -123,7 +171,7 @@ static void find_front_face(const knurl_mesh *mesh, const double rotation[9], kn
         mat3_mul_transposed(rotation, from[i], direction);
         vec3_madd(centre, size, direction, outside);
         vec3_madd(centre, -size, direction, opposite);
-        if (knurl_mesh_cross(mesh, outside, opposite, 0, &anchor->triangle)) {
+        if (knurl_mesh_cross(mesh, outside, opposite, 0, NULL, &anchor->triangle)) {
             knurl_mesh_triangle(mesh, anchor->triangle, &t);
             double offset[3];
             vec3_sub(t.corners[0], outside, offset);
@@ -132,7 +180,7 @@ static void find_front_face(const knurl_mesh *mesh, const double rotation[9], kn
             return;
         }
     }
-    (void)knurl_mesh_closest(mesh, centre, 2.0 * size, anchor);
+    (void)knurl_mesh_closest(mesh, centre, 2.0 * size, NULL, anchor);
 }
 
 void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
@@ -140,7 +188,7 @@ void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_c
     memset(anchor, 0, sizeof *anchor);
     find_front_face(mesh, rotation, anchor);
     /* once more as a nearest point, for its weights and its face's normal */
-    (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), anchor);
+    (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), NULL, anchor);
     knurl_mesh_triangle(mesh, anchor->triangle, &t);
     vec3_copy(t.normal, anchor->normal);
 }

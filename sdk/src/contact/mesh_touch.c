@@ -240,5 +240,5 @@ uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh) {
             pairs += count_of_leaf(mesh, &mesh->nodes[i], &steps);
         }
     }
-    return pairs == 0 && steps == 0 ? 1 : pairs; /* nobody knows: as if there were one */
+    return pairs == 0 && steps == 0 ? 1 : pairs; /* counting ended early: there may be some */
 }

@@ -13,6 +13,15 @@
 /* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part. */
 #define MAX_FAN 256
 
+/* One walk. */
+typedef struct walk {
+    const knurl_mesh *mesh;
+    const double *p;
+    knurl_visits *visits;
+    int32_t side;
+    int capped; /* 1: it was cut short */
+} walk;
+
 static int is_closer(const knurl_closest_point *a, const knurl_closest_point *b) {
     return a->distance2 < b->distance2 * (1.0 - 1e-12);
 }
@@ -39,15 +48,14 @@ static void vertex_of(const knurl_mesh *mesh, uint32_t corner, double out[3]) {
 }
 
 /* A triangle beyond the feature has a closer point only where its far corner lies towards p; then: has it? */
-static int closer_beyond(const knurl_mesh *mesh, uint32_t apex, const double p[3], const knurl_closest_point *from,
-                         knurl_closest_point *to) {
+static int closer_beyond(const walk *w, uint32_t apex, const knurl_closest_point *from, knurl_closest_point *to) {
     double corner[3];
-    vertex_of(mesh, apex, corner);
+    vertex_of(w->mesh, apex, corner);
     vec3_sub(corner, from->point, corner);
     if (!(vec3_dot(corner, from->offset) > 0.0)) {
         return 0;
     }
-    knurl_closest_on_triangle(mesh, apex >> 2, p, to);
+    knurl_closest_on_triangle(w->mesh, apex >> 2, w->p, to);
     return is_closer(to, from);
 }
 
@@ -87,50 +95,52 @@ static uint32_t corners_at(const knurl_mesh *mesh, const knurl_closest_point *cl
 }
 
 /* Where sheets branch, the surface goes on straight ahead: an inner wall below it does not take the proxy over. */
-static int step_at_non_manifold(const knurl_mesh *mesh, const double p[3], int32_t side,
-                                const knurl_closest_point *from, knurl_closest_point *to, int *capped) {
+static int step_at_non_manifold(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
     const uint32_t *corners;
-    const uint32_t count = corners_at(mesh, from, &corners);
+    const uint32_t count = corners_at(w->mesh, from, &corners);
     double best = -HUGE_VAL;
     int found = 0;
+    if (!knurl_visits_take(w->visits, count)) {
+        w->capped = 1;
+        return 0;
+    }
+    w->capped |= count == MAX_FAN;
     for (uint32_t i = 0; i < count; i++) {
         knurl_closest_point other;
-        knurl_closest_on_triangle(mesh, corners[i] >> 2, p, &other);
-        if (!is_closer(&other, from) || !shares_feature(mesh, corners[i], from)) {
+        knurl_closest_on_triangle(w->mesh, corners[i] >> 2, w->p, &other);
+        if (!is_closer(&other, from) || !shares_feature(w->mesh, corners[i], from)) {
             continue;
         }
-        const double score = continues(from, &other, side);
+        const double score = continues(from, &other, w->side);
         if (score > best) {
             best = score;
             *to = other;
             found = 1;
         }
     }
-    *capped |= count == MAX_FAN;
     return found;
 }
 
 /* Looks at the fan round a vertex, both ways where it is open. */
-static int step_round_vertex(const knurl_mesh *mesh, const double p[3], const knurl_closest_point *from,
-                             knurl_closest_point *to, int *capped) {
+static int step_round_vertex(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
     const uint32_t start = 4 * from->triangle + feature_corner(from);
     const knurl_swing ways[2] = {{start, corner_next(start)}, {start, corner_last(start)}};
     uint32_t seen = 1;
     for (int way = 0; way < 2; way++) {
         knurl_swing s = ways[way];
         for (;;) {
-            const uint32_t apex = corner_swing(mesh, &s);
+            const uint32_t apex = corner_swing(w->mesh, &s);
             if ((apex & 3) == 3) {
                 break; /* a boundary */
             }
             if (s.corner == start) {
                 return 0;
             }
-            if (closer_beyond(mesh, apex, p, from, to)) {
+            if (closer_beyond(w, apex, from, to)) {
                 return 1;
             }
-            if (++seen == MAX_FAN) {
-                *capped = 1;
+            if (++seen == MAX_FAN || !knurl_visits_take(w->visits, 1)) {
+                w->capped = 1;
                 return 0;
             }
         }
@@ -139,27 +149,28 @@ static int step_round_vertex(const knurl_mesh *mesh, const double p[3], const kn
 }
 
 /* One step downhill; 0 at a local minimum. */
-static int step(const knurl_mesh *mesh, const double p[3], int32_t side, const knurl_closest_point *from,
-                knurl_closest_point *to, int *capped) {
+static int step(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
+    const knurl_mesh *mesh = w->mesh;
     if (from->feature == 7) {
         return 0;
     }
     if (at_vertex(from)) {
         const size_t slot = 3 * (size_t)from->triangle + feature_corner(from);
-        return mesh->opposite[slot] & KNURL_NON_MANIFOLD ? step_at_non_manifold(mesh, p, side, from, to, capped)
-                                                         : step_round_vertex(mesh, p, from, to, capped);
+        return mesh->opposite[slot] & KNURL_NON_MANIFOLD ? step_at_non_manifold(w, from, to)
+                                                         : step_round_vertex(w, from, to);
     }
     const uint32_t apex = mesh->opposite[3 * (size_t)from->triangle + opposite_corner(from)] & KNURL_CORNER_MASK;
     if ((apex & 3) == 3) {
-        return apex == KNURL_NON_MANIFOLD_EDGE && step_at_non_manifold(mesh, p, side, from, to, capped);
+        return apex == KNURL_NON_MANIFOLD_EDGE && step_at_non_manifold(w, from, to);
     }
-    return closer_beyond(mesh, apex, p, from, to);
+    return closer_beyond(w, apex, from, to);
 }
 
 /* On which side of the triangles round a feature p is, added up over them. */
 typedef struct side_sums {
     const knurl_mesh *mesh;
     const knurl_closest_point *closest;
+    uint32_t count;
     int front, back; /* whether p is in front of any of them, behind any */
     int oblique;     /* whether any normal is more than 37 degrees off the offset: 0.64 is the square of the cosine */
     double weighted; /* sum of cosines, weighted by angle at a vertex, alike on an edge */
@@ -175,6 +186,7 @@ static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     vec3_sub(c[3 - k - k1], c[k], last);
     vec3_cross(next, last, normal);
     const double along = vec3_dot(sums->closest->offset, normal);
+    sums->count++;
     sums->front |= along > 0.0;
     sums->back |= along < 0.0;
     sums->oblique |= along * along < 0.64 * sums->closest->distance2 * vec3_dot(normal, normal);
@@ -231,55 +243,58 @@ static int add_round(side_sums *sums, int weigh) {
 /* Whether the walk is caught in a sharp concave corner: p is well off (37 degrees) the normal of some face of the
  * corner. In a valley of a curved surface, whose facets meet at small angles, it hardly is. Not the point's own face
  * alone: p goes straight away from a groove's wall. */
-static int is_caught(const knurl_mesh *mesh, const knurl_closest_point *closest, int32_t side) {
-    if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * side > 0.0) {
+static int is_caught(const walk *w, const knurl_closest_point *closest) {
+    if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * w->side > 0.0) {
         return 0;
     }
-    side_sums sums = {mesh, closest, 0, 0, 0, 0.0};
+    side_sums sums = {w->mesh, closest, 0, 0, 0, 0, 0.0};
     (void)add_round(&sums, 0);
+    (void)knurl_visits_take(w->visits, sums.count);
     return sums.oblique;
 }
 
 /* Whether the surface lies between a closest point and p: then p has gone through a further wall. */
-static int is_walled_off(const knurl_mesh *mesh, const double p[3], int32_t side, const knurl_closest_point *closest) {
+static int is_walled_off(const walk *w, const knurl_closest_point *closest) {
     double from[3];
     uint32_t triangle;
-    knurl_offset_towards(closest->point, p, from);
-    return knurl_mesh_cross(mesh, from, p, side < 0, &triangle) == side;
+    knurl_offset_towards(closest->point, w->p, from);
+    return knurl_mesh_cross(w->mesh, from, w->p, w->side < 0, w->visits, &triangle) == w->side;
 }
 
 /* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
  * stay for ever while p goes on below the ridges), goes on at what is nearest of all, if the surface holds p there from
  * the same side: the far side of a thin wall faces the other way, and a further wall has p in front of it or lies
  * between. */
-static void jump_to_nearest(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_closest_point *closest) {
+static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     knurl_contact nearest;
     knurl_closest_point other;
     int boundary;
-    if (!knurl_mesh_closest(mesh, p, sqrt(closest->distance2) * (1.0 - 1e-9), &nearest)) {
+    if (!knurl_mesh_closest(w->mesh, w->p, sqrt(closest->distance2) * (1.0 - 1e-9), w->visits, &nearest)) {
         return;
     }
-    knurl_closest_on_triangle(mesh, nearest.triangle, p, &other);
-    if (vec3_dot(other.offset, closest->offset) > 0.0 && knurl_mesh_side(mesh, &other, &boundary) * side < 0 &&
-        !is_walled_off(mesh, p, side, closest)) {
+    knurl_closest_on_triangle(w->mesh, nearest.triangle, w->p, &other);
+    if (vec3_dot(other.offset, closest->offset) > 0.0 &&
+        knurl_mesh_side(w->mesh, &other, w->visits, &boundary) * w->side < 0 && !is_walled_off(w, closest)) {
         *closest = other;
     }
 }
 
-int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_closest_point *closest) {
+int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_visits *visits,
+                    knurl_closest_point *closest) {
     knurl_closest_point points[2];
     const knurl_closest_point *here = closest;
-    int capped = 0;
+    walk w = {mesh, p, visits, side, 0};
     int steps = 0;
-    while (steps < MAX_STEPS && step(mesh, p, side, here, &points[steps & 1], &capped)) {
+    while (steps < MAX_STEPS && step(&w, here, &points[steps & 1])) {
         here = &points[steps++ & 1];
     }
     if (here != closest) {
         *closest = *here;
     }
-    const int jumps = capped || steps == MAX_STEPS || is_caught(mesh, closest, side);
+    (void)knurl_visits_take(visits, (uint32_t)steps);
+    const int jumps = w.capped || steps == MAX_STEPS || is_caught(&w, closest);
     if (jumps) {
-        jump_to_nearest(mesh, p, side, closest);
+        jump_to_nearest(&w, closest);
     }
     return jumps;
 }
@@ -287,14 +302,15 @@ int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knu
 /* Where the triangles round the feature do not agree, the angle-weighted normal decides: its dot product with the
  * offset has the right sign wherever on the mesh the nearest point lies (Baerentzen and Aanaes 2005); one face's has
  * not. */
-int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, int *boundary) {
+int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits, int *boundary) {
     if (closest->feature == 7) {
         const double along = vec3_dot(closest->offset, closest->normal);
         *boundary = 0;
         return (along > 0.0) - (along < 0.0);
     }
-    side_sums sums = {mesh, closest, 0, 0, 0, 0.0};
+    side_sums sums = {mesh, closest, 0, 0, 0, 0, 0.0};
     *boundary = add_round(&sums, 0);
+    (void)knurl_visits_take(visits, sums.count);
     if (sums.front && sums.back) {
         (void)add_round(&sums, 1);
         return sums.weighted < 0.0 ? -1 : 1;

@@ -5,14 +5,17 @@
 #define KNURL_SRC_MESH_WALK_H
 
 #include "contact/closest_point.h"
+#include "contact/visits.h"
 
 /* From one closest point downhill to the local minimum of the distance to p; side: of the surface that p came from, +1
- * or -1. Returns 1 where it left what hangs together: it jumped, was cut short or chose among many sheets. */
-int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side,
+ * or -1. Returns 1 where it left what hangs together: it jumped, was cut short or chose among many sheets. visits:
+ * null: no limit. */
+int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_visits *visits,
                     knurl_closest_point *closest) KNURL_NONBLOCKING;
 
-/* Which side of the surface p is on, seen from its closest point: +1 in front, -1 behind, 0 neither.
- * *boundary: whether that point is on the boundary of an open mesh. */
-int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, int *boundary) KNURL_NONBLOCKING;
+/* Which side of the surface p is on, seen from its closest point: +1 in front, -1 behind, 0 neither. visits: null: no
+ * limit. *boundary: whether that point is on the boundary of an open mesh. */
+int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits,
+                    int *boundary) KNURL_NONBLOCKING;
 
 #endif

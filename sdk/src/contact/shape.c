@@ -65,6 +65,13 @@ static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
     memcpy(facts->stretch, plane->stretch, sizeof facts->stretch);
 }
 
+static int plane_exceeds_visits(const void *geometry, double reach, uint32_t max_visits) {
+    (void)geometry;
+    (void)reach;
+    (void)max_visits;
+    return 0;
+}
+
 static uint32_t *plane_other_users(void *geometry) {
     knurl_plane *plane = geometry;
     return &plane->other_users;
@@ -74,8 +81,9 @@ static void plane_destroy(knurl_heap *heap, void *plane) {
     knurl_plane_destroy(heap, plane);
 }
 
-static const knurl_shape_functions plane_functions = {plane_contact, plane_cast,  plane_rest,        plane_rates,
-                                                      plane_anchor,  plane_facts, plane_other_users, plane_destroy};
+static const knurl_shape_functions plane_functions = {plane_contact,        plane_cast,        plane_rest,
+                                                      plane_rates,          plane_anchor,      plane_facts,
+                                                      plane_exceeds_visits, plane_other_users, plane_destroy};
 
 /* --- the mesh's --- */
 
@@ -116,6 +124,10 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
     *facts = made;
 }
 
+static int mesh_exceeds_visits(const void *mesh, double reach, uint32_t max_visits) {
+    return knurl_mesh_exceeds_visits(mesh, reach, max_visits);
+}
+
 static uint32_t *mesh_other_users(void *geometry) {
     knurl_mesh *mesh = geometry;
     return &mesh->other_users;
@@ -125,8 +137,9 @@ static void mesh_destroy(knurl_heap *heap, void *mesh) {
     knurl_mesh_destroy(heap, mesh);
 }
 
-static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_cast,  mesh_rest,        mesh_rates,
-                                                     mesh_anchor,  mesh_facts, mesh_other_users, mesh_destroy};
+static const knurl_shape_functions mesh_functions = {mesh_contact,        mesh_cast,        mesh_rest,
+                                                     mesh_rates,          mesh_anchor,      mesh_facts,
+                                                     mesh_exceeds_visits, mesh_other_users, mesh_destroy};
 
 /* --- creation --- */
 
@@ -223,4 +236,16 @@ knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, 
                           desc->plane ? "both" : "none");
     }
     return desc->mesh ? from_mesh(heap, desc, shape, position, rotation) : from_plane(heap, desc, shape);
+}
+
+knurl_shape knurl_shape_share(const knurl_shape *shape) {
+    (void)__atomic_fetch_add(shape->functions->other_users(shape->geometry), 1, __ATOMIC_RELAXED);
+    return *shape;
+}
+
+void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape) {
+    if (shape->functions &&
+        __atomic_fetch_sub(shape->functions->other_users(shape->geometry), 1, __ATOMIC_ACQ_REL) == 0) {
+        shape->functions->destroy(heap, shape->geometry);
+    }
 }

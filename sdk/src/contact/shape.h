@@ -22,6 +22,7 @@ typedef struct knurl_shape_functions {
                  double *steepest) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
     void (*facts)(const void *geometry, knurl_shape_facts *facts);
+    int (*exceeds_visits)(const void *geometry, double reach, uint32_t max_visits);
     uint32_t *(*other_users)(void *geometry); /* atomic */
     void (*destroy)(knurl_heap *heap, void *geometry);
 } knurl_shape_functions;
@@ -52,10 +53,7 @@ knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, 
                                 double rotation[9]);
 
 /* A further shape of the same geometry: a copy of the struct, each to be destroyed. [any thread] */
-static inline knurl_shape knurl_shape_share(const knurl_shape *shape) {
-    (void)__atomic_fetch_add(shape->functions->other_users(shape->geometry), 1, __ATOMIC_RELAXED);
-    return *shape;
-}
+knurl_shape knurl_shape_share(const knurl_shape *shape);
 
 /* How many shapes have this geometry, itself one of them. */
 static inline uint32_t knurl_shape_users(const knurl_shape *shape) {
@@ -63,12 +61,7 @@ static inline uint32_t knurl_shape_users(const knurl_shape *shape) {
 }
 
 /* The last of those that share a geometry frees it. A zeroed shape is allowed. [any thread] */
-static inline void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape) {
-    if (shape->functions &&
-        __atomic_fetch_sub(shape->functions->other_users(shape->geometry), 1, __ATOMIC_ACQ_REL) == 0) {
-        shape->functions->destroy(heap, shape->geometry);
-    }
-}
+void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape);
 
 /* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
  * state. Allowed in a tick. */
@@ -111,6 +104,11 @@ static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contac
  * hand would meet first. rotation (row-major): from the shape's axes to the scene's. */
 static inline void knurl_shape_anchor(const knurl_shape *shape, const double rotation[9], knurl_contact *anchor) {
     shape->functions->anchor(shape->geometry, rotation, anchor);
+}
+
+/* 1 where contact somewhere meets a tick's limit of visits; reach: m, of the crests. */
+static inline int knurl_shape_exceeds_visits(const knurl_shape *shape, double reach, uint32_t max_visits) {
+    return shape->functions->exceeds_visits(shape->geometry, reach, max_visits);
 }
 
 static inline void knurl_shape_get_facts(const knurl_shape *shape, knurl_shape_facts *facts) {

@@ -119,6 +119,18 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
     }
 }
 
+/* Crests that reach farther than a mesh is wide, or triangles that lie over one another in heaps. */
+static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
+    if (knurl_shape_exceeds_visits(&surface->shape, surface->record->reach, max_visits)) {
+        char sentence[256];
+        (void)snprintf(sentence, sizeof sentence,
+                       "in places contact looks at more than the %u triangles and nodes that a tick has time for",
+                       (unsigned)max_visits);
+        say(on, KNURL_LIMIT_VISITS, sentence,
+            "use fewer triangles, none that lie over one another, or crests lower than the mesh is wide");
+    }
+}
+
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
@@ -132,6 +144,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
     check_wall(&on);
     check_place(&on, surface);
+    check_visits(&on, surface, hip->contacts.max_visits);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Asks a shape for its contact with the HIP. hip: in the shape's frame. Returns 0 where that does not settle it. */
-static inline int ask_shape(const knurl_contacts *c, knurl_active_contact *a, const double hip[3],
+static inline int ask_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
                             knurl_contact_state *state) {
     const knurl_shape *shape = &a->surface->shape;
     knurl_contact_query query;
@@ -19,7 +19,8 @@ static inline int ask_shape(const knurl_contacts *c, knurl_active_contact *a, co
     query.reach = a->record->reach;
     query.double_sided = a->surface->double_sided;
     query.facet = &a->candidate->facet;
-    return knurl_shape_contact(shape, &query, state, &a->contact) && !a->contact.unsure;
+    query.visits = &c->visits;
+    return knurl_shape_contact(shape, &query, state, &a->contact) && !a->contact.unsure && c->visits.left > 0;
 }
 
 /* 1 where a surface's proxy (scene) is still among what has been looked at: within `room` (m) of where the last tick's
@@ -74,6 +75,7 @@ void knurl_contacts_init(knurl_contacts *c, double period, double time) {
     memset(c, 0, sizeof *c);
     c->clock.period = period;
     c->clock.time = time;
+    c->max_visits = KNURL_VISITS_MAX;
     knurl_contacts_reset(c);
 }
 
@@ -180,6 +182,8 @@ static void look_around(knurl_contacts *c, const knurl_broad_index *index, const
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
     double room = -1.0;
+    c->visits.left = c->max_visits;
+    c->visits.exhausted = 0;
     knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;
     if (!clear) {
         alone = look(c, phase, index, position, &room);
@@ -194,5 +198,8 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
     }
     if (c->candidates.overflow) {
         *flags |= KNURL_TICK_CONTACTS_FULL;
+    }
+    if (c->visits.exhausted) {
+        *flags |= KNURL_TICK_VISIT_LIMIT;
     }
 }

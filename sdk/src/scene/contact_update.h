@@ -16,7 +16,7 @@ void knurl_contacts_find(knurl_contacts *contacts, const knurl_broad_phase *phas
                          const double position[3], int clear, uint32_t *flags) KNURL_NONBLOCKING;
 
 /* From the HIP's position (scene, m) to the surfaces that it is in contact with: contacts->active. Adds to *flags:
- * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED. */
+ * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED, KNURL_TICK_VISIT_LIMIT. */
 static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase,
                                          const knurl_broad_index *index, const double position[3], uint32_t *flags) {
     const int clear = c->has_previous && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);

@@ -52,6 +52,9 @@ static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const dou
         }
         const knurl_segment way = {g->at, goal, 0, KNURL_NO_OBSTACLE};
         const uint32_t obstacle = knurl_obstacles_cast(obstacles, &way, &hit);
+        if (knurl_obstacles_are_unknown(obstacles)) {
+            return 0;
+        }
         if (obstacle == KNURL_NO_OBSTACLE) {
             vec3_copy(goal, g->at);
             break;
@@ -120,6 +123,9 @@ static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacl
         knurl_cast_hit hit;
         knurl_active_face face;
         const uint32_t obstacle = knurl_obstacles_cast(obstacles, &way, &hit);
+        if (knurl_obstacles_are_unknown(obstacles)) {
+            return 0;
+        }
         if (obstacle == KNURL_NO_OBSTACLE) {
             vec3_copy(goal, g->at);
             return 1;
@@ -152,7 +158,8 @@ static int move_along(knurl_god_object *g, const knurl_obstacles *obstacles) {
 }
 
 void knurl_god_object_push(knurl_god_object *g, const knurl_obstacles *obstacles) {
-    g->squeezed = obstacles->moving && !move_before_faces(g, obstacles) && !move_along(g, obstacles);
+    g->squeezed = obstacles->moving && !move_before_faces(g, obstacles) && !move_along(g, obstacles) &&
+                  !knurl_obstacles_are_unknown(obstacles);
 }
 
 int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obstacles, const double above[3],
@@ -163,7 +170,7 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
     knurl_active_face face;
     const knurl_segment down = {above, hip, 0, KNURL_NO_OBSTACLE};
     const uint32_t obstacle = knurl_obstacles_cast(obstacles, &down, &hit);
-    if (obstacle == KNURL_NO_OBSTACLE) {
+    if (obstacle == KNURL_NO_OBSTACLE || knurl_obstacles_are_unknown(obstacles)) {
         return 0;
     }
     set_face(obstacles, obstacle, &hit, &face);

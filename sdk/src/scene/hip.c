@@ -53,10 +53,11 @@ static knurl_result check_protections(const knurl_hip_desc *d) {
                               numbers[i].name, numbers[i].least, numbers[i].most, numbers[i].unit, numbers[i].value);
         }
     }
-    if (d->protections > KNURL_PROTECT_ALL || d->clamp > 1) {
+    if (d->protections > KNURL_PROTECT_ALL || d->clamp > 1 || d->reserved != 0) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_hip_desc: expected protections of KNURL_PROTECT_ bits and clamp 0 or 1, found %#x, %u",
-                          (unsigned)d->protections, (unsigned)d->clamp);
+                          "knurl_hip_desc: expected protections of KNURL_PROTECT_ bits, clamp 0 or 1 and reserved 0, "
+                          "found %#x, %u, %u",
+                          (unsigned)d->protections, (unsigned)d->clamp, (unsigned)d->reserved);
     }
     return KNURL_OK;
 }
@@ -110,6 +111,7 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.is_rotated |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
     knurl_contacts_init(&made.contacts, 1.0 / facts.rate, time);
+    made.contacts.max_visits = d->max_visits > 0 ? d->max_visits : KNURL_VISITS_MAX;
     replace(hip, &made);
     return KNURL_OK;
 }

@@ -20,6 +20,7 @@ typedef struct meeting {
     knurl_obstacles near;
     knurl_touched touched[KNURL_CANDIDATES_MAX];
     int jumped;      /* one that held the HIP has jumped */
+    int unknown;     /* 1: the visits were used up before it was found what holds the HIP */
     double room;     /* m: how far a proxy may go in the tick, at most, among what was collected */
     double proxy[3]; /* what comes out, beside `touched` */
     double normal[3];
@@ -60,12 +61,14 @@ static void collect(meeting *m, const knurl_hip_path *path, double room) {
 }
 
 /* What one shape says by itself to a HIP at `hip` that came from `previous` (scene); or null: from nowhere. */
-static void ask(const knurl_obstacle *o, const double hip[3], const double *previous, knurl_touched *touched) {
+static void ask(const meeting *m, const knurl_obstacle *o, const double hip[3], const double *previous,
+                knurl_touched *touched) {
     knurl_contact_query query;
     query.has_previous = previous != NULL;
     query.reach = o->record->reach;
     query.double_sided = o->surface->double_sided;
     query.facet = &o->candidate->facet;
+    query.visits = &m->contacts->visits;
     knurl_pose_to_own(o->pose, hip, query.hip);
     vec3_copy(query.hip, query.previous);
     if (previous && !touched->state.inside) { /* who is inside came from there */
@@ -83,7 +86,7 @@ static void ask_plainly(meeting *m, const knurl_obstacle *o, knurl_touched *touc
     if (anew) {
         memset(&touched->state, 0, sizeof touched->state);
     }
-    ask(o, m->hip, anew ? NULL : c->previous, touched);
+    ask(m, o, m->hip, anew ? NULL : c->previous, touched);
 }
 
 /* What has jumped while it held the HIP. Where both its sides can be touched, it holds the one that it held. */
@@ -92,7 +95,7 @@ static void ask_jumped(const meeting *m, const knurl_obstacle *o, knurl_touched 
         double from[3];
         vec3_madd(o->candidate->proxy, KNURL_CAPTURE_DEPTH, o->candidate->normal, from);
         memset(&touched->state, 0, sizeof touched->state);
-        ask(o, m->hip, from, touched);
+        ask(m, o, m->hip, from, touched);
     }
 }
 
@@ -105,13 +108,14 @@ static void ask_reach(meeting *m, const knurl_obstacle *o, knurl_touched *touche
         memset(&touched->state, 0, sizeof touched->state);
     }
     if (m->pressed == 0 || o->record->reach > KNURL_ON_SURFACE) {
-        ask(o, m->proxy, m->proxy, touched);
+        ask(m, o, m->proxy, m->proxy, touched);
     }
     if (m->pressed > 0 && touched->held && touched->contact.z <= 2.0 * o->surface->shape.seam) {
         double normal[3];
         knurl_pose_vector_to_parent(o->pose, touched->contact.normal, normal);
         touched->held = vec3_dot(normal, m->normal) < 0.5;
     }
+    touched->held &= !knurl_obstacles_are_unknown(&m->near);
     if (!touched->held) {
         memset(&touched->state, 0, sizeof touched->state);
     }
@@ -147,7 +151,8 @@ static int begin(meeting *m) {
     set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         ask_plainly(m, &m->near.list[i], &m->touched[i]);
-        if (m->touched[i].contact.unsure || (is_inside(&m->touched[i]) && holder != KNURL_NO_OBSTACLE)) {
+        if (m->touched[i].contact.unsure || (is_inside(&m->touched[i]) && holder != KNURL_NO_OBSTACLE) ||
+            knurl_obstacles_are_unknown(&m->near)) {
             return 0;
         }
         holder = is_inside(&m->touched[i]) ? i : holder;
@@ -179,7 +184,7 @@ static int carry_on(meeting *m) {
     knurl_touched *touched = &m->touched[holder];
     ask_plainly(m, &m->near.list[holder], touched);
     const int unsure = touched->contact.unsure;
-    if (!touched->held && unsure) {
+    if ((!touched->held && unsure) || knurl_obstacles_are_unknown(&m->near)) {
         return 0;
     }
     set_free(m);
@@ -303,6 +308,10 @@ static void settle(meeting *m, uint32_t *flags) {
     collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* no farther from the HIP than it is now */
     knurl_god_object_push(&g, &m->near);
     knurl_god_object_follow(&g, &m->near, m->hip);
+    m->unknown = g.faces.count == 0 && knurl_obstacles_are_unknown(&m->near);
+    if (m->unknown) {
+        return;
+    }
     if (g.faces.count == 0 && c->pressed && has_holder(m)) {
         slip_off(c, m->hip);
     }
@@ -354,6 +363,68 @@ static void find_first(meeting *m) {
     }
 }
 
+/* A contact as it was a tick ago, its proxy and normal carried along by the surface. */
+static void hold_still(const meeting *m, const knurl_obstacle *o, knurl_touched *touched) {
+    const knurl_candidate *candidate = o->candidate;
+    const double reach = o->record->reach > KNURL_ON_SURFACE ? o->record->reach : KNURL_ON_SURFACE;
+    const knurl_cast_hit hit = {.triangle = candidate->contact.triangle, .side = candidate->contact.side};
+    knurl_contact *contact = &touched->contact;
+    double at[3], hip[3];
+    touched->held = candidate->in_contact && !knurl_obstacle_has_jumped(o);
+    if (!touched->held) {
+        return;
+    }
+    knurl_pose_to_own(o->before, candidate->proxy, at);
+    knurl_shape_rest(&o->surface->shape, &hit, at, &touched->state, contact);
+    knurl_pose_vector_to_own(o->before, candidate->normal, contact->normal);
+    knurl_pose_to_own(o->pose, m->hip, hip);
+    vec3_sub(hip, contact->proxy, at);
+    contact->z = vec3_dot(at, contact->normal);
+    contact->unsure = 0;
+    contact->facet = NULL;
+    touched->state.inside = candidate->contact.inside && contact->z <= KNURL_ON_SURFACE;
+    touched->held = contact->z <= reach && (touched->state.inside || contact->z >= 0.0);
+}
+
+/* It is not known what holds a HIP that was held: what held it holds it where it did, and no contact begins. */
+static void hold_all_still(meeting *m) {
+    set_free(m);
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        const knurl_obstacle *o = &m->near.list[i];
+        hold_still(m, o, &m->touched[i]);
+        if (is_inside(&m->touched[i]) && m->pressed++ == 0) {
+            knurl_pose_to_own(o->before, m->contacts->proxy, m->proxy);
+            knurl_pose_to_parent(o->pose, m->proxy, m->proxy);
+            vec3_copy(m->contacts->normal, m->normal);
+        }
+    }
+}
+
+/* It is not known what holds a HIP that nothing held: each shape by itself, with a few visits more. */
+static void begin_alone(meeting *m) {
+    knurl_contacts *c = m->contacts;
+    const uint32_t share = 1 + c->max_visits / 4 / (m->near.count + 1);
+    double deepest = 1.0;
+    uint32_t pressed = 0;
+    set_free(m);
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        knurl_touched *touched = &m->touched[i];
+        c->visits.left = share;
+        ask_plainly(m, &m->near.list[i], touched);
+        if (c->visits.left == 0) {
+            hold_still(m, &m->near.list[i], touched);
+        }
+        if (is_inside(touched)) {
+            pressed++;
+            if (touched->contact.z < deepest) {
+                deepest = touched->contact.z;
+                set_proxy(m, i);
+            }
+        }
+    }
+    m->pressed = pressed;
+}
+
 /* From what the shapes said to contacts; held: bits of those that were in contact, who keep their places. */
 static void take(meeting *m, uint64_t held, uint32_t *flags) {
     for (uint32_t i = 0; i < m->near.count; i++) {
@@ -380,6 +451,8 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.contacts = c;
     m.index = index;
     m.path = path;
+    m.near.visits = &c->visits;
+    m.unknown = 0;
     m.hip = path->to;
     m.room = knurl_hip_path_room(path);
     collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.room);
@@ -388,6 +461,11 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
         find_first(&m);
     } else if (knurl_contacts_have_slipped(c) || !(c->pressed ? carry_on(&m) : begin(&m))) {
         settle(&m, flags);
+    }
+    if (m.unknown && c->pressed) {
+        hold_all_still(&m);
+    } else if (m.unknown) {
+        begin_alone(&m);
     }
     c->active_count = 0;
     for (uint32_t i = 0; i < m.near.count; i++) {

@@ -38,11 +38,12 @@ static int is_beside(const knurl_obstacle *o, const double from[3], const double
     return 0;
 }
 
-static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_cast_hit *hit) {
+static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_visits *visits, knurl_cast_hit *hit) {
     knurl_cast cast;
-    if (is_beside(o, segment->from, segment->to)) {
+    if (is_beside(o, segment->from, segment->to) || !knurl_visits_take(visits, 1)) {
         return 0;
     }
+    cast.visits = visits;
     knurl_pose_to_own(segment->moving ? o->before : o->pose, segment->from, cast.from);
     knurl_pose_to_own(o->pose, segment->to, cast.to);
     cast.double_sided = o->surface->double_sided;
@@ -53,7 +54,7 @@ uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segm
     uint32_t first = KNURL_NO_OBSTACLE;
     for (uint32_t i = 0; i < obstacles->count; i++) {
         knurl_cast_hit found;
-        if (i != segment->except && cast_at(&obstacles->list[i], segment, &found) &&
+        if (i != segment->except && cast_at(&obstacles->list[i], segment, obstacles->visits, &found) &&
             (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {
             first = i;
             *hit = found;

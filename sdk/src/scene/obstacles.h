@@ -16,7 +16,8 @@ typedef struct knurl_obstacle {
 
 typedef struct knurl_obstacles {
     uint32_t count;
-    int32_t moving; /* 1: some move in the tick */
+    int32_t moving;       /* 1: some move in the tick */
+    knurl_visits *visits; /* what casts may look at */
     knurl_obstacle list[KNURL_CANDIDATES_MAX];
 } knurl_obstacles;
 
@@ -45,15 +46,21 @@ typedef struct knurl_segment {
     uint32_t except; /* an obstacle that is left out; KNURL_NO_OBSTACLE: none */
 } knurl_segment;
 
+/* 1 where the visits are used up: what a cast said since is not known to be so. */
+static inline int knurl_obstacles_are_unknown(const knurl_obstacles *obstacles) {
+    return obstacles->visits->left == 0;
+}
+
 /* Which obstacle's face a segment first goes through, from its front. Returns the obstacle's number and the hit in its
  * frame, or KNURL_NO_OBSTACLE. */
 uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segment *segment,
                               knurl_cast_hit *hit) KNURL_NONBLOCKING;
 
-/* 1 where the segment goes through no face. */
+/* 1 where the segment is known to go through no face. */
 static inline int knurl_obstacles_are_clear(const knurl_obstacles *obstacles, const knurl_segment *segment) {
     knurl_cast_hit hit;
-    return knurl_obstacles_cast(obstacles, segment, &hit) == KNURL_NO_OBSTACLE;
+    return knurl_obstacles_cast(obstacles, segment, &hit) == KNURL_NO_OBSTACLE &&
+           !knurl_obstacles_are_unknown(obstacles);
 }
 
 #endif

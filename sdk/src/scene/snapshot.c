@@ -10,6 +10,7 @@ void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
     c->heat_ticks += (flags & KNURL_TICK_HEAT) != 0;
     c->passivity_ticks += (flags & KNURL_TICK_PASSIVITY) != 0;
     c->squeezed_ticks += (flags & KNURL_TICK_SQUEEZED) != 0;
+    c->visit_limit_ticks += (flags & KNURL_TICK_VISIT_LIMIT) != 0;
 }
 
 void knurl_snapshot_clear(knurl_published *published) {

@@ -181,6 +181,8 @@ namespace Knurl
         public double slew_rate;
         public uint protections;
         public uint clamp;
+        public uint max_visits;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -274,6 +276,7 @@ namespace Knurl
         public double half_cycles_crossed;
         public ulong half_cycles_played;
         public ulong squeezed_ticks;
+        public ulong visit_limit_ticks;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -615,7 +618,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "a89c9724d9b7f851";
+        internal const string Interface = "2d883fabd23b6062";
 
         internal const string Version = "0.1.0";
 
@@ -682,6 +685,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
+        internal const int KNURL_VISITS_MAX = 1200;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
@@ -735,12 +739,14 @@ namespace Knurl
         internal const int KNURL_TICK_PASSIVITY = 256;
         internal const int KNURL_TICK_ABSENT = 512;
         internal const int KNURL_TICK_SQUEEZED = 1024;
+        internal const int KNURL_TICK_VISIT_LIMIT = 2048;
         internal const int KNURL_LIMIT_STABILITY = 1;
         internal const int KNURL_LIMIT_STIFFNESS = 2;
         internal const int KNURL_LIMIT_AMPLITUDE = 4;
         internal const int KNURL_LIMIT_HEAT = 8;
         internal const int KNURL_LIMIT_PERIOD = 16;
         internal const int KNURL_LIMIT_FAR = 64;
+        internal const int KNURL_LIMIT_VISITS = 128;
         internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_FAULT_LOST = 1;
         internal const int KNURL_FAULT_SILENT = 2;

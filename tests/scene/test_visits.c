@@ -1,0 +1,153 @@
+/* The limit of what contact looks at in a tick: where it is met, it is told and counted, and a HIP that is held is held
+ * on. SPDX-License-Identifier: MIT */
+#include "support/geometry.h"
+#include "support/scenes.h"
+
+#define K      400.0
+#define RADIUS 0.03
+#define PI     3.14159265358979323846
+
+/* A sphere of longitudes and latitudes: around its poles, z up and down, 96 triangles meet in a point. */
+static shape globe(void) {
+    const uint32_t n = 48, w = 96;
+    shape s = shape_new((n + 1) * (w + 1), 6 * w * n, 0);
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < (n + 1) * (w + 1); i++) {
+        const double a = 2.0 * PI * (i % (w + 1)) / w, b = PI * (i / (w + 1)) / n;
+        shape_set(&s, i, RADIUS * sin(b) * cos(a), RADIUS * sin(b) * sin(a), RADIUS * cos(b));
+    }
+    for (uint32_t i = 0; i < n * w; i++) {
+        const uint32_t k = i / w * (w + 1) + i % w;
+        at = shape_quad(&s, at, k, k + w + 1, k + w + 2, k + 1);
+    }
+    return s;
+}
+
+/* Triangles that all go through one place, each near 0.1 m wide. */
+static shape heap_of_triangles(uint32_t count) {
+    shape s = shape_new(3 * count, 3 * count, 0);
+    uint64_t seed = 5;
+    for (uint32_t i = 0; i < count; i++) {
+        double a[3], b[3];
+        random_direction(&seed, a);
+        random_direction(&seed, b);
+        shape_set(&s, 3 * i, 0.05 * a[0], 0.05 * a[1], 0.05 * a[2]);
+        shape_set(&s, 3 * i + 1, 0.05 * b[0], 0.05 * b[1], 0.05 * b[2]);
+        shape_set(&s, 3 * i + 2, -0.05 * (a[0] + b[0]), -0.05 * (a[1] + b[1]), -0.05 * (a[2] + b[2]));
+        for (uint32_t k = 0; k < 3; k++) {
+            s.indices[3 * i + k] = 3 * i + k;
+        }
+    }
+    return s;
+}
+
+static surface_parts surface_shape(const shape *s, double amplitude) {
+    surface_parts parts = surface_mesh(s);
+    parts.desc.axis[0] = 1.0;
+    set_grating(&parts, KNURL_S1, amplitude > 0.0 ? 100.0 : 0.0, 0.0, amplitude);
+    return parts;
+}
+
+static knurl_scene *scene_within(surface_parts *parts, uint32_t max_visits) {
+    knurl_hip_desc desc;
+    knurl_workspace workspace;
+    knurl_scene *scene = scene_of(parts);
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&desc, sizeof desc);
+    desc.resolution = 0.0;
+    desc.max_force = 1e6;
+    desc.protections = 0;
+    desc.workspace = &workspace;
+    desc.max_visits = max_visits;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
+    return scene;
+}
+
+static uint64_t count_limits(const knurl_scene *scene) {
+    knurl_hip_counts counts;
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    return counts.visit_limit_ticks;
+}
+
+/* All triangles are as near to its middle: 20,480 of them, whose crests reach as far as it is wide. */
+TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) {
+    const uint32_t limits[2] = {0, UINT32_MAX};
+    shape s = shape_sphere(0.01, 5);
+    surface_parts parts = surface_shape(&s, 0.02);
+    for (int i = 0; i < 2; i++) {
+        knurl_scene *scene = scene_within(&parts, limits[i]);
+        uint64_t met = 0;
+        for (int k = 0; k < 50; k++) {
+            const knurl_tick_output out = tick_at(scene, 1e-5 * k, 0.0, 0.0);
+            met += (out.flags & KNURL_TICK_VISIT_LIMIT) != 0;
+            assert_true(isfinite(length3(out.force)));
+        }
+        assert_int_equal(met > 0, i == 0);
+        assert_int_equal(count_limits(scene), met);
+        knurl_scene_destroy(scene);
+    }
+    shape_free(&s);
+}
+
+/* From a meridian over the pole to the next; held in every tick, by a force that is no more than the depth's. */
+TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
+    shape s = globe();
+    surface_parts parts = surface_shape(&s, 0.0);
+    for (uint32_t limit = 100; limit <= 200; limit += 100) {
+        knurl_scene *scene = scene_within(&parts, limit);
+        for (int k = 0; k <= 40; k++) { /* in from outside, away from the pole */
+            (void)tick_at(scene, (RADIUS + 0.001 - 5e-5 * k) * sin(0.3), 1e-4, (RADIUS + 0.001 - 5e-5 * k) * cos(0.3));
+        }
+        for (int k = 0; k <= 600; k++) {
+            const double a = 0.3 - 0.001 * k;
+            const knurl_tick_output out = tick_at(scene, (RADIUS - 0.001) * sin(a), 1e-4, (RADIUS - 0.001) * cos(a));
+            const double force = length3(out.force);
+            if (out.contacts == 0 || !(force > 0.0) || force > K * distance3(out.hip, out.proxy) + 1e-9) {
+                fail_msg("limit %u: %u contacts, %g N in tick %d", (unsigned)limit, (unsigned)out.contacts, force, k);
+            }
+        }
+        assert_int_equal(count_limits(scene) > 0, limit == 100);
+        knurl_scene_destroy(scene);
+    }
+    shape_free(&s);
+}
+
+/* Exactly onto a pole, where the way of the proxy over 96 triangles takes more than a tick has. */
+TEST(a_contact_begins_although_the_visits_are_used_up) {
+    shape s = globe();
+    surface_parts parts = surface_shape(&s, 0.0);
+    knurl_scene *scene = scene_within(&parts, 0);
+    for (int k = 0; k < 20; k++) {
+        const double z = RADIUS + 0.0002 - 5.5e-5 * k;
+        const knurl_tick_output out = tick_at(scene, 0.0, 5.5e-5, z);
+        if (z < RADIUS - 1e-4 && (out.contacts == 0 || !(out.force[2] > 0.0))) {
+            fail_msg("lost at z = %g", z);
+        }
+    }
+    knurl_scene_destroy(scene);
+    shape_free(&s);
+}
+
+static uint32_t exceeded_by(const shape *s, double amplitude) {
+    knurl_surface_check check;
+    surface_parts parts = surface_shape(s, amplitude);
+    knurl_scene *scene = scene_of(&parts);
+    knurl_surface_check_init(&check, sizeof check);
+    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    knurl_scene_destroy(scene);
+    return check.exceeded & KNURL_LIMIT_VISITS;
+}
+
+TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
+    shape ball = shape_sphere(0.01, 5);
+    shape earth = globe();
+    shape heap = heap_of_triangles(2000);
+    assert_int_equal(exceeded_by(&ball, 0.02), KNURL_LIMIT_VISITS);
+    assert_int_equal(exceeded_by(&heap, 0.0), KNURL_LIMIT_VISITS);
+    assert_int_equal(exceeded_by(&ball, 0.0005), 0);
+    assert_int_equal(exceeded_by(&ball, 0.0), 0);
+    assert_int_equal(exceeded_by(&earth, 0.0005), 0);
+    shape_free(&ball);
+    shape_free(&earth);
+    shape_free(&heap);
+}
