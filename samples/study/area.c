@@ -239,7 +239,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     json_string(json, "study", "area");
     json_string(json, "table", "area.csv");
     return write_directions(csv, json) || search("push", 1, json) || search("unevenness", 0, json) ||
-           area_positions(json) || area_steady(json);
+           area_positions(json) || area_steady(json) || area_levels(json);
 }
 
 int study_area(const char *folder) {

@@ -106,12 +106,12 @@ def main(arguments):
         os.replace(path + ".part", path)
         return 0
     if not os.path.exists(path):
-        print(f"{path}: there is none: ./run figures makes it with its picture", file=sys.stderr)
+        print(f"{path}: there is none: ./run figures --update makes it with its picture", file=sys.stderr)
         return 1
     told = check(path, now)
     if told:
         picture = re.sub(r"\.data$", ".png", path)
-        print(f"{picture} is out of date: ./run figures draws it again. What has changed:", file=sys.stderr)
+        print(f"{picture} is out of date: ./run figures --update draws it again. What has changed:", file=sys.stderr)
         print("\n".join(f"  {line}" for line in told[:10]), file=sys.stderr)
     return 1 if told else 0
 

@@ -193,13 +193,14 @@ def draw_coverage(data, folder):
 
 
 def curve(ax, table, method, column, scale=1.0, **style):
-    """Dots at the paper's periods, a thin line through the tenths of a millisecond between them."""
+    """Dots at the paper's periods; to 10 ms a thin line through the tenths of a millisecond between them."""
     pick = table["method"] == method
     x, y, paper = table["period_ms"][pick], table[column][pick] * scale, table["papers_grid"][pick] > 0
-    ax.plot(x, y, color=METHODS[method], lw=0.6, alpha=0.45, zorder=1)
+    ax.plot(x[x <= DENSE_MS], y[x <= DENSE_MS], color=METHODS[method], lw=0.6, alpha=0.45, zorder=1)
     ax.plot(x[paper], y[paper], MARKS[method], color=METHODS[method], ms=4, mew=0, zorder=3, **style)
 
 
+DENSE_MS = 10  # beyond it lines through tenths of a millisecond are a blot
 MARKS = {"T1": "s", "T2": "D", "T3": "o"}
 
 
@@ -245,7 +246,7 @@ def draw_temporal(data, folder):
     figure, grid = plt.subplots(3, 2, figsize=(10, 9.2))
     found = data["findings"]
     heading(figure, "What each method's signal is worth", "A = 1 N at 1 kHz, held, over whole numbers of the actual "
-            "period; dots: the paper's periods, thin lines: tenths of a ms between")
+            "period; dots: the paper's periods, thin lines: tenths of a ms, to 10 ms")
     (amplitude, period), (net, pcc), (spurious, window) = grid
     for method in TEMPORAL:
         curve(amplitude, table, method, "dominant_amplitude")
@@ -253,7 +254,8 @@ def draw_temporal(data, folder):
         curve(spurious, table, method, "spurious", 100)
         pick = table["method"] == method
         x, y, paper = table["period_ms"][pick], table["dominant_period_ms"][pick], table["papers_grid"][pick] > 0
-        period.plot(x, 100 * (y / x - 1), color=METHODS[method], lw=0.6, alpha=0.45, zorder=1)
+        dense = x <= DENSE_MS
+        period.plot(x[dense], 100 * (y / x - 1)[dense], color=METHODS[method], lw=0.6, alpha=0.45, zorder=1)
         period.plot(x[paper], 100 * (y / x - 1)[paper], MARKS[method], color=METHODS[method], ms=4, mew=0, zorder=3)
     amplitude.axhline(IDEAL, color=INK, lw=0.8, ls=(0, (4, 3)))
     say(amplitude, "4/\N{GREEK SMALL LETTER PI} N, the ideal", 36, IDEAL, "right", "bottom", 8.5, INK, 0, 4, "data")

@@ -11,7 +11,7 @@ import numpy as np
 
 from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading, open_input
 
-COLUMNS = 4
+COLUMNS = 3
 COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d"}
 SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay"}  # what is not held from tick to tick
 
@@ -63,7 +63,7 @@ def draw_trace(ax, row, traces):
     ax.axhline(0, color=RULE, lw=0.7, zorder=0)
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.24 * (high - low))  # the legend's
-    ax.legend(loc="upper right", fontsize=6.8, frameon=False, ncols=2, borderaxespad=0.1, handlelength=1.4,
+    ax.legend(loc="upper right", fontsize=7.8, frameon=False, ncols=3, borderaxespad=0.1, handlelength=1.4,
               columnspacing=0.9)
     ax.set_xlabel(row["axis"], fontsize=8, labelpad=1)
     ax.tick_params(labelsize=7.5, length=2)
@@ -73,18 +73,18 @@ def draw_failures(data, folder):
     traces = read_traces(folder, data["table"])
     rows = data["failures"]
     lines = -(-len(rows) // COLUMNS)
-    height = 2.25 * lines + 1.0
-    figure = plt.figure(figsize=(14, height))
+    height = 2.3 * lines + 1.0
+    figure = plt.figure(figsize=(10.5, height))
     heading(figure, "Where methods fail", "one trace each at 1 kHz; heights in A; dashed: the surface that is crossed; "
             "failures.md has the conditions that avoid them", 0.035)
-    grid = figure.add_gridspec(lines, COLUMNS, left=0.035, right=0.985, top=1 - 1.25 / height, bottom=0.45 / height,
-                               hspace=0.78, wspace=0.16)
+    grid = figure.add_gridspec(lines, COLUMNS, left=0.045, right=0.985, top=1 - 1.3 / height, bottom=0.45 / height,
+                               hspace=0.85, wspace=0.16)
     for i, row in enumerate(rows):
         ax = figure.add_subplot(grid[i // COLUMNS, i % COLUMNS])
         draw_trace(ax, row, traces[row["id"]])
-        words = textwrap.fill(row["text"], 60)
+        words = textwrap.fill(row["text"], 50)
         ax.set_title(f"{row['group']}: {row['name']}", fontsize=8.8, fontweight="bold", pad=8 + 10 * words.count("\n") + 8)
-        ax.text(0, 1.03, words, transform=ax.transAxes, fontsize=7.6, color=GREY, va="bottom")
+        ax.text(0, 1.03, words, transform=ax.transAxes, fontsize=8.2, color=GREY, va="bottom")
     return figure
 
 

@@ -125,12 +125,11 @@ def draw_device(data, _folder):
     ax.set_ylabel("mean force (N)")
     periods(ax)
     ax = panel(figure, 6.05, 3.55, 3.75, 1.75, "(c) Correlation (PCC) of the measured forces")
-    for key, colour, words in (("pcc_T1_T3", INK, "T1, T3"), ("pcc_T2_T3", ACCENT, "T2, T3")):
-        ax.plot(period, values(fixture[key]), color=colour, lw=1.0, marker="o", ms=3, label=words)
+    for key, colour, mark, size in (("pcc_T1_T3", INK, "o", 6), ("pcc_T2_T3", ACCENT, "D", 3.5)):
+        ax.plot(period, values(fixture[key]), mark, color=colour, ms=size, mfc="none" if size > 5 else colour, clip_on=False)
     ax.set_ylim(-0.08, 1.08)
-    ax.legend(frameon=False, loc="center right", bbox_to_anchor=(1.0, 0.42), handlelength=1.6, facecolor="white", framealpha=0.9)
-    ax.get_legend().set_frame_on(True)
-    ax.get_legend().get_frame().set_edgecolor("none")
+    say(ax, "T1 and T3 (rings): alike, but for 2.5 ms", 0.98, 0.84, "right", "center", 8.5, INK)
+    say(ax, "T2 and T3 (diamonds): alike at even periods,\nunrelated at odd ones", 0.98, 0.3, "right", "center", 8.5, ACCENT)
     periods(ax, False)
     draw_others(panel(figure, 6.05, 1.2, 3.75, 1.6, "(d) The same from other benches: dominant component"), data)
     periods(figure.axes[-1])
@@ -305,6 +304,19 @@ def draw_cells(ax, experiment):
         ax.spines[side].set_visible(False)
 
 
+def is_bare(experiment, key):
+    """Whether a metric has one value, or all but one: no scatter to be drawn."""
+    return len(np.unique(np.round(values(experiment["cells"][key]), 9))) < 3
+
+
+def bare_words(experiment, key, pair):
+    part = experiment["correlation_with_preferred"]["all"][key]
+    name = LABELS[key].split(" (")[0]
+    if part["spearman"] is None:
+        return f"{name}: the same\nof {pair} in every cell"
+    return f"{name}: the same of {pair}\nbut at 400 Hz; \u03c1 {part['spearman']:+.2f}"
+
+
 def draw_metric(ax, experiment, key, label):
     """Cells by metric: preferred above, the others below, those with sound a little higher."""
     cells = experiment["cells"]
@@ -317,18 +329,13 @@ def draw_metric(ax, experiment, key, label):
                        clip_on=False)
     ax.axvline(0, color=RULE, lw=0.8, zorder=0)
     ax.set_ylim(-0.5, 1.5)
-    if np.ptp(x) == 0:
-        ax.set_xlim(-1, 1)
     ax.set_xlabel(label, labelpad=2)
     ax.set_yticks([0, 1], ["neither", "T3"])
     ax.spines["left"].set_visible(False)
     ax.tick_params(axis="y", length=0)
     part = experiment["correlation_with_preferred"]["all"][key]
-    if part["spearman"] is None:
-        say(ax, "the same in every cell: no correlation", 0.5, 1.01, "center", "bottom", 8.5, INK)
-    else:
-        say(ax, f"ρ {part['spearman']:+.2f}   τ {part['kendall_tau_b']:+.2f}   separates {100 * part['separation']:.1f} %", 0.5,
-            1.01, "center", "bottom", 8.5, INK)
+    say(ax, f"ρ {part['spearman']:+.2f}   τ {part['kendall_tau_b']:+.2f}   separates {100 * part['separation']:.1f} %", 0.5, 1.01,
+        "center", "bottom", 8.5, INK)
 
 
 def draw_experiment_3(ax, gratings, key, label):
@@ -355,6 +362,10 @@ def draw_preferences(data, _folder):
                    f" {experiment['preferred_cells']} of 48 cells, {other} in none")
         draw_cells(ax, experiment)
         for i, key in enumerate(shown):
+            if is_bare(experiment, key):
+                figure.text((0.75 + 3.1 * i) / 10, (top - 2.3) / 11, bare_words(experiment, key, f"{other} and T3"), fontsize=9,
+                            color=GREY, va="center")
+                continue
             ax = panel(figure, 0.75 + 3.1 * i, top - 2.7, 2.7, 0.75, "")
             draw_metric(ax, experiment, key, f"{other} \N{MINUS SIGN} T3: {LABELS[key]}")
             if i:

@@ -21,7 +21,7 @@ def draw_transitions(data, folder):
     names = list(dict.fromkeys(name for name, _ in series))
     methods = list(dict.fromkeys(method for _, method in series))
     figure, grid = plt.subplots(len(names), len(methods), figsize=(11, 1.55 * len(names) + 1.3), sharex=True, sharey=True)
-    heading(figure, "What becomes of an event", "height in A over ticks of 1 ms, at 200 Hz until something happens at 0")
+    heading(figure, "What becomes of an event", "height over time at 1 kHz and 200 Hz, until something happens at 0")
     for line, name in zip(grid, names):
         for ax, method in zip(line, methods):
             ticks, heights = series[name, method]
@@ -33,7 +33,11 @@ def draw_transitions(data, folder):
             ax.axvline(0, color=INK, lw=0.9, ls=":")
             ax.set_title(f"{method}: {name}", fontsize=9, pad=3)
             ax.tick_params(length=2)
-    figure.subplots_adjust(left=0.05, right=0.985, top=1 - 1.05 / figure.get_figheight(), bottom=0.05, hspace=0.45,
+    for ax in grid[-1]:
+        ax.set_xlabel("ms after it happens")
+    for line in grid:
+        line[0].set_ylabel("height (A)")
+    figure.subplots_adjust(left=0.07, right=0.985, top=1 - 1.05 / figure.get_figheight(), bottom=0.6 / figure.get_figheight(), hspace=0.45,
                            wspace=0.08)
     return figure
 

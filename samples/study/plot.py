@@ -124,15 +124,16 @@ def gratings(run, axes):
     return [(direction, period) for direction, period in found if period < 5 * min(p for _, p in found)]
 
 
-def draw_grating(ax, found):
+def draw_grating(ax, found, over_time=False):
     """Stripes behind the path (axes in mm), a ridge at the scene's origin. Returns words for the title."""
     if not found:
         return ""
     box, (left, right), (bottom, top) = ax.get_window_extent(), ax.get_xlim(), ax.get_ylim()
     periods = [period * 1e3 for _, period in found]
-    if box.width / abs(right - left) * min(periods) >= 5:  # pixels a period
+    size = box.height / abs(top - bottom) if over_time else box.width / abs(right - left)
+    if size * min(periods) >= 4:  # pixels a period
         x, y = np.meshgrid(np.linspace(left, right, int(box.width)), np.linspace(bottom, top, int(box.height)))
-        waves = [np.cos(2 * np.pi * sum(p * d for p, d in zip((x, y), direction)) / period)
+        waves = [np.cos(2 * np.pi * sum(p * d for p, d in zip((y, x) if over_time else (x, y), direction)) / period)
                  for (direction, _), period in zip(found, periods)]
         ax.imshow(np.tanh(2.5 * np.prod(waves, axis=0)), extent=(left, right, bottom, top), origin="lower",
                   aspect="auto", cmap=STRIPES, zorder=0)
@@ -153,12 +154,12 @@ def frame(ax, x, y, equal):
 
 def draw_path(ax, bar, run):
     axes, unfolded = view(run)
-    x, y = run.position[:, axes[0]] * 1e3, run.t if unfolded else run.position[:, axes[1]] * 1e3
+    x, y = run.t if unfolded else run.position[:, axes[0]] * 1e3, run.position[:, axes[0 if unfolded else 1]] * 1e3
     shown = run.touching if run.touching.any() and not unfolded else np.ones_like(run.touching)
     frame(ax, x[shown], y[shown], equal=not unfolded)
-    if unfolded or list(axes) == [0, 2]:  # time runs down the page, and so does z, seen from above
+    if list(axes) == [0, 2]:  # z runs down the page, as seen from above
         ax.invert_yaxis()
-    felt = f" coloured by speed{draw_grating(ax, gratings(run, axes))}" if run.touching.any() else ", free of contact"
+    felt = f" coloured by speed{draw_grating(ax, gratings(run, axes), unfolded)}" if run.touching.any() else ", free of contact"
     ax.set_title(("Stroke" if unfolded else "Path") + felt)
     ax.plot(x, y, color="#aab5ba", lw=0.8, zorder=1)
     points = np.stack([x, y], axis=1)[::-(-len(x) // 20000)]
@@ -168,8 +169,8 @@ def draw_path(ax, bar, run):
     lines.set_clim(0, max(most(run.speed) * 1e3, 1.0))
     ax.add_collection(lines, autolim=False)
     ax.plot(x[:1], y[:1], "o", ms=5, mfc="white", mec=INK, mew=1.2, zorder=3)
-    ax.set_xlabel(f"{'xyz'[axes[0]]} (mm)")
-    ax.set_ylabel("time (s)" if unfolded else f"{'xyz'[axes[1]]} (mm)")
+    ax.set_xlabel("time (s)" if unfolded else f"{'xyz'[axes[0]]} (mm)")
+    ax.set_ylabel(f"{'xyz'[axes[0 if unfolded else 1]]} (mm)")
     colour_bar(lines, bar, "mm/s")
     bar.set_visible(run.touching.any())
 
@@ -267,7 +268,7 @@ def draw_spectrogram(ax, bar, run):
     level, first, last = found
     highest = 5 * np.ceil(level.max() / 5)
     image = ax.imshow(level, extent=(first, last, 0, run.rate / 2), origin="lower", aspect="auto", cmap=SHADES,
-                      vmin=highest - 45, vmax=highest, interpolation="bilinear")
+                      vmin=highest - 30, vmax=highest, interpolation="bilinear")
     ax.plot(*thin(run.t, run.ft), color=ASKED, lw=0.9)
     ax.set_ylim(0, min(run.rate / 2, max(1000.0, 1.2 * most(run.ft))))
     colour_bar(image, bar, "dB re 1 N")

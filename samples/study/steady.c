@@ -12,15 +12,14 @@
 #define WINDOW_S  0.0125
 #define TOLERANCE 0.25
 
-static double find_level(const double *heights, size_t ticks, double rate, double frequency) {
-    double re = 0.0;
-    double im = 0.0;
+void steady_line(const double *heights, size_t ticks, double rate, double frequency, double line[2]) {
+    line[0] = 0.0;
+    line[1] = 0.0;
     for (size_t k = 0; k < ticks; k++) {
         const double angle = 2.0 * PI * fmod(frequency * (double)k / rate, 1.0);
-        re += heights[k] * cos(angle);
-        im += heights[k] * sin(angle);
+        line[0] += 2.0 * heights[k] * cos(angle) / (double)ticks;
+        line[1] += 2.0 * heights[k] * sin(angle) / (double)ticks;
     }
-    return 2.0 * hypot(re, im) / (double)ticks;
 }
 
 static double find_unevenness(const double *heights, size_t ticks, double rate) {
@@ -77,6 +76,7 @@ static int find_spurious(const double *heights, size_t ticks, double rate, doubl
 }
 
 int steady_measure(const double *heights, size_t ticks, double rate, double frequency, steady_metrics *found) {
+    double line[2];
     study_scan scan = {.ticks = ticks, .update_rate_hz = rate};
     scan.height = malloc(ticks * sizeof *scan.height);
     for (size_t k = 0; scan.height && k < ticks; k++) {
@@ -84,7 +84,8 @@ int steady_measure(const double *heights, size_t ticks, double rate, double freq
     }
     found->push = scan.height ? study_scan_push(&scan, frequency, PUSH_S) : NAN;
     free(scan.height);
-    found->level = find_level(heights, ticks, rate, frequency);
+    steady_line(heights, ticks, rate, frequency, line);
+    found->level = hypot(line[0], line[1]);
     found->unevenness = find_unevenness(heights, ticks, rate);
     return !isnan(found->push) && find_spurious(heights, ticks, rate, frequency, &found->spurious);
 }

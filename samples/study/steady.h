@@ -17,4 +17,7 @@ typedef struct steady_metrics {
 /** Measures `ticks` heights at update rate `rate`, scanned at `frequency` Hz. 0: no memory, or no 50 ms of it. */
 int steady_measure(const double *heights, size_t ticks, double rate, double frequency, steady_metrics *found);
 
+/** The line at `frequency`: the amplitudes of its cosine and its sine. */
+void steady_line(const double *heights, size_t ticks, double rate, double frequency, double line[2]);
+
 #endif

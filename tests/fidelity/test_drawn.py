@@ -39,7 +39,7 @@ class Drawn(unittest.TestCase):
                      [ROWS[1], ROWS[0], *ROWS[2:]]):
             code, said = self.check(rows)
             self.assertEqual(code, 1, rows)
-            self.assertIn("a.png is out of date: ./run figures draws it again", said)
+            self.assertIn("a.png is out of date: ./run figures --update draws it again", said)
 
     def test_columns_that_come_and_go_are_named(self):
         code, said = self.check(ROWS, "strength,surface")

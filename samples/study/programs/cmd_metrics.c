@@ -3,11 +3,13 @@
 
 #include "json.h"
 #include "programs.h"
+#include "steady.h"
 #include "wave_options.h"
 
 #include <knurl/knurl.h>
 
 #include <math.h>
+#include <stdlib.h>
 
 /* This signal beside the other methods' at the same period. */
 static void print_correlations(json_writer *json, const tool_wave *asked, const study_signal *signal) {
@@ -24,6 +26,26 @@ static void print_correlations(json_writer *json, const tool_wave *asked, const 
         study_signal_free(&other);
     }
     json_close(json, '}');
+}
+
+/* What a hand gets of whole actual periods, a second of them or 20 periods: the line at its frequency, how even its
+ * level is, and the force that stays over 50 ms. */
+static int print_steady(json_writer *json, const tool_wave *asked, const study_signal *signal) {
+    const double length = (double)signal->length;
+    const size_t ticks = signal->length * (size_t)ceil(fmax(1.0, 20.0 * asked->period_s) * asked->rate / length);
+    double *values = malloc(ticks * sizeof *values);
+    steady_metrics steady;
+    for (size_t i = 0; values && i < ticks; i++) {
+        values[i] = knurl_wave_value(&asked->wave, i);
+    }
+    const int measured = values && steady_measure(values, ticks, asked->rate, 1.0 / asked->period_s, &steady);
+    if (measured) {
+        json_number(json, "fundamental", steady.level);
+        json_number(json, "unevenness", steady.unevenness);
+        json_number(json, "net_50ms", steady.push);
+    }
+    free(values);
+    return measured;
 }
 
 int cmd_metrics(int argc, char **argv) {
@@ -52,8 +74,9 @@ int cmd_metrics(int argc, char **argv) {
     json_number(&json, "dominant_amplitude", dominant.amplitude);
     json_number(&json, "net", study_net(&signal));
     json_number(&json, "rms", study_rms(&signal));
+    const int done = print_steady(&json, &asked, &signal);
     print_correlations(&json, &asked, &signal);
     json_close(&json, '}');
     study_signal_free(&signal);
-    return TOOL_OK;
+    return done ? TOOL_OK : tool_error(TOOL_FAILURE, "metrics: no memory");
 }
