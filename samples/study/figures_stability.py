@@ -109,19 +109,34 @@ def draw_stability(data, folder):
     return figure
 
 
+def cells(table, label, grip, method, protections):
+    return ((table["label"] == label) & (table["grip"] == grip) & (table["method"] == method)
+            & (table["protections"] == protections))
+
+
+def draw_stopped(ax, table, raw, protected, scale):
+    """Marks the runaways of a raw map that the protections stop."""
+    before, after = table["outcome"][raw], table["outcome"][protected]
+    x, y = table["x"][raw], scale * table["y"][raw]
+    stopped = (before == "unstable") & (after != "unstable")
+    ax.plot(x[stopped], y[stopped], "o", color="white", ms=4.5, mew=0, clip_on=False)
+
+
 def draw_methods(data, folder, amplitudes):
+    """Only those devices and grips of which anything runs away; the others are calm."""
     table = read_table(folder, data["table"])
     methods = list(dict.fromkeys(table["method"]))
-    rows = list(dict.fromkeys(zip(table["label"], table["grip"])))
-    columns = [(m, p) for m in methods for p in ("raw", "protected")]
-    figure, grid = plt.subplots(len(rows), len(columns), figsize=(1.62 * len(columns) + 0.9, 1.62 * len(rows) + 2.2),
-                                sharex=True)
+    every = list(dict.fromkeys(zip(table["label"], table["grip"])))
+    rows = [(label, grip) for label, grip in every
+            if np.any(table["outcome"][(table["label"] == label) & (table["grip"] == grip)] == "unstable")]
+    scale = 1e3 if amplitudes else 1.0
+    figure, grid = plt.subplots(len(rows), len(methods), figsize=(10.5, 2.0 * len(rows) + 2.6), sharex=True, squeeze=False)
     for i, (row, (label, grip)) in enumerate(zip(grid, rows)):
         b, fc, _, delay, promised = DEVICES[label]
-        for j, (ax, (method, protections)) in enumerate(zip(row, columns)):
-            pick = ((table["label"] == label) & (table["grip"] == grip) & (table["method"] == method)
-                    & (table["protections"] == protections))
-            x, _ = draw_map(ax, table, pick, 1e3 if amplitudes else 1.0)
+        for j, (ax, method) in enumerate(zip(row, methods)):
+            raw = cells(table, label, grip, method, "raw")
+            x, _ = draw_map(ax, table, raw, scale)
+            draw_stopped(ax, table, raw, cells(table, label, grip, method, "protected"), scale)
             if not amplitudes:
                 ax.axhline(promised, color=INK, lw=1, ls=QUANTUM)
                 fine = np.geomspace(x[0], x[-1], 200)
@@ -130,38 +145,38 @@ def draw_methods(data, folder, amplitudes):
                 ax.set_ylim(low, high)
             ticks(ax, "x", [0.01, 0.03, 0.1, 0.25])
             ticks(ax, "y", [0.02, 0.1, 0.5, 2] if amplitudes else [100, 300, 1000, 3000])
-            ax.tick_params(labelsize=7.5, labelleft=j == 0)
+            ax.tick_params(labelsize=8.5, labelleft=j == 0)
             if i == 0:
-                ax.set_title(protections, fontsize=9, color=GREY, pad=3)
+                ax.set_title(method if method != "flat" else "flat wall", fontsize=10.5, fontweight="bold", color=INK)
             if i == len(rows) - 1:
                 ax.set_xticklabels(["10", "30", "100", "250"])
-        row[0].set_ylabel(f"{label}, {grip}\n{'A (mm)' if amplitudes else 'K (N/m)'}", fontsize=9)
+        row[0].set_ylabel(f"{label}, {grip} grip\n{'A (mm)' if amplitudes else 'K (N/m)'}", fontsize=9.5)
     height = figure.get_figheight()
     left = 0.95 / figure.get_figwidth()
-    figure.subplots_adjust(left=left, right=0.985, top=1 - 1.25 / height, bottom=1.15 / height, hspace=0.12, wspace=0.08)
-    for i, method in enumerate(methods):
-        first, last = (grid[0][2 * i + k].get_position() for k in (0, 1))
-        figure.text((first.x0 + last.x1) / 2, first.y1 + 0.28 / height, method if method != "flat" else "flat wall",
-                    ha="center", fontsize=10.5, fontweight="bold", color=INK)
-    figure.text((left + 0.985) / 2, 0.78 / height, "speed along the surface (mm/s)", ha="center", color=INK)
-    lines = [] if amplitudes else [
-        Line2D([], [], color=INK, lw=1.1, label="(b + fc/v + hand's)/(T/2 + td): a device that slides"),
-        Line2D([], [], color=INK, lw=1, ls=QUANTUM, label="the stiffest wall that its maker promises")]
+    figure.subplots_adjust(left=left, right=0.985, top=1 - 1.2 / height, bottom=1.4 / height, hspace=0.12, wspace=0.08)
+    figure.text((left + 0.985) / 2, 0.98 / height, "speed along the surface (mm/s)", ha="center", color=INK)
+    calm = [f"{label} {grip}" for label, grip in every if (label, grip) not in rows]
+    figure.text(left, 0.72 / height, f"no runaway at all: {', '.join(calm)}", color=GREY, fontsize=9)
+    lines = [Line2D([], [], marker="o", ls="", color="white", mec=OUTCOMES["unstable"], mew=2.5, ms=7,
+                    label="a runaway that the protections stop")]
+    lines += [] if amplitudes else [
+        Line2D([], [], color=INK, lw=1.1, label="(b + fc/v + hand's)/(T/2 + td)"),
+        Line2D([], [], color=INK, lw=1, ls=QUANTUM, label="what its maker promises")]
     legend(figure, table, lines, 0.04)
     return figure, left
 
 
 def draw_stiffnesses(data, folder):
     figure, left = draw_methods(data, folder, False)
-    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, pressed with 1 N at 1 kHz, judged after 2.25 s; "
-            "raw beside the default protections", left)
+    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, 1 N at 1 kHz, after 2.25 s; "
+            "without protections; dots: what they stop", left)
     return figure
 
 
 def draw_amplitudes(data, folder):
     figure, left = draw_methods(data, folder, True)
-    heading(figure, "Amplitude against speed, by method", "Gratings of 2 mm at half the stiffness that the maker promises "
-            "(510, 1500 N/m), up to all of the motors' force (K A = 3.3, 8.9 N)", left)
+    heading(figure, "Amplitude against speed, by method", "Gratings of 2 mm at half the maker's stiffness, up to all of the "
+            "motors' force; without protections; dots: what they stop", left)
     return figure
 
 
