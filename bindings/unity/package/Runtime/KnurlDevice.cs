@@ -16,8 +16,8 @@ namespace Knurl
     public sealed partial class KnurlDevice : MonoBehaviour
     {
         [SerializeField, Tooltip("Which device: auto (the first that is connected), fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
-            + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as all "
-            + "settings do.")]
+            + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as do Stroke, "
+            + "Rate, Workspace Scale, Reconnect and Clamp.")]
         string device = "fake";
 
         [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, "
@@ -84,7 +84,7 @@ namespace Knurl
 
         /// <summary>Which device: auto (the first that is connected), fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
         /// rawhid:VID:PID; or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the
-        /// next start on, as all settings do, and is checked there.</summary>
+        /// next start on, as do Stroke, Rate, WorkspaceScale, Reconnect and Clamp, and is checked there.</summary>
         public string Device
         {
             get { return device; }
