@@ -182,11 +182,11 @@ static void multiply(const double a[4], const double b[4], double out[4]) {
 
 /* From device axes to the scene's; zeros stay zeros. */
 static void turn_stylus(const knurl_session *s, double stylus[4]) {
-    static const double none[4];
+    const double *q = s->orientation;
     double workspace[4];
-    if (memcmp(s->orientation, none, sizeof none) != 0) {
+    if (q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0) {
         knurl_session_to_quaternion(s->desc.workspace.rotation, workspace);
-        multiply(workspace, s->orientation, stylus);
+        multiply(workspace, q, stylus);
     }
 }
 

@@ -1,7 +1,8 @@
 extends Node3D
 ## What both demo scenes need: arguments after "--", drawing on a CPU, and a picture at the end.
 
-const WARM_UP_FRAMES := 5  # shaders are compiled meanwhile; a device's force is zero while a game hangs
+## Shaders are compiled meanwhile; a device's force is zero while a game hangs.
+const WARM_UP_FRAMES := 5
 
 
 ## Frames that are drawn before a device starts.
@@ -30,7 +31,8 @@ func argument(option: String, default: String) -> String:
 	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default
 
 
-## Where the CPU draws, whole frames take so long that the device, which takes the game to hang, sets its force to zero.
+## Where the CPU draws, whole frames take so long that the device takes the game to hang, and sets
+## its force to zero.
 func _draw_coarsely(coarsely: bool) -> void:
 	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
 	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0

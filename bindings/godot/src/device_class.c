@@ -207,12 +207,12 @@ static void get_buttons(void *self, void *value) {
 
 /* The identity where the device does not measure it. */
 static void get_stylus_rotation(void *self, void *value) {
-    static const double none[4];
     const knurl_session_state state = look(self);
-    const int is_measured = memcmp(state.stylus, none, sizeof none) != 0;
+    const double *q = state.stylus;
+    const int is_measured = q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
     float rotation[4] = {0.0F, 0.0F, 0.0F, 1.0F};
     for (int i = 0; i < 4 && is_measured; i++) {
-        rotation[i] = (float)state.stylus[i];
+        rotation[i] = (float)q[i];
     }
     memcpy(value, rotation, sizeof rotation);
 }

@@ -171,7 +171,8 @@ void explain_device(const device *d, char *text, size_t size) {
         is_known |= strncmp(uri, known[i], length) == 0 && (uri[length] == '\0' || uri[length] == ':');
     }
     if (!is_known) {
-        (void)snprintf(text, size, "Its device is '%s': expected auto, fake, touch, falcon, rawhid, serial, dhd or mouse.", uri);
+        (void)snprintf(text, size,
+                       "Its device is '%s': expected auto, fake, touch, falcon, rawhid, serial, dhd or mouse.", uri);
     }
     gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
     if (is_inside && !node_pose(d->base.object, &at)) {
