@@ -64,11 +64,7 @@ static void write_row(FILE *csv, size_t i, size_t p, size_t v, const half_cycles
                             h->worst_half,
                             h->played_per_crossed};
     fputs(surfaces[i].name, csv);
-    for (size_t cell = 0; cell < sizeof cells / sizeof *cells; cell++) {
-        fputc(',', csv);
-        out_number(csv, cells[cell]);
-    }
-    fputc('\n', csv);
+    study_end_row(csv, cells, sizeof cells / sizeof *cells);
 }
 
 static int write_table(FILE *csv, json_writer *json, void *user) {

@@ -2,9 +2,20 @@
 #include "study_out.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+void study_end_row(FILE *csv, const double *cells, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        fputc(',', csv);
+        if (isfinite(cells[i])) {
+            out_number(csv, cells[i]);
+        }
+    }
+    fputc('\n', csv);
+}
 
 int study_open(out_file *file, const char *folder, const char *name) {
     char path[1024];

@@ -15,6 +15,10 @@ int study_open(out_file *file, const char *folder, const char *name);
 int study_write(const char *folder, const char *name, int (*write)(FILE *csv, json_writer *json, void *user),
                 void *user);
 
+/** The rest of a row of CSV: a comma before each number, then the end of the line. What is not finite is an empty cell.
+ */
+void study_end_row(FILE *csv, const double *cells, size_t count);
+
 /** "  name: 40 %" on a terminal; nothing in a pipe. share: 0..1; 1 ends the line. */
 void study_progress(const char *name, double share);
 

@@ -101,13 +101,7 @@ static void write_row(FILE *csv, int c, size_t q, size_t r, size_t v, const velo
     const double cells[] = {1e3 * resolutions[q], rates[r],       1e3 * speeds[v], 1e3 * e->bias, 1e3 * e->rms,
                             1e3 * e->delay,       e->period_mean, e->period_worst, e->drift,      e->events};
     fprintf(csv, "\"%s\"", velocity_contenders[c].name);
-    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
-        fputc(',', csv);
-        if (isfinite(cells[i])) {
-            out_number(csv, cells[i]);
-        }
-    }
-    fputc('\n', csv);
+    study_end_row(csv, cells, sizeof cells / sizeof *cells);
 }
 
 static int write_table(FILE *csv, json_writer *json, void *user) {

@@ -40,3 +40,30 @@ TEST(a_beat_is_uneven) {
     CHECK_CLOSE(measure(200.0, 1.0, 240.0, 0.2, 0.0).unevenness, 0.5 * 0.2 * 2.0 * 2.0 / PI / 1.04, 0.05);
     CHECK_CLOSE(measure(200.0, 1.0, 240.0, 0.0, 0.0).unevenness, 0.0, 0.03);
 }
+
+/* T1 at 3 ticks is 1, 1, -1: its line is 2 |1 + z - z^2| / 3 with z = exp(-2 pi i / 3), 4/3; its mean is 1/3. */
+TEST(a_wave_of_three_ticks_has_the_line_and_the_push_of_its_three_values) {
+    static const double cycle[3] = {1.0, 1.0, -1.0};
+    double heights[1002];
+    steady_metrics found;
+    for (int k = 0; k < 1002; k++) {
+        heights[k] = cycle[k % 3];
+    }
+    assert_true(steady_measure(heights, 1002, RATE, RATE / 3.0, &found));
+    CHECK_CLOSE(found.level, 4.0 / 3.0, 1e-9);
+    CHECK_CLOSE(found.push, 1.0 / 3.0, 1e-9);
+    CHECK_CLOSE(found.unevenness, 0.0, 1e-9);
+}
+
+/* A cosine and a sine told apart, whole and mixed. */
+TEST(a_line_has_a_cosine_and_a_sine) {
+    double heights[TICKS];
+    double line[2];
+    for (int k = 0; k < TICKS; k++) {
+        const double angle = 2.0 * PI * 70.0 * k / RATE;
+        heights[k] = 0.3 * cos(angle) - 0.8 * sin(angle) + 0.2;
+    }
+    steady_line(heights, TICKS, RATE, 70.0, line);
+    CHECK_CLOSE(line[0], 0.3, 1e-9);
+    CHECK_CLOSE(line[1], -0.8, 1e-9);
+}

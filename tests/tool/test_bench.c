@@ -86,6 +86,16 @@ static void check_case(const char *json, const char *name, double ticks) {
     CHECK_SAME(json_number_of(object, "ticks"), ticks);
 }
 
+/* Runs one case; `contact` is the share of its ticks that touch. */
+static void check_run(const char *name, const char *asked, double ticks, double contact) {
+    process p = RUN_TOOL("bench", "--json", "--ticks", asked, "--case", name);
+    check_done(&p);
+    check_brackets(p.out);
+    check_case(p.out, name, ticks);
+    CHECK_SAME(json_number_of(p.out, "contact"), contact);
+    process_free(&p);
+}
+
 TEST(one_case_is_told_with_all_its_fields) {
     process p = RUN_TOOL("bench", "--case", "plane", "--json", "--ticks", "2000");
     check_done(&p);
@@ -101,12 +111,7 @@ TEST(each_kind_of_case_runs) {
     static const char *const names[] = {"empty",      "motion_foaw",    "grating_S1",
                                         "grating_S2", "grating_locked", "grating_area"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
-        process p = RUN_TOOL("bench", "--json", "--ticks", "20", "--case", names[i]);
-        check_done(&p);
-        check_brackets(p.out);
-        check_case(p.out, names[i], 20.0);
-        CHECK_SAME(json_number_of(p.out, "contact"), 0.0);
-        process_free(&p);
+        check_run(names[i], "20", 20.0, 0.0);
     }
 }
 
@@ -130,12 +135,7 @@ TEST(each_scene_is_touched_in_every_tick) {
                                         "paced_mesh_100k",
                                         "paced_mesh_100k_cold"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
-        process p = RUN_TOOL("bench", "--json", "--ticks", "600", "--case", names[i]);
-        check_done(&p);
-        check_brackets(p.out);
-        check_case(p.out, names[i], 600.0);
-        CHECK_SAME(json_number_of(p.out, "contact"), 1.0);
-        process_free(&p);
+        check_run(names[i], "600", 600.0, 1.0);
     }
 }
 
