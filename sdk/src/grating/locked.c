@@ -14,7 +14,7 @@
 /* Positions a quantum apart are so to within rounding. */
 #define ROUNDED 1.000001
 
-/* In one tick. What is more, or no number, is not counted, so that the count stays one. */
+/* Per tick. Larger or NaN increments are dropped; the phase stays finite. */
 #define MOST_CYCLES 1e6
 
 /* Follows the position on a grating with ridges one way: it has moved when it has gone on, or come back by more than a

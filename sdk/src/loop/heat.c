@@ -28,7 +28,7 @@ void knurl_loop_begin_heat(knurl_loop *loop) {
     const knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
     knurl_motor_heat_recall(loop->desc.device);
     loop->motors.theta = motors->square;
-    if (motors->now == loop->clock.now_ns && motors->user == loop->clock.user) { /* else nobody knows */
+    if (motors->now == loop->clock.now_ns && motors->user == loop->clock.user) { /* the same clock */
         const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - motors->at);
         knurl_heat_hold(&loop->motors, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
     }

@@ -8,8 +8,8 @@
 
 #include <stdint.h>
 
-/* N s/m: the friction that the lightest hand adds to its device's, for nobody feels a device that he does not hold.
- * A finger tip alone has some N s/m, and more the harder it holds (Hajian and Howe 1997; Hasser and Cutkosky 2002). */
+/* N s/m: the damping that the lightest hand adds to its device's: what is felt is held, at least loosely. A finger tip
+ * alone has some N s/m, and more the harder it holds (Hajian and Howe 1997; Hasser and Cutkosky 2002). */
 #define KNURL_LIGHTEST_HAND 2.0
 
 /* What a wall and its texture may be on a device. */

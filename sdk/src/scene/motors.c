@@ -4,7 +4,7 @@
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3], const double device_force[3]) {
     knurl_hip *h = &scene->hips[hip];
     knurl_snapshot latest;
-    knurl_snapshot_read(&h->published, &latest); /* nobody else writes it */
+    knurl_snapshot_read(&h->published, &latest); /* the only writer */
     knurl_guard_note_sent(&h->guard, force);
     h->counts.heat = h->guard.heat.theta;
     vec3_copy(force, latest.output.force);
