@@ -36,7 +36,7 @@ configure_package_config_file(cmake/knurl-config.cmake.in knurl-config.cmake INS
 write_basic_package_version_file(knurl-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/knurl-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/knurl-config-version.cmake
   DESTINATION ${_package} COMPONENT dev)
-install(FILES LICENSE README.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES LICENSE README.md CHANGELOG.md SECURITY.md bindings/godot/addons/knurl/THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 if(TARGET knurl_tool)
   file(RELATIVE_PATH _up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -51,4 +51,7 @@ if(TARGET knurl_tool)
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
     install(FILES sdk/udev/70-knurl.rules DESTINATION lib/udev/rules.d COMPONENT tool)
   endif()
+endif()
+if(PROJECT_IS_TOP_LEVEL)
+  include(cmake/package.cmake)
 endif()

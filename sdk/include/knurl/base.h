@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #define KNURL_VERSION_MAJOR 0
-#define KNURL_VERSION_MINOR 1
+#define KNURL_VERSION_MINOR 2
 #define KNURL_VERSION_PATCH 0
 
 #if defined(_WIN32) && !defined(KNURL_STATIC)

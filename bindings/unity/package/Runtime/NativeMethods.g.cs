@@ -618,9 +618,9 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "2d883fabd23b6062";
+        internal const string Interface = "c20bc0dc0ead8452";
 
-        internal const string Version = "0.1.0";
+        internal const string Version = "0.2.0";
 
         /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
         internal static int SizeOf(string type)
@@ -673,7 +673,7 @@ namespace Knurl
         }
 
         internal const int KNURL_VERSION_MAJOR = 0;
-        internal const int KNURL_VERSION_MINOR = 1;
+        internal const int KNURL_VERSION_MINOR = 2;
         internal const int KNURL_VERSION_PATCH = 0;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
