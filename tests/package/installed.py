@@ -105,6 +105,9 @@ def main():
 
     prefix = install("static", libraries, f"-DCMAKE_CXX_COMPILER={CXX}")
     check_tree(prefix, both, version, *with_gltf)
+    configure_consumer(prefix, f"-DWANTED={version}", "-DGLTF_FROM_C=ON", "-DCMAKE_CXX_COMPILER=/bin/false")
+    run("cmake", "--build", prefix + ".consumer")
+    check_programs(prefix, prefix + ".consumer", both[:1], "the loader from C alone", version)
 
     prefix = install("core", libraries[:1], "-DKNURL_GLTF=OFF", "-DCMAKE_CXX_COMPILER=/bin/false")
     check_tree(prefix, both[:1], version, "-DCMAKE_CXX_COMPILER=/bin/false")

@@ -25,6 +25,11 @@ int main(void) {
         knurl_scene_commit(scene)) {
         return failed("scene");
     }
+#ifdef WITH_GLTF
+    if (knurl_gltf_load_memory(scene, "", 0, "nothing", NULL, NULL) != KNURL_ERROR_FORMAT) {
+        return failed("an empty file");
+    }
+#endif
     knurl_tick_input input = {{0.0, 0.0, 0.001}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
     knurl_tick_output output;
     for (int i = 0; i < 1000; i++) {
