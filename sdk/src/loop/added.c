@@ -124,7 +124,7 @@ const knurl_added_force *knurl_loop_next_added(knurl_loop_added *a, knurl_added_
     return sum;
 }
 
-double knurl_loop_game_gain(knurl_loop_added *a, double step) {
+double knurl_loop_move_gain(knurl_loop_added *a, double step) {
     const double wanted = knurl_load_double(&a->gain);
     a->gain_now += fmin(fmax(wanted - a->gain_now, -step), step);
     return a->gain_now;

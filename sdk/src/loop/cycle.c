@@ -78,7 +78,9 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
 /* Computes the force to send, from the scene or from the caller. */
 static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knurl_tick_output *output) {
     const int paused = knurl_load_acquire(&loop->paused) != 0;
-    const double game_gain = knurl_loop_game_gain(&loop->added, gain_step(loop));
+    knurl_loop_added *a = &loop->added;
+    const double game_gain =
+        knurl_load_double(&a->gain) == a->gain_now ? a->gain_now : knurl_loop_move_gain(a, gain_step(loop));
     if (loop->desc.scene) {
         knurl_tick_input input;
         knurl_added_force sum;
@@ -87,7 +89,7 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
         const double gain = next_gain(loop, paused);
         input.attenuation = 1.0 - gain * game_gain;
         input.paused = paused && gain == 0.0;
-        const knurl_added_force *added = knurl_loop_next_added(&loop->added, &sum);
+        const knurl_added_force *added = knurl_loop_adds(a) ? knurl_loop_next_added(a, &sum) : NULL;
         /* on an error its force is 0 */
         (void)knurl_hip_tick(loop->desc.scene, loop->desc.hip, &input, added, output);
         vec3_copy(output->device_force, loop->force);

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_LOOP_H
 #define KNURL_SRC_LOOP_H
 
+#include "base/atomic.h"
 #include "base/handle.h"
 #include "base/histogram.h"
 #include "base/system.h"
@@ -119,8 +120,15 @@ void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 /* added.c: what is added in this tick; null: nothing. */
 const knurl_added_force *knurl_loop_next_added(knurl_loop_added *added, knurl_added_force *sum);
 
-/* The game's gain in this tick; it changes by `step` at most. */
-double knurl_loop_game_gain(knurl_loop_added *added, double step);
+/* 0: nothing is added, and nothing was written since the latest tick. */
+static inline int knurl_loop_adds(const knurl_loop_added *a) {
+    return (knurl_load_acquire(&a->force_sequence) != a->force_seen) |
+           (knurl_load_acquire(&a->cue_sequence) != a->cue_seen) | a->has_force | (a->cue_tick < a->cue.ticks) |
+           (a->latest != 0.0);
+}
+
+/* The game's gain in this tick, on its way to the one that was set; it changes by `step` at most. */
+double knurl_loop_move_gain(knurl_loop_added *added, double step);
 
 /* cycle.c */
 int knurl_loop_at_end(const knurl_loop *loop);
