@@ -237,7 +237,7 @@ void knurl_broad_phase_remove(knurl_broad_phase *phase, knurl_surface_data *surf
     knurl_epoch_retire(phase->epoch, &surface->retired);
 }
 
-static int meets(const float *box, const knurl_view *view) {
+static inline int meets(const float *box, const knurl_view *view) {
     for (int i = 0; i < 3; i++) {
         float least;
         float greatest;
@@ -251,10 +251,7 @@ static int meets(const float *box, const knurl_view *view) {
 }
 
 /* A stored box holds all of a way; what has arrived, or is asked for exactly, is in less of it. */
-static int is_there(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
-    if (!meets(index->boxes[place], view)) {
-        return 0;
-    }
+static int is_there_now(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
     const knurl_surface_data *surface = __atomic_load_n(&index->items[place], __ATOMIC_SEQ_CST);
     if (!surface || !knurl_load_relaxed(&index->is_dynamic[place])) {
         return surface != NULL; /* what stands still fills its box */
@@ -268,17 +265,25 @@ static int is_there(const knurl_broad_index *index, uint32_t place, const knurl_
     return !knurl_motion_is_over(&record->motion, view->time) || meets(record->arrived, view);
 }
 
-/* A place may be found twice, dynamic and in the hierarchy. */
+static inline int is_there(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
+    return meets(index->boxes[place], view) && is_there_now(index, place, view);
+}
+
 static uint32_t note(uint32_t place, uint32_t room, uint32_t count, uint32_t *places) {
-    for (uint32_t i = 0; i < count && i < room; i++) {
-        if (places[i] == place) {
-            return count;
-        }
-    }
     if (count < room) {
         places[count] = place;
     }
     return count + 1;
+}
+
+/* A place may be found twice, dynamic and in the hierarchy. */
+static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t room, uint32_t count,
+                    const uint32_t *places) {
+    int noted = 0;
+    for (uint32_t i = 0; knurl_load_relaxed(&index->is_dynamic[place]) && i < count && i < room; i++) {
+        noted |= places[i] == place;
+    }
+    return noted;
 }
 
 static int node_meets(const knurl_bvh_node *node, const knurl_view *view) {
@@ -305,7 +310,8 @@ static uint32_t find_still(const knurl_broad_index *index, const knurl_view *vie
         }
         for (uint32_t i = 0; i < node->count && count <= room; i++) {
             const uint32_t place = index->order[node->first + i];
-            if (is_there(index, place, view)) { /* it may have gone from here since */
+            if (is_there(index, place, view) && /* it may have gone from here since */
+                !is_noted(index, place, room, count, places)) {
                 count = note(place, room, count, places);
             }
         }

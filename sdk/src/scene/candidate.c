@@ -38,13 +38,9 @@ void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *
     *before = &candidate->poses[candidate->latest ^ 1];
 }
 
-static int is_near(const float box[6], const knurl_hip_path *path, double margin) {
+static inline int is_near(const float box[6], const knurl_hip_path *path, double margin) {
     for (int i = 0; i < 3; i++) {
-        const double from = path->from[i] < path->to[i] ? path->from[i] : path->to[i];
-        const double to = path->from[i] < path->to[i] ? path->to[i] : path->from[i];
-        const double low = path->proxy[i] < from ? path->proxy[i] : from;
-        const double high = path->proxy[i] > to ? path->proxy[i] : to;
-        if (high < (double)box[i] - margin || low > (double)box[3 + i] + margin) {
+        if (path->high[i] < (double)box[i] - margin || path->low[i] > (double)box[3 + i] + margin) {
             return 0;
         }
     }

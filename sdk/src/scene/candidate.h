@@ -46,7 +46,16 @@ typedef struct knurl_hip_path {
     double time;         /* s */
     int is_first;        /* 1: a first tick */
     int everything;      /* 1: look at every surface at every tick (KNURL_FULL_SEARCH) */
+    double low[3];       /* the box of all three, by knurl_hip_path_bound() */
+    double high[3];
 } knurl_hip_path;
+
+static inline void knurl_hip_path_bound(knurl_hip_path *path) {
+    for (int i = 0; i < 3; i++) {
+        path->low[i] = knurl_min(path->proxy[i], knurl_min(path->from[i], path->to[i]));
+        path->high[i] = knurl_max(path->proxy[i], knurl_max(path->from[i], path->to[i]));
+    }
+}
 
 /* What is not as simple: called by knurl_candidate_place(). */
 void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *motion, const knurl_hip_clock *clock,

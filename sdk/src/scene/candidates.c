@@ -67,14 +67,28 @@ static void load_box(const knurl_broad_index *index, knurl_candidate *candidate)
     }
 }
 
+/* Looks at the view that served last time until a wider one is tried again. */
+#define LOOKS 256
+
+static uint32_t first_view(const knurl_candidates *c, const knurl_hip_path *path) {
+    return path->is_first ? 0 : c->view > 0 && c->looks >= LOOKS ? c->view - 1 : c->view;
+}
+
+/* A wider view that serves is widened again at the next look. */
+static void keep_view(knurl_candidates *c, uint32_t first, uint32_t served) {
+    c->looks = served < c->view ? LOOKS : first < c->view ? 0 : c->looks + 1;
+    c->view = served;
+}
+
 /* Asks the broad phase. */
 static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                  const knurl_hip_path *path) {
     const uint64_t version = knurl_load_acquire(&phase->version); /* before the boxes are read */
     uint32_t places[KNURL_CANDIDATES_MAX];
-    uint32_t found = KNURL_CANDIDATES_MAX + 1;
-    size_t v = 0;
-    for (; v < VIEWS && found > KNURL_CANDIDATES_MAX; v++) {
+    uint32_t found;
+    const uint32_t first = first_view(c, path);
+    uint32_t v = first;
+    do {
         c->depth = path->depth + (v < NARROWS ? DEEPER : 1e-4);
         const double reach = 1e-9 + knurl_max(c->depth, path->is_first ? views[v].capture : 0.0);
         double low[3];
@@ -87,7 +101,9 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
         }
         const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
         found = knurl_broad_phase_find(index, &view, KNURL_CANDIDATES_MAX, places);
-    }
+        v++;
+    } while (v < VIEWS && found > KNURL_CANDIDATES_MAX);
+    keep_view(c, first, v - 1);
     c->version = v > NARROWS ? 0 : version; /* a look without margin serves for this tick */
     c->overflow = found > KNURL_CANDIDATES_MAX;
     found = c->overflow ? KNURL_CANDIDATES_MAX : found;
@@ -104,7 +120,7 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
 }
 
 void knurl_candidates_reset(knurl_candidates *c) {
-    c->count = 0;
+    c->count = c->view = c->looks = 0;
     c->clearance.distance = -1.0;
 }
 
@@ -137,7 +153,7 @@ void knurl_candidates_measure(knurl_candidates *c, const double position[3], con
     for (int i = 0; i < 3; i++) {
         distance = knurl_min(distance, knurl_min(position[i] - c->low[i], c->high[i] - position[i]));
     }
-    for (uint32_t i = 0; i < c->count; i++) {
+    for (uint32_t i = 0; i < c->count && distance > 0.0; i++) { /* below 0 it makes no difference how far */
         if (!c->list[i].in_contact) {
             distance = knurl_min(distance, knurl_min(gap(&c->list[i], position), gap(&c->list[i], proxy)));
         }

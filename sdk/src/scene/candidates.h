@@ -26,6 +26,8 @@ typedef struct knurl_candidates {
     uint64_t version; /* and the broad phase's version is this; 0: look again */
     uint32_t count;
     uint32_t overflow; /* 1: there were more than fit */
+    uint32_t view;     /* how narrow the latest look was; 0: the widest */
+    uint32_t looks;    /* since a wider one was tried */
     knurl_clearance clearance;
     knurl_candidate list[KNURL_CANDIDATES_MAX];
 } knurl_candidates;

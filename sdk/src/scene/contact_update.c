@@ -132,19 +132,21 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
 
 /* How the HIP goes in this tick. */
 static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
-    const knurl_hip_path path = {c->has_previous ? c->previous : position,
-                                 position,
-                                 c->pressed ? c->proxy : position,
-                                 c->depth,
-                                 c->clock.time,
-                                 !c->has_previous,
-                                 c->everything};
+    knurl_hip_path path = {.from = c->has_previous ? c->previous : position,
+                           .to = position,
+                           .proxy = c->pressed ? c->proxy : position,
+                           .depth = c->depth,
+                           .time = c->clock.time,
+                           .is_first = !c->has_previous,
+                           .everything = c->everything};
+    knurl_hip_path_bound(&path);
     return path;
 }
 
 /* Makes the list complete where there is no clearance. Returns what find_alone() does. *room: m, for hold_alone(). */
-static knurl_candidate *look(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                             const double position[3], double *room) {
+__attribute__((noinline)) static knurl_candidate *look(knurl_contacts *c, const knurl_broad_phase *phase,
+                                                       const knurl_broad_index *index, const double position[3],
+                                                       double *room) {
     const knurl_hip_path path = find_path(c, position);
     *room = knurl_hip_path_room(&path);
     knurl_candidates_update(&c->candidates, phase, index, &path);
@@ -160,7 +162,8 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
 }
 
 /* What is looked for at several surfaces. */
-static void look_around(knurl_contacts *c, const knurl_broad_index *index, const double position[3], uint32_t *flags) {
+__attribute__((noinline)) static void look_around(knurl_contacts *c, const knurl_broad_index *index,
+                                                  const double position[3], uint32_t *flags) {
     const knurl_hip_path path = find_path(c, position);
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;

@@ -269,6 +269,7 @@ static void find_next(meeting *m, knurl_god_object *g) {
     vec3_madd(m->hip, depth + KNURL_STEP_HEIGHT, slip->normal, above);
     knurl_hip_path path = *m->path;
     path.proxy = above;
+    knurl_hip_path_bound(&path);
     collect(m, &path, sqrt(vec3_distance2(above, m->hip)));
     const knurl_segment rise = {slip->proxy, up, 0, KNURL_NO_OBSTACLE};
     const knurl_segment across = {up, above, 0, KNURL_NO_OBSTACLE};
