@@ -33,7 +33,7 @@ const char *knurl_fake_preset_name(int32_t preset) {
 }
 
 const char *knurl_fake_keys(void) {
-    return "preset=touch \ttouch, falcon or ideal: sets all keys anew\n"
+    return "preset=touch \ttouch, falcon, woodenhaptics, omega or ideal: sets all keys anew\n"
 #define KNURL_FAKE_LINE(name, standard, least, greatest, unit, meaning) #name "=" #standard " " unit "\t" meaning "\n"
         KNURL_FAKE_KEYS(KNURL_FAKE_LINE)
 #undef KNURL_FAKE_LINE
@@ -104,7 +104,8 @@ static knurl_result set_preset(const char *text, size_t length, knurl_fake_setti
             return result;
         }
     }
-    return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: preset: expected touch, falcon or ideal, found '%.*s'",
+    return knurl_fail(KNURL_ERROR_ARGUMENT,
+                      "device fake: preset: expected touch, falcon, woodenhaptics, omega or ideal, found '%.*s'",
                       (int)(length < 64 ? length : 64), text);
 }
 

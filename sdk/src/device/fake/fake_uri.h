@@ -43,12 +43,21 @@
  * 3000 N/m as CHAI3D has it. Mass, frictions, continuous force (a third of the peak), heat_time and delay (a transfer
  * each way at 1 kHz) are assumed.
  *
+ * woodenhaptics, omega: what the drivers of these devices tell (geometry.h and dhd.c of the devices' folders, with
+ * sources): CHAI3D's force, stiffness and radius, the cube in that sphere; the rest is assumed there.
+ *
  * ideal: what theory starts from: a mass that does what it is told. Its hand does not shake. */
 #define KNURL_FAKE_PRESETS(X)                                                                                          \
     X(touch, "a simulated Touch", "")                                                                                  \
     X(falcon, "a simulated Falcon",                                                                                    \
       "mass=0.2&viscous=1.5&coulomb=0.5&resolution=0.00006&max_force=8.9&continuous_force=3&max_stiffness=3000&"       \
       "delay=2&width=0.1016&height=0.1016&depth=0.1016&exact=1")                                                       \
+    X(woodenhaptics, "a simulated WoodenHaptics",                                                                      \
+      "mass=0.2&viscous=0.5&coulomb=0.3&resolution=0.0001&max_force=3&continuous_force=1.7&max_stiffness=1000&"       \
+      "delay=2&width=0.1155&height=0.1155&depth=0.1155&exact=1")                                                       \
+    X(omega, "a simulated omega.3",                                                                                    \
+      "mass=0.25&viscous=0.5&coulomb=0.3&resolution=0.00001&max_force=12&continuous_force=4&max_stiffness=5000&"       \
+      "delay=1&width=0.0866&height=0.0866&depth=0.0866&exact=1")                                                       \
     X(ideal, "an ideal device",                                                                                        \
       "viscous=0&coulomb=0&resolution=0&max_force=1000&continuous_force=0&max_stiffness=0&delay=0&width=1&height=1&"   \
       "depth=1&exact=1&tremor=0")
