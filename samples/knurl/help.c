@@ -109,6 +109,12 @@ static const help_command commands[] = {
      "list connected devices, problems, and the fake device's keys",
      {{"--json", "", "as JSON"}, PRETTY},
      "JSON: [{uri, name, unusable}].",
+     NULL},
+    {"calibrate",
+     "falcon",
+     "find the gain of a Falcon with a known mass",
+     {{"--mass", "KG", "that hangs from its grip, 0.05 to 0.4"}, {"--out", "FILE", "where the gain is written"}},
+     "JSON: gain, newtons. KNURL_FALCON_GAIN=FILE makes the Falcon's forces as strong as they are called.",
      NULL}};
 
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)

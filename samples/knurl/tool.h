@@ -51,5 +51,6 @@ int cmd_signal(int argc, char **argv);
 int cmd_scan(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
 int cmd_devices(int argc, char **argv);
+int cmd_calibrate(int argc, char **argv);
 
 #endif

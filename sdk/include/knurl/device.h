@@ -177,11 +177,11 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  *   environment variable KNURL_FALCON_FIRMWARE. ?gain=G, 0.05 to 1: the scale of its motor commands, relative to
  *   libnifalcon's 10000 units per N m, which was never measured. Recorded packets of the maker's driver give 0.35 to
  *   0.53. Default 0.35: if those packets are right, no force is stronger than asked for. The device's name contains the
- *   gain.
+ *   gain. Without ?gain, the file that KNURL_FALCON_GAIN names (from `knurl calibrate falcon`).
  * - rawhid, rawhid:VID:PID: the first known one, or the one with these hexadecimal ids. ?geometry=PATH: a file that
  *   describes its mechanics, see assets/devices. ?home=1: the device rests in its home pose now.
- * - serial, serial:PATH: WoodenHaptics with its makers' Teensy 4.0 firmware, on the first Teensy's serial port or on this
- *   one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
+ * - serial, serial:PATH: WoodenHaptics with its makers' Teensy 4.0 firmware, on the first Teensy's serial port or on
+ * this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
  * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
  *   before the environment variable KNURL_DHD_LIBRARY and the usual names.
  *

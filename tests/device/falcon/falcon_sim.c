@@ -205,7 +205,8 @@ static void move(falcon_sim *sim) {
     for (int axis = 0; axis < 3; axis++) {
         speed[axis] = (sim->target[axis] - before[axis]) / 0.001;
     }
-    knurl_plant_write(&sim->plant, sim->force);
+    const double pulled[3] = {sim->force[0], sim->force[1] - sim->weight, sim->force[2]};
+    knurl_plant_write(&sim->plant, pulled);
     knurl_plant_step(&sim->plant, 0.001, sim->target, speed);
 }
 

@@ -19,6 +19,7 @@ typedef struct falcon_sim {
     uint64_t ticks;
     double jump[3]; /* m: what the encoders tell beyond the truth */
     double gain;    /* motor units that make a newton metre, over libnifalcon's 10000 */
+    double weight;  /* N that hang from its grip */
     int is_moving;  /* 0: it stands where it was put, whatever the motors do */
     /* what it says and hears */
     int16_t motors[3];

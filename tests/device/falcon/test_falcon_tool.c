@@ -78,6 +78,15 @@ TEST(a_hanging_library_a_garbage_handle_and_a_busy_falcon_are_a_line_each_within
     (void)unsetenv("KNURL_HD_LIBRARY");
 }
 
+TEST(calibrating_without_a_mass_or_a_file_is_refused) {
+    process p = RUN_TOOL("calibrate", "falcon");
+    check_refused(&p, 2, "--mass KG --out FILE", "calibrate falcon");
+    p = RUN_TOOL("calibrate", "touch", "--mass", "0.2", "--out", tool_path("gain"));
+    check_refused(&p, 2, "expected falcon", "calibrate touch");
+    p = RUN_TOOL("calibrate", "falcon", "--mass", "5", "--out", tool_path("gain"));
+    check_refused(&p, 2, "--mass|0.05|0.4", "calibrate falcon --mass 5");
+}
+
 TEST(a_plate_is_felt_through_a_falcon) {
     process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "1"));
     check_felt(&p);

@@ -1,6 +1,7 @@
 /* Novint Falcon: an I/O thread sends a frame of motor commands and gets a frame of encoders. Read exchange() first.
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
+#include "base/regular_file.h"
 #include "base/vec3.h"
 #include "device/drivers.h"
 #include "device/falcon/firmware.h"
@@ -295,17 +296,39 @@ static void disconnect(falcon *f) {
     }
 }
 
-/* "": the usual one. */
+/* What `knurl calibrate falcon` wrote: a number and a line's end. */
+static knurl_result read_gain(const char *path, char *text, size_t size) {
+    char why[160];
+    uint64_t there = 0;
+    FILE *file = knurl_regular_open(NULL, path, &there, why, sizeof why);
+    if (!file) {
+        return knurl_fail(KNURL_ERROR_IO, "device 'falcon': KNURL_FALCON_GAIN: '%s': %s", path, why);
+    }
+    text[fread(text, 1, size - 1, file)] = '\0';
+    (void)fclose(file);
+    text[strcspn(text, "\r\n")] = '\0';
+    return KNURL_OK;
+}
+
+/* `text`: what the URI says, or "". */
 static knurl_result set_gain(falcon *f, const char *text) {
+    char kept[64] = "";
+    const char *path = getenv("KNURL_FALCON_GAIN");
+    const int is_kept = !text[0] && path && path[0];
+    const knurl_result result = is_kept ? read_gain(path, kept, sizeof kept) : KNURL_OK;
+    if (result) {
+        return result;
+    }
+    const char *said = is_kept ? kept : text;
     f->gain = GAIN;
-    f->is_gain_set = text[0] != '\0';
+    f->is_gain_set = is_kept || text[0];
     if (f->is_gain_set &&
-        !(knurl_number(text, strlen(text), &f->gain) && knurl_is_within(f->gain, GAIN_LEAST, GAIN_MOST))) {
+        !(knurl_number(said, strlen(said), &f->gain) && knurl_is_within(f->gain, GAIN_LEAST, GAIN_MOST))) {
         return knurl_fail(
             KNURL_ERROR_ARGUMENT,
-            "device 'falcon': gain: expected a number from %g to %g, found '%.100s'; it is 0.35 to 0.53 by "
-            "its maker's driver, 1 by libnifalcon",
-            GAIN_LEAST, GAIN_MOST, text);
+            "device 'falcon': %s: expected a number from %g to %g, found '%.100s'; it is 0.35 to 0.53 by its maker's "
+            "driver, 1 by libnifalcon",
+            is_kept ? path : "gain", GAIN_LEAST, GAIN_MOST, said);
     }
     return KNURL_OK;
 }

@@ -1,0 +1,80 @@
+/* knurl calibrate falcon: weighs a known mass, so that its forces are what they are called. SPDX-License-Identifier:
+ * MIT */
+#include "tool.h"
+#include "weigh.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#define GAIN 0.35 /* while weighing: the gentlest that is likely, see knurl_device_open() */
+
+static void wait_for_enter(const char *text) {
+    int c = 0;
+    fprintf(stderr, "%s, then press Enter. ", text);
+    while (c != '\n' && c != EOF) {
+        c = getchar();
+    }
+}
+
+/* Both weighings, the empty grip first. */
+static knurl_result weigh_both(double *heavier) {
+    char uri[64];
+    double height = NAN;
+    double empty = 0.0;
+    double loaded = 0.0;
+    knurl_device *device = NULL;
+    (void)snprintf(uri, sizeof uri, "falcon:?gain=%g", GAIN);
+    knurl_result result = knurl_device_open(uri, &device);
+    if (result) {
+        return result;
+    }
+    wait_for_enter("Pull the grip out and push it in, until its light is green. Hold it in the middle");
+    fprintf(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+    result = weigh(device, &height, &empty);
+    if (!result) {
+        wait_for_enter("Hang the mass from the grip, and hold it in the middle");
+        fprintf(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+        result = weigh(device, &height, &loaded);
+    }
+    knurl_device_close(device);
+    *heavier = loaded - empty;
+    return result;
+}
+
+static int write_setting(const char *path, double gain) {
+    FILE *file = fopen(path, "w");
+    const int failed = !file || fprintf(file, "%.3f\n", gain) < 0;
+    if ((file && fclose(file)) || failed) {
+        return tool_error(TOOL_FAILURE, "calibrate: %s cannot be written: %s", path, strerror(errno));
+    }
+    fprintf(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
+    return TOOL_OK;
+}
+
+int cmd_calibrate(int argc, char **argv) {
+    double mass = NAN;
+    const char *path = NULL;
+    const char *what = NULL;
+    double heavier = 0.0;
+    const tool_option options[] = {{"--mass", TOOL_NUMBER, &mass, 0.05, 0.4, " kg"},
+                                   {"--out", TOOL_TEXT, (void *)&path, 0, 0, ""}};
+    if (tool_parse(argc, argv, options, 2, &what) != TOOL_OK) {
+        return TOOL_USAGE;
+    }
+    if (!what || strcmp(what, "falcon") != 0 || isnan(mass) || !path) {
+        return tool_error(TOOL_USAGE, "calibrate: expected falcon --mass KG --out FILE");
+    }
+    if (weigh_both(&heavier)) {
+        return tool_error(TOOL_FAILURE, "calibrate: %s", knurl_error_message());
+    }
+    const double gain = weigh_gain(GAIN, mass, heavier);
+    if (!(gain >= 0.05 && gain <= 1.0)) {
+        return tool_error(TOOL_FAILURE,
+                          "calibrate: the mass took %g N more than the empty grip, which makes a gain of %g; expected "
+                          "0.05 to 1: was it %g kg, and did nothing touch it?",
+                          heavier, gain, mass);
+    }
+    printf("{\"gain\": %.3f, \"newtons\": %.3f}\n", gain, heavier);
+    return write_setting(path, gain);
+}
