@@ -1,0 +1,118 @@
+// The oscilloscope: height, force and f_t over the last second, the force's spectrum, and the ridges under the cursor.
+// SPDX-License-Identifier: MIT
+const SPAN_S = 1;
+const TOP_HZ = 500;
+const LENS_M = 0.006;
+
+function prepare(canvas) {
+  const ratio = Math.min(2, window.devicePixelRatio);
+  canvas.width = Math.max(1, canvas.clientWidth * ratio);
+  canvas.height = Math.max(1, canvas.clientHeight * ratio);
+  const context = canvas.getContext("2d");
+  context.scale(ratio, ratio);
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name) => style.getPropertyValue(name);
+  context.font = "12px system-ui, sans-serif";
+  return { context, colour, width: canvas.clientWidth, height: canvas.clientHeight };
+}
+
+export class History {
+  constructor() {
+    this.clear(1000);
+  }
+
+  clear(rate) {
+    this.rate = rate;
+    this.rows = []; // {height, force, f_t}
+  }
+
+  add(row) {
+    this.rows.push(row);
+    if (this.rows.length > 2 * SPAN_S * this.rate) {
+      this.rows.splice(0, this.rows.length - SPAN_S * this.rate);
+    }
+  }
+
+  latest(count) {
+    return this.rows.slice(-count);
+  }
+}
+
+export function drawScope(canvas, history) {
+  const { context, colour, width, height } = prepare(canvas);
+  const rows = history.latest(SPAN_S * history.rate);
+  const traces = [
+    ["height", "mm", 1000, "--accent", 0.05],
+    ["force", "N", 1, "--ink", 0.1],
+    ["frequency", "Hz", 1, "--asked", 50],
+  ];
+  traces.forEach(([key, unit, scale, name, least], index) => {
+    const top = (index * height) / 3;
+    const values = rows.map((row) => row[key] * scale);
+    const most = Math.max(least, ...values.map(Math.abs));
+    const low = key === "height" ? -most : 0;
+    context.fillStyle = context.strokeStyle = colour(name);
+    context.fillText(`${key} ${(values.at(-1) ?? 0).toPrecision(3)} of ${most.toFixed(index === 2 ? 0 : 2)} ${unit}`, 6, top + 13);
+    context.beginPath();
+    values.forEach((value, i) => {
+      const x = width * (1 - (values.length - i) / (SPAN_S * history.rate));
+      context.lineTo(x, top + height / 3 - 3 - ((value - low) / (most - low)) * (height / 3 - 20));
+    });
+    context.stroke();
+  });
+}
+
+// Amplitudes at multiples of rate/512, by the definition: 200 lines of 512 samples, ten times a second.
+export function spectrum(values, rate) {
+  const n = values.length;
+  const mean = values.reduce((sum, value) => sum + value, 0) / n;
+  const lines = Math.min(Math.floor(n / 2), Math.floor((TOP_HZ * n) / rate));
+  return Array.from({ length: lines }, (_, k) => {
+    let re = 0;
+    let im = 0;
+    for (let i = 0; i < n; i++) {
+      const weighted = (values[i] - mean) * (1 - Math.cos((2 * Math.PI * i) / n));
+      re += weighted * Math.cos((2 * Math.PI * k * i) / n);
+      im += weighted * Math.sin((2 * Math.PI * k * i) / n);
+    }
+    return (2 * Math.hypot(re, im)) / n;
+  });
+}
+
+export function drawSpectrum(canvas, history) {
+  const { context, colour, width, height } = prepare(canvas);
+  const rows = history.latest(512);
+  context.fillStyle = colour("--ink");
+  context.fillText(`spectrum of the force, 0 to ${TOP_HZ} Hz`, 6, 13);
+  if (rows.length < 512) {
+    return;
+  }
+  const lines = spectrum(rows.map((row) => row.force), history.rate);
+  const most = Math.max(0.02, ...lines);
+  context.fillStyle = colour("--accent");
+  const wide = (width * history.rate) / 512 / TOP_HZ;
+  lines.forEach((line, k) => {
+    const tall = (line / most) * (height - 20);
+    context.fillRect(k * wide, height - tall, Math.max(1, wide - 1), tall);
+  });
+}
+
+// Eq. 11 round the cursor, true to scale; x to the right, y up.
+export function drawLens(canvas, cycles, feel) {
+  const { context, colour, width, height } = prepare(canvas);
+  const [light, dark] = [colour("--paper"), colour("--accent")];
+  const side = 2;
+  for (let i = 0; cycles && i < width; i += side) {
+    for (let j = 0; j < height; j += side) {
+      const x = cycles[0] + feel[0] * LENS_M * (i / width - 0.5);
+      const y = cycles[1] + feel[1] * LENS_M * (0.5 - j / height);
+      const up = Math.cos(2 * Math.PI * x) > 0 === Math.cos(2 * Math.PI * y) > 0;
+      context.fillStyle = up ? dark : light;
+      context.fillRect(i, j, side, side);
+    }
+  }
+  context.fillStyle = colour("--asked");
+  context.beginPath();
+  context.arc(width / 2, height / 2, 4, 0, 7);
+  context.fill();
+}

@@ -1,0 +1,59 @@
+// The sound: samples from the worker go into an AudioWorklet's queue; no memory is shared, so that any web server will
+// do. SPDX-License-Identifier: MIT
+const WORKLET = `
+registerProcessor("knurl", class extends AudioWorkletProcessor {
+  constructor() {
+    super();
+    this.queue = [];
+    this.at = 0;
+    this.waiting = 0;
+    this.plays = false;
+    this.port.onmessage = ({ data }) => {
+      this.queue.push(data);
+      this.waiting += data.length;
+      while (this.waiting > 7200) { // 150 ms late: leave the oldest out
+        this.waiting -= this.queue.shift().length - this.at;
+        this.at = 0;
+      }
+    };
+  }
+  process(_, [[out]]) {
+    this.plays = this.waiting >= (this.plays ? out.length : 1920); // 40 ms in reserve to begin with
+    for (let i = 0; this.plays && i < out.length; i++) {
+      out[i] = this.queue[0][this.at++];
+      this.waiting--;
+      if (this.at === this.queue[0].length) {
+        this.queue.shift();
+        this.at = 0;
+      }
+    }
+    return true;
+  }
+});`;
+
+export class Sound {
+  // Must come from a click: browsers allow no sound before. Throws where there is none.
+  async start() {
+    this.context ??= new AudioContext({ sampleRate: 48000 });
+    if (!this.node) {
+      const url = URL.createObjectURL(new Blob([WORKLET], { type: "text/javascript" }));
+      await this.context.audioWorklet.addModule(url);
+      URL.revokeObjectURL(url);
+      this.node = new AudioWorkletNode(this.context, "knurl", { outputChannelCount: [1] });
+      this.node.connect(this.context.destination);
+    }
+    await this.context.resume();
+    this.on = true;
+  }
+
+  stop() {
+    this.on = false;
+    this.context?.suspend();
+  }
+
+  play(samples) {
+    if (this.on) {
+      this.node.port.postMessage(samples, [samples.buffer]);
+    }
+  }
+}

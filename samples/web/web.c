@@ -1,0 +1,145 @@
+/* What the page's worker calls, in WebAssembly: one scene with one HIP and its sound. Positions and forces are the
+ * scene's, m and N. SPDX-License-Identifier: MIT */
+#include <knurl/audio.h>
+#include <knurl/gltf.h>
+#include <knurl/scene.h>
+
+#include <emscripten.h>
+#include <math.h>
+#include <string.h>
+
+#define ROW 16 /* doubles that a tick tells, see web_tick() */
+
+static knurl_scene *scene;
+static knurl_audio *audio;
+static knurl_hip_desc hip;
+static double quantum; /* m: positions are rounded to it; 0: not */
+
+/* What the page asked for comes before the first load. */
+static void begin_hip(void) {
+    if (hip.struct_size == 0) {
+        knurl_hip_desc_init(&hip, sizeof hip);
+        hip.update_rate_hz = 1000.0;
+        hip.resolution = 0.0;
+    }
+}
+
+static knurl_result open_hip(void) {
+    knurl_workspace workspace;
+    knurl_audio_desc desc;
+    knurl_workspace_init(&workspace); /* the device is the scene */
+    hip.workspace = &workspace;
+    knurl_audio_desc_init(&desc, sizeof desc);
+    desc.update_rate_hz = hip.update_rate_hz;
+    desc.is_offline = 1; /* the page makes as many samples as ticks */
+    desc.latency_s = 0.0;
+    knurl_audio_destroy(audio);
+    audio = NULL;
+    const knurl_result result = knurl_scene_configure_hip(scene, 0, &hip);
+    return result ? result : knurl_audio_create(&desc, &audio);
+}
+
+/* Loads a .glb instead of what was there. 0, or an error whose sentence web_message() gives; then the old one stays. */
+EMSCRIPTEN_KEEPALIVE int web_load(const void *data, uint32_t size, const char *name) {
+    knurl_scene *fresh = NULL;
+    knurl_result result = knurl_scene_create(NULL, &fresh);
+    result = result ? result : knurl_gltf_load_memory(fresh, data, size, name, NULL, NULL);
+    if (!result && knurl_scene_get_surface_count(fresh) == 0) {
+        result = knurl_fail(KNURL_ERROR_FORMAT, "%s: nothing is tagged, so there is nothing to feel", name);
+    }
+    result = result ? result : knurl_scene_commit(fresh);
+    if (result) {
+        knurl_scene_destroy(fresh);
+        return result;
+    }
+    knurl_scene_destroy(scene);
+    scene = fresh;
+    begin_hip();
+    return open_hip();
+}
+
+EMSCRIPTEN_KEEPALIVE const char *web_message(void) {
+    return knurl_error_message();
+}
+
+EMSCRIPTEN_KEEPALIVE uint32_t web_count(void) {
+    return knurl_scene_get_surface_count(scene);
+}
+
+/* A surface's name, or null. numbers: fsx, fsy, amplitude, stiffness, friction, method, anchor (3), normal (3), x (3).
+ */
+EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15]) {
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, index), &info)) {
+        return NULL;
+    }
+    const knurl_material_desc *m = &info.material;
+    const double first[6] = {
+        m->spatial_frequency[0], m->spatial_frequency[1], m->amplitude, m->stiffness, m->friction, m->method};
+    memcpy(numbers, first, sizeof first);
+    memcpy(numbers + 6, info.anchor, sizeof info.anchor);
+    memcpy(numbers + 9, info.anchor_normal, sizeof info.anchor_normal);
+    memcpy(numbers + 12, info.anchor_x, sizeof info.anchor_x);
+    return info.name;
+}
+
+/* How a surface feels from now on; numbers: as web_surface() gives the first six. */
+EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
+    const knurl_surface_id surface = knurl_scene_get_surface(scene, index);
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    const knurl_result result = knurl_scene_get_surface_info(scene, surface, &info);
+    info.material.spatial_frequency[0] = numbers[0];
+    info.material.spatial_frequency[1] = numbers[1];
+    info.material.amplitude = numbers[2];
+    info.material.stiffness = numbers[3];
+    info.material.friction = numbers[4];
+    info.material.method = (int32_t)numbers[5];
+    return result ? result : knurl_scene_set_material(scene, surface, &info.material);
+}
+
+/* Before a load or after: the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits. The HIP
+ * begins anew. */
+EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t protections) {
+    begin_hip();
+    hip.update_rate_hz = rate;
+    hip.resolution = quantum = resolution;
+    hip.protections = protections;
+    return scene ? open_hip() : KNURL_OK;
+}
+
+/* Ticks at `count` positions (3 doubles each; NaN: nowhere). rows: force (3), HIP (3), proxy (3), depth, height, f_t,
+ * cycles (2), 1 in contact, surface index. */
+EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows) {
+    for (uint32_t k = 0; k < count; k++) {
+        knurl_tick_input in;
+        knurl_tick_output out;
+        double *row = rows + (size_t)ROW * k;
+        memset(&in, 0, sizeof in);
+        memcpy(in.position, positions + (size_t)3 * k, sizeof in.position);
+        in.absent = !isfinite(in.position[0]);
+        for (int i = 0; i < 3 && quantum > 0.0; i++) {
+            in.position[i] = quantum * floor(in.position[i] / quantum + 0.5);
+        }
+        (void)knurl_scene_tick(scene, 0, &in, &out);
+        knurl_audio_take(&out, audio);
+        memcpy(row, out.force, sizeof out.force);
+        memcpy(row + 3, out.hip, sizeof out.hip);
+        memcpy(row + 6, out.proxy, sizeof out.proxy);
+        row[9] = out.depth;
+        row[10] = out.height;
+        row[11] = out.temporal_frequency;
+        row[12] = out.cycles[0];
+        row[13] = out.cycles[1];
+        row[14] = out.flags & KNURL_TICK_CONTACT;
+        row[15] = -1.0;
+        for (uint32_t i = 0; out.surface && i < knurl_scene_get_surface_count(scene) && i < 64; i++) {
+            row[15] = knurl_scene_get_surface(scene, i) == out.surface ? i : row[15];
+        }
+    }
+}
+
+EMSCRIPTEN_KEEPALIVE void web_sound(float *samples, uint32_t count) {
+    knurl_audio_fill(audio, samples, count);
+}

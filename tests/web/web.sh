@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Tests of the page in a browser; 77 and the reason where there is none. usage: web.sh ROOT KNURL TMP
+set -euo pipefail
+page=$1/build/web
+modules=$1/build/web-work/page/node_modules
+skip() { echo "SKIPPED: the page in a browser: $1"; exit 77; }
+[ -f "$page/main.js" ] || skip "it is not built: ./run web"
+[ -d "$modules/playwright-core" ] || skip "playwright-core is not installed: ./run web"
+command -v node >/dev/null || skip "there is no node"
+browser=$(command -v chromium) || skip "there is no chromium: ./run web browser"
+mkdir -p "$3"
+exec node "$1/tests/web/browser.mjs" "$page" "$modules" "$2" "$3" "$browser"
