@@ -13,6 +13,8 @@
 #define FIRST_HZ 20
 #define LAST_HZ  450
 #define STARTS   10
+#define FIRST_START 0.013 /* cycles */
+#define SPACING     0.09  /* cycles: with 0.1 all starts of a cycle of 10 ticks would give the same samples */
 #define IDEAL    1.2732395447351628 /* 4/pi: a square wave's */
 
 typedef struct levels {
@@ -76,7 +78,7 @@ static int measure(int32_t method, double rate, levels *l) {
     for (int hz = FIRST_HZ; hz <= LAST_HZ; hz++) {
         double line[2] = {0.0, 0.0};
         for (int i = 0; i < STARTS; i++) {
-            if (!measure_start(&grating, hz, 0.013 + i / (double)STARTS, l, line)) {
+            if (!measure_start(&grating, hz, FIRST_START + SPACING * i, l, line)) {
                 return 0;
             }
         }
