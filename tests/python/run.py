@@ -26,10 +26,11 @@ def mirror_tree(tree):
     """The sources by links, but for the module: pip builds where it stands."""
     module = os.path.join(tree, "bindings/python")
     os.makedirs(os.path.dirname(module), exist_ok=True)
-    for name in os.listdir(SOURCE):
-        link = os.path.join(tree, name)
-        if name not in ("bindings", "build", ".git") and not os.path.lexists(link):
-            os.symlink(os.path.join(SOURCE, name), link)
+    for folder in ("", "bindings"):
+        for name in os.listdir(os.path.join(SOURCE, folder)):
+            link = os.path.join(tree, folder, name)
+            if name not in ("bindings", "build", ".git", "python") and not os.path.lexists(link):
+                os.symlink(os.path.join(SOURCE, folder, name), link)
     shutil.copytree(os.path.join(SOURCE, "bindings/python"), module, dirs_exist_ok=True)
     return module
 
