@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 using System.Collections.Generic;
+using System.Reflection;
 using NUnit.Framework;
 using UnityEngine;
 
@@ -315,6 +316,11 @@ namespace Knurl.Tests
             Assert.AreEqual("", Words(told));
         }
 
+        static void Write(KnurlSurface surface, string field, object value)
+        {
+            typeof(KnurlSurface).GetField(field, BindingFlags.Instance | BindingFlags.NonPublic).SetValue(surface, value);
+        }
+
         [Test]
         public void WhatAnAnimationChangesCountsAndWhatItDoesNotIsNotReadAnew()
         {
@@ -323,15 +329,14 @@ namespace Knurl.Tests
             Player.ApplyAnimation(s);
             Assert.AreEqual(made, s.Made);
             Assert.AreEqual(felt, s.Felt);
-            var fields = new UnityEditor.SerializedObject(s);
-            fields.FindProperty("axis").vector3Value = Vector3.forward; // written, and nothing told
+            Write(s, "axis", Vector3.forward); // and OnValidate is not sent
             Player.ApplyAnimation(s);
             Player.ApplyAnimation(s);
             Assert.AreEqual(made + 1, s.Made);
-            fields.FindProperty("doubleSided").boolValue = true;
+            Write(s, "doubleSided", true);
             Player.ApplyAnimation(s);
             Assert.AreEqual(made + 2, s.Made);
-            fields.FindProperty("grating").objectReferenceValue = MakeGrating(500f);
+            Write(s, "grating", MakeGrating(500f));
             Player.ApplyAnimation(s);
             Assert.AreEqual(felt + 1, s.Felt);
             Assert.AreEqual(made + 2, s.Made);

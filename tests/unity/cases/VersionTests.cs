@@ -44,7 +44,7 @@ namespace Knurl.Tests
             string all = string.Join("\n", lines.ToArray());
             Assert.That(lines.Contains("started: False") && lines.Contains("again: False"), all);
             Assert.That(lines.Contains("file: -1") && lines.Contains("trace: none"), all);
-            Assert.That(lines.Contains("running: False (0, 0, 0) 0") && lines.Contains("triangles: 0"), all);
+            Assert.That(lines.Contains("running: False (0.00, 0.00, 0.00) 0") && lines.Contains("triangles: 0"), all);
             List<string> errors = lines.FindAll(l => l.StartsWith("log: Error"));
             Assert.That(errors.Count, Is.InRange(1, 6), all);
             Assert.That(lines.Exists(l => l.StartsWith("log: Exception")), Is.False, all);

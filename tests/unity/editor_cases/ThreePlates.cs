@@ -45,7 +45,9 @@ namespace Knurl.Cases
             GameObject holder = new GameObject("Demo");
             holder.SetActive(false);
             var demo = holder.AddComponent<KnurlDemo>();
-            new UnityEditor.SerializedObject(demo).FindProperty("device").stringValue = "nothing";
+            var fields = new UnityEditor.SerializedObject(demo);
+            fields.FindProperty("device").stringValue = "nothing";
+            fields.ApplyModifiedProperties();
             holder.SetActive(true);
             Player.Frames(2);
             Assert.IsTrue(demo.Haptic.Running);

@@ -14,7 +14,8 @@ namespace UnityEditor
         ExitingPlayMode
     }
 
-    /// Faithful: the order of play-mode states. Not: update while editing, which a test calls by Update().
+    /// Faithful: the order of play-mode states. Not: update while editing, which a test calls by Update();
+    /// isPlayingOrWillChangePlaymode is isPlaying, in Unity it is true already in ExitingEditMode.
     public static class EditorApplication
     {
         public delegate void CallbackFunction();

@@ -17,7 +17,7 @@ namespace UnityEditor
 
         public static void CreateAsset(UnityEngine.Object asset, string path)
         {
-            if (!IsValidFolder(path.Substring(0, path.LastIndexOf('/'))))
+            if (!IsValidFolder(ParentOf(path)))
             {
                 throw new UnityException("Creating asset at path " + path + " failed.");
             }
@@ -60,8 +60,19 @@ namespace UnityEditor
             return FindAssets(filter == "t:Prefab" ? "t:GameObject" : filter, new[] { "Assets" });
         }
 
+        static string ParentOf(string path) { return path.Substring(0, path.LastIndexOf('/')); }
+
+        /// An empty string, or what is wrong.
         public static string MoveAsset(string from, string to)
         {
+            if (!Assets.ContainsKey(from) && !folders.Contains(from))
+            {
+                return "Source asset path does not exist: " + from;
+            }
+            if (Assets.ContainsKey(to) || folders.Contains(to) || !folders.Contains(ParentOf(to)))
+            {
+                return "Destination path is taken or has no parent folder: " + to;
+            }
             foreach (string path in new List<string>(Assets.Keys))
             {
                 if (path == from || path.StartsWith(from + "/", StringComparison.Ordinal))
@@ -71,9 +82,13 @@ namespace UnityEditor
                     Assets[to + path.Substring(from.Length)] = asset;
                 }
             }
-            if (folders.Remove(from))
+            foreach (string folder in new List<string>(folders))
             {
-                folders.Add(to);
+                if (folder == from || folder.StartsWith(from + "/", StringComparison.Ordinal))
+                {
+                    folders.Remove(folder);
+                    folders.Add(to + folder.Substring(from.Length));
+                }
             }
             return "";
         }
@@ -89,14 +104,19 @@ namespace UnityEditor
         }
 
         public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
-        /// With what is below it.
+        /// With what is below it. Objects of deleted assets are destroyed.
         public static bool DeleteAsset(string path)
         {
-            bool found = folders.Remove(path) | Assets.Remove(path);
+            bool found = folders.Remove(path);
             folders.RemoveWhere(folder => folder.StartsWith(path + "/", StringComparison.Ordinal));
             foreach (string asset in new List<string>(Assets.Keys))
             {
-                found |= asset.StartsWith(path + "/", StringComparison.Ordinal) && Assets.Remove(asset);
+                if (asset == path || asset.StartsWith(path + "/", StringComparison.Ordinal))
+                {
+                    UnityEngine.Object.DestroyImmediate(Assets[asset], true);
+                    Assets.Remove(asset);
+                    found = true;
+                }
             }
             return found;
         }
@@ -107,10 +127,20 @@ namespace UnityEditor
         public static void StopAssetEditing() { }
         public static void ImportAsset(string path) { }
         public static bool IsValidFolder(string path) { return folders.Contains(path); }
+        /// Where the name is taken, the folder's has a number behind it; without its parent there is none.
         public static string CreateFolder(string parent, string name)
         {
-            folders.Add(parent + "/" + name);
-            return parent + "/" + name;
+            if (!IsValidFolder(parent))
+            {
+                return "";
+            }
+            string made = parent + "/" + name;
+            for (int i = 1; folders.Contains(made); i++)
+            {
+                made = parent + "/" + name + " " + i;
+            }
+            folders.Add(made);
+            return made;
         }
 
         public static T LoadAssetAtPath<T>(string path) where T : UnityEngine.Object
@@ -187,12 +217,30 @@ namespace UnityEditor
         public static readonly List<string> Steps = new List<string>();
         public static void RecordObject(UnityEngine.Object o, string name) { Steps.Add(name); }
         public static void RecordObjects(UnityEngine.Object[] o, string name) { Steps.Add(name); }
-        public static void RegisterCreatedObjectUndo(UnityEngine.Object o, string name) { Steps.Add(name); }
+        static void Check(UnityEngine.Object given)
+        {
+            if (given == null)
+            {
+                throw new ArgumentNullException("given");
+            }
+        }
+
+        public static void RegisterCreatedObjectUndo(UnityEngine.Object o, string name)
+        {
+            Check(o);
+            Steps.Add(name);
+        }
+
         public static void SetCurrentGroupName(string name) { Steps.Add(name); }
         public static int GetCurrentGroup() { return Steps.Count; }
         public static void CollapseUndoOperations(int group) { }
         public static void IncrementCurrentGroup() { }
-        public static void DestroyObjectImmediate(UnityEngine.Object o) { UnityEngine.Object.DestroyImmediate(o); }
+
+        public static void DestroyObjectImmediate(UnityEngine.Object o)
+        {
+            Check(o);
+            UnityEngine.Object.DestroyImmediate(o);
+        }
 
         public static void SetTransformParent(Transform t, Transform parent, string name)
         {
@@ -200,14 +248,11 @@ namespace UnityEditor
             t.SetParent(parent);
         }
 
-        public static T AddComponent<T>(GameObject go) where T : Component
-        {
-            Steps.Add("Add Component");
-            return go.AddComponent<T>();
-        }
+        public static T AddComponent<T>(GameObject go) where T : Component { return (T)AddComponent(go, typeof(T)); }
 
         public static Component AddComponent(GameObject go, Type type)
         {
+            Check(go);
             Steps.Add("Add Component");
             return go.AddComponent(type);
         }
@@ -252,7 +297,7 @@ namespace UnityEditor
         public static readonly List<string> Dialogs = new List<string>();
         public static string Chosen = "";
         public static void SetDirty(UnityEngine.Object o) { }
-        /// All fields that are serialised, and the name.
+        /// All fields that are serialised, and the name. Not: copies of arrays, which are shared.
         public static void CopySerialized(UnityEngine.Object source, UnityEngine.Object dest)
         {
             const System.Reflection.BindingFlags own = System.Reflection.BindingFlags.Instance

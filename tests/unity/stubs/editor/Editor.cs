@@ -265,6 +265,7 @@ namespace UnityEditor
         public static Color color { get; set; }
         public static Matrix4x4 matrix { get; set; }
         public static UnityEngine.Rendering.CompareFunction zTest { get; set; }
+        static Handles() { color = Color.white; matrix = Matrix4x4.identity; zTest = UnityEngine.Rendering.CompareFunction.Always; }
         public static void DrawLines(Vector3[] segments) { EditorGUILayout.Drawn.Add("handle lines " + segments.Length / 2); }
         public static void DrawLine(Vector3 a, Vector3 b) { EditorGUILayout.Drawn.Add("handle line " + a + " " + b); }
         public static void DrawAAPolyLine(float width, params Vector3[] points)

@@ -1,60 +1,136 @@
 // Test-only stand-ins, never shipped.
 using System;
+using System.Collections.Generic;
 using System.Reflection;
 using UnityEngine;
 
 namespace UnityEditor
 {
-    /// Fields by reflection, public or with SerializeField, written through at once to all targets. Not: arrays, nested
+    /// Faithful: values are copies, taken by the constructor and Update() and written by ApplyModifiedProperties(), only
+    /// those that were set; what Unity serialises; values that differ between targets. Not: arrays (shared), nested
     /// paths, undo.
     public sealed class SerializedObject : IDisposable
     {
+        const BindingFlags Own = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic |
+                                 BindingFlags.DeclaredOnly;
+        readonly Dictionary<FieldInfo, object[]> values = new Dictionary<FieldInfo, object[]>(); // of each target
+        readonly HashSet<FieldInfo> modified = new HashSet<FieldInfo>();
+
         public UnityEngine.Object[] targetObjects { get; private set; }
         public UnityEngine.Object targetObject { get { return targetObjects[0]; } }
         public bool isEditingMultipleObjects { get { return targetObjects.Length > 1; } }
 
-        public SerializedObject(UnityEngine.Object target) { targetObjects = new[] { target }; }
-        public SerializedObject(UnityEngine.Object[] targets) { targetObjects = targets; }
-        public void Update() { }
-        public void UpdateIfRequiredOrScript() { }
+        public SerializedObject(UnityEngine.Object target) : this(new[] { target }) { }
+
+        public SerializedObject(UnityEngine.Object[] targets)
+        {
+            int missing = Array.FindIndex(targets, target => target == null);
+            if (missing >= 0)
+            {
+                throw new ArgumentException("Object at index " + missing + " is null");
+            }
+            targetObjects = targets;
+            Update();
+        }
+
+        public void Update()
+        {
+            values.Clear();
+            modified.Clear();
+            for (Type t = targetObject.GetType(); t != null; t = t.BaseType)
+            {
+                foreach (FieldInfo field in t.GetFields(Own))
+                {
+                    bool isStored = field.IsPublic || field.IsDefined(typeof(SerializeField), true);
+                    if (isStored && !field.IsNotSerialized && !field.IsInitOnly)
+                    {
+                        values[field] = Array.ConvertAll(targetObjects, target => field.GetValue(target));
+                    }
+                }
+            }
+        }
+
+        public bool UpdateIfRequiredOrScript()
+        {
+            Update();
+            return true;
+        }
+
         public bool ApplyModifiedPropertiesWithoutUndo() { return ApplyModifiedProperties(); }
         public void Dispose() { }
 
-        /// As in Unity, the targets' OnValidate runs.
+        /// As in Unity, OnValidate of the targets runs where something has changed.
         public bool ApplyModifiedProperties()
         {
-            foreach (UnityEngine.Object target in targetObjects)
+            bool isChanged = false;
+            for (int i = 0; i < targetObjects.Length; i++)
             {
-                MethodInfo validate = target.GetType().GetMethod("OnValidate",
-                    BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
-                if (validate != null)
+                if (Write(i))
                 {
-                    validate.Invoke(target, null);
+                    isChanged = true;
+                    Validate(targetObjects[i]);
                 }
             }
-            return true;
+            modified.Clear();
+            return isChanged;
+        }
+
+        bool Write(int index)
+        {
+            bool isChanged = false;
+            foreach (FieldInfo field in modified)
+            {
+                object value = values[field][index];
+                if (!Equals(field.GetValue(targetObjects[index]), value))
+                {
+                    field.SetValue(targetObjects[index], value);
+                    isChanged = true;
+                }
+            }
+            return isChanged;
+        }
+
+        static void Validate(UnityEngine.Object target)
+        {
+            MethodInfo validate = target.GetType().GetMethod("OnValidate",
+                BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+            if (validate != null)
+            {
+                validate.Invoke(target, null);
+            }
         }
 
         public void CopyFromSerializedProperty(SerializedProperty property)
         {
+            if (property == null)
+            {
+                throw new ArgumentNullException("property");
+            }
             FindProperty(property.name).CopyFrom(property);
         }
 
         public SerializedProperty FindProperty(string path)
         {
-            for (Type t = targetObject.GetType(); t != null; t = t.BaseType)
+            foreach (FieldInfo field in values.Keys)
             {
-                FieldInfo field = t.GetField(path, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic |
-                                                   BindingFlags.DeclaredOnly);
-                if (field != null && (field.IsPublic || field.IsDefined(typeof(SerializeField), true)))
+                if (field.Name == path)
                 {
                     return new SerializedProperty(this, field);
                 }
             }
             return null;
         }
+
+        internal object[] Read(FieldInfo field) { return values[field]; }
+
+        internal void Set(FieldInfo field, object value)
+        {
+            values[field] = Array.ConvertAll(targetObjects, target => value);
+            modified.Add(field);
+        }
     }
 
+    /// Of several targets it reads the first and writes all. Not: the words of displayName, which is the field's name.
     public sealed class SerializedProperty
     {
         readonly FieldInfo field;
@@ -69,33 +145,38 @@ namespace UnityEditor
         public string name { get { return field.Name; } }
         public string propertyPath { get { return field.Name; } }
         public string displayName { get { return field.Name; } }
-        public bool hasMultipleDifferentValues { get { return false; } }
+
+        public bool hasMultipleDifferentValues
+        {
+            get { return !Array.TrueForAll(serializedObject.Read(field), value => Equals(value, Value)); }
+        }
 
         object Value
         {
-            get { return field.GetValue(serializedObject.targetObject); }
-            set
-            {
-                foreach (UnityEngine.Object target in serializedObject.targetObjects)
-                {
-                    field.SetValue(target, value);
-                }
-            }
+            get { return serializedObject.Read(field)[0]; }
+            set { serializedObject.Set(field, value); }
         }
 
         internal void CopyFrom(SerializedProperty other) { Value = other.Value; }
 
         public float floatValue { get { return (float)Value; } set { Value = value; } }
-        public int intValue { get { return Convert.ToInt32(Value); } set { Value = value; } }
+        public int intValue
+        {
+            get { return Convert.ToInt32(Value); }
+            set { Value = field.FieldType.IsEnum ? Enum.ToObject(field.FieldType, value) : value; }
+        }
         public bool boolValue { get { return (bool)Value; } set { Value = value; } }
         public string stringValue { get { return (string)Value; } set { Value = value; } }
         public Vector2 vector2Value { get { return (Vector2)Value; } set { Value = value; } }
         public Vector3 vector3Value { get { return (Vector3)Value; } set { Value = value; } }
+
+        /// The place among the enum's values, not the value.
         public int enumValueIndex
         {
-            get { return Convert.ToInt32(Value); }
-            set { Value = Enum.ToObject(field.FieldType, value); }
+            get { return Array.IndexOf(Enum.GetValues(field.FieldType), Value); }
+            set { Value = Enum.GetValues(field.FieldType).GetValue(value); }
         }
+
         public UnityEngine.Object objectReferenceValue
         {
             get { return (UnityEngine.Object)Value; }

@@ -3,7 +3,7 @@ using System;
 
 namespace UnityEngine
 {
-    public class PropertyAttribute : Attribute
+    public abstract class PropertyAttribute : Attribute
     {
         public int order { get; set; }
     }
@@ -91,7 +91,7 @@ namespace UnityEngine
         }
     }
 
-    [AttributeUsage(AttributeTargets.Class)]
+    [AttributeUsage(AttributeTargets.Class, Inherited = false)]
     public sealed class DisallowMultipleComponent : Attribute { }
 
     [AttributeUsage(AttributeTargets.Class)]

@@ -2,6 +2,7 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Globalization;
 
 namespace UnityEngine
 {
@@ -168,8 +169,8 @@ namespace UnityEngine
         }
 
         public static void DrawCube(Vector3 a, Vector3 b) { Drawn.Add("cube " + a + " " + b); }
-        public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + Text.Of(r)); }
-        public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + Text.Of(r)); }
+        public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + r.ToString("G7", CultureInfo.InvariantCulture)); }
+        public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + r.ToString("G7", CultureInfo.InvariantCulture)); }
         public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion q) { Drawn.Add("wire mesh " + mesh.name); }
     }
 

@@ -6,8 +6,8 @@ namespace UnityEngine
 {
     public class GUIContent
     {
-        public string text;
-        public string tooltip;
+        public string text { get; set; }
+        public string tooltip { get; set; }
         public static readonly GUIContent none = new GUIContent("");
         public GUIContent(string text) : this(text, "") { }
         public GUIContent(string text, string tooltip) { this.text = text; this.tooltip = tooltip; }
@@ -23,8 +23,8 @@ namespace UnityEngine
 
     public class GUIStyle
     {
-        public bool wordWrap;
-        public int fontSize;
+        public bool wordWrap { get; set; }
+        public int fontSize { get; set; }
         public GUIStyle() { }
         public GUIStyle(GUIStyle other) { }
     }
@@ -36,6 +36,7 @@ namespace UnityEngine
         public readonly GUIStyle button = new GUIStyle();
     }
 
+    /// Not: an error for calls from outside OnGUI, for a Begin without its End, or for buttons that are not enabled.
     public static class GUI
     {
         public static readonly List<string> Drawn = new List<string>();
@@ -43,6 +44,7 @@ namespace UnityEngine
         public static Color color { get; set; }
         public static bool enabled { get; set; }
         public static bool changed { get; set; }
+        static GUI() { color = Color.white; enabled = true; }
         public static readonly GUISkin skin = new GUISkin();
         public static void Label(Rect rect, string text) { Drawn.Add("label " + text); }
         public static void Box(Rect rect, string text) { Drawn.Add("box " + text); }

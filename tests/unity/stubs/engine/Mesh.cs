@@ -44,8 +44,10 @@ namespace UnityEngine
         }
     }
 
-    /// Faithful: arrays are copies, what is not readable gives an error and nothing, submeshes and topologies, bounds that
-    /// indices bring up to date and vertices do not. Not: checks of index ranges and of lengths, base vertices (always 0), compression, GPU buffers, skins.
+    /// Faithful: arrays are copies, what is not readable gives an error and is neither read nor written, submeshes and
+    /// topologies, an error for a submesh that is not there, bounds that indices bring up to date and vertices do not.
+    /// Not: checks of index ranges and of lengths, base vertices (always 0), UV channels beyond 4, compression, GPU
+    /// buffers, skins.
     public sealed class Mesh : Object
     {
         sealed class Part
@@ -61,7 +63,14 @@ namespace UnityEngine
         readonly List<Part> subMeshes = new List<Part> { new Part() };
         bool readable = true;
 
-        public Bounds bounds { get; set; }
+        Bounds box;
+
+        public Bounds bounds
+        {
+            get { Living(); return box; }
+            set { Living(); box = value; }
+        }
+
         public Rendering.IndexFormat indexFormat { get; set; }
         public bool isReadable { get { Living(); return readable; } }
         public int vertexCount { get { Living(); return positions.Length; } }
@@ -95,8 +104,48 @@ namespace UnityEngine
 
         T[] Copy<T>(T[] from, string what) { return Allowed(what) ? (T[])from.Clone() : new T[0]; }
 
+        static void Check<T>(List<T> to)
+        {
+            if (to == null)
+            {
+                throw new ArgumentNullException("to");
+            }
+        }
+
+        void Take<T>(ref T[] to, T[] from, string what)
+        {
+            if (Allowed(what))
+            {
+                to = from == null ? new T[0] : (T[])from.Clone();
+            }
+        }
+
+        bool Has(int part) { return part >= 0 && part < subMeshes.Count; }
+
+        bool Allowed(int part, string what)
+        {
+            bool allowed = Allowed("triangles/indices");
+            if (allowed && !Has(part))
+            {
+                Debug.LogError("Failed getting " + what + ". Submesh index is out of bounds.", this);
+            }
+            return allowed && Has(part);
+        }
+
+        Part Find(int part)
+        {
+            Living();
+            if (!Has(part))
+            {
+                throw new IndexOutOfRangeException("Specified sub mesh is out of range. " +
+                    "Must be greater or equal to 0 and less than subMeshCount.");
+            }
+            return subMeshes[part];
+        }
+
         static void Fill<T>(List<T> to, T[] from)
         {
+            Check(to);
             to.Clear();
             if (to.Capacity < from.Length)
             {
@@ -117,19 +166,19 @@ namespace UnityEngine
         public Vector3[] normals
         {
             get { return Copy(normalArray, "normals"); }
-            set { normalArray = (Vector3[])(value ?? new Vector3[0]).Clone(); }
+            set { Take(ref normalArray, value, "normals"); }
         }
 
         public Vector4[] tangents
         {
             get { return Copy(tangentArray, "tangents"); }
-            set { tangentArray = (Vector4[])(value ?? new Vector4[0]).Clone(); }
+            set { Take(ref tangentArray, value, "tangents"); }
         }
 
         public Vector2[] uv
         {
             get { return Copy(uvArrays[0], "uv"); }
-            set { uvArrays[0] = (Vector2[])(value ?? new Vector2[0]).Clone(); }
+            set { SetUVs(0, value); }
         }
 
         public int[] triangles
@@ -137,57 +186,98 @@ namespace UnityEngine
             get
             {
                 List<int> all = new List<int>();
-                for (int i = 0; i < subMeshes.Count && Allowed("triangles"); i++)
+                if (!Allowed("triangles/indices"))
+                {
+                    return new int[0];
+                }
+                for (int i = 0; i < subMeshes.Count; i++)
                 {
                     all.AddRange(GetTriangles(i));
                 }
                 return all.ToArray();
             }
-            set { subMeshCount = 1; SetTriangles(value, 0); }
+            set
+            {
+                if (Allowed("triangles/indices"))
+                {
+                    subMeshCount = 1;
+                    SetTriangles(value, 0);
+                }
+            }
         }
 
         public void SetVertices(List<Vector3> value) { SetVertices(value.ToArray()); }
 
-        public void SetVertices(Vector3[] value)
-        {
-            positions = (Vector3[])value.Clone();
-        }
+        public void SetVertices(Vector3[] value) { Take(ref positions, value, "vertices"); }
 
         public void SetNormals(List<Vector3> value) { normals = value.ToArray(); }
         public void SetNormals(Vector3[] value) { normals = value; }
         public void SetTangents(List<Vector4> value) { tangents = value.ToArray(); }
         public void SetTangents(Vector4[] value) { tangents = value; }
-        public void SetUVs(int channel, List<Vector2> value) { uvArrays[channel] = value.ToArray(); }
-        public void SetUVs(int channel, Vector2[] value) { uvArrays[channel] = (Vector2[])value.Clone(); }
+        public void SetUVs(int channel, List<Vector2> value) { SetUVs(channel, value.ToArray()); }
+        public void SetUVs(int channel, Vector2[] value) { Take(ref uvArrays[channel], value, "uv"); }
         public void SetTriangles(List<int> value, int part) { SetTriangles(value.ToArray(), part); }
-        public void SetTriangles(int[] value, int part) { SetIndices(value, MeshTopology.Triangles, part); }
+        public void SetTriangles(int[] value, int part) { Set(value, MeshTopology.Triangles, part, "triangles"); }
+        public void SetIndices(int[] value, MeshTopology topology, int part) { Set(value, topology, part, "indices"); }
 
-        public void SetIndices(int[] value, MeshTopology topology, int part)
+        void Set(int[] value, MeshTopology topology, int part, string what)
         {
-            subMeshes[part].indices = (int[])value.Clone();
-            subMeshes[part].topology = topology;
-            RecalculateBounds();
+            if (Allowed(part, what))
+            {
+                Take(ref subMeshes[part].indices, value, "triangles/indices");
+                subMeshes[part].topology = topology;
+                RecalculateBounds();
+            }
         }
 
         public void GetVertices(List<Vector3> to) { Fill(to, Allowed("vertices") ? positions : new Vector3[0]); }
         public void GetNormals(List<Vector3> to) { Fill(to, Allowed("normals") ? normalArray : new Vector3[0]); }
         public void GetTangents(List<Vector4> to) { Fill(to, Allowed("tangents") ? tangentArray : new Vector4[0]); }
         public void GetUVs(int i, List<Vector2> to) { Fill(to, Allowed("uv") ? uvArrays[i] : new Vector2[0]); }
-        public int[] GetIndices(int part) { return Copy(subMeshes[part].indices, "indices"); }
+        public int[] GetIndices(int part)
+        {
+            return Allowed(part, "indices") ? (int[])subMeshes[part].indices.Clone() : new int[0];
+        }
+
+
         public int[] GetIndices(int part, bool applyBaseVertex) { return GetIndices(part); }
-        public void GetIndices(List<int> to, int part) { Fill(to, GetIndices(part)); }
+        public void GetIndices(List<int> to, int part)
+        {
+            Check(to);
+            Find(part);
+            Fill(to, GetIndices(part));
+        }
+
+
         public void GetIndices(List<int> to, int part, bool applyBaseVertex) { GetIndices(to, part); }
-        public void GetTriangles(List<int> to, int part) { Fill(to, GetTriangles(part)); }
-        public void GetTriangles(List<int> to, int part, bool applyBaseVertex) { Fill(to, GetTriangles(part)); }
-        public MeshTopology GetTopology(int part) { Living(); return subMeshes[part].topology; }
-        public uint GetIndexCount(int part) { Living(); return (uint)subMeshes[part].indices.Length; }
-        public uint GetBaseVertex(int part) { Living(); return 0; }
+        public void GetTriangles(List<int> to, int part)
+        {
+            Check(to);
+            Find(part);
+            Fill(to, GetTriangles(part));
+        }
+
+
+        public void GetTriangles(List<int> to, int part, bool applyBaseVertex) { GetTriangles(to, part); }
+        public MeshTopology GetTopology(int part)
+        {
+            Living();
+            if (!Has(part))
+            {
+                Debug.LogError("Failed getting topology. Submesh index is out of bounds.", this);
+                return MeshTopology.Triangles;
+            }
+            return subMeshes[part].topology;
+        }
+
+        public uint GetIndexCount(int part) { return (uint)Find(part).indices.Length; }
+        public uint GetBaseVertex(int part) { Find(part); return 0; }
         public void UploadMeshData(bool markNoLongerReadable) { readable = readable && !markNoLongerReadable; }
         public void MarkDynamic() { }
 
         public int[] GetTriangles(int part)
         {
-            if (!Allowed("triangles"))
+            if (!Allowed(part, "triangles"))
             {
                 return new int[0];
             }

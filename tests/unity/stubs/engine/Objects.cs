@@ -30,7 +30,8 @@ namespace UnityEngine
         public MissingReferenceException(string message) : base(message) { }
     }
 
-    /// Faithful: ==, implicit bool, Destroy at the frame's end, DestroyImmediate. Not: Instantiate.
+    /// Faithful: ==, implicit bool, Destroy at the frame's end, DestroyImmediate. Not: Instantiate, an error for a
+    /// component that another one requires or for an asset that is destroyed by accident.
     public class Object
     {
         static int lastId;
@@ -116,7 +117,8 @@ namespace UnityEngine
     }
 
     /// Faithful: components, required components, activity through parents, the quad's mesh. Not: tags, layers, scenes,
-    /// the meshes of other primitives.
+    /// the meshes of other primitives. A component that is not there is null itself; in Unity's editor it may be an object
+    /// that only equals null, so the package asks with == and never with ?? or ?.
     public sealed class GameObject : Object
     {
         internal readonly List<Component> parts = new List<Component>();
@@ -179,10 +181,22 @@ namespace UnityEngine
             }
         }
 
+        /// The type, or the first of those it is derived from, of which an object has one at most; null where there is none.
+        static Type FindSingle(Type type)
+        {
+            Type found = null;
+            for (; type != typeof(Component) && type != typeof(MonoBehaviour); type = type.BaseType)
+            {
+                found = type.IsDefined(typeof(DisallowMultipleComponent), false) ? type : found;
+            }
+            return found;
+        }
+
         public Component AddComponent(Type type)
         {
             Living();
-            if (type.IsDefined(typeof(DisallowMultipleComponent), true) && GetComponent(type) != null)
+            Type single = FindSingle(type);
+            if (single != null && GetComponent(single) != null)
             {
                 Debug.LogError("Can't add component '" + type.Name + "' to " + held +
                                " because such a component is already added to the game object!");
@@ -353,7 +367,7 @@ namespace UnityEngine
             }
         }
 
-        public bool isActiveAndEnabled { get { return !destroyed && on && gameObject.activeInHierarchy; } }
+        public bool isActiveAndEnabled { get { Living(); return on && gameObject.activeInHierarchy; } }
     }
 
     /// Not: coroutines, Invoke, SendMessage.
@@ -431,18 +445,48 @@ namespace UnityEngine
         public static Texture2D whiteTexture { get { return new Texture2D(); } }
     }
 
+    /// Faithful: sharedMaterials is a copy. Not: bounds, which a test sets; `material` is the shared one, in Unity a copy
+    /// where another renderer has it too.
     public class Renderer : Component
     {
-        public bool enabled { get; set; } = true;
-        public Material[] sharedMaterials { get; set; } = { new Material(new Shader()) };
+        Material[] materials = { new Material(new Shader()) };
+        bool shown = true;
+        Bounds box;
+
+        public bool enabled
+        {
+            get { Living(); return shown; }
+            set { Living(); shown = value; }
+        }
+
+        public Material[] sharedMaterials
+        {
+            get { Living(); return (Material[])materials.Clone(); }
+            set { Living(); materials = (Material[])value.Clone(); }
+        }
+
         public Material sharedMaterial
         {
-            get { return sharedMaterials.Length > 0 ? sharedMaterials[0] : null; }
-            set { sharedMaterials = new[] { value }; }
+            get { Living(); return materials.Length > 0 ? materials[0] : null; }
+            set
+            {
+                Living();
+                if (materials.Length == 0)
+                {
+                    materials = new Material[1];
+                }
+                materials[0] = value;
+            }
         }
 
         public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
-        public Bounds bounds { get; set; }
+
+        public Bounds bounds
+        {
+            get { Living(); return box; }
+            set { Living(); box = value; }
+        }
+
         public bool isPartOfStaticBatch { get; internal set; }
     }
 

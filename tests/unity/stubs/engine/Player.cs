@@ -34,10 +34,13 @@ namespace UnityEngine
             Time.time += Time.deltaTime;
             Time.unscaledTime += Time.unscaledDeltaTime;
             Starts();
-            for (due += Time.deltaTime; due >= Time.fixedDeltaTime; due -= Time.fixedDeltaTime)
+            float frame = Time.deltaTime;
+            for (due += frame; due >= Time.fixedDeltaTime; due -= Time.fixedDeltaTime)
             {
+                Time.deltaTime = Time.fixedDeltaTime;
                 ToAll("FixedUpdate");
             }
+            Time.deltaTime = frame;
             ToAll("Update");
             Starts();
             ToAll("LateUpdate");

@@ -107,7 +107,7 @@ namespace UnityEngine
         public bool Equals(Quaternion o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
         public override bool Equals(object other) { return other is Quaternion && Equals((Quaternion)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
-        public override string ToString() { return Text.Of(x, y, z, w); }
+        public override string ToString() { return Text.Of("F5", x, y, z, w); }
     }
 
     /// m01 is row 0, column 1; in memory column by column.
@@ -199,7 +199,7 @@ namespace UnityEngine
             get { Matrix4x4 m = new Matrix4x4(); for (int i = 0; i < 4; i++) m.SetColumn(i, GetRow(i)); return m; }
         }
 
-        /// Of affine matrices only: nothing else is met here.
+        /// Only of affine matrices, as determinant.
         public Matrix4x4 inverse
         {
             get
@@ -280,7 +280,10 @@ namespace UnityEngine
                                m20 * p.x + m21 * p.y + m22 * p.z + m23);
         }
 
-        public Vector3 MultiplyPoint(Vector3 p) { return MultiplyPoint3x4(p); }
+        public Vector3 MultiplyPoint(Vector3 p)
+        {
+            return MultiplyPoint3x4(p) * (1f / (m30 * p.x + m31 * p.y + m32 * p.z + m33));
+        }
 
         public Vector3 MultiplyVector(Vector3 v)
         {
@@ -311,14 +314,8 @@ namespace UnityEngine
 
         public bool Equals(Matrix4x4 o)
         {
-            for (int i = 0; i < 16; i++)
-            {
-                if (!this[i].Equals(o[i]))
-                {
-                    return false;
-                }
-            }
-            return true;
+            return GetColumn(0).Equals(o.GetColumn(0)) && GetColumn(1).Equals(o.GetColumn(1)) &&
+                   GetColumn(2).Equals(o.GetColumn(2)) && GetColumn(3).Equals(o.GetColumn(3));
         }
 
         public override bool Equals(object other) { return other is Matrix4x4 && Equals((Matrix4x4)other); }

@@ -5,7 +5,8 @@ using System.Collections.Generic;
 namespace UnityEngine
 {
     /// Faithful: the maths of hierarchies in float, with Unity's rotation and lossyScale where parents scale unevenly
-    /// (the product of the rotations); hasChanged. Not: sibling order, events.
+    /// (the product of the rotations); hasChanged, children that are enumerated as they
+    /// are at each step. Not: sibling order, events, an error for a parent that is a child.
     public class Transform : Component, IEnumerable
     {
         internal readonly List<Transform> children = new List<Transform>();
@@ -16,6 +17,8 @@ namespace UnityEngine
         bool changed = true;
         Matrix4x4 kept;
         bool isKept;
+
+        protected internal Transform() { }
 
         public bool hasChanged
         {
@@ -114,8 +117,23 @@ namespace UnityEngine
         public int childCount { get { Living(); return children.Count; } }
         /// Not: paths.
         public Transform Find(string n) { Living(); return children.Find(child => child.name == n); }
-        public Transform GetChild(int index) { Living(); return children[index]; }
-        public IEnumerator GetEnumerator() { return children.ToArray().GetEnumerator(); }
+        public Transform GetChild(int index)
+        {
+            if (index < 0 || index >= childCount)
+            {
+                throw new UnityException("Transform child out of bounds");
+            }
+            return children[index];
+        }
+
+        public IEnumerator GetEnumerator()
+        {
+            for (int i = 0; i < childCount; i++)
+            {
+                yield return GetChild(i);
+            }
+        }
+
         public void SetParent(Transform p) { SetParent(p, true); }
 
         public void SetParent(Transform p, bool worldPositionStays)

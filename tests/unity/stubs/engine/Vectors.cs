@@ -39,7 +39,7 @@ namespace UnityEngine
         public bool Equals(Vector2 other) { return x == other.x && y == other.y; } // not of what is no number
         public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2); }
-        public override string ToString() { return Text.Of(x, y); }
+        public override string ToString() { return Text.Of("F2", x, y); }
     }
 
     [Serializable]
@@ -115,7 +115,7 @@ namespace UnityEngine
         public bool Equals(Vector3 other) { return x == other.x && y == other.y && z == other.z; }
         public override bool Equals(object other) { return other is Vector3 && Equals((Vector3)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2); }
-        public override string ToString() { return Text.Of(x, y, z); }
+        public override string ToString() { return Text.Of("F2", x, y, z); }
     }
 
     [Serializable]
@@ -153,7 +153,7 @@ namespace UnityEngine
         public bool Equals(Vector4 o) { return x == o.x && y == o.y && z == o.z && w == o.w; }
         public override bool Equals(object other) { return other is Vector4 && Equals((Vector4)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
-        public override string ToString() { return Text.Of(x, y, z, w); }
+        public override string ToString() { return Text.Of("F2", x, y, z, w); }
     }
 
     /// Four floats; no colour spaces.
@@ -191,7 +191,7 @@ namespace UnityEngine
         public bool Equals(Color o) { return r.Equals(o.r) && g.Equals(o.g) && b.Equals(o.b) && a.Equals(o.a); }
         public override bool Equals(object other) { return other is Color && Equals((Color)other); }
         public override int GetHashCode() { return r.GetHashCode() ^ (g.GetHashCode() << 2) ^ b.GetHashCode(); }
-        public override string ToString() { return "RGBA" + Text.Of(r, g, b, a); }
+        public override string ToString() { return "RGBA" + Text.Of("F3", r, g, b, a); }
     }
 
     [Serializable]
@@ -204,10 +204,10 @@ namespace UnityEngine
     [Serializable]
     public struct Bounds
     {
-        public Vector3 center;
-        public Vector3 extents;
+        public Vector3 center { get; set; }
+        public Vector3 extents { get; set; }
 
-        public Bounds(Vector3 center, Vector3 size) { this.center = center; extents = size * 0.5f; }
+        public Bounds(Vector3 center, Vector3 size) : this() { this.center = center; extents = size * 0.5f; }
 
         public Vector3 size { get { return extents * 2f; } set { extents = value * 0.5f; } }
         public Vector3 min { get { return center - extents; } }
@@ -226,9 +226,12 @@ namespace UnityEngine
     [Serializable]
     public struct Rect
     {
-        public float x, y, width, height;
+        public float x { get; set; }
+        public float y { get; set; }
+        public float width { get; set; }
+        public float height { get; set; }
 
-        public Rect(float x, float y, float width, float height)
+        public Rect(float x, float y, float width, float height) : this()
         {
             this.x = x;
             this.y = y;
@@ -296,12 +299,12 @@ namespace UnityEngine
 
     internal static class Text
     {
-        internal static string Of(params float[] values)
+        internal static string Of(string format, params float[] values)
         {
             string[] parts = new string[values.Length];
             for (int i = 0; i < values.Length; i++)
             {
-                parts[i] = values[i].ToString("G7", CultureInfo.InvariantCulture);
+                parts[i] = values[i].ToString(format, CultureInfo.InvariantCulture);
             }
             return "(" + string.Join(", ", parts) + ")";
         }
