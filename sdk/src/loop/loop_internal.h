@@ -122,9 +122,9 @@ const knurl_added_force *knurl_loop_next_added(knurl_loop_added *added, knurl_ad
 
 /* 0: nothing is added, and nothing was written since the latest tick. */
 static inline int knurl_loop_adds(const knurl_loop_added *a) {
-    return (knurl_load_acquire(&a->force_sequence) != a->force_seen) |
-           (knurl_load_acquire(&a->cue_sequence) != a->cue_seen) | a->has_force | (a->cue_tick < a->cue.ticks) |
-           (a->latest != 0.0);
+    return knurl_load_acquire(&a->force_sequence) != a->force_seen ||
+           knurl_load_acquire(&a->cue_sequence) != a->cue_seen || a->has_force || a->cue_tick < a->cue.ticks ||
+           a->latest != 0.0;
 }
 
 /* The game's gain in this tick, on its way to the one that was set; it changes by `step` at most. */
