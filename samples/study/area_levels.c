@@ -9,13 +9,13 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FS       1000.0
-#define FIRST_HZ 20
-#define LAST_HZ  450
-#define STARTS   10
+#define FS          1000.0
+#define FIRST_HZ    20
+#define LAST_HZ     450
+#define STARTS      10
 #define FIRST_START 0.013 /* cycles */
 #define SPACING     0.09  /* cycles: with 0.1 all starts of a cycle of 10 ticks would give the same samples */
-#define IDEAL    1.2732395447351628 /* 4/pi: a square wave's */
+#define IDEAL       1.2732395447351628 /* 4/pi: a square wave's */
 
 typedef struct levels {
     double mean_off, mean_hz;     /* the most that the mean of all phases is off 4/pi, as a share, and where */

@@ -1,5 +1,5 @@
-/* What a tick asks of a plane that holds its HIP, inline: a call would cost as much as what it does. SPDX-License-Identifier:
- * MIT */
+/* The contact of a HIP that a plane holds, inline: a call would cost as much as the contact itself.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_PLANE_HOLD_H
 #define KNURL_SRC_PLANE_HOLD_H
 

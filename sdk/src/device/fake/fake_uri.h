@@ -53,7 +53,7 @@
       "mass=0.2&viscous=1.5&coulomb=0.5&resolution=0.00006&max_force=8.9&continuous_force=3&max_stiffness=3000&"       \
       "delay=2&width=0.1016&height=0.1016&depth=0.1016&exact=1")                                                       \
     X(woodenhaptics, "a simulated WoodenHaptics",                                                                      \
-      "mass=0.2&viscous=0.5&coulomb=0.3&resolution=0.0001&max_force=3&continuous_force=1.7&max_stiffness=1000&"       \
+      "mass=0.2&viscous=0.5&coulomb=0.3&resolution=0.0001&max_force=3&continuous_force=1.7&max_stiffness=1000&"        \
       "delay=2&width=0.1155&height=0.1155&depth=0.1155&exact=1")                                                       \
     X(omega, "a simulated omega.3",                                                                                    \
       "mass=0.25&viscous=0.5&coulomb=0.3&resolution=0.00001&max_force=12&continuous_force=4&max_stiffness=5000&"       \
