@@ -18,7 +18,7 @@
 #define DRIFT_S       2.0   /* in which a lag is caught up with */
 #define EVEN_TICKS    2.0   /* a lag of so many is no drift but how threads take turns */
 #define HIGHEST_HZ    20000.0
-#define SMOOTH_S      0.004 /* how late steps are told, by a decay: four ticks of a Touch */
+#define SMOOTH_S      0.004 /* time constant of the decay that spreads steps: four ticks of a Touch */
 #define SMALLEST_STEP 1e-6
 #define SMALLEST      1e-9 /* ticks: sums of fractions are not exact */
 
@@ -37,8 +37,8 @@ struct knurl_audio {
     /* the haptic thread's */
     knurl_loudness loudness;
     double cycles[2];
-    double due[2]; /* cycles that were passed and are not told yet */
-    double share;  /* of them that a tick tells */
+    double due[2]; /* cycles that were passed and are still to be queued */
+    double share;  /* of `due` that a tick queues */
     uint32_t in_contact;
     /* the audio thread's */
     uint32_t plays; /* 1: there were ticks enough to begin */
@@ -118,9 +118,9 @@ static double find_step(double to, double from, double likely, double most) {
 /* Spreads a step, because an encoder's counts come in some ticks and not in others. None is lost. */
 static double smooth(knurl_audio *a, int axis, double step) {
     const double due = a->due[axis] + step;
-    const double told = fabs(due) < SMALLEST_STEP ? due : due * a->share;
-    a->due[axis] = due - told;
-    return told;
+    const double queued = fabs(due) < SMALLEST_STEP ? due : due * a->share;
+    a->due[axis] = due - queued;
+    return queued;
 }
 
 void knurl_audio_take(const knurl_tick_output *output, void *audio) {
