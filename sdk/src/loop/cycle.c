@@ -16,22 +16,22 @@ static void report(knurl_loop *loop, int32_t code, double value) {
 }
 
 /* 1 while the game calls knurl_loop_heartbeat() often enough, or need not. A pause counts as alive. */
-static int game_lives(knurl_loop *loop, int paused) {
+static int is_game_alive(knurl_loop *loop, int paused) {
     if (loop->desc.heartbeat_s == 0.0 || paused) {
-        loop->since_sign = 0;
-        loop->game_lives = 1;
+        loop->since_heartbeat = 0;
+        loop->game_was_alive = 1;
         return 1;
     }
-    const uint64_t signs = knurl_load_relaxed(&loop->signs);
-    loop->since_sign = signs == loop->signs_seen ? loop->since_sign + 1 : 0;
-    loop->signs_seen = signs;
-    const double silence = (double)loop->since_sign / loop->desc.update_rate_hz;
-    const int lives = silence <= loop->desc.heartbeat_s;
-    if (loop->game_lives && !lives) {
+    const uint64_t heartbeats = knurl_load_relaxed(&loop->heartbeats);
+    loop->since_heartbeat = heartbeats == loop->heartbeats_seen ? loop->since_heartbeat + 1 : 0;
+    loop->heartbeats_seen = heartbeats;
+    const double silence = (double)loop->since_heartbeat / loop->desc.update_rate_hz;
+    const int is_alive = silence <= loop->desc.heartbeat_s;
+    if (loop->game_was_alive && !is_alive) {
         report(loop, KNURL_FAULT_HEARTBEAT, silence);
     }
-    loop->game_lives = lives;
-    return lives;
+    loop->game_was_alive = is_alive;
+    return is_alive;
 }
 
 /* How far a gain may go in a tick. */
@@ -47,7 +47,7 @@ static double next_gain(knurl_loop *loop, int paused) {
     loop->was_halted = knurl_device_is_halted(loop->desc.device) != 0;
     const int was_down = loop->was_halted || !loop->wanted;
     double gain = loop->was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
-    loop->wanted = game_lives(loop, paused) && !paused;
+    loop->wanted = is_game_alive(loop, paused) && !paused;
     if (was_down && loop->wanted && loop->ticks > 0 && !knurl_device_is_closed(loop->desc.device)) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
@@ -101,9 +101,9 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
     knurl_loop_add_heat(loop, 1.0);
 }
 
-/* A cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 where the loop must end.
- */
-static int be_absent(knurl_loop *loop, knurl_result why) {
+/* Runs a cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 where the loop must
+ * end. */
+static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
     knurl_count_up(&loop->cycles);
     knurl_store_relaxed(&loop->absent, 1u);
@@ -135,7 +135,7 @@ static int run_tick(knurl_loop *loop) {
     knurl_tick_output output;
     knurl_result result = knurl_device_read(loop->desc.device, &sample);
     if (result) {
-        return be_absent(loop, result);
+        return run_without_position(loop, result);
     }
     memset(&output, 0, sizeof output);
     vec3_copy(sample.position, loop->position);
@@ -153,7 +153,7 @@ static int run_tick(knurl_loop *loop) {
     if (loop->was_halted && result == KNURL_OK) {
         knurl_device_release_halt(loop->desc.device);
     }
-    return result == KNURL_OK || be_absent(loop, result);
+    return result == KNURL_OK || run_without_position(loop, result);
 }
 
 int knurl_loop_is_abandoned(const knurl_loop *loop) {

@@ -239,7 +239,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     made->desc = d;
     made->clock = d.clock ? *d.clock : system_clock;
     made->gain = made->added.gain = made->added.gain_now = 1.0;
-    made->game_lives = made->wanted = 1;
+    made->game_was_alive = made->wanted = 1;
     made->max_force = facts.max_force;
     if (d.scene) {
         knurl_hip_begin_dry(d.scene, d.hip, &made->scratch);
@@ -368,7 +368,7 @@ void knurl_loop_heartbeat(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    (void)__atomic_fetch_add(&loop->signs, 1, __ATOMIC_RELAXED);
+    (void)__atomic_fetch_add(&loop->heartbeats, 1, __ATOMIC_RELAXED);
 }
 
 void knurl_loop_stop(knurl_loop *loop) {

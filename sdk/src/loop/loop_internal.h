@@ -69,10 +69,10 @@ struct knurl_loop {
     int was_halted;    /* the device, when the latest tick's force was made */
     int is_lost;       /* for good */
     int64_t served_at; /* ns: the latest call by a device that owns the servo thread; 0: none */
-    uint64_t signs_seen;
-    uint64_t since_sign; /* ticks */
-    int game_lives;
-    int wanted; /* 1: neither paused nor without a sign of life */
+    uint64_t heartbeats_seen;
+    uint64_t since_heartbeat; /* ticks */
+    int game_was_alive;
+    int wanted; /* 1: not paused, and the game is alive */
     int has_position;
     double position[3]; /* the latest cycle's, device, m */
     knurl_hip scratch;  /* the HIP of dry ticks */
@@ -89,8 +89,8 @@ struct knurl_loop {
     uint64_t overruns;
     uint64_t watchdog_trips;
     uint64_t heat_ticks;
-    double theta;   /* heat's */
-    uint64_t signs; /* heartbeats of the game */
+    double theta;        /* heat's */
+    uint64_t heartbeats; /* of the game */
     uint64_t absences;
     uint32_t absent;
     uint32_t is_served; /* 1: a device that owns the servo thread is in a call */

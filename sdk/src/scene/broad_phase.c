@@ -15,7 +15,7 @@
 /* Surfaces in a leaf. */
 #define LEAF_SIZE 2
 
-/* Dynamic surfaces get this much room (m) beside what they sweep now, and what they would sweep in as many seconds at
+/* Dynamic surfaces get this much margin (m) beside what they sweep now, and what they would sweep in as many seconds at
  * their speed, up to a bound: so that a moving surface asks for new lists a few times a second, not every frame. */
 #define ROOM         0.005
 #define ROOM_SECONDS 0.1
@@ -87,7 +87,7 @@ static knurl_result build_hierarchy(knurl_heap *heap, knurl_broad_index *index, 
     return result;
 }
 
-static double room_of(const knurl_motion *motion) {
+static double margin_of(const knurl_motion *motion) {
     const double way = motion->end_time > motion->start_time ? vec3_length(motion->velocity) * ROOM_SECONDS : 0.0;
     return fmin(ROOM + way, ROOM_MAX);
 }
@@ -191,7 +191,7 @@ void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *sur
     knurl_surface_box(surface, record, time, 0.0, swept);
     const int stays = index && holds(record->arrived, swept); /* still the old record's */
     if (!stays) {
-        knurl_surface_set_arrival(surface, record, index ? room_of(&record->motion) : 0.0);
+        knurl_surface_set_arrival(surface, record, index ? margin_of(&record->motion) : 0.0);
         add_box(record->arrived, swept);
     }
     if (!stays && index) {
@@ -269,18 +269,18 @@ static inline int is_there(const knurl_broad_index *index, uint32_t place, const
     return meets(index->boxes[place], view) && is_there_now(index, place, view);
 }
 
-static uint32_t note(uint32_t place, uint32_t room, uint32_t count, uint32_t *places) {
-    if (count < room) {
+static uint32_t note(uint32_t place, uint32_t limit, uint32_t count, uint32_t *places) {
+    if (count < limit) {
         places[count] = place;
     }
     return count + 1;
 }
 
 /* A place may be found twice, dynamic and in the hierarchy. */
-static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t room, uint32_t count,
+static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t limit, uint32_t count,
                     const uint32_t *places) {
     int noted = 0;
-    for (uint32_t i = 0; knurl_load_relaxed(&index->is_dynamic[place]) && i < count && i < room; i++) {
+    for (uint32_t i = 0; knurl_load_relaxed(&index->is_dynamic[place]) && i < count && i < limit; i++) {
         noted |= places[i] == place;
     }
     return noted;
@@ -295,24 +295,24 @@ static int node_meets(const knurl_bvh_node *node, const knurl_view *view) {
     return 1;
 }
 
-static uint32_t find_still(const knurl_broad_index *index, const knurl_view *view, uint32_t room, uint32_t count,
+static uint32_t find_still(const knurl_broad_index *index, const knurl_view *view, uint32_t limit, uint32_t count,
                            uint32_t *places) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     if (index->node_count > 0) {
         stack[top++] = 0;
     }
-    while (top > 0 && count <= room) {
+    while (top > 0 && count <= limit) {
         const uint32_t at = stack[--top];
         const knurl_bvh_node *node = &index->nodes[at];
         if (!node_meets(node, view)) {
             continue;
         }
-        for (uint32_t i = 0; i < node->count && count <= room; i++) {
+        for (uint32_t i = 0; i < node->count && count <= limit; i++) {
             const uint32_t place = index->order[node->first + i];
             if (is_there(index, place, view) && /* it may have gone from here since */
-                !is_noted(index, place, room, count, places)) {
-                count = note(place, room, count, places);
+                !is_noted(index, place, limit, count, places)) {
+                count = note(place, limit, count, places);
             }
         }
         if (node->count == 0) {
@@ -323,22 +323,22 @@ static uint32_t find_still(const knurl_broad_index *index, const knurl_view *vie
     return count;
 }
 
-uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t room,
+uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t limit,
                                 uint32_t *places) {
     uint32_t count = 0;
     if (view->everything) {
-        for (uint32_t place = 0; place < index->capacity && count <= room; place++) {
+        for (uint32_t place = 0; place < index->capacity && count <= limit; place++) {
             if (is_there(index, place, view)) {
-                count = note(place, room, count, places);
+                count = note(place, limit, count, places);
             }
         }
         return count;
     }
     const uint32_t dynamic = knurl_load_acquire(&index->dynamic_count);
-    for (uint32_t i = 0; i < dynamic && count <= room; i++) {
+    for (uint32_t i = 0; i < dynamic && count <= limit; i++) {
         if (is_there(index, index->dynamic[i], view)) {
-            count = note(index->dynamic[i], room, count, places);
+            count = note(index->dynamic[i], limit, count, places);
         }
     }
-    return find_still(index, view, room, count, places);
+    return find_still(index, view, limit, count, places);
 }

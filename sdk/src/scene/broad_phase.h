@@ -59,12 +59,12 @@ typedef struct knurl_view {
     const double *high;
     double time;    /* s: what has arrived by then is where it is */
     int everything; /* 1: without the hierarchy */
-    int exact;      /* 1: without the room round what moves */
+    int exact;      /* 1: without the margin around what moves */
 } knurl_view;
 
-/* Places of the surfaces that a view meets. At most `room` of them are written; returns how many there are, at most
- * room + 1. In a tick. */
-uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t room,
+/* Places of the surfaces that a view meets. At most `limit` of them are written; returns how many there are, at most
+ * limit + 1. In a tick. */
+uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t limit,
                                 uint32_t *places) KNURL_NONBLOCKING;
 
 #endif

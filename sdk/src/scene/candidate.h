@@ -23,7 +23,7 @@ typedef struct knurl_candidate {
     double proxy[3]; /* of the latest contact, scene axes */
     double normal[3];
     float box[6];                 /* scene axes; outside it there is no contact */
-    float swept[6];               /* scene axes: what the motion of this record sweeps, with its crests; no room */
+    float swept[6];               /* scene axes: what the motion of this record sweeps, with its crests; no margin */
     const knurl_record *swept_of; /* or null; its motion's start and its reach, for a record in freed memory: */
     double swept_start, swept_reach;
     uint64_t swept_tick; /* the tick at which `swept` was looked at last */

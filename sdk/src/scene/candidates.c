@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-/* How far a HIP looks, m. margin: how far it may go before it looks again; at 250 mm/s the first serves for 40 ticks.
- * capture: how deep it may find itself in a surface at a first tick. Where more surfaces are in there than a list
- * holds, the next is tried, down to what the tick itself needs. */
+/* The sizes of a query, m, widest first. margin: how far the HIP may move before the next query; at 250 mm/s the first
+ * lasts for 40 ticks. capture: how deep the HIP may be in a surface on a first tick. Where a query finds more surfaces
+ * than a list holds, the next size is tried, down to what the tick itself needs. */
 static const struct {
     double margin;
     double capture;
@@ -20,14 +20,14 @@ static const struct {
 #define VIEWS   (sizeof views / sizeof *views)
 #define NARROWS 3 /* the first without a margin */
 
-/* A HIP pressed deeper than at the latest look, by more than this (m), looks again: what it may slide onto is that far
- * above it. */
+/* m: a HIP pressed this much deeper than at the latest query needs a new one, because surfaces that it may slide onto
+ * are that far above it. */
 #define DEEPER 0.002
 
-/* m: taken off a clearance for the margin that knurl_candidate_is_near() is asked with, 1e-9, and for rounding. */
+/* m: subtracted from a clearance: the margin passed to knurl_candidate_is_near(), 1e-9, and rounding. */
 #define ROUNDING 2e-9
 
-/* What remains near keeps its state; what is in contact stays whether its box is near or not. */
+/* Removes the surfaces that are no longer near, except those in contact. The others keep their state. */
 static uint32_t keep(knurl_candidate *list, uint32_t count, const uint32_t *places, uint32_t found) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -42,7 +42,7 @@ static uint32_t keep(knurl_candidate *list, uint32_t count, const uint32_t *plac
     return kept;
 }
 
-/* In the order of places, so that sums of forces do not depend on how the list came to be. */
+/* Inserts in order of places, so that sums of forces do not depend on the list's history. */
 static void insert(knurl_candidates *c, uint32_t place) {
     uint32_t at = 0;
     while (at < c->count && c->list[at].place < place) {
@@ -67,22 +67,22 @@ static void load_box(const knurl_broad_index *index, knurl_candidate *candidate)
     }
 }
 
-/* Looks at the view that served last time until a wider one is tried again. */
-#define LOOKS 256
+/* So many queries at one size until a wider one is tried again. */
+#define WIDER_AFTER 256
 
 static uint32_t first_view(const knurl_candidates *c, const knurl_hip_path *path) {
-    return path->is_first ? 0 : c->view > 0 && c->looks >= LOOKS ? c->view - 1 : c->view;
+    return path->is_first ? 0 : c->view > 0 && c->queries >= WIDER_AFTER ? c->view - 1 : c->view;
 }
 
-/* A wider view that serves is widened again at the next look. */
+/* Where a wider size fits the list, the next query tries a still wider one. */
 static void keep_view(knurl_candidates *c, uint32_t first, uint32_t served) {
-    c->looks = served < c->view ? LOOKS : first < c->view ? 0 : c->looks + 1;
+    c->queries = served < c->view ? WIDER_AFTER : first < c->view ? 0 : c->queries + 1;
     c->view = served;
 }
 
-/* Asks the broad phase. */
-static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
-                 const knurl_hip_path *path) {
+/* Fills the list from the broad phase. */
+static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                              const knurl_hip_path *path) {
     const uint64_t version = knurl_load_acquire(&phase->version); /* before the boxes are read */
     uint32_t places[KNURL_CANDIDATES_MAX];
     uint32_t found;
@@ -104,7 +104,7 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
         v++;
     } while (v < VIEWS && found > KNURL_CANDIDATES_MAX);
     keep_view(c, first, v - 1);
-    c->version = v > NARROWS ? 0 : version; /* a look without margin serves for this tick */
+    c->version = v > NARROWS ? 0 : version; /* without a margin it is valid in this tick only */
     c->overflow = found > KNURL_CANDIDATES_MAX;
     found = c->overflow ? KNURL_CANDIDATES_MAX : found;
     c->count = keep(c->list, c->count, places, found);
@@ -120,7 +120,7 @@ static void look(knurl_candidates *c, const knurl_broad_phase *phase, const knur
 }
 
 void knurl_candidates_reset(knurl_candidates *c) {
-    c->count = c->view = c->looks = 0;
+    c->count = c->view = c->queries = 0;
     c->clearance.distance = -1.0;
 }
 
@@ -132,11 +132,11 @@ void knurl_candidates_update(knurl_candidates *c, const knurl_broad_phase *phase
     }
     if (c->version != knurl_load_acquire(&phase->version) || path->is_first || !inside || path->depth > c->depth ||
         c->overflow || path->everything) {
-        look(c, phase, index, path);
+        query_broad_phase(c, phase, index, path);
     }
 }
 
-/* m along the axis where it is farthest: from a point to a candidate's box; negative inside. */
+/* m: from a point to a candidate's box, along the axis where they are farthest apart; negative inside. */
 static double gap(const knurl_candidate *candidate, const double p[3]) {
     double widest = -HUGE_VAL;
     for (int i = 0; i < 3; i++) {

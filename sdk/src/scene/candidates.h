@@ -8,11 +8,11 @@
 #include "scene/broad_phase.h"
 #include "scene/candidate.h"
 
-/* Surfaces near a HIP that are looked at in a tick, at most. */
+/* The most surfaces that a tick tests against a HIP. */
 #define KNURL_CANDIDATES_MAX 32
 
-/* No farther than `distance` (m, each axis) from `at`, the list is complete and the HIP comes into no box but those of
- * what it is in contact with; nor does its proxy, no farther from `proxy`. */
+/* While the HIP is within `distance` (m, each axis) of `at`, the list is complete and the HIP enters no box but those
+ * of surfaces in contact. The same holds for its proxy within `distance` of `proxy`. */
 typedef struct knurl_clearance {
     double at[3];
     double proxy[3];
@@ -23,11 +23,11 @@ typedef struct knurl_candidates {
     double low[3]; /* the list is complete while the HIP stays in this box, scene axes, */
     double high[3];
     double depth;     /* is pressed no deeper than this, m, */
-    uint64_t version; /* and the broad phase's version is this; 0: look again */
+    uint64_t version; /* and the broad phase's version is this; 0: query again */
     uint32_t count;
     uint32_t overflow; /* 1: there were more than fit */
-    uint32_t view;     /* how narrow the latest look was; 0: the widest */
-    uint32_t looks;    /* since a wider one was tried */
+    uint32_t view;     /* the latest query's size; 0: the widest */
+    uint32_t queries;  /* since a wider size was tried */
     knurl_clearance clearance;
     knurl_candidate list[KNURL_CANDIDATES_MAX];
 } knurl_candidates;
@@ -39,8 +39,8 @@ void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;
 void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_phase *phase,
                              const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
 
-/* 1: the list is complete and nothing but what is in contact has to be looked at: so it is in most ticks. depth: m, of
- * the deepest contact. */
+/* 1: the list is complete, and only surfaces in contact need to be tested, as in most ticks. depth: m, of the deepest
+ * contact. */
 static inline int knurl_candidates_are_clear(const knurl_candidates *c, const knurl_broad_phase *phase,
                                              const double p[3], double depth) {
     const knurl_clearance *clear = &c->clearance;
@@ -49,7 +49,7 @@ static inline int knurl_candidates_are_clear(const knurl_candidates *c, const kn
            (c->version == knurl_load_acquire(&phase->version));
 }
 
-/* 1: nor does a proxy that is at p now. */
+/* The same for a proxy at p. */
 static inline int knurl_candidates_are_clear_of(const knurl_candidates *c, const double p[3]) {
     const knurl_clearance *clear = &c->clearance;
     return (fabs(p[0] - clear->proxy[0]) < clear->distance) & (fabs(p[1] - clear->proxy[1]) < clear->distance) &
@@ -57,7 +57,7 @@ static inline int knurl_candidates_are_clear_of(const knurl_candidates *c, const
 }
 
 /* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick
- * has to look at all of them in any case. */
+ * has to test all of them in any case. */
 void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], const double proxy[3],
                               int again) KNURL_NONBLOCKING;
 

@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-/* Asks a shape for its contact with the HIP. hip: in the shape's frame. Returns 0 where that does not settle it. */
-static inline int ask_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
-                            knurl_contact_state *state) {
+/* Finds one shape's contact with the HIP. hip: in the shape's frame. Returns 0 where joint contact has to decide. */
+static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
+                              knurl_contact_state *state) {
     const knurl_shape *shape = &a->surface->shape;
     knurl_contact_query query;
     if (shape->plane && knurl_plane_hold(shape->plane, hip, state, &a->contact)) {
@@ -23,19 +23,19 @@ static inline int ask_shape(knurl_contacts *c, knurl_active_contact *a, const do
     return knurl_shape_contact(shape, &query, state, &a->contact) && !a->contact.unsure && c->visits.left > 0;
 }
 
-/* 1 where a surface's proxy (scene) is still among what has been looked at: within `room` (m) of where the last tick's
- * was; or below 0: where the clearance says so. */
-static inline int is_within_view(const knurl_contacts *c, double room, const double proxy[3]) {
-    if (room < 0.0) {
+/* 1 where nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
+ * margin below 0: by the clearance. */
+static inline int is_within_view(const knurl_contacts *c, double margin, const double proxy[3]) {
+    if (margin < 0.0) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
     }
-    return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= room * room;
+    return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= margin * margin;
 }
 
-/* Nothing but `candidate`, which is in contact, is near: its shape alone is asked. 0 where that does not settle it, and
- * nothing has changed. room: as for is_within_view(). */
+/* Nothing but `candidate`, which is in contact, is near: tests its shape alone. Returns 0, with nothing changed, where
+ * joint contact has to decide. margin: as for is_within_view(). */
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
-                             const double position[3], double room) {
+                             const double position[3], double margin) {
     knurl_active_contact *a = &c->active[0];
     const knurl_pose *before;
     double hip[3], proxy[3], normal[3];
@@ -53,12 +53,12 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     knurl_contacts_catch_up(c, motion);
     knurl_candidate_place(candidate, motion, &c->clock, &a->pose, &before);
     knurl_pose_to_own(a->pose, position, hip);
-    if (!ask_shape(c, a, hip, &state)) {
+    if (!query_shape(c, a, hip, &state)) {
         return 0;
     }
     knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
-    if (state.inside && !is_within_view(c, room, proxy)) {
+    if (state.inside && !is_within_view(c, margin, proxy)) {
         return 0;
     }
     vec3_copy(proxy, candidate->proxy);
@@ -103,17 +103,17 @@ static void keep_proxy(knurl_contacts *c, const double position[3]) {
 
 /* 1 where the path comes near a candidate that is not in contact. */
 static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
-                      const knurl_hip_path *path, double room) {
-    if (!knurl_candidate_is_near(candidate, path, room)) {
+                      const knurl_hip_path *path, double margin) {
+    if (!knurl_candidate_is_near(candidate, path, margin)) {
         return 0;
     }
     const knurl_surface_data *surface = knurl_contacts_surface(index, candidate);
-    return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, room);
+    return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, margin);
 }
 
 /* The candidate that is in contact, where it is the only one and the path comes near no other; else null. */
 static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
-                                   double room) {
+                                   double margin) {
     knurl_candidate *alone = NULL;
     if (c->active_count != 1 || c->pressed > 1 || path->is_first || path->everything ||
         knurl_contacts_have_slipped(c)) {
@@ -123,14 +123,14 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
         knurl_candidate *candidate = &c->candidates.list[i];
         if (candidate->in_contact && !alone) {
             alone = candidate;
-        } else if (candidate->in_contact || comes_near(c, index, candidate, path, room)) {
+        } else if (candidate->in_contact || comes_near(c, index, candidate, path, margin)) {
             return NULL;
         }
     }
     return alone;
 }
 
-/* How the HIP goes in this tick. */
+/* The HIP's path in this tick. */
 static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
     knurl_hip_path path = {.from = c->has_previous ? c->previous : position,
                            .to = position,
@@ -143,17 +143,17 @@ static knurl_hip_path find_path(const knurl_contacts *c, const double position[3
     return path;
 }
 
-/* Makes the list complete where there is no clearance. Returns what find_alone() does. *room: m, for hold_alone(). */
-__attribute__((noinline)) static knurl_candidate *look(knurl_contacts *c, const knurl_broad_phase *phase,
-                                                       const knurl_broad_index *index, const double position[3],
-                                                       double *room) {
+/* Makes the list complete where there is no clearance. Returns what find_alone() does. *margin: m, for hold_alone(). */
+__attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contacts *c, const knurl_broad_phase *phase,
+                                                                    const knurl_broad_index *index,
+                                                                    const double position[3], double *margin) {
     const knurl_hip_path path = find_path(c, position);
-    *room = knurl_hip_path_room(&path);
+    *margin = knurl_hip_path_margin(&path);
     knurl_candidates_update(&c->candidates, phase, index, &path);
-    return find_alone(c, index, &path, *room);
+    return find_alone(c, index, &path, *margin);
 }
 
-/* All that was looked at has the clearance of a HIP that one surface, `alone`, holds. */
+/* Measures the clearance of a HIP that is in contact with `alone` only. */
 static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         c->candidates.list[i].has_previous &= &c->candidates.list[i] == alone;
@@ -161,9 +161,9 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
     knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
 }
 
-/* What is looked for at several surfaces. */
-__attribute__((noinline)) static void look_around(knurl_contacts *c, const knurl_broad_index *index,
-                                                  const double position[3], uint32_t *flags) {
+/* Finds contact with several surfaces. */
+__attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_index *index,
+                                                   const double position[3], uint32_t *flags) {
     const knurl_hip_path path = find_path(c, position);
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
@@ -184,15 +184,15 @@ __attribute__((noinline)) static void look_around(knurl_contacts *c, const knurl
 
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
-    double room = -1.0;
+    double margin = -1.0;
     c->visits.left = c->max_visits;
     c->visits.exhausted = 0;
     knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;
     if (!clear) {
-        alone = look(c, phase, index, position, &room);
+        alone = update_candidates(c, phase, index, position, &margin);
     }
-    if (!alone || !hold_alone(c, index, alone, position, room)) {
-        look_around(c, index, position, flags);
+    if (!alone || !hold_alone(c, index, alone, position, margin)) {
+        find_jointly(c, index, position, flags);
     } else {
         keep_proxy(c, position);
         if (!clear) {

@@ -11,38 +11,38 @@
 /* m: rounding of a path's ends, with seams. */
 #define ROUNDING 1e-6
 
-/* What is being found in one tick. */
-typedef struct meeting {
+/* The working data of one tick's search. */
+typedef struct joint_search {
     knurl_contacts *contacts;
     const knurl_broad_index *index;
     const knurl_hip_path *path;
     const double *hip; /* scene: the path's end */
     knurl_obstacles near;
     knurl_touched touched[KNURL_CANDIDATES_MAX];
-    int jumped;      /* one that held the HIP has jumped */
-    int unknown;     /* 1: the visits were used up before it was found what holds the HIP */
-    double room;     /* m: how far a proxy may go in the tick, at most, among what was collected */
-    double proxy[3]; /* what comes out, beside `touched` */
+    int jumped;      /* 1: a surface in contact has jumped */
+    int unknown;     /* 1: the visits were used up before the contacts were found */
+    double margin;   /* m: obstacles were collected this far around the path; a proxy may move no farther */
+    double proxy[3]; /* results, with `touched`: */
     double normal[3];
     uint32_t pressed;
-} meeting;
+} joint_search;
 
 /* m: how far a path's proxy is from its ends, at most. */
 static double proxy_distance(const knurl_hip_path *path) {
     return sqrt(knurl_max(vec3_distance2(path->proxy, path->from), vec3_distance2(path->proxy, path->to)));
 }
 
-/* What comes within `room` (m) of a path, and what was in contact. */
-static void collect(meeting *m, const knurl_hip_path *path, double room) {
+/* Collects the obstacles within `margin` (m) of a path, and those in contact. */
+static void collect(joint_search *m, const knurl_hip_path *path, double margin) {
     knurl_contacts *c = m->contacts;
-    const double round = room + proxy_distance(path);
+    const double reach = margin + proxy_distance(path);
     m->near.count = 0;
     m->near.moving = m->jumped = 0;
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         knurl_candidate *candidate = &c->candidates.list[i];
         knurl_obstacle *o = &m->near.list[m->near.count];
         const knurl_surface_data *surface = NULL;
-        if (candidate->in_contact || knurl_candidate_is_near(candidate, path, room)) {
+        if (candidate->in_contact || knurl_candidate_is_near(candidate, path, margin)) {
             surface = knurl_contacts_surface(m->index, candidate);
         }
         if (surface) {
@@ -50,7 +50,7 @@ static void collect(meeting *m, const knurl_hip_path *path, double room) {
             knurl_contacts_catch_up(c, &record->motion);
             knurl_obstacle_set(o, candidate, surface, record, &c->clock);
         }
-        if (!surface || !(candidate->in_contact || knurl_obstacle_is_near(o, path->from, path->to, round))) {
+        if (!surface || !(candidate->in_contact || knurl_obstacle_is_near(o, path->from, path->to, reach))) {
             candidate->has_previous = 0;
             continue;
         }
@@ -60,9 +60,9 @@ static void collect(meeting *m, const knurl_hip_path *path, double room) {
     }
 }
 
-/* What one shape says by itself to a HIP at `hip` that came from `previous` (scene); or null: from nowhere. */
-static void ask(const meeting *m, const knurl_obstacle *o, const double hip[3], const double *previous,
-                knurl_touched *touched) {
+/* One shape's contact with a HIP at `hip`, as if it were alone. previous: the HIP a tick ago (scene); null: unknown. */
+static void query_shape(const joint_search *m, const knurl_obstacle *o, const double hip[3], const double *previous,
+                        knurl_touched *touched) {
     knurl_contact_query query;
     query.has_previous = previous != NULL;
     query.reach = o->record->reach;
@@ -71,14 +71,14 @@ static void ask(const meeting *m, const knurl_obstacle *o, const double hip[3], 
     query.visits = &m->contacts->visits;
     knurl_pose_to_own(o->pose, hip, query.hip);
     vec3_copy(query.hip, query.previous);
-    if (previous && !touched->state.inside) { /* who is inside came from there */
+    if (previous && !touched->state.inside) { /* a HIP inside is tested at its position alone */
         knurl_pose_to_own(o->before, previous, query.previous);
     }
     touched->held = knurl_shape_contact(&o->surface->shape, &query, &touched->state, &touched->contact);
 }
 
-/* As it comes: what is seen for the first time, or has jumped, may find the HIP inside. */
-static void ask_plainly(meeting *m, const knurl_obstacle *o, knurl_touched *touched) {
+/* The same for this tick's HIP. On a first tick, and where the surface in contact has jumped, the HIP may be inside. */
+static void query_contact(joint_search *m, const knurl_obstacle *o, knurl_touched *touched) {
     const knurl_contacts *c = m->contacts;
     const int jumped = knurl_obstacle_has_jumped(o);
     const int anew = !c->has_previous || (jumped && o->candidate->in_contact);
@@ -86,29 +86,29 @@ static void ask_plainly(meeting *m, const knurl_obstacle *o, knurl_touched *touc
     if (anew) {
         memset(&touched->state, 0, sizeof touched->state);
     }
-    ask(m, o, m->hip, anew ? NULL : c->previous, touched);
+    query_shape(m, o, m->hip, anew ? NULL : c->previous, touched);
 }
 
-/* What has jumped while it held the HIP. Where both its sides can be touched, it holds the one that it held. */
-static void ask_jumped(const meeting *m, const knurl_obstacle *o, knurl_touched *touched) {
+/* A surface in contact has jumped. A double-sided one keeps the HIP on the side where it was. */
+static void query_jumped(const joint_search *m, const knurl_obstacle *o, knurl_touched *touched) {
     if (!touched->held && o->candidate->in_contact && o->surface->double_sided) {
         double from[3];
         vec3_madd(o->candidate->proxy, KNURL_CAPTURE_DEPTH, o->candidate->normal, from);
         memset(&touched->state, 0, sizeof touched->state);
-        ask(m, o, m->hip, from, touched);
+        query_shape(m, o, m->hip, from, touched);
     }
 }
 
-/* Whether the crests of a surface that does not hold the proxy reach it; those of one that lies in a face that holds it
- * are that face's. */
-static void ask_reach(meeting *m, const knurl_obstacle *o, knurl_touched *touched) {
+/* Contact with the crests of a surface that the proxy is outside of. A surface that lies in a pressed face is left out:
+ * that face's crests are felt. */
+static void query_crests(joint_search *m, const knurl_obstacle *o, knurl_touched *touched) {
     touched->held = 0;
     touched->state = o->candidate->contact;
     if (touched->state.inside) {
         memset(&touched->state, 0, sizeof touched->state);
     }
     if (m->pressed == 0 || o->record->reach > KNURL_ON_SURFACE) {
-        ask(m, o, m->proxy, m->proxy, touched);
+        query_shape(m, o, m->proxy, m->proxy, touched);
     }
     if (m->pressed > 0 && touched->held && touched->contact.z <= 2.0 * o->surface->shape.seam) {
         double normal[3];
@@ -125,8 +125,8 @@ static int is_inside(const knurl_touched *touched) {
     return touched->held && touched->state.inside;
 }
 
-/* The proxy that one shape found: where it rests, and which way it is held. */
-static void set_proxy(meeting *m, uint32_t i) {
+/* Takes the proxy and the normal from one shape's contact. */
+static void set_proxy(joint_search *m, uint32_t i) {
     const knurl_obstacle *o = &m->near.list[i];
     const knurl_contact *contact = &m->touched[i].contact;
     knurl_pose_to_parent(o->pose, contact->proxy, m->proxy);
@@ -135,22 +135,22 @@ static void set_proxy(meeting *m, uint32_t i) {
     m->pressed = 1;
 }
 
-static void set_free(meeting *m) {
+static void set_free(joint_search *m) {
     vec3_copy(m->hip, m->proxy);
     m->pressed = 0;
 }
 
-/* 1 where all that is in the proxy's way has been collected. */
-static int is_in_room(const meeting *m, const double from[3]) {
-    return m->pressed == 0 || vec3_distance2(from, m->proxy) <= m->room * m->room;
+/* 1 where everything between `from` and the proxy has been collected. */
+static int is_collected(const joint_search *m, const double from[3]) {
+    return m->pressed == 0 || vec3_distance2(from, m->proxy) <= m->margin * m->margin;
 }
 
-/* A HIP that nothing held: each shape by itself, where one at most begins to, and its proxy's way is free. */
-static int begin(meeting *m) {
+/* A HIP that was free. Returns 1 where one shape at most begins contact and the path to its proxy is clear. */
+static int begin_contact(joint_search *m) {
     uint32_t holder = KNURL_NO_OBSTACLE;
     set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
-        ask_plainly(m, &m->near.list[i], &m->touched[i]);
+        query_contact(m, &m->near.list[i], &m->touched[i]);
         if (m->touched[i].contact.unsure || (is_inside(&m->touched[i]) && holder != KNURL_NO_OBSTACLE) ||
             knurl_obstacles_are_unknown(&m->near)) {
             return 0;
@@ -161,12 +161,12 @@ static int begin(meeting *m) {
         return 1;
     }
     set_proxy(m, holder);
-    return is_in_room(m, m->contacts->previous) &&
+    return is_collected(m, m->contacts->previous) &&
            knurl_god_object_can_go(&m->near, m->contacts->previous, m->normal, m->proxy, m->normal, holder);
 }
 
-/* The only one that held the HIP, or KNURL_NO_OBSTACLE. */
-static uint32_t find_holder(const meeting *m) {
+/* The only surface that held the HIP in the last tick, or KNURL_NO_OBSTACLE. */
+static uint32_t find_holder(const joint_search *m) {
     uint32_t holder = KNURL_NO_OBSTACLE;
     for (uint32_t i = 0; i < m->near.count && m->contacts->pressed == 1; i++) {
         holder = m->near.list[i].candidate->contact.inside ? i : holder;
@@ -174,15 +174,15 @@ static uint32_t find_holder(const meeting *m) {
     return holder;
 }
 
-/* A HIP that one surface held: that shape by itself, where its proxy's way runs into no other. */
-static int carry_on(meeting *m) {
+/* A HIP that one surface held. Returns 1 where the proxy's path on it hits no other surface. */
+static int continue_contact(joint_search *m) {
     const knurl_contacts *c = m->contacts;
     const uint32_t holder = find_holder(m);
     if (holder == KNURL_NO_OBSTACLE) {
         return 0;
     }
     knurl_touched *touched = &m->touched[holder];
-    ask_plainly(m, &m->near.list[holder], touched);
+    query_contact(m, &m->near.list[holder], touched);
     const int unsure = touched->contact.unsure;
     if ((!touched->held && unsure) || knurl_obstacles_are_unknown(&m->near)) {
         return 0;
@@ -191,22 +191,22 @@ static int carry_on(meeting *m) {
     if (is_inside(touched)) {
         set_proxy(m, holder);
     }
-    if (!is_in_room(m, c->proxy) ||
+    if (!is_collected(m, c->proxy) ||
         !knurl_god_object_can_go(&m->near, c->proxy, c->normal, m->proxy, m->pressed ? m->normal : c->normal,
                                  unsure ? KNURL_NO_OBSTACLE : holder)) {
         return 0;
     }
     for (uint32_t i = 0; i < m->near.count; i++) {
         if (i != holder) {
-            ask_reach(m, &m->near.list[i], &m->touched[i]);
+            query_crests(m, &m->near.list[i], &m->touched[i]);
         }
     }
     return 1;
 }
 
-/* The faces of one obstacle that press, as one contact; longest: m, that a face may press. */
-static void share(const meeting *m, const knurl_active_faces *faces, uint32_t obstacle, double longest,
-                  knurl_touched *touched) {
+/* Adds up the pressed faces of one obstacle to one contact. longest: m, its greatest depth. */
+static void sum_faces(const joint_search *m, const knurl_active_faces *faces, uint32_t obstacle, double longest,
+                      knurl_touched *touched) {
     const knurl_obstacle *o = &m->near.list[obstacle];
     const knurl_active_face *most = NULL;
     double sum[3] = {0.0, 0.0, 0.0};
@@ -231,32 +231,32 @@ static void share(const meeting *m, const knurl_active_faces *faces, uint32_t ob
     touched->contact.facet = NULL;
 }
 
-/* What the god-object has come to, as contacts. */
-static void share_out(meeting *m, knurl_god_object *g) {
+/* Turns the god-object's faces into contacts. */
+static void use_god_object(joint_search *m, knurl_god_object *g) {
     double held[3];
     for (uint32_t i = 0; i < g->faces.count; i++) { /* on the faces, not above them */
         g->faces.list[i].offset -= g->faces.list[i].rest;
     }
     vec3_copy(g->at, m->proxy);
     if (g->faces.count > 0 && knurl_active_faces_project(&g->faces, m->hip, held) &&
-        vec3_distance2(held, g->at) < ROUNDING * ROUNDING) { /* else it is still on its way */
+        vec3_distance2(held, g->at) < ROUNDING * ROUNDING) { /* else it has not arrived yet */
         vec3_copy(held, m->proxy);
     }
     vec3_sub(m->proxy, m->hip, m->normal);
     const double longest = vec3_normalise(m->normal);
     for (uint32_t i = 0; i < m->near.count; i++) {
-        share(m, &g->faces, i, longest, &m->touched[i]);
+        sum_faces(m, &g->faces, i, longest, &m->touched[i]);
         m->pressed += (uint32_t)m->touched[i].held;
     }
     vec3_copy(g->at, m->proxy);
-    if (g->faces.count > 0 && m->pressed == 0) { /* it touches, and is not pressed yet */
+    if (g->faces.count > 0 && m->pressed == 0) { /* touching, without depth */
         m->pressed = 2;
     }
 }
 
-/* The HIP has just come off a rim: looks for a surface that goes on there, a little higher up or beyond a crack, over
- * where the HIP is now. */
-static void find_next(meeting *m, knurl_god_object *g) {
+/* The HIP has just slipped off a rim: looks above it for a surface that continues there, beyond a small step or crack.
+ */
+static void find_next(joint_search *m, knurl_god_object *g) {
     const knurl_slip *slip = &m->contacts->slip;
     double up[3];
     double above[3];
@@ -278,8 +278,8 @@ static void find_next(meeting *m, knurl_god_object *g) {
     }
 }
 
-/* A HIP that was held is held no longer, and is not out in front of where it was held. */
-static void slip_off(knurl_contacts *c, const double hip[3]) {
+/* Remembers where contact ended without the HIP moving out in front of the surface: it slipped off a rim. */
+static void note_slip(knurl_contacts *c, const double hip[3]) {
     double way[3];
     vec3_sub(hip, c->proxy, way);
     if (vec3_dot(way, c->normal) < -ROUNDING) {
@@ -290,8 +290,8 @@ static void slip_off(knurl_contacts *c, const double hip[3]) {
     }
 }
 
-/* 1 where a surface that held the HIP is still there. One that was taken out has no rim to come off. */
-static int has_holder(const meeting *m) {
+/* 1 where a surface that held the HIP is still in the scene; a HIP cannot slip off a removed one. */
+static int has_holder(const joint_search *m) {
     int has = 0;
     for (uint32_t i = 0; i < m->near.count; i++) {
         has |= m->near.list[i].candidate->contact.inside;
@@ -299,14 +299,14 @@ static int has_holder(const meeting *m) {
     return has;
 }
 
-/* All faces near, at once. */
-static void settle(meeting *m, uint32_t *flags) {
+/* Finds contact with all faces nearby at once, by a god-object. */
+static void search_all_faces(joint_search *m, uint32_t *flags) {
     knurl_contacts *c = m->contacts;
     knurl_god_object g;
     memset(&g, 0, sizeof g);
     m->pressed = 0;
     vec3_copy(c->pressed ? c->proxy : c->previous, g.at);
-    collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* no farther from the HIP than it is now */
+    collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* the god-object only comes nearer to the HIP */
     knurl_god_object_push(&g, &m->near);
     knurl_god_object_follow(&g, &m->near, m->hip);
     m->unknown = g.faces.count == 0 && knurl_obstacles_are_unknown(&m->near);
@@ -314,15 +314,15 @@ static void settle(meeting *m, uint32_t *flags) {
         return;
     }
     if (g.faces.count == 0 && c->pressed && has_holder(m)) {
-        slip_off(c, m->hip);
+        note_slip(c, m->hip);
     }
     if (g.faces.count == 0 && knurl_contacts_have_slipped(c)) {
         find_next(m, &g);
     }
-    share_out(m, &g);
+    use_god_object(m, &g);
     for (uint32_t i = 0; i < m->near.count; i++) {
         if (!m->touched[i].held) {
-            ask_reach(m, &m->near.list[i], &m->touched[i]);
+            query_crests(m, &m->near.list[i], &m->touched[i]);
         }
     }
     if (g.squeezed) {
@@ -330,17 +330,17 @@ static void settle(meeting *m, uint32_t *flags) {
     }
 }
 
-/* Each shape by itself: nothing is known of where the HIP was. Where the HIP is in front of another face, between it
- * and the one that would hold it, it is outside of both. */
-static void find_first(meeting *m) {
+/* Where the HIP's last position is unknown, each shape is tested alone. One that another face separates from the HIP is
+ * not in contact. */
+static void find_first(joint_search *m) {
     double deepest = 1.0;
     double proxy[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0};
     uint32_t pressed = 0;
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_touched *touched = &m->touched[i];
-        ask_plainly(m, &m->near.list[i], touched);
-        if (knurl_obstacle_has_jumped(&m->near.list[i])) { /* a contact that begins anew */
-            ask_jumped(m, &m->near.list[i], touched);
+        query_contact(m, &m->near.list[i], touched);
+        if (knurl_obstacle_has_jumped(&m->near.list[i])) { /* its old contact ends */
+            query_jumped(m, &m->near.list[i], touched);
             knurl_contacts_end(m->near.list[i].candidate);
         }
         if (!is_inside(touched)) {
@@ -364,8 +364,8 @@ static void find_first(meeting *m) {
     }
 }
 
-/* A contact as it was a tick ago, its proxy and normal carried along by the surface. */
-static void hold_still(const meeting *m, const knurl_obstacle *o, knurl_touched *touched) {
+/* Repeats the last tick's contact; its proxy and normal move with the surface. */
+static void keep_contact(const joint_search *m, const knurl_obstacle *o, knurl_touched *touched) {
     const knurl_candidate *candidate = o->candidate;
     const double reach = o->record->reach > KNURL_ON_SURFACE ? o->record->reach : KNURL_ON_SURFACE;
     const knurl_cast_hit hit = {.triangle = candidate->contact.triangle, .side = candidate->contact.side};
@@ -387,12 +387,12 @@ static void hold_still(const meeting *m, const knurl_obstacle *o, knurl_touched 
     touched->held = contact->z <= reach && (touched->state.inside || contact->z >= 0.0);
 }
 
-/* It is not known what holds a HIP that was held: what held it holds it where it did, and no contact begins. */
-static void hold_all_still(meeting *m) {
+/* The visits are used up and the HIP was in contact: repeats the last tick's contacts; none begins. */
+static void keep_contacts(joint_search *m) {
     set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         const knurl_obstacle *o = &m->near.list[i];
-        hold_still(m, o, &m->touched[i]);
+        keep_contact(m, o, &m->touched[i]);
         if (is_inside(&m->touched[i]) && m->pressed++ == 0) {
             knurl_pose_to_own(o->before, m->contacts->proxy, m->proxy);
             knurl_pose_to_parent(o->pose, m->proxy, m->proxy);
@@ -401,8 +401,8 @@ static void hold_all_still(meeting *m) {
     }
 }
 
-/* It is not known what holds a HIP that nothing held: each shape by itself, with a few visits more. */
-static void begin_alone(meeting *m) {
+/* The visits are used up and the HIP was free: tests each shape alone, with a few more visits. */
+static void begin_alone(joint_search *m) {
     knurl_contacts *c = m->contacts;
     const uint32_t share = 1 + c->max_visits / 4 / (m->near.count + 1);
     double deepest = 1.0;
@@ -411,9 +411,9 @@ static void begin_alone(meeting *m) {
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_touched *touched = &m->touched[i];
         c->visits.left = share;
-        ask_plainly(m, &m->near.list[i], touched);
+        query_contact(m, &m->near.list[i], touched);
         if (c->visits.left == 0) {
-            hold_still(m, &m->near.list[i], touched);
+            keep_contact(m, &m->near.list[i], touched);
         }
         if (is_inside(touched)) {
             pressed++;
@@ -426,12 +426,12 @@ static void begin_alone(meeting *m) {
     m->pressed = pressed;
 }
 
-/* From what the shapes said to contacts; held: bits of those that were in contact, who keep their places. */
-static void take(meeting *m, uint64_t held, uint32_t *flags) {
+/* Begins, keeps or ends the contacts of the obstacles named by the bits of `which`. */
+static void update_contacts(joint_search *m, uint64_t which, uint32_t *flags) {
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_obstacle *o = &m->near.list[i];
         knurl_candidate *candidate = o->candidate;
-        if (!(held >> i & 1)) {
+        if (!(which >> i & 1)) {
             continue;
         }
         if (!m->touched[i].held) {
@@ -447,7 +447,7 @@ static void take(meeting *m, uint64_t held, uint32_t *flags) {
 
 void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                          uint32_t *flags) {
-    meeting m;
+    joint_search m;
     uint64_t held = 0;
     m.contacts = c;
     m.index = index;
@@ -455,16 +455,16 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.near.visits = &c->visits;
     m.unknown = 0;
     m.hip = path->to;
-    m.room = knurl_hip_path_room(path);
-    collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.room);
+    m.margin = knurl_hip_path_margin(path);
+    collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
     vec3_copy(c->normal, m.normal);
     if (!c->has_previous || m.jumped) {
         find_first(&m);
-    } else if (knurl_contacts_have_slipped(c) || !(c->pressed ? carry_on(&m) : begin(&m))) {
-        settle(&m, flags);
+    } else if (knurl_contacts_have_slipped(c) || !(c->pressed ? continue_contact(&m) : begin_contact(&m))) {
+        search_all_faces(&m, flags);
     }
     if (m.unknown && c->pressed) {
-        hold_all_still(&m);
+        keep_contacts(&m);
     } else if (m.unknown) {
         begin_alone(&m);
     }
@@ -472,9 +472,9 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     for (uint32_t i = 0; i < m.near.count; i++) {
         held |= (uint64_t)(m.near.list[i].candidate->in_contact != 0) << i;
     }
-    take(&m, held, flags);
+    update_contacts(&m, held, flags); /* first, so that they keep their places */
     if (m.near.count > 1 || held == 0) {
-        take(&m, ~held, flags);
+        update_contacts(&m, ~held, flags);
     }
     vec3_copy(m.proxy, c->proxy);
     vec3_copy(m.normal, c->normal);

@@ -7,7 +7,7 @@
 #include "scene/contacts.h"
 
 /* m: surfaces within this of a path count as near it, and a proxy goes no farther in the tick. */
-static inline double knurl_hip_path_room(const knurl_hip_path *path) {
+static inline double knurl_hip_path_margin(const knurl_hip_path *path) {
     return 1e-5 + 2.0 * sqrt(vec3_distance2(path->from, path->to));
 }
 

@@ -9,9 +9,9 @@ void knurl_obstacle_set(knurl_obstacle *o, knurl_candidate *candidate, const knu
     knurl_candidate_place(candidate, &record->motion, clock, &o->pose, &o->before);
 }
 
-int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const double to[3], double room) {
+int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const double to[3], double distance) {
     const knurl_shape *shape = &o->surface->shape;
-    const double margin = room + o->record->reach + shape->seam + KNURL_CAST_SLACK;
+    const double margin = distance + o->record->reach + shape->seam + KNURL_CAST_SLACK;
     double before[3], now[3];
     knurl_pose_to_own(o->before, from, before);
     knurl_pose_to_own(o->pose, to, now);
@@ -24,7 +24,7 @@ int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const 
     return 1;
 }
 
-/* The candidate's box is that of its surface, with its crests and room; faces reach beyond it by a seam. */
+/* The candidate's box is that of its surface, with its crests and margin; faces reach beyond it by a seam. */
 static int is_beside(const knurl_obstacle *o, const double from[3], const double to[3]) {
     const float *box = o->candidate->box;
     const double margin = o->surface->shape.seam + KNURL_CAST_SLACK;

@@ -33,10 +33,10 @@ static inline int knurl_obstacle_has_jumped(const knurl_obstacle *o) {
     return o->candidate->has_previous && o->candidate->jumps != o->record->motion.jumps;
 }
 
-/* 1 where the segment, or a point within `room` (m) of its ends, is near enough to the shape's own bounds for contact.
- * These bounds rotate with the surface and are tighter than its box in the scene. */
+/* 1 where the segment, or a point within `distance` (m) of its ends, is near enough to the shape's own bounds for
+ * contact. These bounds rotate with the surface and are tighter than its box in the scene. */
 int knurl_obstacle_is_near(const knurl_obstacle *obstacle, const double from[3], const double to[3],
-                           double room) KNURL_NONBLOCKING;
+                           double distance) KNURL_NONBLOCKING;
 
 /* The straight way of a point; scene, m. */
 typedef struct knurl_segment {

@@ -16,7 +16,7 @@ typedef struct knurl_record {
     int32_t has_grating;          /* 0: nothing to play, the stage is left out */
     int32_t is_smooth;            /* 1: neither ridges nor height */
     knurl_motion motion;          /* of the shape's frame */
-    float arrived[6];             /* a box of where it is once the motion is over, with room; scene axes */
+    float arrived[6];             /* a box of where it is once the motion is over, with a margin; scene axes */
 } knurl_record;
 
 /* Checks a material and sets it in a record, with all that follows from it. has_coordinates: 1 where the surface has a

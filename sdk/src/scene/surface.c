@@ -146,19 +146,19 @@ static float round_up(double value) {
     return -round_down(-value);
 }
 
-void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double room,
+void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double margin,
                        float box[6]) {
     double low[3];
     double high[3];
     knurl_surface_bounds(surface, &record->motion, time, low, high);
     for (int i = 0; i < 3; i++) {
-        box[i] = round_down(low[i] - record->reach - room);
-        box[3 + i] = round_up(high[i] + record->reach + room);
+        box[i] = round_down(low[i] - record->reach - margin);
+        box[3 + i] = round_up(high[i] + record->reach + margin);
     }
 }
 
-void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double room) {
-    knurl_surface_box(surface, record, HUGE_VAL, room, record->arrived);
+void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double margin) {
+    knurl_surface_box(surface, record, HUGE_VAL, margin, record->arrived);
 }
 
 void knurl_surface_release(knurl_heap *heap, knurl_retired *retired) {

@@ -47,11 +47,11 @@ knurl_result knurl_surface_check_pose(const double position[3], const double rot
 void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion *motion, double time, double low[3],
                           double high[3]) KNURL_NONBLOCKING;
 
-/* The same for a record's motion, with its crests and `room` (m) round it, rounded outwards: min and max. */
-void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double room,
+/* The same for a record's motion, with its crests and `margin` (m) round it, rounded outwards: min and max. */
+void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double margin,
                        float box[6]) KNURL_NONBLOCKING;
 
-/* Sets the box of where a record's surface arrives, with `room` (m) round it. */
-void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double room);
+/* Sets the box of where a record's surface arrives, with `margin` (m) round it. */
+void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double margin);
 
 #endif
