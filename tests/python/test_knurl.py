@@ -2,7 +2,9 @@
 SPDX-License-Identifier: MIT"""
 import gc
 import os
+import shutil
 import sys
+import tempfile
 import time
 import unittest
 
@@ -71,6 +73,13 @@ class Module(unittest.TestCase):
         loop.step(2000)
         self.assertEqual(loop.stats, {"state": "done", "ticks": 2000, "overruns": 0})
         self.assertGreater(scene.latest()[1]["contact_ticks"], 1000)
+
+    def test_a_files_name_need_not_be_utf8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(os.fsencode(folder), b"plate\xff.glb")
+            shutil.copy(os.path.join(ASSETS, "plate_1d.glb"), path)
+            for name in (path, os.fsdecode(path)):
+                self.assertEqual(len(knurl.Scene().load(name)), 3)
 
     def test_a_loop_runs_beside_python(self):
         scene = knurl.Scene()

@@ -125,10 +125,10 @@ class Scene:
         check(lib.knurl_scene_add_surface(self.handle, desc, surface))
         return Surface(self, surface[0])
 
-    def load(self, path: Union[str, "os.PathLike[str]"]) -> List[Surface]:
-        """The tagged surfaces of a glTF file."""
+    def load(self, path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> List[Surface]:
+        """Loads a glTF file; returns its tagged surfaces."""
         before = lib.knurl_scene_get_surface_count(self.handle)
-        check(lib.knurl_gltf_load_file(self.handle, os.fspath(path).encode(), ffi.NULL))
+        check(lib.knurl_gltf_load_file(self.handle, os.fsencode(path), ffi.NULL))
         return self.surfaces[before:]
 
     @property

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #define KNURL_WAVE_OVERSAMPLING 8
-#define KNURL_WAVE_TAPS         136 /* 1.06 samples to either side */
+#define KNURL_WAVE_TAPS         136 /* 8.5 samples to either side */
 
 /* Means of eighths of samples to samples: a low pass, then a high pass. */
 typedef struct knurl_wave_filter {
