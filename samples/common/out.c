@@ -188,13 +188,17 @@ static void open_stream(out_file *file) {
 static int refuse_input(const char *path) {
     struct stat found;
     return stat(path, &found) == 0 && is_input(&found)
-               ? fail(path, "expected an output of its own, found a file that is read: it would be replaced")
+               ? fail(path, "expected an output of its own, found a file that is read, or another output: it would be "
+                            "replaced")
                : 0;
 }
 
 int out_open(out_file *file, const char *path) {
     memset(file, 0, sizeof *file);
     file->slot = -1;
+    if (!*path) {
+        return fail("''", "expected the name of a file to write, found none");
+    }
     if (refuse_input(path)) {
         return 1;
     }
@@ -223,6 +227,9 @@ int out_keep(out_file *file) {
     if (failed) {
         (void)fail(file->path, strerror(errno));
     } else {
+        if (file->partial) {
+            out_protect(file->path); /* against the next output */
+        }
         strike(file);
     }
     out_discard(file);

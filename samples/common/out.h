@@ -24,7 +24,7 @@ void out_protect_stream(FILE *stream);
  * is unfinished away first. */
 int out_open(out_file *file, const char *path);
 
-/* Closes and renames; 0, or 1 having said why. */
+/* Closes and renames; 0, or 1 having said why. No later output of this process may replace it. */
 int out_keep(out_file *file);
 
 /* Closes and leaves what there is under its temporary name (`partial`). */

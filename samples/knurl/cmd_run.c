@@ -70,6 +70,9 @@ static int read_options(int argc, char **argv, run_options *o) {
     if (!o->path) {
         return tool_error(TOOL_USAGE, "run: expected a .gltf or .glb file, found none");
     }
+    if (o->out && o->wav && strcmp(o->out, o->wav) == 0) {
+        return tool_error(TOOL_USAGE, "run: expected two outputs, found '%s' for both --out and --wav", o->out);
+    }
     if (o->stroke && o->trace) {
         return tool_error(TOOL_USAGE, "run: expected --stroke or --trace, found both");
     }
@@ -301,11 +304,17 @@ static void print_percentiles(json_writer *json, const char *key, const knurl_pe
     json_close(json, '}');
 }
 
+/* Standard output, unless it takes the rows or the sound. */
+static FILE *summary_stream(const run_options *o) {
+    const int is_taken = (o->out && strcmp(o->out, "-") == 0) || (o->wav && strcmp(o->wav, "-") == 0);
+    return is_taken ? stderr : stdout;
+}
+
 static void print_summary(const run *r, const knurl_loop_stats *stats) {
     knurl_hip_counts counts;
     knurl_device_info device;
     json_writer json;
-    json_start(&json, stdout, r->options.pretty);
+    json_start(&json, summary_stream(&r->options), r->options.pretty);
     knurl_device_info_init(&device, sizeof device);
     memset(&counts, 0, sizeof counts);
     (void)knurl_scene_get_tick(r->scene, 0, NULL, &counts);

@@ -56,7 +56,7 @@ static const help_command commands[] = {
       {"--rate", "HZ", "update rate, 100 to 10000; default 1000"},
       {"--method", METHODS, "for all surfaces, instead of their own"},
       {"--fast", "", "fake only: as fast as the machine can, with the same forces"},
-      {"--out", "CSV", "writes a row per tick; - is standard output"},
+      {"--out", "CSV", "writes a row per tick; - is standard output, and the summary goes to standard error"},
       {"--wav", "FILE", "writes the sound of what is felt: mono, 48 kHz, 16 bits"},
       FULL,
       BUDGET,

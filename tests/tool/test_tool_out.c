@@ -94,17 +94,41 @@ TEST(an_output_may_have_the_longest_name) {
     assert_true(file_exists(tool_path(name)));
 }
 
-TEST(standard_output_takes_the_rows_and_then_the_summary) {
-    static const char *const names[] = {"-", "/dev/stdout"};
-    for (size_t i = 0; i < COUNT_OF(names); i++) {
-        process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", names[i]);
-        check_done(&p);
-        assert_true(strncmp(p.out, HEADER, strlen(HEADER)) == 0);
-        assert_int_equal(lines_in(p.out), 12);
-        assert_non_null(strstr(p.out, "\"ticks\": 10,"));
-        process_free(&p);
-    }
+/* So that a program which reads the rows finds nothing else. */
+TEST(standard_output_takes_the_rows_and_standard_error_the_summary) {
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", "-");
+    assert_int_equal(p.exit_code, 0);
+    assert_true(strncmp(p.out, HEADER, strlen(HEADER)) == 0);
+    assert_int_equal(lines_in(p.out), 11);
+    assert_null(strstr(p.out, "\"ticks\""));
+    assert_non_null(strstr(p.err, "\"ticks\": 10,"));
+    process_free(&p);
     assert_false(file_exists("-"));
+}
+
+TEST(a_run_does_not_replace_one_of_its_outputs_by_the_other) {
+    char other[1100];
+    const char *same = tool_path("same");
+    (void)snprintf(other, sizeof other, "%s/./same", tool_folder);
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", same, "--wav", same);
+    check_refused(&p, 2, "expected two outputs", same);
+    assert_false(file_exists(same));
+    p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", same, "--wav", other);
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "or another output"));
+    process_free(&p);
+    char *text = read_file(same);
+    assert_true(strncmp(text, HEADER, strlen(HEADER)) == 0);
+    free(text);
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+TEST(an_empty_name_of_an_output_is_refused_before_the_run) {
+    static const char *const options[] = {"--out", "--wav"};
+    for (size_t i = 0; i < COUNT_OF(options); i++) {
+        process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", options[i], "");
+        check_refused(&p, 1, "expected the name of a file to write", "''");
+    }
 }
 
 /* As `knurl run ... --out /dev/stdout > all.txt`: the link in /dev stays. */
