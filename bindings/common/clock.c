@@ -83,7 +83,8 @@ int knurl_session_find_pace(const knurl_session *session, const knurl_session_wa
     pace->lag = c->lag;
     if (pace->step >= 0.0 && pace->step < LONGEST) { /* it may move more seldom than its clock */
         const double needed = now - way->time + tick;
-        pace->lag = fmax(c->lag, fmax(way->lag - SHRINKING * pace->step, needed));
+        const double own = fmin(way->lag - SHRINKING * pace->step, needed + LONGEST);
+        pace->lag = fmax(c->lag, fmax(own, needed));
     }
     pace->seconds = fmax(c->time + pace->lag - now, tick);
     return 1;

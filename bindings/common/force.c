@@ -38,15 +38,19 @@ knurl_result knurl_session_vibrate(knurl_session *session, int32_t method, doubl
     return result ? result : knurl_loop_vibrate(session->loop, method, frequency_hz, amplitude, direction, seconds);
 }
 
-/* Moves the workspace by what the HIP would have moved meanwhile. */
+/* Moves the workspace by what the HIP would have moved meanwhile, and gives it the scale that it got meanwhile. */
 static knurl_result take_back(knurl_session *session) {
     knurl_workspace *w = &session->desc.workspace;
     knurl_workspace to = *w;
     knurl_board_tick sent;
     double way[3];
+    double hip[3];
     knurl_board_read(&session->board, &sent);
+    to.scale = session->clutch_scale;
+    knurl_workspace_to_device(w, sent.hip, hip);
+    knurl_workspace_to_scene(&to, hip, hip);
     for (int i = 0; i < 3; i++) {
-        way[i] = session->clutched_at[i] - sent.hip[i];
+        way[i] = session->clutched_at[i] - hip[i];
         to.origin[i] += way[i];
     }
     const knurl_result result = knurl_scene_set_workspace(session->scene, 0, &to, 0.0);
@@ -72,6 +76,7 @@ knurl_result knurl_session_set_clutch(knurl_session *session, uint32_t on) {
         memcpy(session->clutched_at, state.ticks > 0 ? state.hip : session->desc.workspace.origin,
                sizeof session->clutched_at);
         session->clutch_tick = UINT64_MAX;
+        session->clutch_scale = session->desc.workspace.scale;
     } else {
         result = take_back(session);
     }

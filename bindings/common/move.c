@@ -77,31 +77,33 @@ knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id
     return result;
 }
 
-knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock, const double position[3],
-                                          const double rotation[9]) {
-    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock, const knurl_workspace *workspace) {
+    if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(workspace)) {
         return KNURL_ERROR_ARGUMENT;
     }
     if (clock >= KNURL_SESSION_CLOCKS) {
         return fail_clock("clock", clock);
     }
     knurl_result result = knurl_session_check_run(session);
+    result = result ? result : knurl_workspace_check(workspace);
     if (result) {
         return result;
     }
     knurl_session_way next;
-    knurl_workspace to = session->desc.workspace;
+    knurl_workspace to = *workspace;
     session->way.clock = clock;
-    const double seconds = plan_move(session, &session->way, position, &next);
+    const double seconds = plan_move(session, &session->way, workspace->origin, &next);
     for (int i = 0; i < 3; i++) {
-        const double *row = rotation + (ptrdiff_t)3 * i;
-        to.origin[i] =
-            position[i] + row[0] * session->shift[0] + row[1] * session->shift[1] + row[2] * session->shift[2];
+        const double *row = workspace->rotation + (ptrdiff_t)3 * i;
+        to.origin[i] += row[0] * session->shift[0] + row[1] * session->shift[1] + row[2] * session->shift[2];
     }
-    memcpy(to.rotation, rotation, sizeof to.rotation);
+    if (session->mouse || session->is_clutched) { /* the game tells where the mouse's HIP is, at any scale */
+        to.scale = session->desc.workspace.scale;
+    }
     result = knurl_scene_set_workspace(session->scene, 0, &to, seconds);
     if (!result) {
         session->desc.workspace = to;
+        session->clutch_scale = workspace->scale;
         session->way = next;
     }
     return result;

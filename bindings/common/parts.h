@@ -35,6 +35,7 @@ struct knurl_session {
     uint32_t is_clutched;
     double clutched_at[3]; /* m, scene: where the HIP stays meanwhile */
     uint64_t clutch_tick;  /* up to this tick the HIP is told to be there */
+    double clutch_scale;   /* the workspace's after the clutch */
     double shift[3];       /* m, workspace axes: how far clutches have moved the workspace off its node */
     knurl_session_way way; /* the workspace's; its position is the node's */
     uint32_t runs;         /* 1: the haptic thread was started, and was not seen to have ended */

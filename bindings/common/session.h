@@ -173,15 +173,15 @@ KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const doub
 
 /** Moves a running session's workspace along with the engine's node: as surfaces are, see knurl_session_move_surface(),
  * so that a HIP is carried through what is in its way; or as a leap where it is faster than 10 m/s: then what lies in
- * between is not touched. clock: what moves it. position: m; rotation: row-major, as knurl_workspace's. Errors:
- * KNURL_ERROR_STATE (it does not run), those of knurl_scene_set_workspace(), KNURL_ERROR_ARGUMENT (clock). [game
- * thread] */
-KNURL_API knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock, const double position[3],
-                                                    const double rotation[9]);
+ * between is not touched. A change of scale moves the HIP likewise, see knurl_scene_set_workspace(); the mouse's HIP
+ * stays where the game moved it. clock: what moves it. Errors: KNURL_ERROR_STATE (it does not run), those of
+ * knurl_scene_set_workspace(), KNURL_ERROR_ARGUMENT (clock). [game thread] */
+KNURL_API knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock,
+                                                    const knurl_workspace *workspace);
 
 /** 1: nothing is felt, and the HIP stays where it is in the scene, while the hand moves its device elsewhere; 0: the
- * HIP follows the hand again, from where it stayed, and walls come back as after a pause. Errors: KNURL_ERROR_STATE (it
- * does not run). [game thread] */
+ * HIP follows the hand again, from where it stayed, and walls come back as after a pause. A scale that is given
+ * meanwhile counts from then on, about the HIP. Errors: KNURL_ERROR_STATE (it does not run). [game thread] */
 KNURL_API knurl_result knurl_session_set_clutch(knurl_session *session, uint32_t on);
 
 /** See knurl_loop_set_gain(). It counts for this run and for later ones, until it is set anew; 1 before. Errors:

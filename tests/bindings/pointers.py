@@ -36,7 +36,6 @@ VALUES = {
     "knurl_session_move_surface.session": "f->open_session",
     "knurl_session_move_surface.surface": "f->session_surface",
     "knurl_session_move_workspace.session": "f->played_session",
-    "knurl_session_move_workspace.rotation": "f->with.workspace.rotation",
     "knurl_session_set_force.session": "f->played_session",
     "knurl_session_set_clutch.session": "f->played_session",
     "knurl_session_set_clutch.on": "1",

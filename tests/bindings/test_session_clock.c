@@ -215,3 +215,20 @@ TEST(bad_clocks_are_refused) {
     check_message("clock");
     knurl_session_destroy(r.s);
 }
+
+/* A film that is written, of 60 frames to a second of the game, at 240 frames a second: the plate comes up by 0.5 mm in
+ * 12 s of the game, and is there 0.2 s after the last frame. */
+TEST(a_game_whose_clock_runs_fast_is_followed) {
+    rig r;
+    double position[3] = {0.0, 0.0, 0.0};
+    set_up(&r, KNURL_S1, KNURL_SESSION_FRAMES);
+    for (int frame = 1; frame <= 720; frame++) {
+        step(r.s, 4);
+        position[2] = 0.0005 * frame / 720.0;
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / 60.0), KNURL_OK);
+        assert_int_equal(knurl_session_move_surface(r.s, r.plate, &r.way, position, upright), KNURL_OK);
+    }
+    step(r.s, 200);
+    CHECK_CLOSE(state_of(r.s).proxy[2], 0.0005, 1e-12);
+    knurl_session_destroy(r.s);
+}

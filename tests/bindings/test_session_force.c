@@ -2,7 +2,18 @@
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
-static const double upright[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+static knurl_workspace at(double x, double z, double scale) {
+    knurl_workspace workspace;
+    knurl_workspace_init(&workspace);
+    workspace.origin[0] = x;
+    workspace.origin[2] = z;
+    workspace.scale = scale;
+    return workspace;
+}
+
+static void move(knurl_session *s, const knurl_workspace *to) {
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to), KNURL_OK);
+}
 
 /* A finger that the fake hand holds 5 mm deep in a plate at 0: 2 N. */
 static knurl_session *pressed(void) {
@@ -52,9 +63,9 @@ TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
 }
 
 TEST(a_workspace_follows_its_node_by_the_engines_clock_and_is_where_it_stands) {
-    static const double to[3] = {0.0, 0.0, 0.01};
+    const knurl_workspace to = at(0.0, 0.01, 1.0);
     knurl_session *s = pressed();
-    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    move(s, &to);
     step(s, 60);
     CHECK_CLOSE(state_of(s).hip[2], 0.005, 1e-9); /* out of the plate, with a hand that held still */
     assert_int_equal(state_of(s).in_contact, 0);
@@ -62,14 +73,14 @@ TEST(a_workspace_follows_its_node_by_the_engines_clock_and_is_where_it_stands) {
 }
 
 TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
-    static const double to[3] = {0.0, 0.0, -2.0};
+    const knurl_workspace to = at(0.0, -2.0, 1.0);
     knurl_session *s = make_session();
     const knurl_session_desc desc = describe("fake", "");
     (void)add_plate(s, 0.0, 0.0, 0.0);
     open_session(s, &desc);
     begin(s);
     hold(s, 0.0, 0.0, 0.02, 100);
-    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    move(s, &to);
     step(s, 1);
     CHECK_CLOSE(state_of(s).hip[2], -1.98, 1e-9);
     assert_int_equal(state_of(s).in_contact, 0);
@@ -77,16 +88,60 @@ TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
 }
 
 TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
-    static const double to[3] = {0.1, 0.0, 0.0};
+    const knurl_workspace to = at(0.1, 0.0, 2.0);
     static const double there[3] = {0.03, 0.02, 0.01};
     knurl_session *s = make_session();
     const knurl_session_desc desc = describe("mouse", "");
     open_session(s, &desc);
     assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
-    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, to, upright), KNURL_OK);
+    move(s, &to);
     assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
     CHECK_UNTIL(s, fabs(state_of(s).hip[0] - 0.03) < 1e-6);
     CHECK_VECTOR(state_of(s).hip, 0.03, 0.02, 0.01, 1e-5);
+    knurl_session_destroy(s);
+}
+
+/* 4 mm below the node, 1 mm above the plate: twice as far from the node is 3 mm deep in it. */
+TEST(a_scale_that_changes_carries_the_hip_into_what_it_meets) {
+    knurl_session *s = make_session();
+    const knurl_session_desc desc = describe("fake", "");
+    const knurl_workspace start = at(0.0, 0.0, 1.0);
+    const knurl_workspace to = at(0.0, 0.0, 2.0);
+    (void)add_plate(s, 0.0, 0.0, -0.005);
+    open_session(s, &desc);
+    begin(s);
+    hold(s, 0.0, 0.0, -0.004, 100);
+    move(s, &start);
+    move(s, &to);
+    step(s, 140); /* 0.2 s times ln 2 */
+    CHECK_CLOSE(state_of(s).hip[2], -0.008, 1e-9);
+    CHECK_CLOSE(state_of(s).force[2], STIFFNESS * 0.003, 1e-6);
+    knurl_session_destroy(s);
+}
+
+/* The hand goes from 20 mm to 10 mm meanwhile; on it goes from where the HIP stayed, twice as far as the hand. */
+TEST(a_scale_that_changes_with_the_clutch_leaves_the_hip) {
+    knurl_session *s = pressed();
+    const knurl_workspace to = at(0.0, 0.0, 2.0);
+    hold(s, 0.02, 0.0, -0.005, 100);
+    assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
+    hold(s, 0.01, 0.0, -0.005, 100);
+    move(s, &to);
+    assert_int_equal(knurl_session_set_clutch(s, 0), KNURL_OK);
+    hold(s, 0.01, 0.0, -0.005, 100);
+    CHECK_VECTOR(state_of(s).hip, 0.02, 0.0, -0.005, 1e-9);
+    CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
+    hold(s, 0.015, 0.0, -0.005, 100);
+    CHECK_VECTOR(state_of(s).hip, 0.03, 0.0, -0.005, 1e-9);
+    knurl_session_destroy(s);
+}
+
+TEST(a_scale_that_is_none_is_refused) {
+    knurl_session *s = pressed();
+    const knurl_workspace to = at(0.0, 0.0, 0.0);
+    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, &to), KNURL_ERROR_ARGUMENT);
+    step(s, 10);
+    CHECK_VECTOR(state_of(s).hip, 0.0, 0.0, -0.005, 1e-9);
     knurl_session_destroy(s);
 }
 
@@ -110,13 +165,14 @@ TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
 /* A quarter turn about z of the node: what the clutch has moved the workspace by is turned along. */
 TEST(what_a_clutch_has_moved_goes_with_the_node) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
-    static const double origin[3] = {0.0, 0.0, 0.0};
+    knurl_workspace to = at(0.0, 0.0, 1.0);
     knurl_session *s = pressed();
     hold(s, 0.02, 0.0, 0.02, 100);
     assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
     hold(s, 0.0, 0.0, 0.02, 100);
     assert_int_equal(knurl_session_set_clutch(s, 0), KNURL_OK);
-    assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, origin, quarter), KNURL_OK);
+    memcpy(to.rotation, quarter, sizeof quarter);
+    move(s, &to);
     hold(s, 0.0, 0.0, 0.02, 200);
     CHECK_VECTOR(state_of(s).hip, 0.0, 0.02, 0.02, 1e-9);
     knurl_session_destroy(s);

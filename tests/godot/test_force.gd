@@ -137,11 +137,45 @@ func clutches() -> void:
 	clear()
 
 
+# The simulated hand rests 1 mm deep in a wall 30 mm below the node.
+func zooms() -> void:
+	wall(Vector3(0, -0.03, 0))
+	var d := make_device("fake", "rest")
+	d.start()
+	check("rests on the wall", await until(func() -> bool: return d.force.y > 0.15), [d.force, d.hip_position])
+	var resting: float = d.force.y
+	d.workspace_scale = 1.2
+	await seconds(0.4)
+	check("a zoom presses it in", d.in_contact and d.force.y > resting + 0.1, [d.force, resting])
+	var forces: PackedFloat32Array = d.get_history(300)
+	var jump := 0.0
+	for i in range(3, forces.size(), 2):
+		jump = maxf(jump, absf(forces[i] - forces[i - 2]))
+	check("without a jump", jump < 0.1, jump) # 400 N/m times 0.5 m/s, in a tick: 0.2 N
+	d.workspace_scale = 0.5
+	check("a smaller scale takes it off", await until(func() -> bool: return not d.in_contact and d.hip_position.y > -0.02), d.hip_position)
+	d.workspace_scale = 1.0
+	check("and back", await until(func() -> bool: return d.force.y > 0.15), d.force)
+	d.clutch = true
+	var at: Vector3 = d.hip_position
+	d.workspace_scale = 3.0
+	await seconds(0.1)
+	check("with the clutch it stays", d.hip_position.distance_to(at) < 2e-4, [d.hip_position, at])
+	d.clutch = false
+	await seconds(0.2)
+	check("and afterwards", d.hip_position.distance_to(at) < 1e-3 and d.in_contact, [d.hip_position, at])
+	expect_error("KnurlDevice.workspace_scale: expected")
+	d.workspace_scale = 0.0
+	check("no scale of 0", d.workspace_scale == 3.0)
+	clear()
+
+
 func tests() -> void:
 	await scales()
 	await pushes()
 	await vibrates()
 	await layers()
 	await follows()
+	await zooms()
 	await clutches()
 

@@ -1,5 +1,5 @@
-/* A workspace that is moved while its HIP ticks. Positions, velocities and forces follow from where it is, by hand.
- * SPDX-License-Identifier: MIT */
+/* A workspace that is moved and zoomed while its HIP ticks. Positions, velocities and forces follow from where it is,
+ * by hand. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
 #include "base/vec3.h"
@@ -18,6 +18,13 @@ static knurl_workspace at(double x, double y, double z) {
     workspace.origin[0] = x;
     workspace.origin[1] = y;
     workspace.origin[2] = z;
+    return workspace;
+}
+
+/* A workspace at (0, 0, z) of some scale. */
+static knurl_workspace zoomed(double z, double scale) {
+    knurl_workspace workspace = at(0.0, 0.0, z);
+    workspace.scale = scale;
     return workspace;
 }
 
@@ -131,9 +138,9 @@ TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
 TEST(moves_that_are_none_are_refused_with_what_was_expected) {
     knurl_scene *scene = wall();
     knurl_workspace bad = at(0.0, 0.0, 0.0);
-    bad.scale = 2.0;
+    bad.scale = 0.0;
     assert_int_equal(knurl_scene_set_workspace(scene, 0, &bad, 0.1), KNURL_ERROR_ARGUMENT);
-    assert_non_null(strstr(knurl_error_message(), "expected 1,"));
+    assert_non_null(strstr(knurl_error_message(), "workspace.scale"));
     bad = at(NAN, 0.0, 0.0);
     assert_int_equal(knurl_scene_set_workspace(scene, 0, &bad, 0.1), KNURL_ERROR_ARGUMENT);
     bad = at(0.0, 0.0, 0.0);
@@ -144,4 +151,148 @@ TEST(moves_that_are_none_are_refused_with_what_was_expected) {
     scene = empty_scene(1);
     assert_int_equal(knurl_scene_set_workspace(scene, 0, &bad, 0.1), KNURL_ERROR_STATE);
     knurl_scene_destroy(scene);
+}
+
+/* Doubled in a second: the scale is 2^t, the velocity what the position changes by. */
+TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
+    knurl_scene *scene = wall();
+    const knurl_workspace to = zoomed(0.01, 2.0);
+    const knurl_workspace start = at(0.0, 0.0, 0.01);
+    move(scene, &start, 0.0);
+    (void)tick_at(scene, 0.01, 0.02, 0.03);
+    move(scene, &to, 1.0);
+    for (int k = 1; k <= 1000; k++) {
+        const double scale = exp2(TICK * k);
+        const double rate = (scale - exp2(TICK * (k - 1))) / TICK;
+        const knurl_tick_output out = tick_at(scene, 0.01, 0.02, 0.03);
+        CHECK_VECTOR(out.hip, 0.01 * scale, 0.02 * scale, 0.01 + 0.03 * scale, 1e-12);
+        CHECK_VECTOR(out.hip_velocity, 0.01 * rate, 0.02 * rate, 0.03 * rate, 1e-9);
+    }
+    const knurl_tick_output out = tick_at(scene, 0.01, 0.02, 0.03);
+    CHECK_VECTOR(out.hip, 0.02, 0.04, 0.07, 1e-12);
+    CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
+    knurl_scene *scene = wall();
+    const knurl_workspace in = zoomed(0.0, exp(-2.0));
+    (void)tick_at(scene, 0.03, 0.0, 0.03);
+    move(scene, &in, 0.001);
+    for (int k = 1; k <= 400; k++) {
+        CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(-0.005 * k), 1e-12);
+    }
+    CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(-2.0), 1e-15);
+    knurl_scene_destroy(scene);
+}
+
+/* Engines move a workspace anew in every frame. */
+TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
+    knurl_scene *scene = wall();
+    const knurl_workspace first = zoomed(0.0, exp(1.0));
+    knurl_workspace told;
+    (void)tick_at(scene, 0.03, 0.0, 0.03);
+    move(scene, &first, 1.0);
+    for (int k = 1; k <= 1000; k++) {
+        const knurl_workspace to = zoomed(0.0001 * k, exp(1.0));
+        move(scene, &to, 0.001);
+        CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(0.001 * k), 1e-12);
+    }
+    assert_int_equal(knurl_scene_get_workspace(scene, 0, &told), KNURL_OK);
+    CHECK_SAME(told.scale, exp(1.0));
+    knurl_scene_destroy(scene);
+}
+
+TEST(a_jump_ends_a_zoom) {
+    knurl_scene *scene = wall();
+    const knurl_workspace to = zoomed(0.0, 2.0);
+    (void)tick_at(scene, 0.03, 0.0, 0.03);
+    move(scene, &to, 1.0);
+    (void)tick_at(scene, 0.03, 0.0, 0.03);
+    move(scene, &to, 0.0);
+    CHECK_VECTOR(tick_at(scene, 0.03, 0.0, 0.03).hip, 0.06, 0.0, 0.06, 0.0);
+    knurl_scene_destroy(scene);
+}
+
+/* 11 mm below the origin, which is 10 mm above the wall: 1 mm deep, then 3.2 mm. On its way the HIP goes at 5/s times
+ * 13.2 mm at most, and the force grows by 400 N/m times that. */
+TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
+    knurl_scene *scene = wall();
+    const knurl_workspace start = at(0.0, 0.0, 0.01);
+    const knurl_workspace to = zoomed(0.01, 1.2);
+    move(scene, &start, 0.0);
+    for (int k = 0; k < 100; k++) {
+        (void)tick_at(scene, 0.0, 0.0, -0.009 - 0.00002 * k);
+    }
+    (void)tick_at(scene, 0.0, 0.0, -0.011);
+    double force = tick_at(scene, 0.0, 0.0, -0.011).force[2];
+    CHECK_CLOSE(force, 0.4, 1e-9);
+    move(scene, &to, 0.0001);
+    for (int k = 0; k < 100; k++) {
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.011);
+        assert_int_equal(out.contacts, 1);
+        assert_true(out.force[2] >= force && out.force[2] - force <= 400.0 * 5.0 * 0.0132 * TICK);
+        force = out.force[2];
+    }
+    CHECK_CLOSE(force, 1.28, 1e-9);
+    knurl_scene_destroy(scene);
+}
+
+/* From 2 mm above the wall to 19.6 mm and 25 mm below it, farther than a first tick reaches. */
+TEST(a_zoom_that_jumps_touches_nothing) {
+    knurl_scene *scene = wall();
+    const knurl_workspace start = at(0.0, 0.0, 0.02);
+    move(scene, &start, 0.0);
+    (void)tick_at(scene, 0.0, 0.0, -0.018);
+    for (int k = 0; k < 10; k++) {
+        const knurl_workspace to = zoomed(0.02, k % 2 ? 2.2 : 2.5);
+        move(scene, &to, 0.0);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.018);
+        assert_int_equal(out.contacts, 0);
+        CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* Ridges on a wall that is beyond what the device can do, with all protections: the same bits at the same scale. */
+static knurl_scene *stiff_wall(double scale) {
+    surface_parts parts = surface_plane();
+    knurl_workspace workspace = zoomed(0.0, scale);
+    knurl_hip_desc desc;
+    knurl_hip_desc_init(&desc, sizeof desc);
+    desc.workspace = &workspace;
+    desc.clamp = 1;
+    set_grating(&parts, KNURL_LOCKED, 1000.0, 0.0, 0.0002);
+    parts.material.stiffness = 5000.0;
+    knurl_scene *scene = scene_of(&parts);
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
+    return scene;
+}
+
+TEST(after_a_zoom_all_is_as_with_a_hip_of_that_scale) {
+    knurl_scene *scenes[2] = {stiff_wall(2.0), stiff_wall(1.0)};
+    knurl_surface_check checks[2];
+    knurl_tick_output out[2];
+    const knurl_workspace to = zoomed(0.0, 2.0);
+    move(scenes[1], &to, 0.1);
+    for (int k = 0; k < 300; k++) { /* above it */
+        out[0] = tick_at(scenes[0], 0.0, 0.0, 0.01);
+        out[1] = tick_at(scenes[1], 0.0, 0.0, 0.01);
+    }
+    for (int k = 0; k < 2000; k++) { /* in and out of it, slowly and fast */
+        const double x = 0.00005 * k;
+        const double z = 0.0005 * sin(1e-5 * k * k);
+        out[0] = tick_at(scenes[0], x, 0.0, z);
+        out[1] = tick_at(scenes[1], x, 0.0, z);
+        assert_memory_equal(out[0].force, out[1].force, sizeof out[0].force);
+    }
+    for (int i = 0; i < 2; i++) {
+        knurl_surface_check_init(&checks[i], sizeof checks[i]);
+        assert_int_equal(knurl_scene_check_surface(scenes[i], 0, knurl_scene_get_surface(scenes[i], 0), &checks[i]),
+                         KNURL_OK);
+        knurl_scene_destroy(scenes[i]);
+    }
+    assert_memory_equal(&checks[0], &checks[1], sizeof checks[0]);
+    CHECK_SAME(checks[1].stiffness, 10000.0);
 }

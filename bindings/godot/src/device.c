@@ -63,15 +63,15 @@ static knurl_result take_slot(device *d) {
 }
 
 /* Where the node stands, the workspace is; its scale is a property, not the node's. */
-static knurl_result place(device *d) {
+static knurl_result place(const device *d, knurl_workspace *to) {
     knurl_session_pose at;
     if (!node_pose(d->base.object, &at)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "expected a transform with axes, found one that is scaled to nothing");
     }
-    knurl_workspace_init(&d->workspace);
-    memcpy(d->workspace.origin, at.position, sizeof at.position);
-    memcpy(d->workspace.rotation, at.rotation, sizeof at.rotation);
-    d->workspace.scale = d->workspace_scale;
+    knurl_workspace_init(to);
+    memcpy(to->origin, at.position, sizeof at.position);
+    memcpy(to->rotation, at.rotation, sizeof at.rotation);
+    to->scale = d->workspace_scale;
     return KNURL_OK;
 }
 
@@ -105,7 +105,7 @@ knurl_result device_prepare(device *d) {
         return knurl_fail(KNURL_ERROR_STATE, "expected a node inside a scene tree, found one outside");
     }
     knurl_result result = take_slot(d);
-    result = result ? result : place(d);
+    result = result ? result : place(d, &d->workspace);
     result = result ? result : device_make_session(d);
     result = result ? result : open_session(d);
     if (!result) {
@@ -258,14 +258,12 @@ static void react(device *d, const knurl_session_state *state) {
     memcpy(d->impulse, state->impulse, sizeof d->impulse);
 }
 
-/* The workspace goes where its node went. */
-static void move_workspace(device *d) {
-    knurl_session_pose at;
-    if (d->moved && node_pose(d->base.object, &at) &&
-        !knurl_session_move_workspace(d->session, d->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES,
-                                      at.position, at.rotation)) {
-        memcpy(d->workspace.origin, at.position, sizeof at.position);
-        memcpy(d->workspace.rotation, at.rotation, sizeof at.rotation);
+/* A node that is scaled to nothing leaves the workspace where it is. */
+void device_move_workspace(device *d) {
+    knurl_workspace to;
+    if (d->moved && !place(d, &to) &&
+        !knurl_session_move_workspace(d->session, d->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES, &to)) {
+        d->workspace = to;
     }
     d->moved = 0;
 }
@@ -288,7 +286,7 @@ void device_process(device *d) {
     }
     if (d->runs) {
         tell_time(d);
-        move_workspace(d);
+        device_move_workspace(d);
         follow_all(d);
         knurl_session_update(d->session);
         tell_state(d);

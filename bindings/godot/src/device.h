@@ -19,6 +19,9 @@ void device_release(device *d);
 /* All surfaces as they are now into an opened session's scene, or out of it. */
 void device_put_surfaces(device *d);
 
+/* Where the node was moved or workspace_scale changed since the last call: the running workspace follows. */
+void device_move_workspace(device *d);
+
 /* Tells the session the property added_force. */
 void device_apply_force(const device *d);
 

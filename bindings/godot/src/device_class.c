@@ -58,6 +58,12 @@ static void explain_anew(void *self) {
     }
 }
 
+static void change_scale(void *self) {
+    device *d = self;
+    d->moved = 1; /* applied in the next frame, as the node's moves are */
+    explain_anew(d);
+}
+
 static void change_gain(void *self) {
     const device *d = self;
     if (d->session) {
@@ -70,8 +76,9 @@ static void change_force(void *self) {
 }
 
 static void change_clutch(void *self) {
-    const device *d = self;
+    device *d = self;
     if (d->runs) {
+        device_move_workspace(d); /* a scale that was set while the clutch was on is one about the HIP */
         (void)knurl_session_set_clutch(d->session, d->clutch);
     }
 }
@@ -339,7 +346,7 @@ static const gd_property properties[] = {
     {.name = "device", .type = STRING, .offset = offsetof(device, uri), .changed = explain_anew},
     {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, explain_anew},
     {"workspace_scale", FLOAT, offsetof(device, workspace_scale), 0.001, 100.0, 0.001, "or_greater,exp", 0, NULL, NULL,
-     explain_anew},
+     change_scale},
     {.name = "autostart", .type = BOOL, .offset = offsetof(device, autostart)},
     {"retry", FLOAT, offsetof(device, retry), 0.0, 60.0, 0.1, "or_greater,suffix:s", 0, NULL, NULL, NULL},
     {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},

@@ -42,7 +42,7 @@ typedef struct device {
     int64_t layers;
     float added_force[3]; /* N */
     uint8_t clutch;
-    uint8_t moved, by_physics; /* 1: its node was moved since the last frame; by a step of the physics */
+    uint8_t moved, by_physics; /* 1: its node was moved or its scale set since the last frame; by a step of physics */
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */
     double retry;        /* s after which a start of its own that failed is tried again; 0: never */

@@ -336,11 +336,12 @@ KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hi
  * the haptic] */
 KNURL_API knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace);
 
-/** Moves a HIP's workspace, also while it ticks. It moves evenly over `seconds` (0 to 10) and carries the HIP with it,
- * in contact with what it meets. With 0 it jumps: contacts end, and the next tick is a first one. workspace: of the
- * scale that the HIP was configured with. A loop that is created later keeps it; knurl_scene_configure_hip() replaces
- * it. Errors: KNURL_ERROR_ARGUMENT (hip, workspace, scale, seconds), KNURL_ERROR_STATE (not committed). [any thread but
- * the haptic] */
+/** Moves a HIP's workspace and changes its scale, also while it ticks. It moves evenly over `seconds` (0 to 10) and
+ * carries the HIP with it, in contact with what it meets. A change of scale moves the HIP too, towards the workspace's
+ * origin or away from it. It takes at least 0.2 s for a factor of e, and goes on where a later call gives the same
+ * scale again. With 0 s the workspace jumps, at once in its scale: contacts end, and the next tick is a first one. A
+ * loop that is created later keeps the workspace; knurl_scene_configure_hip() replaces it. Errors: KNURL_ERROR_ARGUMENT
+ * (hip, workspace, seconds), KNURL_ERROR_STATE (not committed). [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const knurl_workspace *workspace,
                                                  double seconds);
 

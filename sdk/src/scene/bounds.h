@@ -24,7 +24,7 @@ typedef struct knurl_bounds {
 } knurl_bounds;
 
 /* scale: scene metres a device metre. */
-void knurl_bounds_init(knurl_bounds *bounds, const knurl_hip_facts *facts, double scale);
+void knurl_bounds_init(knurl_bounds *bounds, const knurl_hip_facts *facts, double scale) KNURL_NONBLOCKING;
 
 /* N/m, felt: the bounds of a wall of some damping (N s/m, scene): (b + B)/(T/2 + delay) and the maker's. */
 double knurl_bounds_stability(const knurl_bounds *bounds, double damping) KNURL_NONBLOCKING;

@@ -133,11 +133,17 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
 
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
-    const inspection on = {&hip->guard.bounds, m, surface->name, check, hip->guard.clamp};
+    knurl_workspace workspace;
+    knurl_bounds bounds; /* not the guard's, which follow a scale that changes on the haptic thread */
+    const inspection on = {&bounds, m, surface->name, check, hip->guard.clamp};
     knurl_wall wall;
     memset(check, 0, sizeof *check);
+    knurl_workspace_target(&hip->move, &hip->workspace, &workspace);
+    knurl_bounds_init(&bounds, &hip->facts, workspace.scale);
     knurl_wall_init(&wall, m, 0.0, NULL);
-    knurl_guard_clamp(&hip->guard, &wall);
+    if (on.clamped) {
+        knurl_guard_limit_wall(&bounds, &wall);
+    }
     check->stiffness = m->stiffness * on.bounds->scale;
     check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);
     check->amplitude = m->amplitude;

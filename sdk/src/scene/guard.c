@@ -6,7 +6,7 @@
 /* s in which a force may grow from none to max_force, where no slew_rate is given. */
 #define SLEW_TIME 0.005
 
-void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
+void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts) {
     const double period = 1.0 / facts->rate;
     const double heat = knurl_heat_get(&guard->heat);
     memset(guard, 0, sizeof *guard);
@@ -15,12 +15,17 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
         guard->heat.excess = 0.0;
     }
     knurl_heat_set(&guard->heat, heat);
-    knurl_passivity_init(&guard->passivity, (desc->protections & KNURL_PROTECT_PASSIVITY) != 0, facts, scale);
-    knurl_bounds_init(&guard->bounds, facts, scale);
+    knurl_passivity_init(&guard->passivity, facts);
     const double slew = desc->slew_rate > 0.0 ? desc->slew_rate : facts->max_force / SLEW_TIME;
-    guard->entry = desc->protections & KNURL_PROTECT_ENTRY ? KNURL_ENTRY_SPEED_MAX * scale * period : HUGE_VAL;
     guard->slew = desc->protections & KNURL_PROTECT_SLEW ? slew * period : HUGE_VAL;
     guard->clamp = (int32_t)desc->clamp;
+}
+
+void knurl_guard_set_scale(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
+    const double period = 1.0 / facts->rate;
+    guard->entry = desc->protections & KNURL_PROTECT_ENTRY ? KNURL_ENTRY_SPEED_MAX * scale * period : HUGE_VAL;
+    knurl_passivity_set_scale(&guard->passivity, (desc->protections & KNURL_PROTECT_PASSIVITY) != 0, facts, scale);
+    knurl_bounds_init(&guard->bounds, facts, scale);
 }
 
 void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {

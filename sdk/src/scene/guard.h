@@ -22,17 +22,14 @@ typedef struct knurl_guard {
 } knurl_guard;
 
 /* Sets the protections up; the motors stay as warm as they were. guard: zeroed, or set up before. facts: complete. */
-void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale);
+void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts);
+
+/* Sets what depends on the workspace's scale: scene metres a device metre. */
+void knurl_guard_set_scale(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts,
+                           double scale) KNURL_NONBLOCKING;
 
 /* Stiffness and amplitude of a wall within a device's bounds. */
 void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) KNURL_NONBLOCKING;
-
-/* Stiffness and amplitude within bounds, where that was asked for. */
-static inline void knurl_guard_clamp(const knurl_guard *guard, knurl_wall *wall) {
-    if (guard->clamp) {
-        knurl_guard_limit_wall(&guard->bounds, wall);
-    }
-}
 
 /* A tick begins. attenuation: the share of its force, 0 to 1, that will not be sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
@@ -59,7 +56,9 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
 /* Before a contact's force: limits its wall. Stiffness and amplitude are clamped where that was asked for, the depth
  * follows the entry ramp, and the wall is softened after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
-    knurl_guard_clamp(guard, wall);
+    if (guard->clamp) {
+        knurl_guard_limit_wall(&guard->bounds, wall);
+    }
     knurl_guard_enter(guard, wall, flags);
     if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
         knurl_passivity_watch(&guard->passivity, wall, flags);

@@ -84,6 +84,11 @@ static void replace(knurl_hip *hip, const knurl_hip *made) {
     knurl_snapshot_clear(&hip->published);
 }
 
+void knurl_hip_set_scale(knurl_hip *hip, double scale) {
+    hip->quantum = 1.7320508075688772 * hip->facts.resolution * scale;
+    knurl_guard_set_scale(&hip->guard, &hip->given, &hip->facts, scale);
+}
+
 knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest,
                               double time) {
     knurl_hip made;
@@ -104,9 +109,10 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
     if (d->workspace) {
         made.workspace = *d->workspace;
     }
-    made.quantum = 1.7320508075688772 * facts.resolution * made.workspace.scale;
+    made.facts = facts;
     made.guard.heat = hip->guard.heat; /* motors do not cool because a scene is set up */
-    knurl_guard_init(&made.guard, d, &facts, made.workspace.scale);
+    knurl_guard_init(&made.guard, d, &facts);
+    knurl_hip_set_scale(&made, made.workspace.scale);
     for (int i = 0; i < 9; i++) {
         made.is_rotated |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }

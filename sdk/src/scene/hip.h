@@ -26,6 +26,7 @@ typedef struct knurl_hip {
     knurl_hip_counts counts;
     knurl_published published; /* read by any thread, without the lock */
     knurl_hip_desc given;      /* as configured; what it leaves open a loop fills in */
+    knurl_hip_facts facts;     /* what is in use */
     knurl_workspace_move move; /* the workspace's */
     knurl_contacts contacts;
 } knurl_hip;
@@ -37,5 +38,8 @@ extern const knurl_hip_facts knurl_touch;
  * `time` (s) is the scene's. Errors: KNURL_ERROR_ARGUMENT (which field), and the HIP is as it was. */
 knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *desc, const knurl_hip_facts *device,
                               double strongest, double time);
+
+/* What depends on the workspace's scale, after that changed. */
+void knurl_hip_set_scale(knurl_hip *hip, double scale) KNURL_NONBLOCKING;
 
 #endif

@@ -1,4 +1,4 @@
-/* A workspace that is moved while its HIP ticks. SPDX-License-Identifier: MIT */
+/* A workspace that is moved and zoomed while its HIP ticks. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HIP_WORKSPACE_H
 #define KNURL_SRC_HIP_WORKSPACE_H
 
@@ -7,13 +7,24 @@
 
 #include <knurl/motion.h>
 
+/* A change of scale, from `start` to `end`, at a constant rate of its logarithm. */
+typedef struct knurl_zoom {
+    double start, end;
+    double start_time, end_time; /* s, scene time */
+} knurl_zoom;
+
+typedef struct knurl_workspace_motion {
+    knurl_motion frame;
+    knurl_zoom zoom;
+} knurl_workspace_motion;
+
 typedef struct knurl_workspace_move {
-    uint64_t sequence;   /* atomic: of `given` */
-    uint64_t seen;       /* haptic thread: the sequence at which `motion` was copied */
-    int32_t is_on;       /* haptic thread: 1 until the motion is over */
-    knurl_motion motion; /* haptic thread: its copy of `given` */
-    uint64_t given[sizeof(knurl_motion) / sizeof(uint64_t)]; /* atomic */
-    knurl_motion latest;                                     /* the same, under the scene's lock */
+    uint64_t sequence;             /* atomic: of `given` */
+    uint64_t seen;                 /* haptic thread: the sequence at which `motion` was copied */
+    int32_t is_on;                 /* haptic thread: 1 until the motion is over */
+    knurl_workspace_motion motion; /* haptic thread: its copy of `given` */
+    uint64_t given[sizeof(knurl_workspace_motion) / sizeof(uint64_t)]; /* atomic */
+    knurl_workspace_motion latest;                                     /* the same, under the scene's lock */
 } knurl_workspace_move;
 
 /* 1: the workspace moves in this tick, or was moved since the last one. */

@@ -36,15 +36,18 @@
  * at load should not warn too often, and a controller should not miss a case. */
 #define LOOSE_HAND 0.5
 
-/* Walls up to `safe` are stable: the device's and the hand's damping absorb the energy of a delayed spring (Colgate and
- * Schenkel 1997). Dry friction is not counted on: it helps a hand at rest, but hardly one that slides. */
-void knurl_passivity_init(knurl_passivity *p, int watches, const knurl_hip_facts *facts, double scale) {
+void knurl_passivity_init(knurl_passivity *p, const knurl_hip_facts *facts) {
     memset(p, 0, sizeof *p);
-    p->safe = watches ? (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale) : HUGE_VAL;
-    p->unit = scale;
     p->longest = PERIOD * facts->rate;
     p->softening = 1.0 / (1.0 + SOFTENING_TIME * facts->rate);
     p->off_most = OFF_TIME * facts->rate;
+}
+
+/* Walls up to `safe` are stable: the device's and the hand's damping absorb the energy of a delayed spring (Colgate and
+ * Schenkel 1997). Dry friction is not counted on: it helps a hand at rest, but hardly one that slides. */
+void knurl_passivity_set_scale(knurl_passivity *p, int watches, const knurl_hip_facts *facts, double scale) {
+    p->safe = watches ? (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale) : HUGE_VAL;
+    p->unit = scale;
 }
 
 static void end_row(knurl_passivity *p) {

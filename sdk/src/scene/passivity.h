@@ -31,8 +31,11 @@ typedef struct knurl_passivity {
     double off_most;  /* after so many the alarm ends */
 } knurl_passivity;
 
-/* watches: 0: left out. scale: scene metres a device metre. */
-void knurl_passivity_init(knurl_passivity *passivity, int watches, const knurl_hip_facts *facts, double scale);
+void knurl_passivity_init(knurl_passivity *passivity, const knurl_hip_facts *facts);
+
+/* Sets what depends on the workspace's scale: scene metres a device metre. watches: 0: left out. */
+void knurl_passivity_set_scale(knurl_passivity *passivity, int watches, const knurl_hip_facts *facts,
+                               double scale) KNURL_NONBLOCKING;
 
 /* From one tick to the next; only while it is busy. */
 void knurl_passivity_follow(knurl_passivity *passivity) KNURL_NONBLOCKING;

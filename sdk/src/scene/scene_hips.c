@@ -86,18 +86,6 @@ knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, k
     return result;
 }
 
-static knurl_result check_move(const knurl_scene *scene, const knurl_hip *hip, const knurl_workspace *workspace) {
-    if (!scene->committed) {
-        return knurl_fail(KNURL_ERROR_STATE, "workspace: expected a scene that is committed, found one that is not");
-    }
-    if (workspace->scale != hip->workspace.scale) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_workspace.scale: expected %g, as the HIP was configured with, found %g",
-                          hip->workspace.scale, workspace->scale);
-    }
-    return KNURL_OK;
-}
-
 knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const knurl_workspace *workspace,
                                        double seconds) {
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
@@ -113,8 +101,9 @@ knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const k
     }
     knurl_scene_lock(scene);
     knurl_hip *h = &scene->hips[hip];
-    result = check_move(scene, h, workspace);
-    if (!result) {
+    if (!scene->committed) {
+        result = knurl_fail(KNURL_ERROR_STATE, "workspace: expected a scene that is committed, found one that is not");
+    } else {
         knurl_workspace_go(&h->move, &h->workspace, workspace, knurl_load_double(&h->contacts.clock.time), seconds);
         h->centred = 0;
     }

@@ -31,19 +31,32 @@ static void clear_contact_output(knurl_tick_output *out) {
     out->surface = 0;
 }
 
-/* Puts the workspace where it is in this tick. Contacts end where it jumped: what lies on the way is not touched. */
-static void move_workspace(knurl_hip *hip) {
-    if (knurl_workspace_advance(&hip->move, hip->contacts.clock.time, &hip->workspace, &hip->is_rotated)) {
+/* Puts the workspace where it is in this tick. Contacts end where it jumped: what lies on the way is not touched.
+ * Returns how fast its scale grew since the last tick, as a share of it, 1/s. */
+static double move_workspace(knurl_hip *hip) {
+    const double before = hip->workspace.scale;
+    const knurl_hip_clock *clock = &hip->contacts.clock;
+    const int jumped = knurl_workspace_advance(&hip->move, clock->time, &hip->workspace, &hip->is_rotated);
+    const double scale = hip->workspace.scale;
+    if (jumped) {
         knurl_contacts_reset(&hip->contacts);
     }
+    if (scale == before) {
+        return 0.0;
+    }
+    knurl_hip_set_scale(hip, scale);
+    return jumped ? 0.0 : (scale - before) / (scale * clock->period);
 }
 
-/* Adds the velocity of the workspace at a HIP, m/s. */
-static void add_workspace_velocity(const knurl_hip *hip, const double at[3], double velocity[3]) {
+/* Adds the velocity of the workspace at a HIP, m/s. zoom: 1/s, see move_workspace(). */
+static void add_workspace_velocity(const knurl_hip *hip, const double at[3], double zoom, double velocity[3]) {
     const knurl_hip_clock *clock = &hip->contacts.clock;
     double own[3];
-    knurl_motion_velocity(&hip->move.motion, clock->time, clock->period, at, own);
+    double from_origin[3];
+    knurl_motion_velocity(&hip->move.motion.frame, clock->time, clock->period, at, own);
     vec3_madd(velocity, 1.0, own, velocity);
+    vec3_sub(at, hip->workspace.origin, from_origin);
+    vec3_madd(velocity, zoom, from_origin, velocity);
 }
 
 /* Maps the device's position and velocity into the scene. A velocity that is not given is estimated in device axes,
@@ -63,9 +76,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         velocity = estimate;
     }
     const int is_moving = knurl_workspace_is_moving(&hip->move);
-    if (is_moving) {
-        move_workspace(hip);
-    }
+    const double zoom = is_moving ? move_workspace(hip) : 0.0;
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
         knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
@@ -74,7 +85,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         vec3_scale(w->scale, velocity, out->hip_velocity);
     }
     if (is_moving) {
-        add_workspace_velocity(hip, out->hip, out->hip_velocity);
+        add_workspace_velocity(hip, out->hip, zoom, out->hip_velocity);
     }
     begin_output(out);
     return vec3_finite_both(out->hip, out->hip_velocity);

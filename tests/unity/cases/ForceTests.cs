@@ -115,6 +115,44 @@ namespace Knurl.Tests
             Until(() => d.Force.y > 0.2f && IsAbout(d.Force.y, -400f * d.HipPosition.y), "the hand yields to the wall");
         }
 
+        /// <summary>The hand rests 1 mm deep in a wall 30 mm below the object.</summary>
+        [Test]
+        public void AWorkspaceIsZoomedWhileItRuns()
+        {
+            MakeSmooth(Plate()).transform.position = new Vector3(0f, -0.03f, 0f);
+            KnurlDevice d = MakeDevice("fake");
+            d.Stroke = "rest";
+            Assert.IsTrue(d.StartDevice());
+            Until(() => d.Force.y > 0.15f, "rests on the wall");
+            float resting = d.Force.y;
+            d.WorkspaceScale = 1.2f;
+            Until(() => d.Force.y > resting + 0.1f, "pressed in");
+            var rows = new float[600];
+            int count = d.GetHistory(rows);
+            for (int i = 1; i < count; i++) // 400 N/m times 0.5 m/s, in a tick: 0.2 N
+            {
+                Assert.That(Mathf.Abs(rows[2 * i + 1] - rows[2 * i - 1]), Is.LessThan(0.1f), "no jump");
+            }
+            d.WorkspaceScale = 0.5f;
+            Until(() => !d.InContact && d.HipPosition.y > -0.02f, "taken off");
+            Assert.AreEqual(0.5f, d.Workspace.lossyScale.x, 1e-6f);
+            d.WorkspaceScale = 1f;
+            Until(() => d.Force.y > 0.15f, "and back");
+            d.Clutch = true;
+            Player.Frames(2);
+            Vector3 at = d.HipPosition;
+            d.WorkspaceScale = 3f;
+            Player.Frames(2);
+            d.Clutch = false;
+            long ticks = d.Ticks;
+            Until(() => d.Ticks > ticks + 200, "the zoom would be over");
+            Assert.That((d.HipPosition - at).magnitude, Is.LessThan(1e-3f), "about the HIP");
+            ExpectError("move: workspace.scale: expected a finite number > 0, found 0");
+            d.WorkspaceScale = 0f;
+            Player.Frames(5);
+            Assert.IsTrue(d.Running);
+        }
+
         [Test]
         public void AClutchKeepsTheHipWhereItIs()
         {

@@ -20,7 +20,7 @@ namespace Knurl
         [NonSerialized] string deviceName;
         [NonSerialized] Vector3 latestPosition;       // where the workspace was told to be
         [NonSerialized] Quaternion latestRotation;
-        [NonSerialized] float runningScale;           // of the run
+        [NonSerialized] float latestScale;
         [NonSerialized] Vector3 latestForce;          // as told to the run
         [NonSerialized] float latestGain;
         [NonSerialized] bool latestClutch;
@@ -147,7 +147,7 @@ namespace Knurl
             desc.reconnect = reconnect ? 1u : 0u;
             desc.clamp = clamp ? 1u : 0u;
             desc.update_rate_hz = rate;
-            runningScale = workspaceScale;
+            latestScale = workspaceScale;
             latestPosition = transform.position;
             latestRotation = transform.rotation;
             Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
@@ -184,22 +184,24 @@ namespace Knurl
             }
         }
 
-        /// <summary>The workspace goes where the object went.</summary>
+        /// <summary>The workspace goes where the object went, in the scale that was set.</summary>
         unsafe void MoveWorkspace()
         {
             Vector3 position = transform.position;
             Quaternion rotation = transform.rotation;
             knurl_workspace to;
-            if (Axes.IsSame(position, latestPosition) && rotation.Equals(latestRotation))
+            if (Axes.IsSame(position, latestPosition) && rotation.Equals(latestRotation)
+                && workspaceScale.Equals(latestScale))
             {
                 return;
             }
+            latestScale = workspaceScale;
             latestPosition = position;
             latestRotation = rotation;
-            Axes.ToWorkspace(position, rotation, runningScale, &to);
+            Axes.ToWorkspace(position, rotation, workspaceScale, &to);
             uint clock = (uint)(Following.IsMovedBySteps(this) ? NativeMethods.KNURL_SESSION_STEPS
                 : NativeMethods.KNURL_SESSION_FRAMES);
-            Check("move", NativeMethods.knurl_session_move_workspace(session, clock, to.origin, to.rotation));
+            Check("move", NativeMethods.knurl_session_move_workspace(session, clock, &to));
         }
 
         unsafe void Check(string what, int result)
@@ -291,8 +293,8 @@ namespace Knurl
                 Pause();
                 NativeMethods.knurl_unity_update(session);
                 TellTime();
+                MoveWorkspace(); // before the end of a clutch: a scale that was set meanwhile is one about the HIP
                 TellSettings(false);
-                MoveWorkspace();
                 following.Follow(layers);
                 React();
                 TellEvents();

@@ -254,14 +254,10 @@ namespace Knurl
         }
 
         /// <summary>Where the workspace lies, in device metres to global, but for what a clutch has moved it by. The
-        /// object's scale does not count; while it runs, the workspace scale is that of its start.</summary>
+        /// object's scale does not count.</summary>
         internal Matrix4x4 Workspace
         {
-            get
-            {
-                float scale = isRunning ? runningScale : workspaceScale;
-                return Matrix4x4.TRS(transform.position, transform.rotation, scale * Vector3.one);
-            }
+            get { return Matrix4x4.TRS(transform.position, transform.rotation, workspaceScale * Vector3.one); }
         }
 
         internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)

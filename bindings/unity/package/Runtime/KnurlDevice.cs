@@ -17,7 +17,7 @@ namespace Knurl
     {
         [SerializeField, Tooltip("Which device: auto (the first that is connected), fake (also fake:?key=value&...), touch, touch:NAME, falcon, rawhid, "
             + "rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the next start on, as do Stroke, "
-            + "Rate, Workspace Scale, Reconnect and Clamp.")]
+            + "Rate, Reconnect and Clamp.")]
         string device = "fake";
 
         [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, "
@@ -28,7 +28,7 @@ namespace Knurl
         float rate = 1000f;
 
         [SerializeField, Min(0f), Tooltip("Metres of the scene per metre that the device moves, above 0. Walls feel "
-            + "stiffer by as much.")]
+            + "stiffer by as much. Counts at once.")]
         float workspaceScale = 1f;
 
         [SerializeField, Tooltip("Whether it starts in its first frame.")]
@@ -84,7 +84,7 @@ namespace Knurl
 
         /// <summary>Which device: auto (the first that is connected), fake (also fake:?key=value&amp;...), touch, touch:NAME, falcon, rawhid,
         /// rawhid:VID:PID; or mouse, which the game moves with <see cref="MoveHip"/>. Default "fake". Counts from the
-        /// next start on, as do Stroke, Rate, WorkspaceScale, Reconnect and Clamp, and is checked there.</summary>
+        /// next start on, as do Stroke, Rate, Reconnect and Clamp, and is checked there.</summary>
         public string Device
         {
             get { return device; }
@@ -106,8 +106,10 @@ namespace Knurl
             set { rate = value; }
         }
 
-        /// <summary>Metres of the scene per metre that the device moves, above 0. Walls feel stiffer by as much.
-        /// Default 1.</summary>
+        /// <summary>Metres of the scene per metre that the device moves, above 0. Walls feel stiffer by as much. May
+        /// change while the device runs, as a zoom: the HIP moves towards this object or away from it, within 0.14 s for a
+        /// factor of 2, and is held by what it meets. A scale that is set while <see cref="Clutch"/> is on is a zoom about
+        /// the HIP, which stays where it is. Default 1.</summary>
         public float WorkspaceScale
         {
             get { return workspaceScale; }

@@ -618,7 +618,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "c20bc0dc0ead8452";
+        internal const string Interface = "e6afc1a44872c16f";
 
         internal const string Version = "0.2.0";
 
@@ -1186,8 +1186,8 @@ namespace Knurl
         internal static extern int knurl_session_move_hip(SessionHandle session, double* position);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_session_move_workspace(SessionHandle session, uint clock, double* position,
-            double* rotation);
+        internal static extern int knurl_session_move_workspace(SessionHandle session, uint clock,
+            knurl_workspace* workspace);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_set_clutch(SessionHandle session, uint on);

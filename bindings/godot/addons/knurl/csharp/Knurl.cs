@@ -179,7 +179,7 @@ namespace Knurl
 
         /// <summary>Which device: auto (the first that is connected), fake (also fake:?key=value&amp;...), touch,
         /// touch:NAME, falcon, rawhid, rawhid:VID:PID; or mouse, which the game moves with MoveHip. Counts from the
-        /// next start on, as do Rate, Stroke, WorkspaceScale, Reconnect and Clamp.</summary>
+        /// next start on, as do Rate, Stroke, Reconnect and Clamp.</summary>
         public string Device { get { return Object.Get("device").AsString(); } set { Object.Set("device", value); } }
 
         /// <summary>What the running device is, for people.</summary>
@@ -245,7 +245,10 @@ namespace Knurl
         /// <summary>How fast the haptic interaction point moves, in m/s, global.</summary>
         public Vector3 Velocity { get { return Object.Get("velocity").AsVector3(); } }
 
-        /// <summary>Metres of the scene per metre that the device moves. Walls feel stiffer by as much.</summary>
+        /// <summary>Metres of the scene per metre that the device moves. Walls feel stiffer by as much. May change
+        /// while the device runs, as a zoom: the HIP moves towards this node or away from it, within 0.14 s for a
+        /// factor of 2, and is held by what it meets. A scale that is set while Clutch is on is a zoom about the HIP,
+        /// which stays where it is.</summary>
         public double WorkspaceScale { get { return Object.Get("workspace_scale").AsDouble(); } set { Object.Set("workspace_scale", value); } }
 
         /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height in metres and
