@@ -32,9 +32,10 @@ typedef struct run {
     sound sound;
     travel travel;
     faults faults;
-    uint64_t ticks; /* wanted */
-    double seconds; /* wanted of the clock; 0: a simulated device's time is its ticks */
-    int gave_up;    /* waited GIVE_UP_S for a position */
+    uint64_t ticks;  /* wanted */
+    uint64_t cycles; /* stepped, with --fast */
+    double seconds;  /* wanted of the clock; 0: a simulated device's time is its ticks */
+    int gave_up;     /* waited GIVE_UP_S for a position */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by this signal */
@@ -262,6 +263,14 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Steps a while in simulated time, one cycle at a time, so that each fault is shown with the end of its cycle. */
+static void step(run *r) {
+    for (int i = 0; i < 4096; i++) {
+        (void)knurl_loop_step(r->loop, 1);
+        faults_show(&r->faults, r->device, (double)++r->cycles / r->options.rate);
+    }
+}
+
 /* Until the loop is done: drains recorder and sound, shows faults and, on a terminal, progress, obeys Ctrl-C and the
  * clock. */
 static void play(run *r) {
@@ -271,7 +280,7 @@ static void play(run *r) {
     knurl_loop_stats_init(&stats, sizeof stats);
     do {
         if (r->options.fast) {
-            (void)knurl_loop_step(r->loop, 4096);
+            step(r);
         } else {
             (void)knurl_loop_wait(r->loop, r->seconds > 0.0 ? fmin(0.05, end - now()) : 0.05);
         }
@@ -281,7 +290,7 @@ static void play(run *r) {
         if (r->sound.audio) {
             sound_drain(&r->sound);
         }
-        faults_show(&r->faults, r->device);
+        faults_show(&r->faults, r->device, -1.0);
         (void)knurl_loop_get_stats(r->loop, &stats);
         if (terminal) {
             show_progress(r, r->seconds > 0.0 ? r->seconds - (end - now()) : (double)stats.ticks / r->options.rate);

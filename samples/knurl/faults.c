@@ -16,7 +16,7 @@ void faults_start(faults *f) {
     f->start_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-void faults_show(faults *f, knurl_device *device) {
+void faults_show(faults *f, knurl_device *device, double simulated) {
     knurl_device_event event;
     while (knurl_device_next_event(device, &event)) {
         if (event.code >= 0 && event.code < FAULT_CODES) {
@@ -25,8 +25,8 @@ void faults_show(faults *f, knurl_device *device) {
         const char *unit = knurl_fault_unit(event.code);
         if (event.code != KNURL_FAULT_OVERRUN) {
             fprintf(stderr, "%sknurl: note: after %.3f s: %s: %s", isatty(STDERR_FILENO) ? "\r\033[K" : "",
-                    1e-9 * (double)(event.time_ns - f->start_ns), knurl_fault_name(event.code),
-                    knurl_fault_string(event.code));
+                    simulated >= 0.0 ? simulated : 1e-9 * (double)(event.time_ns - f->start_ns),
+                    knurl_fault_name(event.code), knurl_fault_string(event.code));
             fprintf(stderr, *unit ? " (%g %s)\n" : "\n", event.value, unit);
         }
     }

@@ -15,8 +15,9 @@ typedef struct faults {
 
 void faults_start(faults *f);
 
-/* A line on stderr for each event since the last call; rows of overruns only in the summary. */
-void faults_show(faults *f, knurl_device *device);
+/* Prints a line on stderr for each event since the last call; overruns are only in the summary. simulated: s, the time
+ * to print in a run that is not in real time, or below 0: each event's own. */
+void faults_show(faults *f, knurl_device *device, double simulated);
 
 /* "faults": {"lost": 1, ...}: those that came. */
 void faults_print(const faults *f, json_writer *json);
