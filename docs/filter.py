@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Doxygen's filter for Markdown (docs/Doxyfile): gives each page a name, turns links between pages into references, and
-leaves of other links within the repository their text.
+leaves of other links within the repository their text. Of a <picture> the light variant stays.
 
 SPDX-License-Identifier: MIT
 """
@@ -31,7 +31,7 @@ def rewrite(page, text):
         name = page_name(file).replace("mainpage", "index")
         return f'@ref {name} "{words}"' if is_page(file) else words
 
-    text = re.sub(r"</?picture>|<source[^>]*>", "", text)
+    text = re.sub(r'<picture>.*?<img src="([^"]*)" alt="([^"]*)".*?</picture>', r"![\2](\1)", text, flags=re.S)
     text = re.sub(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)", link, text)
     text = re.sub(r"(!\[[^\]]*\]\()[^)]*/([^)/]+\))", r"\1\2", text)  # pictures by name, from IMAGE_PATH
     return re.sub(r"^# (.+)$", rf"# \1 {{#{page_name(page)}}}", text, count=1, flags=re.M)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The add-on's C# is what the class reference says, and compiles as C# 7 against stand-ins for the engine's. Exit 77: no mono.
+# The add-on's C#, and what its README shows of it, is what the class reference says, and compiles as C# 7 against
+# stand-ins for the engine's. Exit 77: no mono.
 # usage: csharp.sh FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,4 +11,8 @@ command -v mcs >/dev/null || { echo "skipped: no mcs; apt-get install mono-mcs";
 mkdir -p "$1"
 mcs -langversion:7 -warnaserror -target:library -out:"$1/Knurl.dll" "$here/csharp/Godot.cs" \
     "$root/bindings/godot/addons/knurl/csharp/Knurl.cs"
+/usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$1" bindings/godot | while read -r shown; do
+    mcs -langversion:7 -warnaserror -target:library -out:"${shown%.cs}.dll" "$here/csharp/Godot.cs" \
+        "$root/bindings/godot/addons/knurl/csharp/Knurl.cs" "$shown"
+done
 echo 'the C# classes are up to date and compile'

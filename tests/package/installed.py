@@ -90,6 +90,24 @@ def check_exports(prefix):
         check(f"{library} is {soname}", os.path.exists(os.path.join(folder, soname)))
 
 
+def check_shown(prefix):
+    """The pages' CMake builds a game against what was installed, and configures with the sources in a subfolder."""
+    shown = run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "cmake", FOLDER).split()
+    for path in shown:
+        with open(path, encoding="utf-8") as file:
+            code = file.read()
+        game, inside = path[:-len(".txt")], re.sub(r"find_package\(knurl.*?\)", f"add_subdirectory({SOURCE} knurl)", code)
+        for folder, text in ((game, code), (game + "_inside", inside)):
+            os.makedirs(folder, exist_ok=True)
+            shutil.copy(os.path.join(SOURCE, "samples/feel_scene.c"), os.path.join(folder, "game.c"))
+            with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+                file.write(text)
+            run("cmake", "-G", "Ninja", "-S", folder, "-B", folder + ".build", f"-DCMAKE_PREFIX_PATH={prefix}",
+                f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}", "-DBUILD_TESTING=OFF")
+        run("cmake", "--build", game + ".build")
+        check(f"{os.path.basename(path)} builds, and configures by add_subdirectory()", True)
+
+
 def main():
     os.makedirs(FOLDER, exist_ok=True)
     with open(os.path.join(SOURCE, "sdk/include/knurl/base.h"), encoding="utf-8") as header:
@@ -100,6 +118,7 @@ def main():
     prefix = install("shared", libraries + ("knurl_tool",), "-DBUILD_SHARED_LIBS=ON", f"-DCMAKE_CXX_COMPILER={CXX}")
     check_exports(prefix)
     check_tree(prefix, both, version, *with_gltf)
+    check_shown(prefix)
     said = run(os.path.join(prefix, "bin/knurl"), "--version", env={"LD_LIBRARY_PATH": ""})
     check(f"the tool runs where it was moved to: {said.strip()}", said == f"knurl {version}\n")
 

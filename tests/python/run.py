@@ -35,6 +35,16 @@ def mirror_tree(tree):
     return module
 
 
+def run_shown(python):
+    """Runs what the pages show, with the simulated device."""
+    shutil.copy(os.path.join(SOURCE, "assets/plate_1d.glb"), FOLDER)
+    for path in run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "python", FOLDER).split():
+        with open(path, encoding="utf-8") as file:
+            code = file.read().replace('Device("touch")', 'Device("fake")')
+        run(python, "-B", "-c", code)
+        print(f"python: {os.path.basename(path)} runs")
+
+
 def main():
     missing = [package for name, package in PACKAGES.items() if importlib.util.find_spec(name) is None]
     if missing:
@@ -52,6 +62,7 @@ def main():
     python = os.path.join(environment, "bin/python")
     run(python, "-m", "pip", "install", "--no-index", wheel)
     print(run(python, "-B", os.path.join(SOURCE, "bindings/python/examples/stroke.py")).strip())
+    run_shown(python)
     print(run(python, "-B", os.path.join(SOURCE, "tests/python/test_knurl.py"), "-v", os.path.join(SOURCE, "assets")))
 
 

@@ -114,11 +114,15 @@ tags) # the case writes files, Knurl's own loader says what they are
     arguments=()
     play_script "$case" "${headless[@]}"
     ;;
-assets) # loaded while the game runs, and imported by the editor with the plugin on
+assets) # loaded while the game runs, and imported by the editor with the plugin on; scripts that the pages show
     new_project
     add_assets
     play 120 "${headless[@]}" --path . --import
     play_script "$case" "${headless[@]}"
+    /usr/bin/python3 -B "$root/tests/docs/snippets.py" write gdscript "$project" >"$project/shown"
+    while read -r script; do
+        play 60 "${headless[@]}" --path . --check-only --script "res://$(basename "$script")"
+    done <"$project/shown"
     ;;
 warnings) # what a wrong tag says when the editor imports it
     new_project

@@ -1,11 +1,11 @@
-// Stand-ins for what addons/knurl/csharp/Knurl.cs uses of GodotSharp, to compile it against: names and signatures as in
+// Stand-ins for what addons/knurl/csharp/Knurl.cs and README.md use of GodotSharp, to compile them against: names and signatures as in
 // the engine's C# class reference. SPDX-License-Identifier: MIT
 using System;
 
 namespace Godot
 {
     public struct Vector2 { }
-    public struct Vector3 { }
+    public struct Vector3 { public static Vector3 Up { get { return new Vector3(); } } }
     public struct Quaternion { }
 
     public sealed class StringName
@@ -57,7 +57,25 @@ namespace Godot
     }
 
     public class Resource : GodotObject { }
-    public class Node3D : GodotObject { }
+
+    public sealed class NodePath
+    {
+        public static implicit operator NodePath(string from) { return new NodePath(); }
+    }
+
+    public class Node : GodotObject
+    {
+        public StringName Name { get; set; }
+        public Node GetParent() { return null; }
+        public Node GetNode(NodePath path) { return null; }
+    }
+
+    public class Node3D : Node { }
+
+    public static class GD
+    {
+        public static void Print(params object[] what) { }
+    }
 
     public static class ClassDB
     {
