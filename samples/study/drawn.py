@@ -4,19 +4,21 @@
 usage: drawn.py PICTURE.data DATA...           writes it
        drawn.py --check PICTURE.data DATA...   exit 1 and a line for each column that has changed
 
-DATA is what a picture was drawn from: JSON or CSV. A line of PICTURE.data is a column (or the values of one key of the
+DATA is what a picture was drawn from: JSON, CSV, or a sound as knurl run --wav writes it. A line of PICTURE.data is a column (or the values of one key of the
 JSON, in all its rows): how many numbers, their mean, the mean of their sizes, their mean with weights that change with
 the row (two rows that change places are seen), and a checksum of what is no number. Compared to 1e-4 of the mean size, so
 that compilers and libraries do not matter. What was timed on the machine differs each time and is left out.
 
 SPDX-License-Identifier: MIT
 """
+import array
 import csv
 import json
 import math
 import os
 import re
 import sys
+import wave
 import zlib
 
 TOLERANCE = 1e-4
@@ -40,7 +42,10 @@ def read(path):
     """The columns of a file, by name."""
     columns = {}
     with open(path, encoding="utf-8", newline="") as file:
-        if path.endswith(".json"):
+        if path.endswith(".wav"):
+            with wave.open(path) as sound:
+                columns["sample"] = array.array("h", sound.readframes(sound.getnframes()))
+        elif path.endswith(".json"):
             walk(json.load(file), "", columns)
         else:
             for row in csv.DictReader(file):

@@ -21,7 +21,7 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    from style import (ACCENT, ASKED, DARK, GREY, INK, METHODS, PALE, RULE, SOFT, STYLE, BadInput, heading, open_input,
+    from style import (ACCENT, ASKED, GREY, INK, METHODS, PALE, RULE, SOFT, STYLE, BadInput, heading, open_input,
                        read_table, save, say)
 except ImportError as missing:
     sys.exit(f"figures.py: {missing} for {sys.executable}; apt-get install python3-matplotlib, "
@@ -310,11 +310,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("study", metavar="DIR/NAME.json", help="what `knurl study NAME --out DIR` wrote")
     parser.add_argument("--out", metavar="PNG", required=True, help="the picture to write")
-    parser.add_argument("--dark", action="store_true", help="for a page in dark colours: speed_accuracy")
     arguments = parser.parse_args()
     matplotlib.rcParams.update({**matplotlib.rcParamsDefault, **STYLE, "backend": "Agg"})
-    if arguments.dark:
-        matplotlib.rcParams.update(DARK)
     try:
         save(draw(arguments.study), arguments.out)
     except BadInput as error:

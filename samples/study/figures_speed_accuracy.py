@@ -2,12 +2,10 @@
 
 SPDX-License-Identifier: MIT
 """
-import matplotlib
 import matplotlib.pyplot as plt
-from matplotlib.colors import to_rgb
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from style import METHODS, read_table
+from style import INK, METHODS, read_table
 
 # What is wrong, where in the table, the size at which a hand notices it (README.md beside this file has the sources),
 # and what it is called at a line. Each is that of the worst of 40 speeds.
@@ -35,11 +33,6 @@ def lines(table):
     return found
 
 
-def bright(colour, dark):
-    """A method's colour, lighter on a dark page."""
-    return tuple(0.35 + 0.65 * part for part in to_rgb(colour)) if dark else colour
-
-
 def draw_line(ax, method, points, colour):
     xs, found, rates = zip(*points)
     ys = [first[0] for first, *_ in found]
@@ -58,11 +51,11 @@ def draw_line(ax, method, points, colour):
                     va="top" if below else "center", **style)
 
 
-def draw_shape(ax, heights, colour, ink):
+def draw_shape(ax, heights, colour):
     ticks = range(len(heights) + 1)
     ax.fill_between(ticks, 0, [*heights, heights[-1]], step="post", color=colour, alpha=0.25, lw=0)
     ax.step(ticks, [*heights, heights[-1]], where="post", color=colour, lw=1.6)
-    ax.axhline(0, color=ink, lw=0.6, alpha=0.5)
+    ax.axhline(0, color=INK, lw=0.6, alpha=0.5)
     ax.set(ylim=(-1.9, 1.7), xlim=(0, len(heights)), xticks=[], yticks=[])
     for side in ("left", "bottom"):
         ax.spines[side].set_visible(False)
@@ -70,14 +63,13 @@ def draw_shape(ax, heights, colour, ink):
 
 def draw_speed_accuracy(data, folder):
     table = read_table(folder, data["table"])
-    ink, dark = matplotlib.rcParams["text.color"], matplotlib.rcParams["figure.facecolor"] != "white"
     figure = plt.figure(figsize=(11, 6.4))
     ax = figure.add_axes((0.075, 0.105, 0.645, 0.715))
     found = lines(table)
     ax.axhspan(LOW, 1, color="#3fa66b", alpha=0.16, lw=0, zorder=0)
     ax.text(0.985, 0.03, "not noticed", transform=ax.transAxes, ha="right", fontsize=13, color="#3fa66b")
     for (method, velocity), points in found.items():
-        colour = bright(METHODS[method], dark)
+        colour = METHODS[method]
         if velocity in ("none", "foaw"):
             draw_line(ax, method, points, colour)
         else:
@@ -96,13 +88,13 @@ def draw_speed_accuracy(data, folder):
                 fontweight="bold", va="center")
     figure.text(0.02, 0.882, "ridges of 1 mm through an encoder of 0.055 mm, the worst of 20 to 480 Hz and of "
                 "strokes from rest; at the names: what is noticed at 1 kHz,\nin sizes at which it is · faint: the speed by "
-                "a low pass (dashed) or by differences (dotted)", fontsize=10.5, color=ink, alpha=0.75, va="center")
+                "a low pass (dashed) or by differences (dotted)", fontsize=10.5, color=INK, alpha=0.75, va="center")
     shapes = data["shapes"]
-    figure.text(0.755, 0.815, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=ink, alpha=0.75)
+    figure.text(0.755, 0.815, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=INK, alpha=0.75)
     for place, method in enumerate(name for name in ABOUT if name in shapes):
         small = figure.add_axes((0.755, 0.645 - 0.186 * place, 0.23, 0.125))
-        colour = bright(METHODS[method], dark)
-        draw_shape(small, shapes[method], colour, ink)
+        colour = METHODS[method]
+        draw_shape(small, shapes[method], colour)
         small.set_title(f"{method}: {ABOUT[method]}", fontsize=10.5, color=colour, pad=2)
     return figure
 

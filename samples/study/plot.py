@@ -229,7 +229,7 @@ def draw_force(ax, run):
         say(ax, "3.3 N, a Touch's limit", 0.995, TOUCH_MAX_FORCE, "right", "bottom", 8, ASKED,
             within=("axes fraction", "data"))
     ax.set_ylabel("force\n(N)")
-    say(ax, "dark: mean of 50 ms", 0.995, 1, "right", "bottom", 8, dy=1)
+    say(ax, "thick: mean of 50 ms", 0.995, 1, "right", "bottom", 8, dy=1)
 
 
 def draw_frequency(ax, run):

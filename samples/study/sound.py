@@ -3,7 +3,7 @@
 temporal frequency f_t that the motion asked for. Both have the same lines up to half the update rate; the sound goes on
 where the force cannot.
 
-usage: sound.py RUN.csv FELT.wav --out PICTURE.png
+usage: sound.py RUN.csv [FELT.wav] --out PICTURE.png     the sound: by default RUN.wav
 
 SPDX-License-Identifier: MIT
 """
@@ -49,11 +49,11 @@ def draw(axes, signal, rate, window_s, run, top):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("run")
-    parser.add_argument("wav")
+    parser.add_argument("wav", nargs="?")
     parser.add_argument("--out", required=True)
     given = parser.parse_args()
     run = read_table(os.path.dirname(given.run) or ".", os.path.basename(given.run))
-    sound, rate = read_sound(given.wav)
+    sound, rate = read_sound(given.wav or os.path.splitext(given.run)[0] + ".wav")
     force = np.sqrt(run["fx"] ** 2 + run["fy"] ** 2 + run["fz"] ** 2)
     ticks = round(1.0 / (run["t"][1] - run["t"][0]))
     plt.rcParams.update(STYLE)

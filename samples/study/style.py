@@ -23,12 +23,6 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axe
          "path.simplify": False}
 
 
-# What differs on a page in dark colours, for figures that take their colours from here.
-DARK = {"figure.facecolor": "#0d1117", "axes.facecolor": "#0d1117", "savefig.facecolor": "#0d1117",
-        "text.color": "#e6edf3", "axes.labelcolor": "#e6edf3", "axes.edgecolor": "#5b6670", "xtick.color": "#aab4bd",
-        "ytick.color": "#aab4bd"}
-
-
 class BadInput(Exception):
     """One line for the user: which file, what was expected, what was found."""
 

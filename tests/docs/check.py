@@ -1,5 +1,5 @@
-"""Checks the documentation: links lead somewhere, functions exist, README's C stands in the sample that it names, and
-README is short.
+"""Checks the documentation: links lead somewhere, functions exist, README's C stands in the sample that it names, README
+is short, and its pictures suit dark pages too.
 
 SPDX-License-Identifier: MIT
 """
@@ -7,10 +7,12 @@ import pathlib
 import re
 import sys
 import urllib.parse
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README_MOST = 6 * 1024  # bytes
 SAMPLE = "samples/feel_scene.c"
+SCREENSHOTS = {"web.png", "godot.png"} # they look the same on light and on dark pages
 
 
 def pages():
@@ -49,6 +51,18 @@ def broken_links(page):
     broken_links.count += count
 
 
+def pictures_without_dark():
+    """Pictures of README and docs/ that are for light pages only, and dark ones made from an older light one."""
+    for page in [ROOT / "README.md", *sorted(ROOT.glob("docs/*.md"))]:
+        for name in re.findall(r"!\[[^\]]*\]\([^)]*/([^)/]+\.png)\)", page.read_text(encoding="utf-8")):
+            if name not in SCREENSHOTS:
+                yield f"{page.relative_to(ROOT)}: expected <picture> with a dark variant of {name} (samples/study/dark.py)"
+    for dark in sorted(ROOT.glob("assets/pictures/*_dark.png")):
+        light = dark.with_name(dark.name.replace("_dark", ""))
+        if f"Light\0{zlib.crc32(light.read_bytes()):08x}".encode() not in dark.read_bytes():
+            yield f"{dark.relative_to(ROOT)}: made from another {light.name}: samples/study/dark.py makes it again"
+
+
 def shown_c(text):
     """The snippets of C in a page."""
     return re.findall(r"```c\n(.*?)```", text, re.S)
@@ -81,6 +95,7 @@ def main():
     broken_links.count = 0
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     problems = [problem for page in pages() for problem in broken_links(page)]
+    problems += pictures_without_dark()
     problems += unknown_functions()
     problems += options_without_help()
     if len(readme.encode()) > README_MOST:

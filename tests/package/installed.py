@@ -93,9 +93,13 @@ def check_exports(prefix):
 def check_shown(prefix):
     """The pages' CMake builds a game against what was installed, and configures with the sources in a subfolder."""
     shown = run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "cmake", FOLDER).split()
+    seen = set()
     for path in shown:
         with open(path, encoding="utf-8") as file:
-            code = file.read()
+            code = re.sub(r"\s*#.*", "", file.read())
+        if code in seen: # two pages show the same but for comments
+            continue
+        seen.add(code)
         game, inside = path[:-len(".txt")], re.sub(r"find_package\(knurl.*?\)", f"add_subdirectory({SOURCE} knurl)", code)
         for folder, text in ((game, code), (game + "_inside", inside)):
             os.makedirs(folder, exist_ok=True)
@@ -105,7 +109,7 @@ def check_shown(prefix):
             run("cmake", "-G", "Ninja", "-S", folder, "-B", folder + ".build", f"-DCMAKE_PREFIX_PATH={prefix}",
                 f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}", "-DBUILD_TESTING=OFF")
         run("cmake", "--build", game + ".build")
-        check(f"{os.path.basename(path)} builds, and configures by add_subdirectory()", True)
+        check(f"{os.path.basename(game)} builds, and configures by add_subdirectory()", True)
 
 
 def main():
