@@ -24,7 +24,7 @@ set(CPACK_COMPONENT_DEV_DEPENDS runtime)
 set(CPACK_COMPONENT_TOOL_DEPENDS runtime)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libknurl${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libusb-1.0-0, libhidapi-hidraw0") # loaded at run time, by drivers
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libusb-1.0-0, libhidapi-hidraw0, libwebsockets17") # loaded at run time, by drivers
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libknurl-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME knurl)

@@ -47,7 +47,7 @@ static const help_command commands[] = {
     {"run",
      "FILE",
      "load a scene, feel or stroke it, and summarise as JSON",
-     {{"--device", "URI", "fake (default), touch, falcon, rawhid, serial, dhd; see 'knurl devices'"},
+     {{"--device", "URI", "fake (default), touch, falcon, rawhid, serial, dhd, inverse3; see 'knurl devices'"},
       {"--reconnect", "", "search for a lost device instead of ending"},
       {"--surface", "NAME", "the surface to stroke; default: the first"},
       {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},

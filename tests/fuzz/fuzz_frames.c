@@ -1,10 +1,25 @@
-/* What devices send: frames of a Falcon in packets of any size, reports of a raw HID device. SPDX-License-Identifier:
- * MIT
- */
+/* What devices send: frames of a Falcon in packets of any size, reports of a raw HID device, messages of Haply's
+ * service. SPDX-License-Identifier: MIT */
 #include "fuzz.h"
 
 #include "device/falcon/frame.h"
+#include "device/inverse3/message.h"
 #include "device/rawhid/report.h"
+
+static void try_message(const uint8_t *data, size_t size) {
+    knurl_inverse3_state state;
+    double q[4];
+    if (!knurl_inverse3_read((const char *)data, size, &state)) {
+        return;
+    }
+    knurl_inverse3_orientation(&state, q);
+    for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
+        const knurl_inverse3_entry *entry = &state.entries[i];
+        EXPECT(memchr(entry->id, '\0', sizeof entry->id) && !strpbrk(entry->id, "\"\\{}"));
+        EXPECT(isfinite(entry->position[0]) && isfinite(entry->position[1]) && isfinite(entry->position[2]));
+        EXPECT(isfinite(q[i % 4]) && fabs(q[i % 4]) <= 1.0 + 1e-9);
+    }
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     supply s = {data, size};
@@ -30,5 +45,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t report_bytes = 0; report_bytes <= 64; report_bytes += 16) {
         (void)knurl_rawhid_parse(data, size, report_bytes, &in);
     }
+    try_message(data, size);
     return 0;
 }

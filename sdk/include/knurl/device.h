@@ -184,6 +184,8 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
  * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
  *   before the environment variable KNURL_DHD_LIBRARY and the usual names.
+ * - inverse3, inverse3:ID: the first Haply Inverse3, or the one with this id, by its maker's service on this machine.
+ *   ?port=N: the service's port, 1 to 65535; default 10001.
  *
  * falcon and rawhid on Linux: ?guard=1 starts a small process in a session of its own that also holds the device. It
  * sends zero force when this process is gone (SIGKILL, _exit()) or has not run for 50 ms (SIGSTOP, a frozen machine),

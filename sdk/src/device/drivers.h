@@ -10,5 +10,6 @@ extern const knurl_driver knurl_falcon_driver;
 extern const knurl_driver knurl_rawhid_driver;
 extern const knurl_driver knurl_serial_driver;
 extern const knurl_driver knurl_dhd_driver;
+extern const knurl_driver knurl_inverse3_driver;
 
 #endif

@@ -13,8 +13,9 @@
 #define LOOK_NS      INT64_C(2000000000)
 #define STACK_BYTES  ((size_t)256 * 1024)
 
-static const knurl_driver *const drivers[] = {&knurl_fake_driver,   &knurl_touch_driver,  &knurl_falcon_driver,
-                                              &knurl_rawhid_driver, &knurl_serial_driver, &knurl_dhd_driver};
+static const knurl_driver *const drivers[] = {&knurl_fake_driver,    &knurl_touch_driver,  &knurl_falcon_driver,
+                                              &knurl_rawhid_driver,  &knurl_serial_driver, &knurl_dhd_driver,
+                                              &knurl_inverse3_driver};
 
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
@@ -33,8 +34,8 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
             return result;
         }
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected fake, touch, falcon, rawhid, serial or dhd, found '%s'",
-                      uri);
+    return knurl_fail(KNURL_ERROR_UNKNOWN,
+                      "device: expected fake, touch, falcon, rawhid, serial, dhd or inverse3, found '%s'", uri);
 }
 
 /* One driver's listing, on a thread of its own: a maker's library may hang. */

@@ -9,6 +9,7 @@
 #include "device/core/home.h"
 #include "device/dhd/dhd_double.h"
 #include "device/falcon/falcon_double.h"
+#include "device/inverse3/inverse3_double.h"
 #include "device/rawhid/rawhid_double.h"
 #include "device/rawhid/serial_double.h"
 #include "device/touch/touch_double.h"
@@ -23,7 +24,7 @@
 
 /* A driver's double is added here, and its files in CMakeLists.txt. */
 static const device_double *const doubles[] = {
-    &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &functions_double,
+    &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &inverse3_double, &functions_double,
 };
 
 #define ROOM 64

@@ -9,7 +9,7 @@ namespace Knurl.Editing
     [CustomEditor(typeof(KnurlDevice)), CanEditMultipleObjects]
     internal sealed class DeviceInspector : Editor
     {
-        internal static readonly string[] Devices = { "auto", "fake", "mouse", "touch", "falcon", "rawhid", "serial", "dhd" };
+        internal static readonly string[] Devices = { "auto", "fake", "mouse", "touch", "falcon", "rawhid", "serial", "dhd", "inverse3" };
         internal static readonly string[] Strokes = { "", "line", "sweep", "circle", "press", "rest" };
 
         static readonly string[] Events =

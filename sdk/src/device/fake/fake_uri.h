@@ -46,6 +46,9 @@
  * woodenhaptics, omega: what the drivers of these devices tell (geometry.h and dhd.c of the devices' folders, with
  * sources): CHAI3D's force, stiffness and radius, the cube in that sphere; the rest is assumed there.
  *
+ * inverse3: what its driver tells (inverse3.c of its folder): its maker's data sheet, as it is quoted; the rest is
+ * assumed there.
+ *
  * ideal: what theory starts from: a mass that does what it is told. Its hand does not shake. */
 #define KNURL_FAKE_PRESETS(X)                                                                                          \
     X(touch, "a simulated Touch", "")                                                                                  \
@@ -58,6 +61,9 @@
     X(omega, "a simulated omega.3",                                                                                    \
       "mass=0.25&viscous=0.5&coulomb=0.3&resolution=0.00001&max_force=12&continuous_force=4&max_stiffness=5000&"       \
       "delay=1&width=0.0866&height=0.0866&depth=0.0866&exact=1")                                                       \
+    X(inverse3, "a simulated Inverse3",                                                                                \
+      "mass=0.2&viscous=0.5&coulomb=0.3&resolution=0.00001&max_force=4&continuous_force=3.3&max_stiffness=1000&"       \
+      "delay=2&width=0.1155&height=0.1155&depth=0.1155&exact=1")                                                       \
     X(ideal, "an ideal device",                                                                                        \
       "viscous=0&coulomb=0&resolution=0&max_force=1000&continuous_force=0&max_stiffness=0&delay=0&width=1&height=1&"   \
       "depth=1&exact=1&tremor=0")

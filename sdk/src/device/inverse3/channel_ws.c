@@ -1,0 +1,279 @@
+/* WebSockets by libwebsockets, which is loaded at run time: the same version as its header, whose structures it shares.
+ * Its events are handled by the calling thread. SPDX-License-Identifier: MIT */
+#include "device/inverse3/channel.h"
+
+#include <stdio.h>
+
+#ifndef KNURL_HAVE_INVERSE3
+
+const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_size) {
+    (void)snprintf(why, why_size,
+                   "this build has no libwebsockets and jsmn: install their headers (Debian: libwebsockets-dev, "
+                   "libjsmn-dev), configure with KNURL_INVERSE3=ON and build again");
+    return NULL;
+}
+
+#else
+
+#include "base/system.h"
+#include "device/dynlib.h"
+
+#include <libwebsockets.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CONNECT_NS 1000000000
+#define FD_LIMIT   16 /* of a context; without one it makes room for as many as the process may open */
+
+typedef struct websocket {
+    struct lws_context *context;
+    struct lws *wsi;
+    lws_sorted_usec_list_t timer;
+    int is_open, is_gone, is_late; /* is_late: the timer has run out */
+    char why[128];
+    /* to be sent */
+    unsigned char out[LWS_PRE + KNURL_INVERSE3_COMMAND];
+    size_t out_size;
+    /* messages: one that is complete, one that comes */
+    char *texts[2];
+    size_t sizes[2];
+    int coming;      /* of texts */
+    int is_too_long; /* the one that comes */
+    int count;       /* complete, since the last call */
+} websocket;
+
+/* What is loaded of libwebsockets. */
+#define FUNCTIONS(X)                                                                                                   \
+    X(callback_on_writable)                                                                                            \
+    X(cancel_service)                                                                                                  \
+    X(client_connect_via_info)                                                                                         \
+    X(context_destroy)                                                                                                 \
+    X(create_context)                                                                                                  \
+    X(get_library_version)                                                                                             \
+    X(is_final_fragment)                                                                                               \
+    X(remaining_packet_payload)                                                                                        \
+    X(service)                                                                                                         \
+    X(set_log_level)                                                                                                   \
+    X(sul_schedule)                                                                                                    \
+    X(write)
+
+typedef struct lws_functions {
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a member's name */
+#define FIELD(name) __typeof__(&lws_##name) name;
+    FUNCTIONS(FIELD)
+#undef FIELD
+} lws_functions;
+
+static lws_functions lib; /* null until it is loaded */
+
+/* --- what libwebsockets tells --- */
+
+static void take_part(websocket *w, const char *part, size_t size, int is_last) {
+    const int at = w->coming;
+    w->is_too_long |= size > KNURL_INVERSE3_LONGEST - w->sizes[at];
+    if (!w->is_too_long) {
+        memcpy(w->texts[at] + w->sizes[at], part, size);
+        w->sizes[at] += size;
+    }
+    if (is_last) {
+        w->sizes[at] = w->is_too_long ? 0 : w->sizes[at];
+        w->is_too_long = 0;
+        w->coming = !at;
+        w->sizes[w->coming] = 0;
+        w->count++;
+    }
+}
+
+static int send_now(websocket *w) {
+    const size_t size = w->out_size;
+    w->out_size = 0;
+    return size == 0 || lib.write(w->wsi, w->out + LWS_PRE, size, LWS_WRITE_TEXT) >= (int)size ? 0 : -1;
+}
+
+/* Not 0 closes the connection. */
+static int on_event(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in, size_t size) {
+    websocket *w = user;
+    switch (reason) {
+    case LWS_CALLBACK_CLIENT_ESTABLISHED:
+        w->is_open = 1;
+        break;
+    case LWS_CALLBACK_CLIENT_RECEIVE:
+        take_part(w, in, size, lib.is_final_fragment(wsi) && lib.remaining_packet_payload(wsi) == 0);
+        break;
+    case LWS_CALLBACK_CLIENT_WRITEABLE:
+        return send_now(w);
+    case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
+        (void)snprintf(w->why, sizeof w->why, "%.*s", in ? (int)size : 0, in ? (const char *)in : "");
+        w->is_gone = 1;
+        break;
+    case LWS_CALLBACK_CLIENT_CLOSED:
+        w->is_gone = 1;
+        break;
+    default:
+        break;
+    }
+    return 0;
+}
+
+static void on_timer(lws_sorted_usec_list_t *timer) {
+    websocket *w = lws_container_of(timer, websocket, timer);
+    w->is_late = 1;
+    lib.cancel_service(w->context); /* lws_service() calls this and then waits for events as before */
+}
+
+/* --- a channel --- */
+
+static void close_channel(void *self) {
+    websocket *w = self;
+    if (w->context) {
+        lib.context_destroy(w->context);
+    }
+    free(w->texts[0]);
+    free(w->texts[1]);
+    free(w);
+}
+
+static int send_message(void *self, const char *text, size_t size) {
+    websocket *w = self;
+    if (w->is_gone || size > KNURL_INVERSE3_COMMAND) {
+        return 0;
+    }
+    memcpy(w->out + LWS_PRE, text, size);
+    w->out_size = size;
+    (void)lib.callback_on_writable(w->wsi);
+    (void)lib.service(w->context, -1); /* without waiting */
+    const int has_left = w->out_size == 0 && !w->is_gone;
+    w->out_size = 0; /* an old force must not follow later */
+    return has_left;
+}
+
+/* Handles events until `*until` is not 0, the connection is gone or the time is up. */
+static void wait_for(websocket *w, const int *until, int64_t ns) {
+    w->is_late = 0;
+    if (ns <= 0) {
+        (void)lib.service(w->context, -1);
+        return;
+    }
+    lib.sul_schedule(w->context, 0, &w->timer, on_timer, ns / 1000);
+    while (!*until && !w->is_gone && !w->is_late && lib.service(w->context, 0) >= 0) {}
+    lib.sul_schedule(w->context, 0, &w->timer, on_timer, LWS_SET_TIMER_USEC_CANCEL);
+}
+
+static int receive(void *self, int milliseconds, knurl_inverse3_message *message) {
+    websocket *w = self;
+    if (w->count == 0 && !w->is_gone) {
+        wait_for(w, &w->count, (int64_t)milliseconds * 1000000);
+    }
+    const int count = w->count;
+    if (count == 0) {
+        return w->is_gone ? -1 : 0;
+    }
+    message->text = w->texts[!w->coming];
+    message->size = w->sizes[!w->coming];
+    w->count = 0;
+    return count;
+}
+
+/* It has the process ignore SIGPIPE for good, which is the host's to decide. Its sockets need it not: MSG_NOSIGNAL. */
+static struct lws_context *make_context(const struct lws_context_creation_info *info) {
+#if defined(_WIN32)
+    return lib.create_context(info);
+#else
+    struct sigaction was;
+    const int is_known = sigaction(SIGPIPE, NULL, &was) == 0;
+    struct lws_context *made = lib.create_context(info);
+    if (is_known) {
+        (void)sigaction(SIGPIPE, &was, NULL);
+    }
+    return made;
+#endif
+}
+
+static int start(websocket *w, int port) {
+    static const struct lws_protocols protocols[] = {{.name = "knurl", .callback = on_event, .rx_buffer_size = 16384},
+                                                     {.name = NULL}};
+    struct lws_context_creation_info info;
+    struct lws_client_connect_info to;
+    memset(&info, 0, sizeof info);
+    info.port = CONTEXT_PORT_NO_LISTEN;
+    info.protocols = protocols;
+    info.uid = -1;
+    info.gid = -1;
+    info.fd_limit_per_thread = FD_LIMIT;
+    info.pt_serv_buf_size = 16384;
+    w->texts[0] = malloc(KNURL_INVERSE3_LONGEST);
+    w->texts[1] = malloc(KNURL_INVERSE3_LONGEST);
+    w->context = w->texts[0] && w->texts[1] ? make_context(&info) : NULL;
+    if (!w->context) {
+        return 0;
+    }
+    memset(&to, 0, sizeof to);
+    to.context = w->context;
+    to.address = "127.0.0.1"; /* no other machine's: a network's delays are no haptic loop's */
+    to.port = port;
+    to.path = "/";
+    to.host = "localhost";
+    to.local_protocol_name = "knurl";
+    to.userdata = w;
+    to.pwsi = &w->wsi;
+    w->is_gone = !lib.client_connect_via_info(&to);
+    wait_for(w, &w->is_open, CONNECT_NS);
+    return w->is_open && !w->is_gone;
+}
+
+static int connect_to(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+    websocket *w = calloc(1, sizeof *w);
+    (void)user;
+    if (!w || !start(w, port)) {
+        (void)snprintf(why, why_size, "%s", !w || !w->context ? "no memory" : w->why[0] ? w->why : "no answer");
+        if (w) {
+            close_channel(w);
+        }
+        return 0;
+    }
+    const knurl_inverse3_channel opened = {w, send_message, receive, close_channel};
+    *channel = opened;
+    return 1;
+}
+
+/* --- the library --- */
+
+#define SONAME (12 + LWS_LIBRARY_VERSION_MAJOR + LWS_LIBRARY_VERSION_MINOR) /* 4.0 has 16, 4.1 17, 4.2 18, 4.3 19 */
+
+static int load(char *why, size_t why_size) {
+    char file[32] = "websockets.dll";
+    char version[16];
+    const char *const files[] = {file};
+    lws_functions found;
+#define FUNCTION(name) {"lws_" #name, &found.name},
+    const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
+#undef FUNCTION
+#if !defined(_WIN32)
+    (void)snprintf(file, sizeof file, "libwebsockets.so.%d", SONAME);
+#endif
+    if (!knurl_dynlib_load(files, 1, functions, sizeof functions / sizeof *functions, why, why_size)) {
+        return 0;
+    }
+    (void)snprintf(version, sizeof version, "%d.%d.", LWS_LIBRARY_VERSION_MAJOR, LWS_LIBRARY_VERSION_MINOR);
+    if (strncmp(found.get_library_version(), version, strlen(version)) != 0) {
+        (void)snprintf(why, why_size, "expected version %sx, found %.40s", version, found.get_library_version());
+        return 0;
+    }
+    found.set_log_level(0, NULL); /* it writes to stderr otherwise */
+    lib = found;
+    return 1;
+}
+
+const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_size) {
+    static const knurl_inverse3_service service = {NULL, connect_to};
+    char reason[256];
+    if (lib.service || load(reason, sizeof reason)) {
+        return &service;
+    }
+    (void)snprintf(why, why_size, "libwebsockets cannot be loaded: %s; install it (Debian 12: libwebsockets17)",
+                   reason);
+    return NULL;
+}
+
+#endif

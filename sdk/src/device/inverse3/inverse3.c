@@ -1,0 +1,322 @@
+/* Haply's Inverse3, by its maker's service: an I/O thread sends a force and awaits the state that answers it. Read
+ * exchange() first. SPDX-License-Identifier: MIT */
+#include "device/inverse3/channel.h"
+
+#include "base/atomic.h"
+#include "base/system.h"
+#include "device/drivers.h"
+#include "device/link.h"
+#include "device/listings.h"
+#include "device/number.h"
+#include "device/uri.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NATIVE_RATE 1000.0  /* Hz; the service allows more, up to 4000 */
+#define PORT        10001   /* the service's default */
+#define ANSWER_NS   5000000 /* that an exchange waits for its answer */
+#define HELLO_MS    500     /* for a first message, and for the first answer */
+#define RADIUS      0.1     /* m: of the workspace's sphere */
+
+#define PLUG_IN "plug it in, and its power supply as well; the Haply Hub shows it then"
+
+typedef struct inverse3 {
+    knurl_device base;
+    knurl_link link;
+    const knurl_inverse3_service *service;
+    knurl_inverse3_channel channel;
+    int port;
+    char id[KNURL_INVERSE3_ID_ROOM]; /* "": the first */
+    /* the I/O thread's */
+    uint32_t unanswered;                  /* messages that were sent: each is answered once, in order */
+    uint32_t is_corrupt, is_uncalibrated; /* reported */
+    /* atomic */
+    uint64_t bad_bytes;
+} inverse3;
+
+static inverse3 *of(knurl_device *device) {
+    return (inverse3 *)(void *)device; /* its first member */
+}
+
+/* --- the exchange --- */
+
+static void count_answers(inverse3 *d, int came) {
+    const uint32_t count = came > 0 ? (uint32_t)came : 0;
+    d->unanswered -= count < d->unanswered ? count : d->unanswered;
+}
+
+/* The answer to the latest message: KNURL_LINK_POSITION. A state that answers an earlier one is too old. */
+static int await_answer(inverse3 *d, int64_t until, knurl_inverse3_message *message) {
+    int came = 0;
+    do {
+        const int64_t left = until - knurl_system_now_ns();
+        came = d->channel.receive(d->channel.self, left > 0 ? (int)((left + 999999) / 1000000) : 0, message);
+        count_answers(d, came);
+    } while (came >= 0 && d->unanswered > 0 && knurl_system_now_ns() < until);
+    return came < 0 ? KNURL_LINK_LOST : d->unanswered == 0 ? KNURL_LINK_POSITION : KNURL_LINK_NOTHING;
+}
+
+static int report_corrupt(inverse3 *d, const knurl_inverse3_message *message) {
+    if (!d->is_corrupt) {
+        d->is_corrupt = 1;
+        knurl_device_halt(&d->base);
+        knurl_events_report(&d->base.events, KNURL_FAULT_CORRUPT, (double)message->size);
+    }
+    __atomic_fetch_add(&d->bad_bytes, message->size, __ATOMIC_RELAXED);
+    return KNURL_LINK_NOTHING;
+}
+
+/* Takes the device's state from an answer. */
+static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_device_sample *sample) {
+    knurl_inverse3_state state;
+    if (!knurl_inverse3_read(message->text, message->size, &state)) {
+        return report_corrupt(d, message);
+    }
+    const knurl_inverse3_entry *entry = knurl_inverse3_find(&state, d->id);
+    if (!entry) {
+        return KNURL_LINK_LOST;
+    }
+    if (!entry->has_position) {
+        return report_corrupt(d, message);
+    }
+    d->is_corrupt = 0;
+    if (entry->is_uncalibrated && !d->is_uncalibrated) {
+        knurl_device_halt(&d->base);
+        knurl_events_report(&d->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+    }
+    d->is_uncalibrated = entry->is_uncalibrated;
+    knurl_inverse3_to_knurl(entry->position, sample->position);
+    knurl_inverse3_orientation(&state, sample->orientation);
+    sample->buttons = state.wireless.buttons | state.wired.buttons;
+    return d->is_uncalibrated ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+}
+
+static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+    inverse3 *d = of(device);
+    knurl_inverse3_message message = {NULL, 0};
+    char text[KNURL_INVERSE3_COMMAND];
+    const int came = d->channel.receive(d->channel.self, 0, &message); /* what was late */
+    if (came < 0) {
+        return KNURL_LINK_LOST;
+    }
+    count_answers(d, came);
+    const int64_t until = knurl_system_now_ns() + ANSWER_NS;
+    if (!d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, force, 0))) {
+        return await_answer(d, until, &message) == KNURL_LINK_LOST ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
+    }
+    d->unanswered++;
+    const int outcome = await_answer(d, until, &message);
+    return outcome == KNURL_LINK_POSITION ? take_state(d, &message, sample) : outcome;
+}
+
+/* --- opening --- */
+
+static void disconnect(inverse3 *d) {
+    knurl_link_close(&d->link); /* its last exchanges carry no force */
+    if (d->channel.self) {
+        d->channel.close(d->channel.self);
+        d->channel.self = NULL;
+    }
+}
+
+/* The first message is the service's: all devices, with their configurations. */
+static knurl_result receive_first(const knurl_inverse3_service *service, int port, knurl_inverse3_channel *channel,
+                                  knurl_inverse3_state *state) {
+    char why[160] = "";
+    knurl_inverse3_message message = {NULL, 0};
+    memset(state, 0, sizeof *state);
+    if (!service->connect(service->user, port, channel, why, sizeof why)) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                          "device 'inverse3': the Haply Inverse Service does not answer at localhost:%d (%s); start it "
+                          "(the Haply Hub does), or name its port by ?port=",
+                          port, why);
+    }
+    const int came = channel->receive(channel->self, HELLO_MS, &message);
+    if (came > 0 && knurl_inverse3_read(message.text, message.size, state)) {
+        return KNURL_OK;
+    }
+    channel->close(channel->self);
+    channel->self = NULL;
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                      "device 'inverse3': what answers at localhost:%d is not the Haply Inverse Service 3.5 or newer: "
+                      "expected its devices in JSON within %g s, found %s",
+                      port, 1e-3 * HELLO_MS, came > 0 ? "something else" : "nothing");
+}
+
+static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
+    const knurl_inverse3_entry *first = knurl_inverse3_find(state, "");
+    const knurl_inverse3_entry *entry = knurl_inverse3_find(state, d->id);
+    if (!first) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'inverse3': its service lists no Inverse3: " PLUG_IN);
+    }
+    if (!entry) {
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                          "device 'inverse3': its service lists no Inverse3 '%s', but of '%s': " PLUG_IN, d->id,
+                          first->id);
+    }
+    if (!entry->has_preset) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "device 'inverse3': expected the Haply Inverse Service 3.5 or newer, found one that lists "
+                          "no preset of its devices; update it (the Haply Hub does)");
+    }
+    (void)snprintf(d->id, sizeof d->id, "%s", entry->id); /* from now on it is this one that is meant */
+    return KNURL_OK;
+}
+
+/* No force, positions from the middle of the workspace, and no profile: under one, the Hub would set axes of its own.
+ */
+static knurl_result configure(inverse3 *d) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    char text[KNURL_INVERSE3_COMMAND];
+    knurl_inverse3_message message = {NULL, 0};
+    d->unanswered = 1;
+    if (d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, none, 1)) &&
+        await_answer(d, knurl_system_now_ns() + HELLO_MS * INT64_C(1000000), &message) == KNURL_LINK_POSITION) {
+        return KNURL_OK;
+    }
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                      "device 'inverse3:%s': its service does not answer a command within %g s; start it again", d->id,
+                      1e-3 * HELLO_MS);
+}
+
+static knurl_result connect(inverse3 *d) {
+    knurl_inverse3_state state;
+    d->is_corrupt = d->is_uncalibrated = 0;
+    knurl_result result = receive_first(d->service, d->port, &d->channel, &state);
+    result = result ? result : choose(d, &state);
+    result = result ? result : configure(d);
+    result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
+    if (result) {
+        disconnect(d);
+    }
+    return result;
+}
+
+static knurl_result parse(const char *options, inverse3 *d) {
+    char id[KNURL_URI_ROOM];
+    char port[KNURL_URI_ROOM];
+    double number = PORT;
+    const knurl_uri_key keys[] = {{"port", port}};
+    const knurl_result result = knurl_uri_parse("inverse3", options, id, keys, 1);
+    if (result) {
+        return result;
+    }
+    if (port[0] && !(knurl_number(port, strlen(port), &number) && knurl_is_within(number, 1.0, 65535.0) &&
+                     number == floor(number))) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device 'inverse3': port: expected 1 to 65535, found '%.100s'", port);
+    }
+    if (strlen(id) >= sizeof d->id) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "device 'inverse3': expected an id such as 049D, as `knurl devices` lists it, found '%.100s'",
+                          id);
+    }
+    d->port = (int)number;
+    memcpy(d->id, id, strlen(id) + 1);
+    return KNURL_OK;
+}
+
+knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_service *service, knurl_device **device) {
+    inverse3 *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "device 'inverse3': could not get %lu bytes",
+                          (unsigned long)sizeof *made);
+    }
+    knurl_device_init(&made->base, &knurl_inverse3_driver);
+    made->base.max_speed = KNURL_HAND_SPEED;
+    made->base.max_force = 4.0; /* N: what it can play in 80 % of its workspace; the peak is 10 */
+    made->service = service;
+    knurl_result result = parse(options, made);
+    result = result ? result : connect(made);
+    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    if (result) {
+        disconnect(made);
+        free(made);
+        return result;
+    }
+    *device = &made->base;
+    return KNURL_OK;
+}
+
+/* --- the driver --- */
+
+static knurl_result inverse3_open(const char *options, knurl_device **device) {
+    char why[512];
+    const knurl_inverse3_service *service = knurl_inverse3_websocket(why, sizeof why);
+    return service ? knurl_inverse3_open(options, service, device)
+                   : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'inverse3': %s", why);
+}
+
+static knurl_result inverse3_reopen(knurl_device *device) {
+    disconnect(of(device)); /* the thread has ended by itself */
+    return connect(of(device));
+}
+
+static void inverse3_close(knurl_device *device) {
+    disconnect(of(device));
+    knurl_device_free(device);
+}
+
+static void inverse3_list(knurl_listings *listings) {
+    static const char name[] = "Haply Inverse3";
+    char why[512];
+    char uri[32];
+    knurl_inverse3_channel channel;
+    knurl_inverse3_state state;
+    const knurl_inverse3_service *service = knurl_inverse3_websocket(why, sizeof why);
+    if (!service) {
+        knurl_listings_add(listings, "inverse3", name, "%s", why);
+        return;
+    }
+    if (receive_first(service, PORT, &channel, &state)) {
+        const char *reason = knurl_error_message(); /* less what stands in the listing already */
+        knurl_listings_add(listings, "inverse3", name, "%s", reason + strlen("device 'inverse3': "));
+        return;
+    }
+    channel.close(channel.self);
+    if (!knurl_inverse3_find(&state, "")) {
+        knurl_listings_add(listings, "inverse3", name, "none is connected: " PLUG_IN);
+    }
+    for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
+        if (state.entries[i].id[0]) {
+            (void)snprintf(uri, sizeof uri, "inverse3:%s", state.entries[i].id);
+            knurl_listings_add(listings, uri, name, "%s", "");
+        }
+    }
+}
+
+static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
+    (void)snprintf(info->name, sizeof info->name, "Haply Inverse3");
+    for (int axis = 0; axis < 3; axis++) { /* the cube in its maker's sphere */
+        info->workspace_max[axis] = 0.577350269189626 * RADIUS;
+        info->workspace_min[axis] = -info->workspace_max[axis];
+    }
+    info->resolution = 0.00001; /* data sheet */
+    info->max_force = device->max_force;
+    info->max_stiffness = 1000.0; /* data sheet */
+    info->max_damping = 5.0;      /* assumed */
+    info->continuous_force = 3.3; /* assumed: a third of the peak */
+    info->heat_time = 60.0;       /* assumed */
+    info->mass = 0.2;             /* assumed */
+    info->viscous = 0.5;          /* assumed */
+    info->coulomb = 0.3;          /* assumed */
+    info->delay = 2.0;            /* assumed: the service's threads come between */
+    info->native_rate = NATIVE_RATE;
+}
+
+static void inverse3_status(const knurl_device *device, knurl_device_status *status) {
+    status->bad_bytes = knurl_load_relaxed(&((const inverse3 *)(const void *)device)->bad_bytes);
+}
+
+const knurl_driver knurl_inverse3_driver = {
+    .uri = "inverse3",
+    .keeps_heat = 1,
+    .list = inverse3_list,
+    .open = inverse3_open,
+    .close = inverse3_close,
+    .get_info = inverse3_info,
+    .get_status = inverse3_status,
+    .reopen = inverse3_reopen,
+};

@@ -1,0 +1,241 @@
+/* Reads and writes messages of the Haply Inverse Service. SPDX-License-Identifier: MIT */
+#include "device/inverse3/message.h"
+
+#include "base/vec3.h"
+#include "device/number.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void knurl_inverse3_to_knurl(const double from[3], double to[3]) {
+    to[0] = from[0];
+    to[1] = from[2];
+    to[2] = -from[1];
+}
+
+void knurl_inverse3_from_knurl(const double from[3], double to[3]) {
+    to[0] = from[0];
+    to[1] = -from[2];
+    to[2] = from[1];
+}
+
+void knurl_inverse3_orientation(const knurl_inverse3_state *state, double q[4]) {
+    const knurl_inverse3_grip *grips[] = {&state->wireless, &state->wired};
+    memset(q, 0, 4 * sizeof *q);
+    for (int i = 0; i < 2; i++) {
+        const double *o = grips[i]->orientation;
+        const double square = vec3_dot(o, o) + o[3] * o[3];
+        if (fabs(square - 1.0) < 0.01) {
+            knurl_inverse3_to_knurl(o, q);
+            q[3] = o[3];
+            for (int k = 0; k < 4; k++) {
+                q[k] /= sqrt(square);
+            }
+            return;
+        }
+    }
+}
+
+const knurl_inverse3_entry *knurl_inverse3_find(const knurl_inverse3_state *state, const char *id) {
+    for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
+        const knurl_inverse3_entry *entry = &state->entries[i];
+        if (entry->id[0] && (!id[0] || strcmp(entry->id, id) == 0)) {
+            return entry;
+        }
+    }
+    return NULL;
+}
+
+/* --- writing --- */
+
+/* With six decimals. */
+static void put_number(char text[32], double value) {
+    const long millionths = lround(1e6 * fabs(value));
+    (void)snprintf(text, 32, "%s%ld.%06ld", value < 0.0 ? "-" : "", millionths / 1000000, millionths % 1000000);
+}
+
+size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int centers) {
+    char numbers[3][32];
+    double f[3];
+    knurl_inverse3_from_knurl(force, f);
+    for (int axis = 0; axis < 3; axis++) {
+        put_number(numbers[axis], f[axis]);
+    }
+    return (size_t)snprintf(text, KNURL_INVERSE3_COMMAND,
+                            "{\"inverse3\":[{\"device_id\":\"%s\",%s\"commands\":{\"set_cursor_force\":{\"vector\":{"
+                            "\"x\":%s,\"y\":%s,\"z\":%s}}}}]}",
+                            id, centers ? "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"}}," : "",
+                            numbers[0], numbers[1], numbers[2]);
+}
+
+/* --- reading --- */
+
+#ifndef KNURL_HAVE_INVERSE3
+
+int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state) {
+    (void)text;
+    (void)size;
+    (void)state;
+    return 0;
+}
+
+#else
+
+#define JSMN_STATIC
+#define JSMN_STRICT
+#define JSMN_PARENT_LINKS /* the time it takes grows with the length alone */
+#include <jsmn.h>
+
+#define TOKENS 2048 /* of a message: a device with its configuration has about 150 */
+
+typedef struct json {
+    const char *text;
+    int count;
+    jsmntok_t tokens[TOKENS];
+} json;
+
+/* Values are known by the place of their token; NONE: there is no such value. */
+#define NONE   (-1)
+
+static int has_text(const json *j, int at, const char *text) {
+    const jsmntok_t *token = &j->tokens[at];
+    const size_t length = (size_t)(token->end - token->start);
+    return length == strlen(text) && memcmp(j->text + token->start, text, length) == 0;
+}
+
+/* The token behind a value and all that is in it. */
+static int behind(const json *j, int at) {
+    const int end = j->tokens[at].end;
+    do {
+        at++;
+    } while (at < j->count && j->tokens[at].start < end);
+    return at;
+}
+
+static int member(const json *j, int object, const char *key) {
+    if (object == NONE || j->tokens[object].type != JSMN_OBJECT) {
+        return NONE;
+    }
+    const int end = behind(j, object);
+    for (int at = object + 1; at + 1 < end && j->tokens[at].size == 1; at = behind(j, at + 1)) {
+        if (has_text(j, at, key)) {
+            return at + 1;
+        }
+    }
+    return NONE;
+}
+
+/* The first of an array's elements, or the one behind `at`. */
+static int element(const json *j, int array, int at) {
+    if (array == NONE || j->tokens[array].type != JSMN_ARRAY) {
+        return NONE;
+    }
+    const int next = at == NONE ? array + 1 : behind(j, at);
+    return next < behind(j, array) ? next : NONE;
+}
+
+/* A number of JSON's. The service prints up to 17 significant digits, knurl_number() takes 15: the rest is left off. */
+static int take_number(const json *j, int at, double *value) {
+    char kept[32];
+    size_t count = 0;
+    int significant = 0;
+    int has_point = 0;
+    double exponent = 0.0;
+    if (at == NONE || j->tokens[at].type != JSMN_PRIMITIVE) {
+        return 0;
+    }
+    const char *text = j->text + j->tokens[at].start;
+    const size_t size = (size_t)(j->tokens[at].end - j->tokens[at].start);
+    size_t end = 0; /* of its digits */
+    while (end < size && text[end] != 'e' && text[end] != 'E') {
+        end++;
+    }
+    if (end + 2 < size && text[end + 1] == '-' && knurl_number(text + end + 2, size - end - 2, &exponent) &&
+        exponent > 8.0) {
+        *value = 0.0; /* less than 0.1 um, and with 15 digits more than knurl_number() takes */
+        return 1;
+    }
+    for (size_t i = 0; i < size && count < sizeof kept; i++) {
+        const int is_digit = i < end && text[i] >= '0' && text[i] <= '9';
+        if (!strchr("0123456789+-.eE", text[i])) {
+            return 0; /* jsmn takes more than JSON has */
+        }
+        has_point |= text[i] == '.';
+        significant += is_digit && (significant > 0 || text[i] != '0');
+        if (!is_digit || !has_point || significant <= 15) {
+            kept[count++] = text[i];
+        }
+    }
+    return count < sizeof kept && knurl_number(kept, count, value);
+}
+
+/* The numbers x, y, z and (4) w: 1 where all are there. */
+static int take_numbers(const json *j, int object, int wanted, double *values) {
+    static const char *const keys[] = {"x", "y", "z", "w"};
+    int has_all = 1;
+    for (int i = 0; i < wanted; i++) {
+        has_all &= take_number(j, member(j, object, keys[i]), &values[i]);
+    }
+    return has_all;
+}
+
+static uint32_t is_true(const json *j, int at) {
+    return at != NONE && j->tokens[at].type == JSMN_PRIMITIVE && has_text(j, at, "true");
+}
+
+/* An id goes back to the service in commands: it must not end the text that it stands in. */
+static void take_id(const json *j, int at, char id[KNURL_INVERSE3_ID_ROOM]) {
+    static const char allowed[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
+    const size_t size = at == NONE ? 0 : (size_t)(j->tokens[at].end - j->tokens[at].start);
+    if (size < KNURL_INVERSE3_ID_ROOM && size > 0 && j->tokens[at].type == JSMN_STRING) {
+        memcpy(id, j->text + j->tokens[at].start, size);
+        id[size] = '\0';
+        id[strspn(id, allowed) == size ? size : 0] = '\0';
+    }
+}
+
+static void take_device(const json *j, int at, knurl_inverse3_entry *entry) {
+    const int preset = member(j, member(j, at, "config"), "preset");
+    const int calibrated = member(j, member(j, at, "status"), "calibrated");
+    take_id(j, member(j, at, "device_id"), entry->id);
+    entry->has_preset = preset != NONE && j->tokens[preset].type == JSMN_STRING;
+    entry->is_uncalibrated = calibrated != NONE && !is_true(j, calibrated);
+    entry->has_position =
+        (uint32_t)take_numbers(j, member(j, member(j, at, "state"), "cursor_position"), 3, entry->position);
+}
+
+static void take_grip(const json *j, int at, knurl_inverse3_grip *grip) {
+    const int state = member(j, at, "state");
+    const int buttons = member(j, state, "buttons");
+    if (!take_numbers(j, member(j, state, "orientation"), 4, grip->orientation)) {
+        memset(grip->orientation, 0, sizeof grip->orientation);
+    }
+    grip->buttons = is_true(j, member(j, buttons, "a")) | is_true(j, member(j, buttons, "b")) << 1 |
+                    is_true(j, member(j, buttons, "c")) << 2 | is_true(j, member(j, state, "button"));
+}
+
+int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state) {
+    json j;
+    jsmn_parser parser;
+    memset(state, 0, sizeof *state);
+    if (size > KNURL_INVERSE3_LONGEST) {
+        return 0;
+    }
+    jsmn_init(&parser);
+    j.text = text;
+    j.count = jsmn_parse(&parser, text, size, j.tokens, TOKENS);
+    if (j.count < 1 || j.tokens[0].type != JSMN_OBJECT || behind(&j, 0) != j.count) {
+        return 0;
+    }
+    const int devices = member(&j, 0, "inverse3");
+    int at = element(&j, devices, NONE);
+    for (int i = 0; i < KNURL_INVERSE3_DEVICES && at != NONE; i++) {
+        take_device(&j, at, &state->entries[i]);
+        at = element(&j, devices, at);
+    }
+    take_grip(&j, element(&j, member(&j, 0, "wireless_verse_grip"), NONE), &state->wireless);
+    take_grip(&j, element(&j, member(&j, 0, "verse_grip"), NONE), &state->wired);
+    return 1;
+}
+
+#endif

@@ -1,0 +1,54 @@
+/* Messages of the Haply Inverse Service, version 3.5: JSON, one answer for each message. Written from its public
+ * documentation (docs.haply.co/inverseSDK). Its axes: x right, y away from the user, z up; m, N.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_INVERSE3_MESSAGE_H
+#define KNURL_SRC_INVERSE3_MESSAGE_H
+
+#include "base/finite.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define KNURL_INVERSE3_ID_ROOM 16    /* bytes of a device's id; the documented ones have four characters */
+#define KNURL_INVERSE3_DEVICES 8     /* that are looked at; more are left out */
+#define KNURL_INVERSE3_COMMAND 256   /* bytes of the longest command */
+#define KNURL_INVERSE3_LONGEST 65536 /* bytes of the longest message that is taken */
+
+/* One device in a message, in the service's axes. */
+typedef struct knurl_inverse3_entry {
+    char id[KNURL_INVERSE3_ID_ROOM];
+    double position[3];       /* m */
+    uint32_t has_position;    /* 1: all three of its numbers were there */
+    uint32_t has_preset;      /* 1: its configuration names a preset: the service is 3.5 or newer */
+    uint32_t is_uncalibrated; /* 1: the service says so */
+} knurl_inverse3_entry;
+
+/* A handle: a wireless or a wired VerseGrip. */
+typedef struct knurl_inverse3_grip {
+    double orientation[4]; /* x, y, z, w */
+    uint32_t buttons;      /* bit 0: a, or the only one; bit 1: b; bit 2: c */
+} knurl_inverse3_grip;
+
+typedef struct knurl_inverse3_state {
+    knurl_inverse3_entry entries[KNURL_INVERSE3_DEVICES];
+    knurl_inverse3_grip wireless, wired; /* the first of each; zeros where there is none */
+} knurl_inverse3_state;
+
+/* Reads a message: 1; 0: it is no JSON object. What is missing in it, or not of its kind, is 0 or "" in *state. */
+int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state);
+
+/* The entry with this id, "": the first; null where there is none. */
+const knurl_inverse3_entry *knurl_inverse3_find(const knurl_inverse3_state *state, const char *id);
+
+/* The handle's orientation x, y, z, w in Knurl's axes: a unit quaternion, or zeros where there is none. */
+void knurl_inverse3_orientation(const knurl_inverse3_state *state, double q[4]);
+
+/* Positions to Knurl's axes (x right, y up, z towards the user), and forces to the service's. */
+void knurl_inverse3_to_knurl(const double from[3], double to[3]);
+void knurl_inverse3_from_knurl(const double from[3], double to[3]);
+
+/* Writes the command that gives a device this force (N, Knurl's axes, each part below 1000), with a comma-less decimal
+ * point in every locale. centers: 1 also asks for positions from the middle of its workspace. Returns its length. */
+size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int centers);
+
+#endif

@@ -1,0 +1,28 @@
+/* The Inverse3's row in the table of faults: the driver over a simulated service. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_INVERSE3_DOUBLE_H
+#define KNURL_TEST_INVERSE3_DOUBLE_H
+
+#include "device/inverse3/channel.h"
+#include "device/inverse3/inverse3_sim.h"
+#include "support/double.h"
+
+extern const device_double inverse3_double;
+
+/** The simulated service, set up anew, and the driver opened on it; null where that fails. */
+knurl_device *inverse3_double_open(const char *options);
+
+/** What is simulated. Between inverse3_double_begin() or an opening, and the device's end. */
+inverse3_sim *inverse3_double_sim(void);
+void inverse3_double_begin(void);
+const knurl_inverse3_service *inverse3_double_service(void);
+
+/** From now on this is every answer; null: what it is. */
+void inverse3_double_say(const char *text, size_t size);
+
+/** Connections that are open. */
+int inverse3_double_connections(void);
+
+/** 1: the service has ended: connections are closed and none is made. */
+void inverse3_double_end_service(int is_ended);
+
+#endif

@@ -1,0 +1,41 @@
+/* The Haply Inverse Service 3.5 with one or two simulated Inverse3s, written from its public documentation alone
+ * (docs.haply.co/inverseSDK): what it says to a client that connects, and to each of its messages. What the
+ * documentation leaves open is taken as worst for a driver: the last force is held when commands stop.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_INVERSE3_SIM_H
+#define KNURL_TEST_INVERSE3_SIM_H
+
+#include "device/fake/hand.h"
+#include "device/fake/plant.h"
+
+#define INVERSE3_SIM_ROOM 8192 /* bytes of its longest message */
+
+typedef struct inverse3_sim {
+    knurl_plant plant;
+    knurl_hand hand;
+    int strokes; /* 1: its hand strokes along x, 1 mm below y = 0 of the workspace's middle; 0: it holds still there */
+    double target[3];
+    double begun_at, moved_to, limp_since; /* s; limp_since < 0: its motors get something */
+    double force[3];                       /* N, in the service's axes: what it was told last */
+    double jump;                           /* m, added to x */
+    int is_centered;                       /* 1: positions count from the workspace's middle */
+    int is_gone;                           /* 1: the device's cable is out */
+    int is_unhomed;                        /* 1: it has lost its calibration */
+    int is_endless;                        /* 1: its position is told as a number that is not finite */
+    int is_old;                            /* 1: a service before 3.5 */
+    int has_second;                        /* 1: there is another device, 0A11, listed before this one */
+    double force_of_second[3];
+} inverse3_sim;
+
+void inverse3_sim_init(inverse3_sim *sim, double seconds, int strokes);
+
+/* Its first message, into `text`; returns the length. */
+int inverse3_sim_greet(inverse3_sim *sim, double seconds, char text[INVERSE3_SIM_ROOM]);
+
+/* Hears a message, ended by a 0, and writes the answer. */
+int inverse3_sim_hear(inverse3_sim *sim, double seconds, const char *message, char text[INVERSE3_SIM_ROOM]);
+
+/* The device's cable comes out: its motors get nothing any more. */
+void inverse3_sim_unplug(inverse3_sim *sim, double seconds);
+
+#endif

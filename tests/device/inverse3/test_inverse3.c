@@ -1,0 +1,215 @@
+/* The driver of the Inverse3 over a simulated service: axes, forces, orientation, faults, ends.
+ * SPDX-License-Identifier: MIT */
+#include "device/inverse3/inverse3_double.h"
+#include "support/close.h"
+
+#include "base/system.h"
+
+#include <knurl/device.h>
+
+static const double none[3];
+
+static knurl_result run(knurl_device *device, int ms, const double force[3], knurl_device_sample *sample) {
+    knurl_result result = KNURL_OK;
+    for (int i = 0; i < ms; i++) {
+        result = knurl_device_read(device, sample);
+        (void)knurl_device_write(device, force);
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    return result;
+}
+
+static knurl_device *open_released(const char *options) {
+    knurl_device_sample sample;
+    knurl_device *device = inverse3_double_open(options);
+    if (!device) {
+        fail_msg("%s", knurl_error_message());
+    }
+    (void)run(device, 30, none, &sample);
+    knurl_device_release_halt(device);
+    return device;
+}
+
+static int has_event(knurl_device *device, int32_t code) {
+    knurl_device_event event;
+    int has = 0;
+    while (knurl_device_next_event(device, &event)) {
+        has |= event.code == code;
+    }
+    return has;
+}
+
+/* Against a hand of 700 N/m; friction may hold up to 0.3 N more or less. */
+TEST(a_force_moves_the_grip_where_it_points) {
+    for (int axis = 0; axis < 3; axis++) {
+        knurl_device_sample sample;
+        double force[3] = {0.0, 0.0, 0.0};
+        knurl_device *device = open_released("");
+        force[axis] = 2.0;
+        assert_int_equal(run(device, 1100, force, &sample), KNURL_OK);
+        CHECK_CLOSE(sample.position[axis], 2.0 / 700.0, 0.3 / 700.0 + 0.00002);
+        CHECK_CLOSE(sample.position[(axis + 1) % 3], 0.0, 0.00002);
+        assert_int_equal(sample.buttons, 1); /* from its first second on */
+        CHECK_CLOSE(sample.orientation[1], 0.7071067811865476, 1e-15);
+        CHECK_CLOSE(sample.orientation[3], 0.7071067811865476, 1e-15);
+        knurl_device_close(device);
+        assert_true(inverse3_double_sim()->limp_since >= 0.0);
+        assert_int_equal(inverse3_double_connections(), 0);
+    }
+}
+
+/* The data sheet's figures; the workspace is the cube in the sphere that the maker's tutorial 06 keeps within. */
+TEST(forces_are_no_stronger_than_it_can_play) {
+    const double force[3] = {0.0, 100.0, 0.0};
+    knurl_device_sample sample;
+    knurl_device_info info;
+    knurl_device *device = open_released("");
+    (void)run(device, 10, force, &sample);
+    CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* what is up in Knurl is the service's z */
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "Haply Inverse3");
+    CHECK_SAME(info.max_force, 4.0);
+    CHECK_SAME(info.max_stiffness, 1000.0);
+    CHECK_SAME(info.resolution, 0.00001);
+    CHECK_CLOSE(info.workspace_max[0], 0.1 / sqrt(3.0), 1e-12);
+    knurl_device_close(device);
+}
+
+TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    knurl_device_sample sample;
+    knurl_device *device = NULL;
+    inverse3_double_begin();
+    inverse3_double_sim()->has_second = 1;
+    assert_int_equal(knurl_inverse3_open("049D", inverse3_double_service(), &device), KNURL_OK);
+    (void)run(device, 30, none, &sample);
+    knurl_device_release_halt(device);
+    assert_int_equal(run(device, 500, force, &sample), KNURL_OK);
+    CHECK_CLOSE(sample.position[0], 0.0, 0.00002); /* the other one is at 0.05 */
+    CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
+    CHECK_SAME(inverse3_double_sim()->force_of_second[2], 0.0);
+    knurl_device_close(device);
+}
+
+TEST(what_cannot_be_opened_says_why) {
+    const knurl_inverse3_service *service = inverse3_double_service();
+    struct {
+        knurl_device *device;
+    } out = {NULL};
+    inverse3_double_begin();
+    CHECK_REFUSED(knurl_inverse3_open("1234", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_message("no Inverse3 '1234', but of '049D'");
+    CHECK_REFUSED(knurl_inverse3_open("a_name_that_is_too_long", service, &out.device), KNURL_ERROR_ARGUMENT, out);
+    check_message("a_name_that_is_too_long");
+    CHECK_REFUSED(knurl_inverse3_open("?port=0", service, &out.device), KNURL_ERROR_ARGUMENT, out);
+    CHECK_REFUSED(knurl_inverse3_open("?port=1e9", service, &out.device), KNURL_ERROR_ARGUMENT, out);
+    CHECK_REFUSED(knurl_inverse3_open("?host=example.org", service, &out.device), KNURL_ERROR_ARGUMENT, out);
+    check_message("expected port=");
+    inverse3_double_sim()->is_old = 1;
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_UNSUPPORTED, out);
+    check_message("3.5 or newer");
+    inverse3_double_sim()->is_gone = 1;
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_message("lists no Inverse3: plug it in");
+    inverse3_double_say("[]", 2);
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    inverse3_double_say("hello", 5);
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_message("is not the Haply Inverse Service");
+    inverse3_double.inject(DOUBLE_MUTE);
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_message("found nothing");
+    inverse3_double_end_service(1);
+    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_message("does not answer at localhost:10001 (conn fail: 111)");
+    assert_int_equal(inverse3_double_connections(), 0);
+}
+
+static void check_lost_and_had_back(void (*lose)(void), void (*mend)(void)) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    knurl_device_sample sample;
+    knurl_device *device = open_released("");
+    (void)run(device, 50, force, &sample);
+    lose();
+    assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_true(has_event(device, KNURL_FAULT_LOST));
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
+    mend();
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    assert_int_equal(run(device, 50, force, &sample), KNURL_OK);
+    CHECK_SAME(inverse3_double_sim()->force[2], 0.0); /* until the halt is released */
+    CHECK_CLOSE(sample.position[0], 0.0, 0.001);      /* positions count from the middle again */
+    knurl_device_close(device);
+    assert_int_equal(inverse3_double_connections(), 0);
+}
+
+static void unplug(void) {
+    inverse3_double.inject(DOUBLE_UNPLUG);
+}
+
+static void plug_in(void) {
+    inverse3_double.inject(DOUBLE_WELL);
+}
+
+static void end_service(void) {
+    inverse3_double_end_service(1);
+}
+
+static void begin_service(void) {
+    const double limp[3] = {0.0, 0.0, 0.0};
+    memcpy(inverse3_double_sim()->force, limp, sizeof limp); /* it starts anew */
+    inverse3_double_end_service(0);
+}
+
+TEST(a_pulled_cable_is_a_loss_and_the_device_is_had_back) {
+    check_lost_and_had_back(unplug, plug_in);
+}
+
+TEST(a_service_that_ends_is_a_loss_and_the_device_is_had_back) {
+    check_lost_and_had_back(end_service, begin_service);
+}
+
+/* An answer without a position, one that is too long (told by a size of 0), another JSON. */
+TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
+    static const struct {
+        const char *text;
+        size_t size;
+    } answers[] = {{"", 0}, {"{\"inverse3\":[{\"device_id\":\"049D\"}]}", 36}, {"null", 4}, {"\377\376\375", 3}};
+    static const double force[3] = {0.0, 1.0, 0.0};
+    for (size_t i = 0; i < COUNT_OF(answers); i++) {
+        knurl_device_sample sample;
+        knurl_device_status status;
+        knurl_device *device = open_released("");
+        (void)run(device, 50, force, &sample);
+        CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
+        inverse3_double_say(answers[i].text, answers[i].size);
+        (void)run(device, 5, force, &sample);
+        CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
+        assert_true(has_event(device, KNURL_FAULT_CORRUPT));
+        assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+        knurl_device_status_init(&status, sizeof status);
+        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        assert_true(status.bad_bytes >= answers[i].size);
+        inverse3_double_say(NULL, 0);
+        assert_int_equal(run(device, 20, force, &sample), KNURL_OK);
+        knurl_device_close(device);
+    }
+}
+
+/* One answer a message, in order: what answers an earlier one is no position of now. */
+TEST(answers_that_stay_behind_are_no_positions) {
+    static const double force[3] = {0.0, 1.0, 0.0};
+    knurl_device_sample sample;
+    knurl_device *device = open_released("");
+    (void)run(device, 50, force, &sample);
+    inverse3_double.inject(DOUBLE_LATE);
+    (void)run(device, 200, force, &sample);
+    assert_int_equal(run(device, 1, force, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+    assert_true(has_event(device, KNURL_FAULT_SILENT));
+    CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
+    inverse3_double.inject(DOUBLE_WELL);
+    assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
+    knurl_device_close(device);
+}

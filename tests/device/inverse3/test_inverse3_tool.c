@@ -1,0 +1,78 @@
+/* The command-line tool with an emulated Haply Inverse Service at a port of this machine, over real WebSockets.
+ * SPDX-License-Identifier: MIT */
+#include "support/tool.h"
+
+#include <knurl/device.h>
+#include <signal.h>
+#include <time.h>
+
+#define WITH_SERVICE(fault, ...)                                                                                       \
+    run_tool((const char *const[]){EMULATE_INVERSE3, fault, KNURL_TEST_TOOL, __VA_ARGS__, NULL})
+#define STROKE(fault, seconds)                                                                                         \
+    WITH_SERVICE(fault, "run", plate, "--device", "inverse3:?port=PORT", "--seconds", seconds)
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+static double now_s(void) {
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Another one, with another id, is listed before it. */
+TEST(a_plate_is_felt_with_it) {
+    process p = {0};
+    for (int tries = 0; tries == 0 || (p.exit_code != 0 && tries < 4); tries++) { /* one that stalls for 1 s is lost */
+        if (tries > 0) {
+            print_error("%s", p.err);
+            process_free(&p);
+        }
+        p = WITH_SERVICE("two", "run", plate, "--device", "inverse3:049D?port=PORT", "--seconds", "0.4");
+    }
+    assert_int_equal(p.exit_code, 0);
+    assert_non_null(strstr(p.out, "Haply Inverse3"));
+    assert_true(json_number_of(p.out, "contact_s") > 0.1);
+    assert_true(json_number_of(p.out, "force_max_n") > 0.1); /* 400 N/m a fraction of a millimetre deep */
+    process_free(&p);
+}
+
+/* 0.1 s in; the tool ends with it, or plays on without a force. */
+TEST(faults_of_the_service_are_told) {
+    static const struct {
+        const char *fault, *words;
+    } table[] = {{"unplugged", "lost"}, {"closed", "lost"},     {"mute", "silent"},
+                 {"late", "silent"},    {"garbage", "corrupt"}, {"long", "corrupt"}};
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        process p = STROKE(table[i].fault, "0.2");
+        if (!strstr(p.err, table[i].words) && !strstr(p.out, table[i].words)) {
+            fail_msg("%s: exit %d, %s%s", table[i].fault, p.exit_code, p.out, p.err);
+        }
+        process_free(&p);
+    }
+}
+
+TEST(what_cannot_be_opened_is_one_sentence_and_quick) {
+    static const struct {
+        const char *fault, *words;
+    } table[] = {
+        {"old", "inverse3|3.5 or newer"}, {"strange", "is not the Haply Inverse Service"}, {"silent", "found nothing"}};
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        process p = STROKE(table[i].fault, "1");
+        check_refused(&p, 1, table[i].words, table[i].fault);
+    }
+    const double begin = now_s();
+    process p = RUN_TOOL("run", plate, "--device", "inverse3:?port=9", "--seconds", "1");
+    check_refused(&p, 1, "does not answer at localhost:9", "no service");
+    assert_true(now_s() - begin < 1.0);
+}
+
+/* libwebsockets has the process ignore it. */
+TEST(what_the_process_does_at_SIGPIPE_stays_as_it_was) {
+    struct sigaction now;
+    struct {
+        knurl_device *device;
+    } out = {NULL};
+    CHECK_REFUSED(knurl_device_open("inverse3:?port=9", &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    assert_int_equal(sigaction(SIGPIPE, NULL, &now), 0);
+    assert_true(now.sa_handler == SIG_DFL);
+}
