@@ -1,11 +1,13 @@
 /* knurl run: loads a scene, strokes it with a device or a simulated hand, and summarises the run.
  * SPDX-License-Identifier: MIT */
 #include "faults.h"
+#include "machine.h"
 #include "recorder.h"
 #include "sound.h"
 #include "stroke.h"
 #include "tool.h"
 #include "travel.h"
+#include "view.h"
 
 #include <math.h>
 #include <signal.h>
@@ -17,7 +19,7 @@ typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav;
     knurl_gltf_budget budget;
     double seconds, rate;
-    int fast, full_model, clamp, reconnect, pretty;
+    int fast, full_model, clamp, reconnect, pretty, view;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -30,6 +32,7 @@ typedef struct run {
     knurl_surface_id surface; /* that is stroked */
     recorder recorder;
     sound sound;
+    view *view;
     travel travel;
     faults faults;
     uint64_t ticks;  /* wanted */
@@ -57,6 +60,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+        {"--view", TOOL_FLAG, &o->view, 0, 0, ""},
         {"--clamp", TOOL_FLAG, &o->clamp, 0, 0, ""},
         {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
@@ -76,6 +80,9 @@ static int read_options(int argc, char **argv, run_options *o) {
     }
     if (o->stroke && o->trace) {
         return tool_error(TOOL_USAGE, "run: expected --stroke or --trace, found both");
+    }
+    if (o->view && o->fast) {
+        return tool_error(TOOL_USAGE, "run: expected --view or --fast, found both");
     }
     if (knurl_stroke_from_name(o->stroke ? o->stroke : "line", &o->stroke_id)) {
         return tool_library_error(TOOL_USAGE, "run: --stroke");
@@ -173,7 +180,7 @@ static int open_device(run *r) {
     } else if (o->trace) {
         r->ticks = (uint64_t)floor(fmax(last_t, 0.0) * o->rate + 1e-6) + 1; /* its last row too */
     } else {
-        r->ticks = (uint64_t)(5.0 * o->rate);
+        r->ticks = (uint64_t)((o->view ? 600.0 : 5.0) * o->rate);
     }
     r->seconds = is_fake(o) ? 0.0 : (double)r->ticks / o->rate;
     return code;
@@ -193,12 +200,35 @@ static knurl_result clamp(knurl_scene *scene) {
 static void take_tick(const knurl_tick_output *output, void *user) {
     run *r = user;
     travel_add(&r->travel, output);
-    if (r->recorder.rows) {
-        recorder_take(output, &r->recorder);
+    if (r->recorder.ring.rows) {
+        tick_ring_put(&r->recorder.ring, output);
     }
     if (r->sound.audio) {
         sound_take(&r->sound, output);
     }
+    if (r->view) {
+        view_take(r->view, output);
+    }
+}
+
+/* The page is where ./run web puts it: build/web, beside the preset's folder. */
+static int open_view(run *r) {
+    char page[4096];
+    char index[4096 + 16];
+    knurl_device_info device;
+    knurl_device_info_init(&device, sizeof device);
+    (void)knurl_device_get_info(r->device, &device);
+    (void)machine_program("../web", page, sizeof page);
+    const view_desc desc = {r->scene, r->options.path, page, device.name, r->options.rate};
+    if (view_open(&desc, &r->view) != TOOL_OK) {
+        return TOOL_FAILURE;
+    }
+    (void)snprintf(index, sizeof index, "%s/index.html", page);
+    if (access(index, R_OK) != 0) {
+        fprintf(stderr, "knurl: note: the page is not built, so that a browser has nothing to open: ./run web\n");
+    }
+    fprintf(stderr, "knurl: note: to see what is felt, open %s\n", view_url(r->view));
+    return TOOL_OK;
 }
 
 static int make_loop(run *r) {
@@ -218,6 +248,9 @@ static int make_loop(run *r) {
     }
     if (code == TOOL_OK && r->options.wav) {
         code = sound_open(&r->sound, r->options.wav, r->options.rate);
+    }
+    if (code == TOOL_OK && r->options.view) {
+        code = open_view(r);
     }
     if (code != TOOL_OK) {
         return code;
@@ -284,7 +317,7 @@ static void play(run *r) {
         } else {
             (void)knurl_loop_wait(r->loop, r->seconds > 0.0 ? fmin(0.05, end - now()) : 0.05);
         }
-        if (r->recorder.rows) {
+        if (r->recorder.ring.rows) {
             recorder_drain(&r->recorder);
         }
         if (r->sound.audio) {
@@ -419,6 +452,7 @@ int cmd_run(int argc, char **argv) {
     knurl_loop_destroy(r.loop);
     (void)recorder_close(&r.recorder, 0);
     (void)sound_close(&r.sound, 0);
+    view_close(r.view);
     knurl_device_close(r.device);
     knurl_scene_destroy(r.scene);
     return code;

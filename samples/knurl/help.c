@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#define OPTIONS_MAX 17
+#define OPTIONS_MAX 18
 #define INDENT      30
 
 typedef struct help_option {
@@ -52,12 +52,13 @@ static const help_command commands[] = {
       {"--surface", "NAME", "the surface to stroke; default: the first"},
       {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},
       {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand"},
-      {"--seconds", "S", "of the clock, with fake of its ticks; default 5, or the trace's length"},
+      {"--seconds", "S", "of the clock, with fake of its ticks; default 5 (with --view 600), or the trace's length"},
       {"--rate", "HZ", "update rate, 100 to 10000; default 1000"},
       {"--method", METHODS, "for all surfaces, instead of their own"},
       {"--fast", "", "fake only: as fast as the machine can, with the same forces"},
       {"--out", "CSV", "writes a row per tick; - is standard output, and the summary goes to standard error"},
       {"--wav", "FILE", "writes the sound of what is felt: mono, 48 kHz, 16 bits"},
+      {"--view", "", "serves a page on 127.0.0.1 that shows what is felt, and prints its address"},
       FULL,
       BUDGET,
       {"--clamp", "", "limits walls and textures to what the device can do"},

@@ -1,37 +1,22 @@
-/* The ring buffer and the CSV rows of a run. SPDX-License-Identifier: MIT */
+/* The CSV rows of a run. SPDX-License-Identifier: MIT */
 #include "recorder.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 int recorder_open(recorder *r, const char *path, const knurl_scene *scene, double rate) {
     memset(r, 0, sizeof *r);
     r->scene = scene;
     r->rate = rate;
-    r->rows = calloc(RECORDER_ROWS, sizeof *r->rows); /* touched before the run, not in a tick */
-    if (!r->rows) {
+    if (tick_ring_create(&r->ring)) {
         return tool_error(TOOL_FAILURE, "run: no memory to record with");
     }
-    memset(r->rows, 0, RECORDER_ROWS * sizeof *r->rows);
     const int code = out_open(&r->file, path);
     if (code == TOOL_OK) {
         fputs("t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n", r->file.stream);
     } else {
-        free(r->rows);
-        r->rows = NULL;
+        tick_ring_destroy(&r->ring);
     }
     return code;
-}
-
-void recorder_take(const knurl_tick_output *output, void *user) {
-    recorder *r = user;
-    const uint64_t read = __atomic_load_n(&r->read, __ATOMIC_ACQUIRE);
-    if (r->written - read == RECORDER_ROWS) {
-        r->lost++;
-        return;
-    }
-    r->rows[r->written % RECORDER_ROWS] = *output;
-    __atomic_store_n(&r->written, r->written + 1, __ATOMIC_RELEASE);
 }
 
 static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
@@ -56,29 +41,28 @@ static void print_row(FILE *f, const recorder *r, const knurl_tick_output *o) {
 }
 
 void recorder_drain(recorder *r) {
-    const uint64_t written = __atomic_load_n(&r->written, __ATOMIC_ACQUIRE);
-    while (r->read < written) {
-        print_row(r->file.stream, r, &r->rows[r->read % RECORDER_ROWS]);
-        __atomic_store_n(&r->read, r->read + 1, __ATOMIC_RELEASE);
+    const knurl_tick_output *tick;
+    while ((tick = tick_ring_first(&r->ring)) != NULL) {
+        print_row(r->file.stream, r, tick);
+        tick_ring_drop(&r->ring);
     }
 }
 
 int recorder_close(recorder *r, int keep) {
     int code = TOOL_OK;
-    if (!r->rows) {
+    if (!r->ring.rows) {
         return code;
     }
     recorder_drain(r);
     if (keep) {
         code = out_keep(&r->file);
-        if (r->lost > 0) {
+        if (r->ring.lost > 0) {
             fprintf(stderr, "knurl: note: %llu rows could not be written in time and are missing from the CSV\n",
-                    (unsigned long long)r->lost);
+                    (unsigned long long)r->ring.lost);
         }
     } else {
         out_discard(&r->file);
     }
-    free(r->rows);
-    r->rows = NULL;
+    tick_ring_destroy(&r->ring);
     return code;
 }

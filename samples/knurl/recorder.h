@@ -3,17 +3,13 @@
 #ifndef KNURL_TOOL_RECORDER_H
 #define KNURL_TOOL_RECORDER_H
 
+#include "tick_ring.h"
 #include "tool.h"
 
 #include <knurl/knurl.h>
 
-#define RECORDER_ROWS 16384 /* 1.6 s at 10 kHz */
-
 typedef struct recorder {
-    knurl_tick_output *rows;
-    uint64_t written; /* by the haptic thread */
-    uint64_t read;    /* by the other */
-    uint64_t lost;    /* rows for which there was no room */
+    tick_ring ring;
     const knurl_scene *scene;
     out_file file;
     double rate;
@@ -22,10 +18,7 @@ typedef struct recorder {
 /* Opens the file and writes the header. TOOL_OK, or TOOL_FAILURE having said why. */
 int recorder_open(recorder *r, const char *path, const knurl_scene *scene, double rate);
 
-/* A knurl_tick_callback; `user` is the recorder. [haptic thread] */
-void recorder_take(const knurl_tick_output *output, void *user);
-
-/* Writes what has come. */
+/* Writes what has come into the ring. */
 void recorder_drain(recorder *r);
 
 /* Drains and keeps the file, or takes it away. TOOL_OK, or TOOL_FAILURE having said why. */

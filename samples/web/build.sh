@@ -11,7 +11,7 @@ if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # what t
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
-cp "$here"/{main,view,scope,sound,worker}.js "$work/knurl.mjs" "$work/page/"
+cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
 "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work/page/main.js" "$work/page/worker.js" --bundle --minify \
     --format=esm --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,style.css} "$work/knurl.wasm" "$out/"

@@ -1,85 +1,89 @@
-// The page: what is loaded and set, the pointer's way to the worker, and what comes back from it.
-// SPDX-License-Identifier: MIT
+// The page: files, what ticks bring, and what is drawn of it. SPDX-License-Identifier: MIT
+import { $, save, scene, setSurfaces, surface, tell } from "./page.js";
+import { Pointer } from "./pointer.js";
+import { Recording } from "./recording.js";
+import { AT, ROW, length, vector } from "./rows.js";
 import { History, drawLens, drawScope, drawSpectrum } from "./scope.js";
+import { Settings, showFeel, showOutputs, shownFeel, tag } from "./settings.js";
 import { Sound } from "./sound.js";
+import { Simulation, watch } from "./sources.js";
+import { nodesWithMesh, withTag } from "./tag.js";
 import { View } from "./view.js";
 
-const ROW = 16;
 const MOST_BYTES = 64 * 1024 * 1024;
-const METHODS = ["locked", "S1", "S2", "locked", "area"];
-const $ = (id) => document.getElementById(id);
+const linked = new URLSearchParams(location.hash.slice(1));
 const history = new History();
 const sound = new Sound();
-const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
-const waiting = new Map();
-const settings = new URLSearchParams(location.hash.slice(1));
-let view = null;
-let surfaces = [];
-let under = null; // what the pointer is over: {point, normal}
-let latest = null; // the latest tick's row
-let crossed = 0;
-let played = 0;
-let cost = 0;
+const ticks = { latest: null, crossed: 0, played: 0, missed: 0, cost: null };
+let simulation = null; // or null: what is shown is a run of the tool
+let pointer = null;
+let rate = 1000; // of the source
 
-function tell(text, isError = false) {
-  $("status").textContent = text;
-  $("status").classList.toggle("error", isError);
-}
+// --- what ticks bring ---
 
-// Asks the worker and waits for its answer.
-function ask(kind, message = {}, transfer = []) {
-  const id = (ask.next = (ask.next ?? 0) + 1);
-  return new Promise((resolve) => {
-    waiting.set(id, resolve);
-    worker.postMessage({ kind, id, ...message }, transfer);
-  });
-}
-
-function take({ rows, samples, cost: microseconds }) {
-  sound.play(samples);
-  cost = microseconds;
+function take(rows) {
   for (let at = 0; at < rows.length; at += ROW) {
     const row = rows.subarray(at, at + ROW);
-    const height = row[10];
-    history.add({ height, force: Math.hypot(row[0], row[1], row[2]), frequency: row[11] });
-    crossed += row[11] / history.rate;
-    played += height * (latest?.[10] ?? 0) < 0 ? 0.5 : 0;
-    latest = row;
+    const { latest } = ticks;
+    history.add({ height: row[AT.height], force: length(row), frequency: row[AT.frequency] });
+    ticks.crossed += row[AT.frequency] / history.rate;
+    ticks.played += row[AT.height] * (latest?.[AT.height] ?? 0) < 0 ? 0.5 : 0;
+    ticks.missed += latest ? Math.max(0, Math.round((row[AT.time] - latest[AT.time]) * history.rate) - 1) : 0;
+    ticks.latest = row;
   }
 }
 
-worker.onmessage = ({ data }) => {
-  if (data.kind === "ticks") {
-    take(data);
-  } else if (data.kind === "answer") {
-    waiting.get(data.id)?.(data);
-    waiting.delete(data.id);
-  } else {
-    start();
+function arrive(rows) {
+  if (!recording.isReplaying) {
+    take(rows);
+    recording.add(rows);
   }
-};
-worker.onerror = () => tell("WebAssembly could not be started in this browser: there is nothing to feel here.", true);
+}
+
+function forget(shownRate) {
+  history.clear(shownRate);
+  Object.assign(ticks, { latest: null, crossed: 0, played: 0, missed: 0 });
+}
+
+// The source ticks at another rate.
+function setRate(hz) {
+  rate = hz;
+  forget(hz);
+}
+
+const recording = new Recording({ show: take, begin: forget, end: () => forget(rate) });
+
+// --- files ---
+
+const undrawn = () => (scene.view ? "" : " with the arrow keys; there is no WebGL in this browser, so that it is not drawn");
+
+async function draw3d(bytes, name) {
+  try {
+    await scene.view?.show(bytes);
+    return true;
+  } catch {
+    tell(`${name}: it cannot be drawn, but all else works; with the arrow keys its first surface is stroked`, true);
+    return false;
+  }
+}
 
 async function open(bytes, name) {
-  if (bytes.byteLength > MOST_BYTES) {
-    tell(`${name}: ${bytes.byteLength} bytes; expected at most ${MOST_BYTES}`, true);
+  const { error, surfaces } = await simulation.ask("load", { bytes, name });
+  const nodes = nodesWithMesh(bytes);
+  if (nodes.length > 0) { // a file without a tag can be given one
+    Object.assign(scene, { bytes, name });
+    $("node").replaceChildren(...nodes.map((node) => new Option(node.name, node.index)));
+  }
+  if (error) { // what was there goes on
+    tell(/nothing is tagged/.test(error) ? `${error}; a mesh of it can be tagged below` : error, true);
     return;
   }
-  const { error, surfaces: found } = await ask("load", { bytes, name });
-  if (error) {
-    tell(error, true); // what was there goes on
-    return;
-  }
-  surfaces = found;
-  under = null;
-  crossed = played = 0;
-  $("surface").replaceChildren(...found.map(({ name: label }, index) => new Option(label, index)));
+  setSurfaces(surfaces);
+  pointer.lift();
+  forget(rate);
   showFeel();
-  try {
-    await view?.show(bytes);
-    tell(`${name}: ${found.length} ${found.length === 1 ? "surface" : "surfaces"} to stroke`);
-  } catch {
-    tell(`${name}: it can be felt along its first surface, with the arrow keys, but not drawn`, true);
+  if (await draw3d(bytes, name)) {
+    tell(`${name}: ${surfaces.length} ${surfaces.length === 1 ? "surface" : "surfaces"} to stroke${undrawn()}`);
   }
 }
 
@@ -92,170 +96,68 @@ async function openDemo(name) {
   }
 }
 
-// --- how it feels ---
-
-const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffness", 3, 1], ["friction", 4, 1]];
-
-function showOutputs() {
-  for (const slider of document.querySelectorAll('input[type="range"]')) {
-    slider.parentElement.querySelector("output").textContent = slider.value + slider.dataset.unit;
-  }
-  const feel = surfaces[$("surface").value]?.feel;
-  if (feel) {
-    const tag = { version: 1, spatial_frequency: [feel[0], feel[1]], amplitude: feel[2], stiffness: feel[3],
-      friction: feel[4], method: METHODS[feel[5]] };
-    $("extras").textContent = JSON.stringify({ knurl: tag }, null, 1);
-  }
-}
-
-function showFeel() {
-  const { feel } = surfaces[$("surface").value];
-  for (const [id, index, scale] of SLIDERS) {
-    $(id).value = feel[index] * scale;
-  }
-  $("method").value = feel[5] || 3;
-  showOutputs();
-}
-
-async function setFeel() {
-  const index = Number($("surface").value);
-  const feel = [...SLIDERS.map(([id, , scale]) => Number($(id).value) / scale), Number($("method").value)];
-  const { error } = await ask("feel", { index, feel });
-  if (error) {
-    tell(error, true);
-  } else {
-    surfaces[index].feel = feel;
-  }
-  showOutputs();
-}
-
-async function setDevice() {
-  const rate = Number($("rate").value);
-  const { error } = await ask("device", { rate, resolution: Number($("resolution").value), protections: 15 });
-  history.clear(rate);
-  if (error) {
-    tell(error, true);
-  }
-}
-
-const SHARED = ["model", "surface", "method", "fsx", "fsy", "amplitude", "stiffness", "friction", "depth", "exaggeration",
-  "rate", "resolution"];
-
-async function share() {
-  location.hash = new URLSearchParams(SHARED.map((id) => [id, $(id).value])).toString();
-  try {
-    await navigator.clipboard.writeText(location.href);
-    tell("The link is in the clipboard.");
-  } catch {
-    tell("The link is in the address bar.");
-  }
-}
-
-async function restore() {
-  const known = SHARED.filter((id) => settings.has(id));
-  const set = (id) => {
-    $(id).value = settings.get(id); // what it does not know it refuses
-    $(id).selectedIndex = $(id).selectedIndex === -1 ? 0 : $(id).selectedIndex;
-  };
-  known.filter((id) => ["model", "depth", "exaggeration", "rate", "resolution"].includes(id)).forEach(set);
-  await setDevice();
-  await openDemo($("model").value);
-  if (settings.has("surface") && surfaces.length > 0) {
-    set("surface");
-    showFeel();
-  }
-  known.filter((id) => ["method", ...SLIDERS.map(([slider]) => slider)].includes(id)).forEach(set);
-  if (surfaces.length > 0) {
-    await setFeel();
-  }
-}
-
-// --- the pointer ---
-
-function press() {
-  const depth = Number($("depth").value) / 1000;
-  const target = under && under.point.map((value, i) => value - depth * under.normal[i]);
-  worker.postMessage({ kind: "move", target });
-}
-
-function stroke(event) {
-  if (event.isPrimary && (event.buttons & 1 || event.type === "pointerdown")) {
-    under = view.pick(event);
-    press();
-  }
-}
-
-function lift() {
-  under = null;
-  press();
-}
-
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-
-function strokeByKey(event) {
-  const way = ARROWS[event.key];
-  const surface = surfaces[$("surface").value];
-  if (event.key === "Escape") {
-    lift();
-  }
-  if (!way || !surface) {
-    return;
-  }
-  event.preventDefault();
-  const from = under ?? { point: surface.anchor, normal: surface.normal };
-  const [n, x] = [from.normal, surface.x];
-  const y = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]];
-  const point = from.point.map((value, i) => value + 0.002 * (way[0] * x[i] + way[1] * y[i]));
-  under = view?.pickBelow(point, n) ?? { point, normal: n };
-  press();
-}
-
-function listen() {
-  const canvas = $("view");
-  canvas.addEventListener("pointerdown", (event) => {
-    if (view && event.isPrimary && event.button === 0) {
-      canvas.setPointerCapture(event.pointerId);
-      stroke(event);
-    }
-  });
-  canvas.addEventListener("pointermove", (event) => view && stroke(event));
-  for (const end of ["pointerup", "pointercancel", "blur"]) {
-    canvas.addEventListener(end, lift);
-  }
-  canvas.addEventListener("keydown", strokeByKey);
-  const scene = $("scene");
-  window.addEventListener("dragover", (event) => {
-    event.preventDefault();
-    scene.classList.add("drop");
-  });
-  window.addEventListener("dragleave", () => scene.classList.remove("drop"));
-  window.addEventListener("drop", async (event) => {
-    event.preventDefault();
-    scene.classList.remove("drop");
-    const [file] = event.dataTransfer.files;
-    if (file) {
-      await openFile(file);
-    }
-  });
-  $("file").addEventListener("change", () => $("file").files[0] && openFile($("file").files[0]));
-  $("model").addEventListener("change", () => openDemo($("model").value));
-  $("surface").addEventListener("change", showFeel);
-  $("share").addEventListener("click", share);
-  $("sound").addEventListener("change", switchSound);
-  ["rate", "resolution"].forEach((id) => $(id).addEventListener("change", setDevice));
-  ["method", ...SLIDERS.map(([id]) => id)].forEach((id) => $(id).addEventListener("input", setFeel));
-  ["depth", "exaggeration"].forEach((id) => $(id).addEventListener("input", showOutputs));
-  $("depth").addEventListener("input", press);
-  $("controls").addEventListener("submit", (event) => event.preventDefault());
-}
-
 async function openFile(file) {
   if (file.size > MOST_BYTES) {
     tell(`${file.name}: ${file.size} bytes; expected at most ${MOST_BYTES}`, true);
-  } else {
+  } else if (/\.csv$/i.test(file.name)) {
+    await recording.open(file);
+  } else if (simulation) {
+    simulation.travel(null);
     await open(await file.arrayBuffer(), file.name);
+  } else {
+    tell(`${file.name}: while a run is shown, only recordings (.csv) can be opened`, true);
   }
 }
+
+async function writeTag() {
+  const node = Number($("node").value);
+  const name = scene.name.replace(/(-tagged)?\.glb$/i, "-tagged.glb");
+  const chosen = $("node").selectedOptions[0]?.textContent;
+  if (!scene.bytes || chosen === undefined) {
+    tell("There is no mesh to tag.", true);
+    return;
+  }
+  const bytes = withTag(scene.bytes, node, tag(shownFeel()));
+  await open(bytes, name);
+  if (!$("status").classList.contains("error")) {
+    save(bytes, name);
+    tell(`${name}: '${chosen}' is tagged as shown`);
+  }
+}
+
+// --- what is drawn ---
+
+let frames = 0;
+
+function numbers() {
+  const { latest, crossed, played, missed, cost } = ticks;
+  const net = history.mean("height", 0.05);
+  return [["force", `${(latest ? length(latest) : 0).toFixed(2)} N`],
+    ["f_t", `${(latest?.[AT.frequency] ?? 0).toFixed(0)} Hz`],
+    ["cycles crossed", crossed.toFixed(1)], ["played", played.toFixed(1)],
+    ["net height", `${(1000 * net).toFixed(3)} mm`],
+    ...(cost === null ? [] : [["a tick", `${cost.toFixed(2)} µs`]]),
+    ...(missed ? [["ticks missed", String(missed)]] : [])];
+}
+
+function draw() {
+  requestAnimationFrame(draw);
+  const { latest } = ticks;
+  const touches = latest && latest[AT.contact] > 0;
+  const lifted = touches ? latest[AT.height] * Number($("exaggeration").value) : 0;
+  scene.view?.moveCursor(touches ? vector(latest, AT.proxy) : null, lifted, latest && vector(latest, AT.normal), latest);
+  scene.view?.draw();
+  if (frames++ % 6 !== 0) {
+    return;
+  }
+  const felt = touches ? scene.surfaces[latest[AT.surface]] : surface();
+  drawScope($("scope"), history);
+  drawSpectrum($("spectrum"), history);
+  drawLens($("lens"), touches ? latest.subarray(AT.cycles, AT.cycles + 2) : null, felt?.feel ?? [0, 0]);
+  $("numbers").innerHTML = numbers().map(([key, value]) => `<div><dt>${key}</dt><dd>${value}</dd></div>`).join("");
+}
+
+// --- begin ---
 
 async function switchSound() {
   try {
@@ -266,38 +168,69 @@ async function switchSound() {
   }
 }
 
-// --- what is shown ---
-
-let frames = 0;
-
-function draw() {
-  requestAnimationFrame(draw);
-  const touches = latest && latest[14] > 0;
-  const index = touches ? latest[15] : $("surface").value;
-  const normal = under?.normal ?? [0, 1, 0];
-  const lifted = touches ? latest[10] * Number($("exaggeration").value) : 0;
-  view?.moveCursor(touches ? latest.slice(6, 9) : null, lifted, normal, latest?.slice(0, 3));
-  view?.draw();
-  if (frames++ % 6 !== 0) {
-    return;
-  }
-  drawScope($("scope"), history);
-  drawSpectrum($("spectrum"), history);
-  drawLens($("lens"), touches ? latest.slice(12, 14) : null, surfaces[index]?.feel ?? [0, 0]);
-  const force = latest ? Math.hypot(latest[0], latest[1], latest[2]) : 0;
-  const numbers = [["force", `${force.toFixed(2)} N`], ["f_t", `${(latest?.[11] ?? 0).toFixed(0)} Hz`],
-    ["cycles crossed", crossed.toFixed(1)], ["played", played.toFixed(1)], ["a tick", `${cost.toFixed(2)} µs`]];
-  $("numbers").innerHTML = numbers.map(([key, value]) => `<div><dt>${key}</dt><dd>${value}</dd></div>`).join("");
+function listen() {
+  window.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    $("scene").classList.add("drop");
+  });
+  window.addEventListener("dragleave", () => $("scene").classList.remove("drop"));
+  window.addEventListener("drop", (event) => {
+    event.preventDefault();
+    $("scene").classList.remove("drop");
+    const [file] = event.dataTransfer.files;
+    return file && openFile(file);
+  });
+  $("file").addEventListener("change", () => $("file").files[0] && openFile($("file").files[0]));
+  $("model").addEventListener("change", () => openDemo($("model").value));
+  $("sound").addEventListener("change", switchSound);
+  $("tag").addEventListener("click", writeTag);
+  document.querySelectorAll('input[type="range"]').forEach((slider) => slider.addEventListener("input", showOutputs));
+  $("controls").addEventListener("submit", (event) => event.preventDefault());
 }
 
-async function start() {
+function begin() {
   try {
-    view = new View($("view"));
+    scene.view = new View($("view"));
   } catch {
-    tell("There is no WebGL in this browser: nothing is drawn in 3D; the arrow keys stroke the surface all the same.", true);
+    scene.view = null; // undrawn() says so
   }
   listen();
-  await restore();
+}
+
+function ready() {
   document.documentElement.dataset.ready = "1";
   draw();
+}
+
+async function simulate() {
+  begin();
+  pointer = new Pointer(simulation);
+  await new Settings(simulation, openDemo, setRate).use(linked);
+  ready();
+}
+
+// Shows a run of the tool, of which nothing can be set here.
+function show(run) {
+  setRate(run.rate_hz);
+  setSurfaces(run.surfaces);
+  tell(`${run.file} on ${run.device}, ${run.rate_hz} Hz`);
+  fetch("scene").then((answer) => answer.arrayBuffer()).then((bytes) => draw3d(bytes, run.file));
+}
+
+if (linked.has("live")) {
+  document.documentElement.dataset.live = "1";
+  begin();
+  showOutputs();
+  watch({ hello: show, rows: arrive, ended: () => tell("The run is over, or this page is not the one it gave.", true) });
+  ready();
+} else {
+  simulation = new Simulation({
+    ready: simulate,
+    ticks: ({ rows, samples, cost }) => {
+      sound.play(samples);
+      ticks.cost = cost;
+      arrive(rows);
+    },
+    failed: () => tell("WebAssembly could not be started in this browser: there is nothing to feel here.", true),
+  });
 }

@@ -36,6 +36,12 @@ export class History {
   latest(count) {
     return this.rows.slice(-count);
   }
+
+  // Over the latest seconds.
+  mean(key, seconds) {
+    const rows = this.latest(Math.max(1, Math.round(seconds * this.rate)));
+    return rows.length > 0 ? rows.reduce((sum, row) => sum + row[key], 0) / rows.length : 0;
+  }
 }
 
 export function drawScope(canvas, history) {

@@ -34,16 +34,20 @@ registerProcessor("knurl", class extends AudioWorkletProcessor {
 export class Sound {
   // Must come from a click: browsers allow no sound before. Throws where there is none.
   async start() {
-    this.context ??= new AudioContext({ sampleRate: 48000 });
-    if (!this.node) {
-      const url = URL.createObjectURL(new Blob([WORKLET], { type: "text/javascript" }));
-      await this.context.audioWorklet.addModule(url);
-      URL.revokeObjectURL(url);
-      this.node = new AudioWorkletNode(this.context, "knurl", { outputChannelCount: [1] });
-      this.node.connect(this.context.destination);
+    if (!this.context) {
+      await this.attach(new AudioContext({ sampleRate: 48000 }));
     }
     await this.context.resume();
     this.on = true;
+  }
+
+  async attach(context) {
+    const url = URL.createObjectURL(new Blob([WORKLET], { type: "text/javascript" }));
+    await context.audioWorklet.addModule(url);
+    URL.revokeObjectURL(url);
+    this.node = new AudioWorkletNode(context, "knurl", { outputChannelCount: [1] });
+    this.node.connect(context.destination);
+    this.context = context;
   }
 
   stop() {

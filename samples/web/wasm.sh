@@ -10,12 +10,12 @@ for header in nlohmann glm tiny_gltf.h; do # these alone: the rest of /usr/inclu
     ln -sfn "/usr/include/$header" "$objects/include/$header"
 done
 
-# usage: compile FILE OBJECTS: unless its object is newer than every source
+# usage: compile FILE OBJECTS: unless its object is newer than the file and every header
 compile() {
     local object=$2/${1//\//_}.o
     local flags=(-O2 -DNDEBUG -DKNURL_STATIC -D_GNU_SOURCE -Isdk/include -Isdk/src -ffp-contract=off -fno-math-errno
         -fexceptions -idirafter "$2/include")
-    [ ! "$object" -nt "$2/newest" ] || return 0
+    [ ! "$object" -nt "$2/newest" ] || [ ! "$object" -nt "$1" ] || return 0
     case $1 in
     *.cpp) em++ -std=c++17 "${flags[@]}" -c "$1" -o "$object" ;;
     *) emcc -std=gnu99 "${flags[@]}" -c "$1" -o "$object" ;;
@@ -24,7 +24,7 @@ compile() {
 export -f compile
 
 cd "$root"
-newest=$(find sdk samples/web/web.c -name '*.[ch]*' -printf '%T@\n' | sort -n | tail -n 1)
+newest=$(find sdk -name '*.h*' -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
 sources=(sdk/src/{vibration,grating,motion,contact,scene,audio}/*.c sdk/src/gltf/*.cpp sdk/src/base/{error,heap}.c
     sdk/src/base/{regular_file,system}_posix.c samples/web/web.c)

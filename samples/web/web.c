@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROW 16 /* doubles that a tick tells, see web_tick() */
+#define ROW 23 /* doubles that a tick tells, see web_tick() */
 
 static knurl_scene *scene;
 static knurl_audio *audio;
@@ -110,7 +110,8 @@ EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t pro
 }
 
 /* Ticks at `count` positions (3 doubles each; NaN: nowhere). rows: force (3), HIP (3), proxy (3), depth, height, f_t,
- * cycles (2), 1 in contact, surface index. */
+ * cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3); rows.js names them, and knurl run --view
+ * sends the same. */
 EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;
@@ -132,11 +133,16 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
         row[11] = out.temporal_frequency;
         row[12] = out.cycles[0];
         row[13] = out.cycles[1];
-        row[14] = out.flags & KNURL_TICK_CONTACT;
+        row[14] = (out.flags & KNURL_TICK_CONTACT) != 0;
         row[15] = -1.0;
         for (uint32_t i = 0; out.surface && i < knurl_scene_get_surface_count(scene) && i < 64; i++) {
             row[15] = knurl_scene_get_surface(scene, i) == out.surface ? i : row[15];
         }
+        row[16] = (double)out.tick / hip.update_rate_hz;
+        row[17] = out.surface_velocity[0];
+        row[18] = out.surface_velocity[1];
+        row[19] = out.spatial_frequency;
+        memcpy(row + 20, out.normal, sizeof out.normal);
     }
 }
 

@@ -1,8 +1,8 @@
 // The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and tells what came of it some 60
 // times a second. SPDX-License-Identifier: MIT
 import makeKnurl from "./knurl.mjs";
+import { ROW } from "./rows.js";
 
-const ROW = 16; // doubles a tick, as web.c tells
 const MOST = 2000; // ticks at once
 const BATCH_MS = 12;
 const GIVE_UP_MS = 100; // a tab that was in the background does not make up for it
@@ -16,7 +16,8 @@ const memory = {
   numbers: knurl._malloc(15 * 8),
   samples: knurl._malloc(MOST * 480 * 4),
 };
-const state = { loaded: false, rate: 1000, last: 0, target: null, hip: null, speed: [0, 0, 0] };
+const state = { loaded: false, rate: 1000, last: 0, target: null, hip: null, speed: [0, 0, 0], way: null,
+  travelled: 0 };
 
 function withText(text, use) {
   const bytes = new TextEncoder().encode(text);
@@ -42,7 +43,7 @@ function load(bytes, name) {
     return knurl.UTF8ToString(knurl._web_message());
   }
   state.loaded = true;
-  state.hip = state.target = null;
+  state.hip = state.target = state.way = null;
   return "";
 }
 
@@ -60,6 +61,13 @@ function tick(positions) {
   knurl.HEAPF64.set(positions, memory.positions / 8);
   knurl._web_tick(count, memory.positions, memory.rows);
   return Float64Array.from(knurl.HEAPF64.subarray(memory.rows / 8, memory.rows / 8 + count * ROW));
+}
+
+// The sound of as many ticks.
+function hear(count) {
+  const frames = Math.round((count * SAMPLE_RATE) / state.rate);
+  knurl._web_sound(memory.samples, frames);
+  return Float32Array.from(knurl.HEAPF32.subarray(memory.samples / 4, memory.samples / 4 + frames));
 }
 
 // The way of the HIP to where the pointer is: a critically damped spring.
@@ -83,7 +91,22 @@ function follow(count) {
   return positions;
 }
 
-function beat() {
+// Along a line by itself, to and fro: {middle, along: to its end, speed: m/s, eased: of a sine, the greatest}.
+function travel(count) {
+  const positions = new Float64Array(3 * count);
+  const { middle, along, speed, eased } = state.way;
+  const half = Math.hypot(...along);
+  for (let k = 0; k < count; k++) {
+    const way = (state.travelled += speed / state.rate) / half; // in halves of the line
+    const at = eased ? -Math.cos(way) : 1 - Math.abs((way % 4) - 2);
+    for (let i = 0; i < 3; i++) {
+      positions[3 * k + i] = middle[i] + at * along[i];
+    }
+  }
+  return positions;
+}
+
+function tickOn() {
   const now = performance.now();
   if (!state.loaded || now - state.last > GIVE_UP_MS) {
     state.last = now;
@@ -95,11 +118,9 @@ function beat() {
   }
   state.last += (count * 1000) / state.rate;
   const started = performance.now();
-  const rows = tick(follow(count));
+  const rows = tick(state.way ? travel(count) : follow(count));
   const cost = ((performance.now() - started) * 1000) / count;
-  const frames = Math.round((count * SAMPLE_RATE) / state.rate);
-  knurl._web_sound(memory.samples, frames);
-  const samples = Float32Array.from(knurl.HEAPF32.subarray(memory.samples / 4, memory.samples / 4 + frames));
+  const samples = hear(count);
   postMessage({ kind: "ticks", rows, samples, cost }, [rows.buffer, samples.buffer]);
 }
 
@@ -107,6 +128,12 @@ const answers = {
   load: ({ bytes, name }) => ({ error: load(new Uint8Array(bytes), name), surfaces: surfaces() }),
   move: ({ target }) => {
     state.target = target;
+    state.way = null;
+  },
+  travel: ({ way }) => {
+    state.way = way;
+    state.travelled = 0;
+    state.hip = state.target = null;
   },
   feel: ({ index, feel }) => {
     knurl.HEAPF64.set(feel, memory.numbers / 8);
@@ -116,11 +143,14 @@ const answers = {
     state.rate = rate;
     return { error: knurl._web_device(rate, resolution, protections) ? knurl.UTF8ToString(knurl._web_message()) : "" };
   },
-  // Ticks at given positions, as fast as they go: to compare.
+  // Ticks at given positions, as fast as they go, and then their sound: to compare.
   play: ({ positions }) => {
+    const count = positions.length / 3;
     const started = performance.now();
     const rows = tick(positions);
-    return { rows, cost: ((performance.now() - started) * 3000) / positions.length };
+    const cost = ((performance.now() - started) * 1000) / count;
+    const samples = Array.from({ length: Math.ceil(count / BATCH_MS) }, (_, k) => [...hear(Math.min(BATCH_MS, count - BATCH_MS * k))]);
+    return { rows, samples: Float32Array.from(samples.flat()), cost };
   },
 };
 
@@ -130,5 +160,5 @@ onmessage = ({ data }) => {
     postMessage({ kind: "answer", to: data.kind, id: data.id, ...answer });
   }
 };
-setInterval(beat, BATCH_MS);
+setInterval(tickOn, BATCH_MS);
 postMessage({ kind: "ready" });

@@ -1,0 +1,337 @@
+/* One thread serves the page by HTTP and the ticks by WebSocket. The haptic thread's ticks come by a ring that drops
+ * what it has no room for; this thread keeps the latest of them as rows, and each viewer has its own place among them,
+ * so that a slow viewer misses rows and delays nobody. SPDX-License-Identifier: MIT */
+#include "view.h"
+
+#include "tick_ring.h"
+#include "tool.h"
+
+#include <libwebsockets.h>
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PERIOD_MS    16
+#define KEPT_ROWS    4096 /* 0.4 s at 10 kHz */
+#define MESSAGE_ROWS 512
+#define TOKEN        32 /* hexadecimal digits: 128 bits */
+#define CONNECTIONS  32
+#define SECURITY     "cache-control: no-store\r\nreferrer-policy: no-referrer\r\nx-frame-options: DENY\r\n"
+
+struct view {
+    view_desc desc;
+    tick_ring ring;
+    knurl_surface_id *surfaces;
+    uint32_t surface_count, last_surface;
+    char *hello; /* JSON, the first message to each viewer; LWS_PRE bytes precede the text */
+    size_t hello_size;
+    struct lws_context *context;
+    lws_sorted_usec_list_t timer;
+    pthread_t thread;
+    int stop; /* atomic */
+    char token[TOKEN + 1], url[96], hosts[2][32];
+    uint64_t row_count; /* so far */
+    double rows[KEPT_ROWS][VIEW_ROW];
+    unsigned char message[LWS_PRE + MESSAGE_ROWS * VIEW_ROW * sizeof(double)];
+};
+
+typedef struct viewer {
+    uint64_t next; /* row to send */
+    int greeted;
+} viewer;
+
+static double surface_index(view *v, knurl_surface_id id) {
+    for (uint32_t i = 0; id && i < v->surface_count; i++) {
+        const uint32_t at = (v->last_surface + i) % v->surface_count;
+        if (v->surfaces[at] == id) {
+            v->last_surface = at;
+            return at;
+        }
+    }
+    return -1.0;
+}
+
+static void fill_row(view *v, const knurl_tick_output *o, double row[VIEW_ROW]) {
+    const double rest[] = {o->depth,
+                           o->height,
+                           o->temporal_frequency,
+                           o->cycles[0],
+                           o->cycles[1],
+                           (o->flags & KNURL_TICK_CONTACT) != 0,
+                           surface_index(v, o->surface),
+                           (double)o->tick / v->desc.rate,
+                           o->surface_velocity[0],
+                           o->surface_velocity[1],
+                           o->spatial_frequency,
+                           o->normal[0],
+                           o->normal[1],
+                           o->normal[2]};
+    memcpy(row, o->force, sizeof o->force);
+    memcpy(row + 3, o->hip, sizeof o->hip);
+    memcpy(row + 6, o->proxy, sizeof o->proxy);
+    memcpy(row + 9, rest, sizeof rest);
+}
+
+/* --- who may connect --- */
+
+static int header_is(struct lws *wsi, enum lws_token_indexes header, const char *scheme, const view *v) {
+    char found[64];
+    char expected[64];
+    if (lws_hdr_copy(wsi, found, (int)sizeof found, header) <= 0) {
+        return 0; /* absent, or longer than either */
+    }
+    for (int i = 0; i < 2; i++) {
+        (void)snprintf(expected, sizeof expected, "%s%s", scheme, v->hosts[i]);
+        if (strcmp(found, expected) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* What follows "/TOKEN/" in a path, or null. A page of another site may find the port, and by a name that it lets
+ * resolve to 127.0.0.1 be of the same origin; the token it cannot know, and the Host header tells on it. */
+static const char *asked_for(struct lws *wsi, const view *v, const char *path) {
+    const int knows =
+        strlen(path) > TOKEN + 1 && path[TOKEN + 1] == '/' && lws_timingsafe_bcmp(path + 1, v->token, TOKEN) == 0;
+    return knows && header_is(wsi, WSI_TOKEN_HOST, "", v) ? path + TOKEN + 2 : NULL;
+}
+
+/* --- HTTP: the scene's file and the page's, by name --- */
+
+static int serve_file(struct lws *wsi, const char *path, const char *type) {
+    const int sent = lws_serve_http_file(wsi, path, type, SECURITY, (int)strlen(SECURITY));
+    return sent < 0 || (sent > 0 && lws_http_transaction_completed(wsi)) ? -1 : 0; /* 0: the library sends the rest */
+}
+
+static int refuse(struct lws *wsi, unsigned status, const char *why) {
+    return lws_return_http_status(wsi, status, why) || lws_http_transaction_completed(wsi) ? -1 : 0;
+}
+
+static int answer(struct lws *wsi, const view *v, const char *path) {
+    static const struct {
+        const char *name, *type;
+    } files[] = {{"index.html", "text/html"}, {"main.js", "text/javascript"}, {"style.css", "text/css"}};
+    const char *name = asked_for(wsi, v, path);
+    char file[4096];
+    if (!name) {
+        return refuse(wsi, HTTP_STATUS_FORBIDDEN, "not the URL that knurl printed");
+    }
+    if (strcmp(name, "scene") == 0) {
+        return serve_file(wsi, v->desc.file, "application/octet-stream");
+    }
+    name = name[0] ? name : "index.html";
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        if (strcmp(name, files[i].name) == 0 &&
+            (size_t)snprintf(file, sizeof file, "%s/%s", v->desc.page, name) < sizeof file && access(file, R_OK) == 0) {
+            return serve_file(wsi, file, files[i].type);
+        }
+    }
+    const char *why = strcmp(name, "index.html") == 0 ? "the page is not built: ./run web builds it" : "no such file";
+    return refuse(wsi, HTTP_STATUS_NOT_FOUND, why);
+}
+
+static int on_http(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in, size_t size) {
+    const view *v = lws_context_user(lws_get_context(wsi));
+    switch ((int)reason) {
+    case LWS_CALLBACK_HTTP:
+        return answer(wsi, v, in);
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: /* a WebSocket without our protocol */
+        return 1;
+    default:
+        return lws_callback_http_dummy(wsi, reason, user, in, size);
+    }
+}
+
+/* --- WebSocket: the ticks --- */
+
+static int may_watch(struct lws *wsi, const view *v) {
+    char path[TOKEN + 16];
+    const char *name =
+        lws_hdr_copy(wsi, path, (int)sizeof path, WSI_TOKEN_GET_URI) > 0 ? asked_for(wsi, v, path) : NULL;
+    return name && strcmp(name, "live") == 0 && header_is(wsi, WSI_TOKEN_ORIGIN, "http://", v);
+}
+
+static int send_rows(struct lws *wsi, view *v, viewer *to) {
+    if (!to->greeted) {
+        to->greeted = 1;
+        return lws_write(wsi, (unsigned char *)v->hello + LWS_PRE, v->hello_size, LWS_WRITE_TEXT) < 0 ? -1 : 0;
+    }
+    if (v->row_count - to->next > KEPT_ROWS) { /* it was slow */
+        to->next = v->row_count - KEPT_ROWS;
+    }
+    const uint64_t waiting = v->row_count - to->next;
+    const size_t count = waiting < MESSAGE_ROWS ? (size_t)waiting : MESSAGE_ROWS;
+    const size_t row_size = sizeof v->rows[0];
+    for (size_t i = 0; i < count; i++) {
+        memcpy(v->message + LWS_PRE + i * row_size, v->rows[(to->next + i) % KEPT_ROWS], row_size);
+    }
+    to->next += count;
+    if (count < waiting) {
+        (void)lws_callback_on_writable(wsi);
+    }
+    return count > 0 && lws_write(wsi, v->message + LWS_PRE, count * row_size, LWS_WRITE_BINARY) < 0 ? -1 : 0;
+}
+
+static int on_live(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in, size_t size) {
+    view *v = lws_context_user(lws_get_context(wsi));
+    viewer *who = user;
+    (void)in;
+    (void)size;
+    switch ((int)reason) {
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
+        return !may_watch(wsi, v);
+    case LWS_CALLBACK_ESTABLISHED:
+        who->next = v->row_count;
+        who->greeted = 0;
+        (void)lws_callback_on_writable(wsi);
+        return 0;
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+        return send_rows(wsi, v, who);
+    case LWS_CALLBACK_RECEIVE: /* the page sends nothing */
+        return -1;
+    default:
+        return 0;
+    }
+}
+
+static const struct lws_protocols protocols[] = {
+    {"http", on_http, 0, 0, 0, NULL, 0}, {"knurl", on_live, sizeof(viewer), 256, 0, NULL, 0}, {0}};
+
+/* --- the thread --- */
+
+static void collect(lws_sorted_usec_list_t *timer) {
+    view *v = lws_container_of(timer, view, timer);
+    const knurl_tick_output *tick;
+    for (int i = 0; i < TICK_RING_ROWS && (tick = tick_ring_first(&v->ring)) != NULL; i++) {
+        fill_row(v, tick, v->rows[v->row_count++ % KEPT_ROWS]);
+        tick_ring_drop(&v->ring);
+    }
+    (void)lws_callback_on_writable_all_protocol(v->context, &protocols[1]);
+    lws_sul_schedule(v->context, 0, timer, collect, PERIOD_MS * LWS_US_PER_MS);
+}
+
+static void *serve(void *user) {
+    view *v = user;
+    while (!__atomic_load_n(&v->stop, __ATOMIC_ACQUIRE) && lws_service(v->context, 0) >= 0) {}
+    return NULL;
+}
+
+/* --- begin and end --- */
+
+static void describe_surface(json_writer *json, const knurl_surface_info *info) {
+    const knurl_material_desc *m = &info->material;
+    const double feel[6] = {
+        m->spatial_frequency[0], m->spatial_frequency[1], m->amplitude, m->stiffness, m->friction, m->method};
+    json_open(json, NULL, '{');
+    json_string(json, "name", info->name);
+    json_numbers(json, "feel", feel, 6, 1);
+    json_close(json, '}');
+}
+
+static int make_hello(view *v) {
+    const char *slash = strrchr(v->desc.file, '/');
+    json_writer json;
+    FILE *stream = open_memstream(&v->hello, &v->hello_size);
+    if (!stream) {
+        return 1;
+    }
+    fprintf(stream, "%*s", LWS_PRE, "");
+    json_start(&json, stream, 0);
+    json_open(&json, NULL, '{');
+    json_string(&json, "file", slash ? slash + 1 : v->desc.file);
+    json_string(&json, "device", v->desc.device);
+    json_number(&json, "rate_hz", v->desc.rate);
+    json_open(&json, "surfaces", '[');
+    for (uint32_t i = 0; i < v->surface_count; i++) {
+        knurl_surface_info info;
+        knurl_surface_info_init(&info, sizeof info);
+        v->surfaces[i] = knurl_scene_get_surface(v->desc.scene, i);
+        if (knurl_scene_get_surface_info(v->desc.scene, v->surfaces[i], &info) == KNURL_OK) {
+            describe_surface(&json, &info);
+        }
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    if (fclose(stream) != 0) {
+        return 1;
+    }
+    v->hello_size -= LWS_PRE;
+    return 0;
+}
+
+static int listen_on_loopback(view *v) {
+    struct lws_context_creation_info info;
+    memset(&info, 0, sizeof info);
+    info.iface = "127.0.0.1";
+    info.port = 0; /* any that is free */
+    info.protocols = protocols;
+    info.options = LWS_SERVER_OPTION_DISABLE_IPV6;
+    info.fd_limit_per_thread = CONNECTIONS;
+    info.user = v;
+    lws_set_log_level(0, NULL);
+    v->context = lws_create_context(&info);
+    const int port = v->context ? lws_get_vhost_listen_port(lws_get_vhost_by_name(v->context, "default")) : 0;
+    if (port <= 0 || lws_hex_random(v->context, v->token, sizeof v->token)) {
+        return 1;
+    }
+    (void)snprintf(v->hosts[0], sizeof v->hosts[0], "127.0.0.1:%d", port);
+    (void)snprintf(v->hosts[1], sizeof v->hosts[1], "localhost:%d", port);
+    (void)snprintf(v->url, sizeof v->url, "http://%s/%s/#live", v->hosts[0], v->token);
+    return 0;
+}
+
+static void destroy(view *v) {
+    if (v->context) {
+        lws_context_destroy(v->context);
+    }
+    tick_ring_destroy(&v->ring);
+    free(v->surfaces);
+    free(v->hello);
+    free(v);
+}
+
+int view_open(const view_desc *desc, view **opened) {
+    view *v = calloc(1, sizeof *v);
+    if (!v) {
+        return tool_error(TOOL_FAILURE, "run: --view: no memory");
+    }
+    v->desc = *desc;
+    v->surface_count = knurl_scene_get_surface_count(desc->scene);
+    v->surfaces = calloc(v->surface_count + 1, sizeof *v->surfaces);
+    if (!v->surfaces || tick_ring_create(&v->ring) || make_hello(v) || listen_on_loopback(v)) {
+        destroy(v);
+        return tool_error(TOOL_FAILURE, "run: --view: cannot listen on 127.0.0.1, or no memory");
+    }
+    lws_sul_schedule(v->context, 0, &v->timer, collect, PERIOD_MS * LWS_US_PER_MS);
+    if (pthread_create(&v->thread, NULL, serve, v)) {
+        destroy(v);
+        return tool_error(TOOL_FAILURE, "run: --view: no thread");
+    }
+    *opened = v;
+    return TOOL_OK;
+}
+
+const char *view_url(const view *v) {
+    return v->url;
+}
+
+void view_take(view *v, const knurl_tick_output *output) {
+    tick_ring_put(&v->ring, output);
+}
+
+void view_close(view *v) {
+    if (!v) {
+        return;
+    }
+    __atomic_store_n(&v->stop, 1, __ATOMIC_RELEASE);
+    lws_cancel_service(v->context);
+    (void)pthread_join(v->thread, NULL);
+    if (v->ring.lost > 0) {
+        fprintf(stderr, "knurl: note: %llu ticks were not shown: there was no time for them\n",
+                (unsigned long long)v->ring.lost);
+    }
+    destroy(v);
+}

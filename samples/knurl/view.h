@@ -1,0 +1,35 @@
+/* knurl run --view: serves the browser page and the ticks of a run on 127.0.0.1. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TOOL_VIEW_H
+#define KNURL_TOOL_VIEW_H
+
+#include <knurl/scene.h>
+
+/* Doubles that a tick has in a message: force (3), HIP (3), proxy (3), depth, height, f_t, cycles (2), 1 in contact,
+ * surface index or -1, t, vx, vy, fs, normal (3); as samples/web/web.c has them. */
+#define VIEW_ROW 23
+
+typedef struct view view;
+
+typedef struct view_desc {
+    const knurl_scene *scene;
+    const char *file;   /* the scene's */
+    const char *page;   /* the folder that ./run web fills; it may be missing */
+    const char *device; /* its name */
+    double rate;        /* ticks a second */
+} view_desc;
+
+/* Starts a thread that serves. What the desc points to is used until view_close(). TOOL_OK, or
+ * TOOL_FAILURE having said why. */
+int view_open(const view_desc *desc, view **opened);
+
+/* The URL to open in a browser. */
+const char *view_url(const view *v);
+
+/* Hands a tick over; never waits for a viewer. [haptic thread] */
+void view_take(view *v, const knurl_tick_output *output);
+
+/* Ends the thread and disconnects every viewer; says how many ticks there was no room for. Null is allowed. Not before
+ * the last view_take(). */
+void view_close(view *v);
+
+#endif

@@ -1,0 +1,24 @@
+/* --view in a build without libwebsockets. SPDX-License-Identifier: MIT */
+#include "tool.h"
+#include "view.h"
+
+int view_open(const view_desc *desc, view **opened) {
+    (void)desc;
+    (void)opened;
+    return tool_error(TOOL_FAILURE, "run: --view: this knurl was built without libwebsockets; install "
+                                    "libwebsockets-dev, configure with -DKNURL_VIEW=ON and build it again");
+}
+
+const char *view_url(const view *v) {
+    (void)v;
+    return "";
+}
+
+void view_take(view *v, const knurl_tick_output *output) {
+    (void)v;
+    (void)output;
+}
+
+void view_close(view *v) {
+    (void)v;
+}

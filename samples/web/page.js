@@ -1,0 +1,25 @@
+// What the page's parts share. SPDX-License-Identifier: MIT
+export const $ = (id) => document.getElementById(id);
+
+export function tell(text, isError = false) {
+  $("status").textContent = text;
+  $("status").classList.toggle("error", isError);
+}
+
+// The scene: its 3D view (null without WebGL), surfaces {name, feel, ...}, and the .glb that it came from.
+export const scene = { view: null, surfaces: [], bytes: null, name: "" };
+
+export const surface = () => scene.surfaces[$("surface").value];
+
+export function setSurfaces(surfaces) {
+  scene.surfaces = surfaces;
+  $("surface").replaceChildren(...surfaces.map(({ name }, index) => new Option(name, index)));
+}
+
+export function save(content, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([content]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

@@ -1,0 +1,69 @@
+// Where ticks come from: the simulation in a worker, a run of the tool on this computer, or a recording.
+// SPDX-License-Identifier: MIT
+import { AT, ROW } from "./rows.js";
+
+export class Simulation {
+  // Calls ready() once WebAssembly is there, and ticks({rows, samples, cost}) some 80 times a second.
+  constructor({ ready, ticks, failed }) {
+    this.waiting = new Map();
+    this.asked = 0;
+    this.worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    this.worker.onerror = failed;
+    this.worker.onmessage = ({ data }) => {
+      if (data.kind === "ticks") {
+        ticks(data);
+      } else if (data.kind === "answer") {
+        this.waiting.get(data.id)?.(data);
+        this.waiting.delete(data.id);
+      } else {
+        ready();
+      }
+    };
+  }
+
+  // Waits for the worker's answer.
+  ask(kind, message = {}) {
+    const id = ++this.asked;
+    return new Promise((resolve) => {
+      this.waiting.set(id, resolve);
+      this.worker.postMessage({ kind, id, ...message });
+    });
+  }
+
+  // The HIP is to be there; null: nowhere.
+  move(target) {
+    this.worker.postMessage({ kind: "move", target });
+  }
+
+  // The HIP strokes by itself, to and fro along a line: {middle, along (m, a half way), speed, eased}.
+  travel(way) {
+    this.worker.postMessage({ kind: "travel", way });
+  }
+}
+
+// `knurl run --view` at the address that this page came from.
+export function watch({ hello, rows, ended }) {
+  const socket = new WebSocket(new URL("live", location.href).href.replace(/^http/, "ws"), "knurl");
+  socket.binaryType = "arraybuffer";
+  socket.onmessage = ({ data }) => (typeof data === "string" ? hello(JSON.parse(data)) : rows(new Float64Array(data)));
+  socket.onclose = ended;
+}
+
+// Gives a recording's rows at their own times. Returns what stops it.
+export function replay(recording, { rows, ended }) {
+  const begin = performance.now();
+  let sent = 0;
+  const timer = setInterval(() => {
+    const until = recording[AT.time] + (performance.now() - begin) / 1000;
+    const from = sent;
+    while (sent < recording.length && recording[sent + AT.time] <= until) {
+      sent += ROW;
+    }
+    rows(recording.subarray(from, sent));
+    if (sent >= recording.length) {
+      clearInterval(timer);
+      ended();
+    }
+  }, 12);
+  return () => clearInterval(timer);
+}

@@ -1,0 +1,151 @@
+// What the page shows, held against the tool: forces, sound, live runs and recordings. SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
+import { readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { drop, modules, open, page, ROW, shown, status, tmp, tool } from "./harness.mjs";
+
+// A stroke in contact from 10 ms on, by the tool: its rows, and its sound as a WAV file's samples.
+function strokeNatively() {
+  const rows = Array.from({ length: 1500 }, (_, k) => [0.00012 * k - 0.05, 0.001 - Math.min(k, 20) * 1e-4, 0]);
+  writeFileSync(join(tmp, "trace.csv"), `t,x,y,z\n${rows.map((row, k) => `${k / 1000},${row.join()}`).join("\n")}\n`);
+  const summary = JSON.parse(execFileSync(tool, ["run", join(page, "assets/plate_1d.glb"), "--trace", join(tmp, "trace.csv"),
+    "--fast", "--out", join(tmp, "native.csv"), "--wav", join(tmp, "native.wav")], { stdio: ["ignore", "pipe", "inherit"] }));
+  const native = readFileSync(join(tmp, "native.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
+  const wav = readFileSync(join(tmp, "native.wav"));
+  const samples = Array.from({ length: (wav.length - 44) / 2 }, (_, i) => wav.readInt16LE(44 + 2 * i) / 32767);
+  return { native, samples, summary };
+}
+
+// The same positions in the page's worker.
+function strokeInWorker(tab, native) {
+  return tab.evaluate(async (positions) => {
+    const worker = new Worker("worker.js", { type: "module" });
+    const next = (kind) => new Promise((resolve) => {
+      worker.addEventListener("message", ({ data }) => (data.kind === kind || data.to === kind) && resolve(data));
+    });
+    await next("ready");
+    const bytes = await (await fetch("assets/plate_1d.glb")).arrayBuffer();
+    worker.postMessage({ kind: "load", bytes, name: "plate" });
+    await next("load");
+    worker.postMessage({ kind: "device", rate: 1000, resolution: 0, protections: 15 });
+    await next("device");
+    worker.postMessage({ kind: "play", positions: Float64Array.from(positions) });
+    const { rows, samples, cost } = await next("play");
+    worker.terminate();
+    return { rows: [...rows], samples: [...samples], cost };
+  }, native.flatMap((cells) => cells.slice(1, 4).map(Number)));
+}
+
+// What the page's AudioWorklet makes of samples that come as they do from the worker, 12 ms at a time.
+async function playThroughWorklet(tab, samples) {
+  const source = readFileSync(join(dirname(fileURLToPath(import.meta.url)), "../../samples/web/sound.js"), "utf8");
+  await tab.addScriptTag({ type: "module", content: `${source}\nglobalThis.Sound = Sound;` });
+  await tab.waitForFunction(() => globalThis.Sound);
+  return tab.evaluate(async (all) => {
+    const chunk = 576;
+    const context = new OfflineAudioContext(1, all.length + 4800, 48000);
+    const sound = new globalThis.Sound();
+    await sound.attach(context);
+    sound.on = true;
+    for (let i = 0; i < all.length; i += chunk) {
+      context.suspend(Math.round(i / 128) * 128 / 48000).then(async () => {
+        sound.play(Float32Array.from(all.slice(i, i + chunk)));
+        await new Promise((resolve) => setTimeout(resolve, 4));
+        context.resume();
+      });
+    }
+    return [...(await context.startRendering()).getChannelData(0)];
+  }, samples);
+}
+
+const distance = (a, b) => a.reduce((worst, value, i) => Math.max(worst, Math.abs(value - b[i])), 0);
+
+async function startLive() {
+  const run = spawn(tool, ["run", join(page, "assets/plate_1d.glb"), "--view", "--stroke", "sweep", "--seconds", "60"],
+    { stdio: ["ignore", "ignore", "pipe"] });
+  let said = "";
+  for await (const text of run.stderr) {
+    said += text;
+    const url = /http:\/\/\S+/.exec(said)?.[0];
+    if (url) {
+      return { run, url };
+    }
+  }
+  throw new Error(said);
+}
+
+export const cases = {
+  async "forces and sound are the native tick's"() {
+    const { native, samples, summary } = strokeNatively();
+    const tab = await open();
+    const answer = await strokeInWorker(tab, native);
+    const forces = native.flatMap((cells) => cells.slice(11, 14).map(Number));
+    const found = native.flatMap((_, k) => answer.rows.slice(ROW * k, ROW * k + 3));
+    const apart = distance(forces, found);
+    const most = Math.max(...forces.map(Math.abs));
+    console.log(`  forces to ${most.toFixed(2)} N, at most ${apart} N apart; a tick takes ${answer.cost.toFixed(2)} us, ` +
+      `natively ${(summary.tick_ns.p50 / 1000).toFixed(2)} us`);
+    assert.ok(most > 0.1);
+    assert.ok(apart < 1e-9);
+    const loudest = Math.max(...samples.map(Math.abs));
+    const differs = distance(samples, answer.samples);
+    const heard = await playThroughWorklet(tab, answer.samples);
+    const late = heard.findIndex((value) => value !== 0) - answer.samples.findIndex((value) => value !== 0);
+    const played = distance(answer.samples, heard.slice(late));
+    console.log(`  sound to ${loudest.toFixed(3)}, at most ${differs} from the WAV; played ${late} samples late, ${played} apart`);
+    assert.ok(loudest > 0.05);
+    assert.ok(differs < 1 / 32767);
+    assert.ok(played === 0);
+    assert.ok(late >= 0 && late < 4800);
+  },
+
+  async "the tool's own rows are replayed"() {
+    const tab = await open();
+    const csv = readFileSync(join(tmp, "native.csv"), "utf8");
+    const cycles = csv.trim().split("\n").slice(1).reduce((sum, line) => sum + Number(line.split(",")[9]) / 1000, 0);
+    await drop(tab, Buffer.from(csv), "native.csv");
+    await tab.waitForFunction(() => document.querySelector("#status").textContent === "native.csv: 1500 ticks are played");
+    let most = 0;
+    while (await tab.getAttribute("#replay", "aria-pressed") === "true") {
+      most = Math.max(most, parseFloat(await shown(tab, "cycles crossed")));
+      await tab.waitForTimeout(30);
+    }
+    assert.match(await status(tab), /is over/);
+    assert.ok(most > 0.9 * cycles && most <= cycles + 0.1, `${most} of ${cycles}`);
+  },
+
+  async "a run with --view is seen, recorded and replayed"() {
+    const { run, url } = await startLive();
+    try {
+      const tab = await open({ url, options: { viewport: { width: 1000, height: 800 }, acceptDownloads: true } });
+      await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+      assert.match(await status(tab), /plate_1d.glb on fake .*1000 Hz/);
+      assert.equal(await tab.isVisible("#stiffness"), false);
+      await tab.addScriptTag({ path: join(modules, "axe-core/axe.min.js") });
+      const { violations } = await tab.evaluate(() => globalThis.axe.run());
+      assert.deepEqual(violations.map(({ id }) => id), []);
+      await tab.click("#record");
+      await tab.waitForTimeout(1000);
+      await tab.click("#record");
+      await tab.screenshot({ path: join(tmp, "live.png") });
+      const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#save")]);
+      await download.saveAs(join(tmp, "live.csv"));
+      const lines = readFileSync(join(tmp, "live.csv"), "utf8").trim().split("\n");
+      assert.ok(lines[0].startsWith("t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz"));
+      assert.ok(lines.length > 500, `${lines.length} lines`);
+      const times = lines.slice(1).map((line) => Math.round(1000 * parseFloat(line)));
+      assert.ok(times.every((t, i) => i === 0 || t === times[i - 1] + 1), "a tick is missing");
+      run.kill("SIGINT");
+      await tab.waitForSelector("#status.error");
+      assert.match(await status(tab), /The run is over/);
+      await tab.click("#replay");
+      await tab.waitForFunction(() => /cycles crossed[1-9]/.test(document.querySelector("#numbers").textContent));
+    } finally {
+      run.kill("SIGINT");
+      await (run.exitCode === null && run.signalCode === null ? once(run, "exit") : null);
+    }
+  },
+};

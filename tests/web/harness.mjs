@@ -1,0 +1,76 @@
+// A browser with the page that ./run web built, and what a hand does to it. SPDX-License-Identifier: MIT
+import { createReadStream, existsSync } from "node:fs";
+import { createServer } from "node:http";
+import { extname, join, normalize } from "node:path";
+import { pathToFileURL } from "node:url";
+
+// usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
+export const [page, modules, tool, tmp, executablePath] = process.argv.slice(2);
+export const ROW = 23; // numbers a tick, as samples/web/rows.js has it
+const { chromium } = await import(pathToFileURL(join(modules, "playwright-core/index.mjs")));
+const FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm",
+  ".glb": "model/gltf-binary" };
+
+// A plain file server: no header that a page may not count on.
+const server = createServer((request, response) => {
+  const path = join(page, normalize(new URL(request.url, "http://x").pathname).replace(/\/$/, "/index.html"));
+  if (!path.startsWith(page) || !existsSync(path)) {
+    response.writeHead(404).end();
+    return;
+  }
+  response.writeHead(200, { "Content-Type": TYPES[extname(path)] ?? "application/octet-stream" });
+  createReadStream(path).pipe(response);
+});
+await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+const address = `http://127.0.0.1:${server.address().port}/`;
+export const browser = await chromium.launch({ executablePath, args: FLAGS });
+export const complaints = []; // of the console
+
+const SMALL = { viewport: { width: 800, height: 600 } };
+let context = null; // of the case that runs
+
+// A tab with the page, ready. before(tab): what the browser is deprived of.
+export async function open({ options = SMALL, hash = "", url = address + hash, before } = {}) {
+  await context?.close();
+  context = await browser.newContext(options);
+  context.setDefaultTimeout(15000);
+  const tab = await context.newPage();
+  await before?.(tab);
+  tab.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  tab.on("pageerror", (problem) => complaints.push(String(problem)));
+  await tab.goto(url);
+  await tab.waitForSelector("html[data-ready]");
+  return tab;
+}
+
+export const status = (tab) => tab.textContent("#status");
+export const shown = (tab, key) =>
+  tab.evaluate((name) => [...document.querySelectorAll("#numbers div")]
+    .find((row) => row.children[0].textContent === name)?.children[1].textContent, key);
+
+export async function drop(tab, bytes, name) {
+  await tab.evaluate(([content, label]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(content)], label));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+  }, [[...bytes], name]);
+}
+
+export async function strokeAcross(tab) {
+  await tab.locator("#view").scrollIntoViewIfNeeded();
+  const box = await tab.locator("#view").boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await tab.mouse.move(x - 60, y);
+  await tab.mouse.down();
+  for (let i = 0; i <= 20; i++) {
+    await tab.mouse.move(x - 60 + 6 * i, y);
+    await tab.waitForTimeout(12);
+  }
+}
+
+export async function finish() {
+  await browser.close();
+  server.close();
+}

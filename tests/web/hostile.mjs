@@ -1,0 +1,98 @@
+// What a page may meet: files that are no model, browsers without this or that, windows and tabs out of sight.
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { complaints, drop, open, page, shown, status, strokeAcross } from "./harness.mjs";
+
+export const cases = {
+  async "a hostile file gets a sentence, and what was there goes on"() {
+    const tab = await open();
+    const whole = readFileSync(join(page, "assets/grid_2d.glb"));
+    for (const bytes of [Buffer.from("no model"), Buffer.alloc(0), whole.subarray(0, whole.length / 2)]) {
+      await drop(tab, bytes, "hostile.glb");
+      await tab.waitForSelector("#status.error");
+      assert.match(await status(tab), /^hostile\.glb: /);
+      await strokeAcross(tab);
+      assert.ok(parseFloat(await shown(tab, "force")) > 0.05);
+      await tab.mouse.up();
+      await drop(tab, whole, "grid_2d.glb");
+      await tab.waitForSelector("#status:not(.error)");
+    }
+  },
+
+  async "a recording that is none gets a sentence"() {
+    const tab = await open();
+    const header = "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz";
+    for (const [text, why] of [["", /no t/], ["t,x\n1,2\n3,4\n", /no y/], [`${header}\n`, /two rows/],
+      [`${header}\n${"0,".repeat(13)}1\n${"0,".repeat(13)}x\n`, /line 3: expected a number for fz, found 'x'/]]) {
+      await drop(tab, Buffer.from(text), "hostile.csv");
+      await tab.waitForFunction((source) => new RegExp(source).test(document.querySelector("#status.error")?.textContent), why.source);
+    }
+  },
+
+  async "a file of 200 MB is refused unread"() {
+    const tab = await open();
+    await tab.evaluate(() => {
+      const data = new DataTransfer();
+      data.items.add(new File(Array(200).fill(new Uint8Array(2 ** 20)), "huge.glb"));
+      window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+    });
+    await tab.waitForSelector("#status.error");
+    assert.match(await status(tab), /^huge\.glb: 209715200 bytes; expected at most/);
+  },
+
+  async "without WebGL the arrow keys stroke, and the page says so"() {
+    const tab = await open({ before: (bare) => bare.addInitScript(() => {
+      const getContext = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return /webgl/.test(kind) ? null : getContext.call(this, kind, ...rest);
+      };
+    }) });
+    assert.match(await status(tab), /no WebGL/);
+    await tab.focus("#view");
+    for (let i = 0; i < 20; i++) {
+      await tab.keyboard.press("ArrowRight", { delay: 10 });
+    }
+    await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/WebGL/.test(text))); // three.js' own
+  },
+
+  async "without sound all else works"() {
+    const tab = await open({ before: (bare) => bare.addInitScript(() => delete window.AudioContext) });
+    await tab.click("#sound");
+    await tab.waitForSelector("#status.error");
+    assert.match(await status(tab), /^There is no sound in this browser/);
+    assert.equal(await tab.isChecked("#sound"), false);
+    await strokeAcross(tab);
+    assert.ok(parseFloat(await shown(tab, "force")) > 0.05);
+  },
+
+  async "a window of no size draws nothing, and goes on when it has one"() {
+    const tab = await open();
+    await tab.addStyleTag({ content: "body.gone main > * { height: 0; width: 0; min-height: 0 } body.gone canvas { height: 0; width: 0 }" });
+    await tab.evaluate(() => document.body.classList.add("gone"));
+    await tab.waitForTimeout(300);
+    await tab.evaluate(() => document.body.classList.remove("gone"));
+    await strokeAcross(tab);
+    assert.ok(parseFloat(await shown(tab, "force")) > 0.05);
+  },
+
+  async "what a stopped worker has missed is not made up for"() {
+    const tab = await open();
+    await tab.selectOption("#preset", { label: "S1 pushes" }); // 333 cycles a second
+    await tab.waitForTimeout(500);
+    const crossed = async () => parseFloat(await shown(tab, "cycles crossed"));
+    const before = await crossed();
+    const begin = Date.now();
+    await tab.workers()[0].evaluate(() => {
+      for (const end = performance.now() + 1500; performance.now() < end;) { /* as in the background */ }
+    });
+    await tab.waitForTimeout(200);
+    const ran = (Date.now() - begin) / 1000 - 1.5;
+    const burst = await crossed() - before;
+    console.log(`  ${burst.toFixed(0)} cycles in the ${ran.toFixed(2)} s that it ran`);
+    assert.ok(burst > 0);
+    assert.ok(burst < 333 * (ran + 0.2));
+  },
+};

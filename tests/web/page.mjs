@@ -1,0 +1,165 @@
+// What the page offers: strokes, keys, links, the failures' catalogue, tags; in order for who cannot see or use a mouse.
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { drop, modules, open, page, shown, status, strokeAcross, tmp, tool } from "./harness.mjs";
+
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" };
+
+// The greatest of a number that is shown, over a second.
+async function greatest(tab, key) {
+  let most = 0;
+  for (let i = 0; i < 20; i++) {
+    most = Math.max(most, Math.abs(parseFloat(await shown(tab, key))));
+    await tab.waitForTimeout(50);
+  }
+  return most;
+}
+
+export const cases = {
+  async "a stroke by the pointer crosses ridges and pushes back"() {
+    const tab = await open({ options: { viewport: { width: 1280, height: 860 } } });
+    assert.match(await status(tab), /plate_1d.glb: 3 surfaces/);
+    await strokeAcross(tab);
+    await strokeAcross(tab);
+    await tab.waitForTimeout(100);
+    assert.ok(parseFloat(await shown(tab, "force")) > 0.05);
+    assert.ok(parseFloat(await shown(tab, "cycles crossed")) > 5);
+    await tab.screenshot({ path: join(tmp, "desktop.png") });
+    await tab.mouse.up();
+    await tab.waitForFunction(() => /0.00 N/.test(document.querySelector("#numbers").textContent));
+  },
+
+  async "each demo asset can be dropped"() {
+    const tab = await open();
+    for (const name of ["grid_2d.glb", "knurled_handle.glb", "plate_1d.glb"]) {
+      await drop(tab, readFileSync(join(page, "assets", name)), name);
+      await tab.waitForFunction((label) => document.querySelector("#status").textContent.startsWith(label), name);
+      assert.match(await status(tab), /to stroke$/);
+    }
+  },
+
+  async "arrow keys stroke"() {
+    const tab = await open();
+    await tab.focus("#view");
+    for (let i = 0; i < 20; i++) {
+      await tab.keyboard.press("ArrowRight", { delay: 10 });
+    }
+    await tab.waitForTimeout(200);
+    assert.ok(parseFloat(await shown(tab, "cycles crossed")) > 5);
+  },
+
+  async "the page fits a phone, in the dark"() {
+    const tab = await open({ options: PHONE });
+    const box = await tab.locator("#view").boundingBox();
+    await tab.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+    assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await tab.screenshot({ path: join(tmp, "phone.png"), fullPage: true });
+  },
+
+  async "a link holds the settings"() {
+    const tab = await open({ hash: "#model=grid_2d.glb&method=1&fsx=700&stiffness=600" });
+    assert.match(await status(tab), /grid_2d/);
+    const values = await tab.evaluate(() => ["model", "method", "fsx", "stiffness"].map((id) => document.getElementById(id).value));
+    assert.deepEqual(values, ["grid_2d.glb", "1", "700", "600"]);
+  },
+
+  async "sound can be switched on and is played"() {
+    const tab = await open();
+    await tab.check("#sound");
+    await strokeAcross(tab);
+    await tab.mouse.up();
+    assert.ok(await tab.isChecked("#sound"));
+  },
+
+  async "every control is reached by the tabulator, and seen to be"() {
+    const tab = await open();
+    const wanted = await tab.evaluate(() => [...document.querySelectorAll("canvas[tabindex], select, input, button, summary")]
+      .filter((e) => !e.disabled && e.checkVisibility()).map((e) => e.id || e.tagName));
+    const reached = [];
+    for (let i = 0; i < wanted.length; i++) {
+      await tab.keyboard.press("Tab");
+      const [id, outline] = await tab.evaluate(() => [document.activeElement.id || document.activeElement.tagName,
+        getComputedStyle(document.activeElement).outlineStyle]);
+      reached.push(id);
+      assert.notEqual(outline, "none", `${id} has no outline`);
+    }
+    assert.deepEqual(reached, wanted);
+    assert.ok(wanted.length >= 19, `${wanted.length} controls`);
+  },
+
+  async "axe finds nothing, in light and dark"() {
+    for (const colorScheme of ["light", "dark"]) {
+      const tab = await open({ options: { viewport: { width: 1280, height: 860 }, colorScheme } });
+      await tab.click("summary");
+      await tab.addScriptTag({ path: join(modules, "axe-core/axe.min.js") });
+      const { violations, passes } = await tab.evaluate(() => globalThis.axe.run());
+      assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+      assert.ok(passes.length > 15, `${passes.length} rules`);
+    }
+  },
+
+  async "S1 pushes by a third of the amplitude at 333 Hz, and locked does not"() {
+    const tab = await open();
+    await tab.selectOption("#preset", { label: "S1 pushes" });
+    await tab.waitForTimeout(300);
+    const s1 = await greatest(tab, "net height");
+    await tab.selectOption("#method", "3");
+    await tab.waitForTimeout(300);
+    const locked = await greatest(tab, "net height");
+    console.log(`  net height: S1 ${s1} mm, locked ${locked} mm, of 0.2`);
+    assert.ok(Math.abs(s1 - 0.2 / 3) < 0.007);
+    assert.ok(locked < 0.03);
+  },
+
+  async "S2 plays a sixth more cycles than are crossed just below 3.5 ticks"() {
+    const tab = await open();
+    await tab.selectOption("#preset", { label: "S2 plays other cycles than are crossed" });
+    await tab.waitForTimeout(2000);
+    const [crossed, played] = await tab.evaluate(() => ["cycles crossed", "played"].map((key) =>
+      parseFloat([...document.querySelectorAll("#numbers div")].find((row) => row.children[0].textContent === key).children[1].textContent)));
+    console.log(`  played ${played} of ${crossed}`);
+    assert.ok(crossed > 300);
+    assert.ok(Math.abs(played / crossed - 3.5 / 3) < 0.03);
+  },
+
+  async "each failure has two sentences, and strokes"() {
+    const tab = await open();
+    const count = await tab.locator("#preset option").count();
+    assert.equal(count, 10);
+    for (let i = 0; i < count - 1; i++) {
+      await tab.selectOption("#preset", String(i));
+      await tab.waitForFunction(() => document.querySelector("#status").textContent.endsWith("to stroke"));
+      await tab.waitForFunction(() => !/force0.00/.test(document.querySelector("#numbers").textContent));
+      assert.match(await tab.textContent("#preset-text"), /^[^]+\. [^]+\.$/);
+    }
+    await tab.selectOption("#preset", "");
+    await tab.waitForFunction(() => /force0.00/.test(document.querySelector("#numbers").textContent));
+  },
+
+  async "a file without tags can be given one, which the tool reads"() {
+    const tab = await open();
+    const glb = readFileSync(join(page, "assets/plate_1d.glb"));
+    const size = glb.readUInt32LE(12);
+    const json = glb.toString("utf8", 20, 20 + size).replaceAll("knurl_", "other_");
+    const bare = Buffer.concat([glb.subarray(0, 20), Buffer.from(json), glb.subarray(20 + size)]);
+    await drop(tab, bare, "bare.glb");
+    await tab.waitForSelector("#status.error");
+    assert.match(await status(tab), /^bare.glb: nothing is tagged.*below$/);
+    await tab.click("summary");
+    await tab.selectOption("#node", { label: "bar 2 mm" });
+    await tab.fill("#stiffness", "700");
+    await tab.selectOption("#method", "4");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#tag")]);
+    assert.equal(download.suggestedFilename(), "bare-tagged.glb");
+    await download.saveAs(join(tmp, "tagged.glb"));
+    assert.match(await status(tab), /'bar 2 mm' is tagged/);
+    const { surfaces } = JSON.parse(execFileSync(tool, ["inspect", join(tmp, "tagged.glb")]));
+    assert.deepEqual(surfaces.map(({ name }) => name), ["bar 2 mm"]);
+    const { spatial_frequency: fs, amplitude, stiffness, method } = surfaces[0].material;
+    assert.deepEqual([fs, amplitude, stiffness, method], [[1000, 0], 0.0002, 700, "area"]);
+    assert.equal(JSON.parse(await tab.textContent("#extras")).knurl.stiffness, 700);
+  },
+};
