@@ -273,7 +273,10 @@ static const char *ask(const char *request) {
     to.sin_port = htons((uint16_t)port);
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const int s = socket(AF_INET, SOCK_STREAM, 0);
-    assert_true(s >= 0);
+    if (s < 0) {
+        fail_msg("no socket");
+        return "";
+    }
     assert_int_equal(connect(s, (struct sockaddr *)&to, sizeof to), 0);
     (void)setsockopt(s, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     (void)send(s, request, strlen(request), MSG_NOSIGNAL);
