@@ -143,8 +143,9 @@ const answers = {
     state.rate = rate;
     return { error: knurl._web_device(rate, resolution, protections) ? knurl.UTF8ToString(knurl._web_message()) : "" };
   },
-  // Ticks at given positions, as fast as they go, and then their sound: to compare.
-  play: ({ positions }) => {
+  // Ticks of a device from its first on at given positions, as fast as they go, and then their sound: to compare.
+  play: ({ positions, ...device }) => {
+    answers.device(device);
     const count = positions.length / 3;
     const started = performance.now();
     const rows = tick(positions);

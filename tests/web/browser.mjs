@@ -1,4 +1,5 @@
-// The page that ./run web builds, in a real browser. usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
+// The page that ./run web builds, in a real browser. ONLY=WORDS: the cases whose names hold them.
+// usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
 // SPDX-License-Identifier: MIT
 import { complaints, finish } from "./harness.mjs";
 import { cases as equal } from "./equal.mjs";

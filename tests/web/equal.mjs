@@ -30,9 +30,8 @@ function strokeInWorker(tab, native) {
     const bytes = await (await fetch("assets/plate_1d.glb")).arrayBuffer();
     worker.postMessage({ kind: "load", bytes, name: "plate" });
     await next("load");
-    worker.postMessage({ kind: "device", rate: 1000, resolution: 0, protections: 15 });
-    await next("device");
-    worker.postMessage({ kind: "play", positions: Float64Array.from(positions) });
+    const device = { rate: 1000, resolution: 0, protections: 15 };
+    worker.postMessage({ kind: "play", positions: Float64Array.from(positions), ...device });
     const { rows, samples, cost } = await next("play");
     worker.terminate();
     return { rows: [...rows], samples: [...samples], cost };
