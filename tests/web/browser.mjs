@@ -5,8 +5,9 @@ import { complaints, finish } from "./harness.mjs";
 import { cases as equal } from "./equal.mjs";
 import { cases as hostile } from "./hostile.mjs";
 import { cases as page } from "./page.mjs";
+import { cases as pictures } from "./pictures.mjs";
 
-const cases = Object.entries({ ...page, ...equal, ...hostile }).filter(([name]) => name.includes(process.env.ONLY ?? ""));
+const cases = Object.entries({ ...page, ...pictures, ...equal, ...hostile }).filter(([name]) => name.includes(process.env.ONLY ?? ""));
 let failed = 0;
 for (const [name, run] of cases) {
   const begin = performance.now();
