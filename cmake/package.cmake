@@ -1,4 +1,4 @@
-# What `cpack` packs: an archive of everything, and Debian packages: the libraries (libknurl0.2), what is needed to build
+# What `cpack` packs: an archive of everything, and Debian packages: the libraries (libknurl0.3), what is needed to build
 # against them (libknurl-dev) and the tool (knurl). `./run release` calls it. The same sources give the same bytes where
 # SOURCE_DATE_EPOCH is set.
 set(CPACK_PACKAGE_NAME knurl)

@@ -46,7 +46,8 @@ static void print_stretch(json_writer *json, const char *key, const double stret
     json_close(json, '}');
 }
 
-static void print_surface(json_writer *json, const knurl_surface_info *info, int reachable) {
+static void print_surface(json_writer *json, const knurl_surface_info *info, const knurl_material_desc *material,
+                          int reachable) {
     json_open(json, NULL, '{');
     json_string(json, "name", info->name);
     json_string(json, "shape", info->shape);
@@ -61,7 +62,7 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, int
     json_number(json, "touching_pairs", (double)info->touching_pairs);
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
-    print_material(json, &info->material);
+    print_material(json, material);
     print_stretch(json, "stretch", info->stretch);
     print_stretch(json, "stretch_y", info->stretch_y);
     json_close(json, '}');
@@ -77,10 +78,14 @@ static uint32_t print_scene(json_writer *json, const knurl_scene *scene, const k
     for (uint32_t i = 0; i < count; i++) {
         knurl_surface_info info;
         knurl_surface_info_init(&info, sizeof info);
-        if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK) {
+        knurl_material_desc material;
+        knurl_material_desc_init(&material, sizeof material);
+        const knurl_surface_id surface = knurl_scene_get_surface(scene, i);
+        if (knurl_scene_get_surface_info(scene, surface, &info) == KNURL_OK &&
+            knurl_scene_get_material(scene, surface, &material) == KNURL_OK) {
             const int reachable = in_reach(scene, device, &info);
             out_of_reach += !reachable;
-            print_surface(json, &info, reachable);
+            print_surface(json, &info, &material, reachable);
         }
     }
     json_close(json, ']');

@@ -97,13 +97,15 @@ static int read_options(int argc, char **argv, run_options *o) {
 static knurl_result set_methods(knurl_scene *scene, int32_t method) {
     for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); i++) {
         const knurl_surface_id surface = knurl_scene_get_surface(scene, i);
-        knurl_surface_info info;
-        knurl_surface_info_init(&info, sizeof info);
-        knurl_result result = knurl_scene_get_surface_info(scene, surface, &info);
-        info.material.method = method;
-        result = result ? result : knurl_scene_set_material(scene, surface, &info.material);
+        knurl_material_desc material;
+        knurl_material_desc_init(&material, sizeof material);
+        knurl_result result = knurl_scene_get_material(scene, surface, &material);
+        material.method = method;
+        result = result ? result : knurl_scene_set_material(scene, surface, &material);
         if (result) {
-            return knurl_fail(result, "surface '%s': %s", info.name, knurl_error_message());
+            const char *name = "";
+            (void)knurl_scene_get_surface_name(scene, surface, &name);
+            return knurl_fail(result, "surface '%s': %s", name, knurl_error_message());
         }
     }
     return KNURL_OK;

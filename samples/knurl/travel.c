@@ -19,10 +19,11 @@ static int is_moving(int32_t stroke) {
 
 int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id surface, double seconds) {
     knurl_hip_counts counts;
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
+    const char *name = NULL;
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
     if (seconds < JUDGED_S || knurl_scene_get_tick(scene, 0, NULL, &counts) ||
-        knurl_scene_get_surface_info(scene, surface, &info)) {
+        knurl_scene_get_surface_name(scene, surface, &name) || knurl_scene_get_material(scene, surface, &material)) {
         return TOOL_OK;
     }
     if (counts.contact_ticks == 0) {
@@ -31,13 +32,13 @@ int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id sur
                           "which way they face",
                           seconds);
     }
-    const double *fs = info.material.spatial_frequency;
+    const double *fs = material.spatial_frequency;
     const double least = fmax(SOME_MM, fs[0] > 0.0 ? 1.0 / fs[0] : 0.0);
     if (is_moving(t->stroke) && (t->metres < least || t->stroke_length < 0.001)) {
         return tool_error(TOOL_NO_CONTACT,
                           "run: the stroke over '%s' is %.2g mm long and moved %.2g mm in contact, expected %.2g mm or "
                           "more: the surface is too small for it, or leaves the workspace where it begins",
-                          info.name, 1e3 * t->stroke_length, 1e3 * t->metres, 1e3 * least);
+                          name, 1e3 * t->stroke_length, 1e3 * t->metres, 1e3 * least);
     }
     return TOOL_OK;
 }

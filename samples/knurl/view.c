@@ -221,12 +221,11 @@ static void *serve(void *user) {
 
 /* --- begin and end --- */
 
-static void describe_surface(json_writer *json, const knurl_surface_info *info) {
-    const knurl_material_desc *m = &info->material;
+static void describe_surface(json_writer *json, const char *name, const knurl_material_desc *m) {
     const double feel[6] = {
         m->spatial_frequency[0], m->spatial_frequency[1], m->amplitude, m->stiffness, m->friction, m->method};
     json_open(json, NULL, '{');
-    json_string(json, "name", info->name);
+    json_string(json, "name", name);
     json_numbers(json, "feel", feel, 6, 1);
     json_close(json, '}');
 }
@@ -246,11 +245,13 @@ static int make_hello(view *v) {
     json_number(&json, "rate_hz", v->desc.rate);
     json_open(&json, "surfaces", '[');
     for (uint32_t i = 0; i < v->surface_count; i++) {
-        knurl_surface_info info;
-        knurl_surface_info_init(&info, sizeof info);
+        const char *name = NULL;
+        knurl_material_desc material;
+        knurl_material_desc_init(&material, sizeof material);
         v->surfaces[i] = knurl_scene_get_surface(v->desc.scene, i);
-        if (knurl_scene_get_surface_info(v->desc.scene, v->surfaces[i], &info) == KNURL_OK) {
-            describe_surface(&json, &info);
+        if (knurl_scene_get_surface_name(v->desc.scene, v->surfaces[i], &name) == KNURL_OK &&
+            knurl_scene_get_material(v->desc.scene, v->surfaces[i], &material) == KNURL_OK) {
+            describe_surface(&json, name, &material);
         }
     }
     json_close(&json, ']');

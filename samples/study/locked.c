@@ -67,8 +67,12 @@ int locked_scan_run(const locked_scan *w, double frequency, int all, locked_foun
     const size_t ticks = (size_t)floor((w->seconds > 0.0 ? w->seconds : natural) * w->rate);
     study_motion *motion = calloc(ticks + 1, sizeof *motion);
     double *phase = calloc(ticks + 1, sizeof *phase);
-    const knurl_grating grating = {{1.0 / w->period, 0.0}, 1.0,         w->rate, w->method, 0,
-                                   DIAGONAL * w->quantum,  w->crossover};
+    const knurl_grating grating = {.method = w->method,
+                                   .spatial_frequency = {1.0 / w->period, 0.0},
+                                   .amplitude = 1.0,
+                                   .update_rate_hz = w->rate,
+                                   .resolution = DIAGONAL * w->quantum,
+                                   .crossover_hz = w->crossover};
     study_scan scan;
     memset(found, 0, sizeof *found);
     const int done = motion && phase && prepare(w, frequency, motion, phase, ticks) &&

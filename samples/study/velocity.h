@@ -33,8 +33,9 @@ typedef struct velocity_estimator {
     const velocity_contender *contender;
     knurl_velocity estimator;
     double resolution, rate;
-    int64_t counts[16]; /**< as published: the newest first */
-    int seen;           /**< as published: how many of them there are */
+    int64_t counts[16];  /**< as published: the newest first */
+    int seen;            /**< as published: how many of them there are; LOWPASS: 1 after the first position */
+    double last, smooth; /**< LOWPASS: the latest position (m) and velocity (m/s) */
 } velocity_estimator;
 
 /** Starts it. 0, or 1 where the library refuses. */

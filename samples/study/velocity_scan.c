@@ -59,9 +59,6 @@ int velocity_start(velocity_estimator *e, const velocity_contender *contender, d
     if (knurl_velocity_init(contender->method, resolution, rate, &e->estimator)) {
         return 1;
     }
-    if (contender->method == KNURL_VELOCITY_LOWPASS) {
-        e->estimator.share = 1.0 - exp(-TAU * contender->cutoff_hz / rate);
-    }
     return 0;
 }
 
@@ -83,11 +80,24 @@ static double as_published(velocity_estimator *e, int64_t counts) {
     return (double)best / 360360.0 * e->resolution * e->rate;
 }
 
+/* The library's low pass at any cutoff. */
+static double low_pass(velocity_estimator *e, double x) {
+    const double share = 1.0 - exp(-TAU * e->contender->cutoff_hz / e->rate);
+    const double difference = e->seen ? (x - e->last) * e->rate : 0.0;
+    e->smooth += share * (difference - e->smooth);
+    e->last = x;
+    e->seen = 1;
+    return e->smooth;
+}
+
 double velocity_of(velocity_estimator *e, double x) {
     const double position[3] = {x, 0.0, 0.0};
     double velocity[3];
     if (e->contender->method == KNURL_VELOCITY_AUTO) {
         return as_published(e, (int64_t)floor(x / e->resolution + 0.5));
+    }
+    if (e->contender->method == KNURL_VELOCITY_LOWPASS) {
+        return low_pass(e, x);
     }
     knurl_velocity_update(&e->estimator, position, velocity);
     return velocity[0];

@@ -71,12 +71,14 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_count(void) {
 EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15]) {
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
-    if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, index), &info)) {
+    knurl_material_desc m;
+    knurl_material_desc_init(&m, sizeof m);
+    const knurl_surface_id surface = knurl_scene_get_surface(scene, index);
+    if (knurl_scene_get_surface_info(scene, surface, &info) || knurl_scene_get_material(scene, surface, &m)) {
         return NULL;
     }
-    const knurl_material_desc *m = &info.material;
     const double first[6] = {
-        m->spatial_frequency[0], m->spatial_frequency[1], m->amplitude, m->stiffness, m->friction, m->method};
+        m.spatial_frequency[0], m.spatial_frequency[1], m.amplitude, m.stiffness, m.friction, m.method};
     memcpy(numbers, first, sizeof first);
     memcpy(numbers + 6, info.anchor, sizeof info.anchor);
     memcpy(numbers + 9, info.anchor_normal, sizeof info.anchor_normal);
@@ -87,16 +89,16 @@ EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15])
 /* How a surface feels from now on; numbers: as web_surface() gives the first six. */
 EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
     const knurl_surface_id surface = knurl_scene_get_surface(scene, index);
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    const knurl_result result = knurl_scene_get_surface_info(scene, surface, &info);
-    info.material.spatial_frequency[0] = numbers[0];
-    info.material.spatial_frequency[1] = numbers[1];
-    info.material.amplitude = numbers[2];
-    info.material.stiffness = numbers[3];
-    info.material.friction = numbers[4];
-    info.material.method = (int32_t)numbers[5];
-    return result ? result : knurl_scene_set_material(scene, surface, &info.material);
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
+    const knurl_result result = knurl_scene_get_material(scene, surface, &material);
+    material.spatial_frequency[0] = numbers[0];
+    material.spatial_frequency[1] = numbers[1];
+    material.amplitude = numbers[2];
+    material.stiffness = numbers[3];
+    material.friction = numbers[4];
+    material.method = (int32_t)numbers[5];
+    return result ? result : knurl_scene_set_material(scene, surface, &material);
 }
 
 /* Before a load or after: the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits. The HIP

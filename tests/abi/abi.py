@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What programs were built against stays: holds functions, constants and the layout of structs against the record of a
-release. Structs that begin with struct_size may grow at their end; what is new is free until a release records it.
+release. Structs that begin with struct_size may grow at their end, others use up what is reserved in them; what is new is
+free until a release records it.
 usage: abi.py SOURCE RECORD LIBRARY...           LIBRARY: static ones, or shared ones
        abi.py --write SOURCE RECORD LIBRARY...   makes the record of a release
 SPDX-License-Identifier: MIT"""
@@ -36,8 +37,10 @@ def lines(source, libraries):
         if name not in known: # the sessions', which no library exports
             continue
         words = [word.strip(' "') for word in rest.split(",")]
-        found.append(f"struct {name} {words[0]}" if kind == "STRUCT" else
-                     f"field {name}.{words[0]} at {words[-2]} of {words[-1]}")
+        if kind == "STRUCT":
+            found.append(f"struct {name} {words[0]}")
+        elif words[0] != "reserved": # which shrinks as later versions use it
+            found.append(f"field {name}.{words[0]} at {words[-2]} of {words[-1]}")
     for name, value in re.findall(r"const \w+ (KNURL_\w+) = ([^;]+);",
                                   read(source, "bindings/unity/package/Runtime/NativeMethods.g.cs")):
         if "KNURL_SESSION_" not in name and not FREE.match(f"{name} = {value}"):

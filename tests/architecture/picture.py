@@ -27,7 +27,7 @@ ROOM_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene")
 BOXES = {
     "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick"]),
     "edits": (330, 206, 180, "edits, questions", "from other threads",
-              ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info",
+              ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
                "scene/walk"]),
     "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "scene/hip", "scene/hip_workspace"]),
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["scene/broad_phase"]),

@@ -64,7 +64,7 @@ TEST(at_500_and_250_hz_as_well) {
 /* The JND of the true period, or the whole numbers of ticks either side of it where the JND shuts both out. */
 static void check_lengths(double rate, double frequency) {
     const double period = rate / frequency;
-    const knurl_grating grating = {{1000.0, 0.0}, 1.0, rate, KNURL_LOCKED, 0, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_LOCKED, {0}, {1000.0, 0.0}, 1.0, rate, 0.0, 0.0};
     const double velocity[2] = {frequency / 1000.0, 0.0};
     knurl_grating_state s = {0};
     for (int k = 0; k < 3000; k++) {

@@ -215,6 +215,12 @@ class Loaded {
         assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, index), &made), KNURL_OK);
         return made;
     }
+    knurl_material_desc material(uint32_t index = 0) const {
+        knurl_material_desc made;
+        knurl_material_desc_init(&made, sizeof made);
+        assert_int_equal(knurl_scene_get_material(scene, knurl_scene_get_surface(scene, index), &made), KNURL_OK);
+        return made;
+    }
 
     knurl_scene *scene = nullptr;
     knurl_gltf_report report{};

@@ -41,12 +41,15 @@ TEST(matrix_is_column_major) {
 
 TEST(non_uniform_scale_moves_geometry_and_not_the_grating) {
     // x + y + z = 1 becomes x/2 + y + z = 1, whose normal is (1, 2, 2)/3; (1, -1, 0) becomes (2, -1, 0).
-    const knurl_surface_info info = placed(plain({1, 0, 0, 0, 1, 0, 0, 0, 1}, "", "[1,-1,0]"), R"("scale":[2,1,1])");
+    File file = plain({1, 0, 0, 0, 1, 0, 0, 0, 1}, "", "[1,-1,0]");
+    file.nodes = R"({"mesh":0,"scale":[2,1,1]})";
+    const Loaded loaded(file.glb());
+    const knurl_surface_info info = loaded.info();
     assert_near(info.bounds_max, {2, 1, 1});
     assert_near(info.anchor_normal, {1.0 / 3, 2.0 / 3, 2.0 / 3});
     assert_near(info.anchor_x, {2 / 2.2360679774997896, -1 / 2.2360679774997896, 0});
-    assert_near(info.material.spatial_frequency, {1000, 0}, 1e-12);
-    assert_number(info.material.amplitude, 0.0005);
+    assert_near(loaded.material().spatial_frequency, {1000, 0}, 1e-12);
+    assert_number(loaded.material().amplitude, 0.0005);
 }
 
 TEST(shear_of_turned_and_scaled_nodes) {

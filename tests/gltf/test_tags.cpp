@@ -7,7 +7,7 @@ using namespace builder;
 namespace {
 
 knurl_material_desc material_of(const File &file) {
-    return Loaded(file.glb()).info().material;
+    return Loaded(file.glb()).material();
 }
 
 TEST(nested_form_is_read) {
@@ -64,12 +64,12 @@ TEST(mesh_overrides_material_and_node_overrides_mesh) {
     file.nodes = R"({"mesh":0},{"mesh":0,"extras":{"knurl":{"version":1,"stiffness":600}}})";
     const Loaded loaded(file.glb());
     assert_int_equal(loaded.report.surfaces, 2);
-    assert_number(loaded.info(0).material.stiffness, 500);
-    assert_number(loaded.info(0).material.amplitude, 0.001);
-    assert_number(loaded.info(0).material.damping, 1);
-    assert_number(loaded.info(1).material.stiffness, 600);
-    assert_number(loaded.info(1).material.amplitude, 0.001);
-    assert_near(loaded.info(1).material.spatial_frequency, {1000, 0}, 1e-12);
+    assert_number(loaded.material(0).stiffness, 500);
+    assert_number(loaded.material(0).amplitude, 0.001);
+    assert_number(loaded.material(0).damping, 1);
+    assert_number(loaded.material(1).stiffness, 600);
+    assert_number(loaded.material(1).amplitude, 0.001);
+    assert_near(loaded.material(1).spatial_frequency, {1000, 0}, 1e-12);
 }
 
 TEST(a_mesh_or_node_can_carry_the_whole_tag) {

@@ -375,7 +375,7 @@ TEST(bad_gratings_are_refused_and_left_as_they_were) {
                                     {1.0, 1.0, 1.0, (double)NAN}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         knurl_grating grating = {
-            {bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], KNURL_METHOD_DEFAULT, 0, bad[i][4], bad[i][5]};
+            KNURL_METHOD_DEFAULT, {0}, {bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], bad[i][4], bad[i][5]};
         CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_ARGUMENT, grating);
     }
 }

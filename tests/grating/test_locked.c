@@ -145,7 +145,7 @@ TEST(after_a_stop_in_an_event_the_height_is_that_of_the_place) {
 TEST(s2_has_come_down_to_the_surface_within_one_event_of_a_stop) {
     for (int stop = 20; stop < 27; stop++) {
         knurl_grating_state s = {0};
-        const knurl_grating grating = {{FS, 0.0}, A, RATE, KNURL_S2, 0, 0.0, 0.0};
+        const knurl_grating grating = {KNURL_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
         for (int k = 0; k < 60; k++) {
             const double position[2] = {0.143e-3 * k, 0.0};
             const double velocity[2] = {k < stop ? 0.143 : 0.0, 0.0};
@@ -231,7 +231,7 @@ TEST(no_motion_makes_a_step_above_that_of_a_trough_to_a_crest) {
 
 /* S2's is higher because of its 400 Hz mix: crest (2 + 3 sqrt(1/2))/sqrt(13), trough (2 + 3 sqrt(2))/sqrt(13). */
 TEST(s2_steps_up_to_2_87_amplitudes) {
-    const knurl_grating grating = {{FS, 0.0}, A, RATE, KNURL_S2, 0, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
     const double origin[2] = {0.0, 0.0};
     knurl_grating_state s = {0};
     uint64_t seed = 6;

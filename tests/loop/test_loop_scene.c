@@ -315,7 +315,7 @@ TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, e
         assert_int_equal(knurl_scene_get_tick(scene, 0, &output, NULL), KNURL_OK);
         assert_int_equal(output.tick, 1);
         rig_destroy(&r);
-        const knurl_tick_input deep = {{0.0, -0.009, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, 0}; /* 3.6 N */
+        const knurl_tick_input deep = {{0.0, -0.009, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}}; /* 3.6 N */
         assert_int_equal(knurl_scene_tick(scene, 0, &deep, &output), KNURL_OK);
         CHECK_CLOSE(output.force[1], limits[i][1], 1e-12);
         assert_true((output.flags & KNURL_TICK_FORCE_LIMIT) != 0);

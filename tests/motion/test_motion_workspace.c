@@ -5,7 +5,7 @@
 
 /* A quarter turn about z: device x is scene y, device y is scene -x; twice the size, off the origin. */
 static knurl_workspace quarter_turn(void) {
-    const knurl_workspace workspace = {{10.0, 20.0, 30.0}, {0, -1, 0, 1, 0, 0, 0, 0, 1}, 2.0, 0.0};
+    const knurl_workspace workspace = {{10.0, 20.0, 30.0}, {0, -1, 0, 1, 0, 0, 0, 0, 1}, 2.0, {0.0}};
     return workspace;
 }
 

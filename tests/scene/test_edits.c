@@ -427,7 +427,10 @@ TEST(info_tells_what_an_edit_made_of_a_surface) {
     knurl_surface_info_init(&info, sizeof info);
     assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     assert_string_equal(info.name, "lid");
-    CHECK_SAME(info.material.stiffness, 650.0);
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
+    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
+    CHECK_SAME(material.stiffness, 650.0);
     CHECK_VECTOR(info.anchor, 0.5, 0.0, 0.25, 1e-12);
     CHECK_VECTOR(info.bounds_min, 0.45, -0.05, 0.25, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.55, 0.05, 0.25, 1e-12);

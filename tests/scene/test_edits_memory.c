@@ -235,7 +235,7 @@ TEST(commit_that_gets_no_memory_can_be_made_again) {
         const knurl_result result = knurl_scene_commit(scene);
         books.refused = 0;
         if (result != KNURL_OK) {
-            const knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+            const knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
             knurl_tick_output out;
             assert_int_equal(result, KNURL_ERROR_MEMORY);
             assert_int_equal(knurl_scene_tick(scene, 0, &input, &out), KNURL_ERROR_STATE);

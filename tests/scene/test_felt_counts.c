@@ -80,7 +80,7 @@ TEST(in_the_air_nothing_is_crossed) {
 /* A step of a hand's: with amplitudes that jump to 0 between (S2 idles) no half cycle is counted twice. S2 plays whole
  * events of +A and -A: two half cycles each. */
 TEST(an_idle_height_of_0_is_no_half_cycle) {
-    const knurl_grating grating = {{1000.0, 0.0}, A, 1000.0, KNURL_S2, 0, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_S2, {0}, {1000.0, 0.0}, A, 1000.0, 0.0, 0.0};
     knurl_grating_state at;
     knurl_grating_output out;
     unsigned turns = 0;

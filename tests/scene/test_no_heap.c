@@ -250,7 +250,7 @@ static void stroke_on(knurl_scene *scene, stroke *s) {
         s->z += s->vz;
         s->vx = s->x > 0.15 || s->x < -0.06 ? -s->vx : s->vx;
         s->vz = s->z > 0.006 || s->z < -0.004 ? -s->vz : s->vz;
-        knurl_tick_input input = {{s->x, 0.003 + 0.1 * s->z, s->z}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+        knurl_tick_input input = {{s->x, 0.003 + 0.1 * s->z, s->z}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
         if (s->tick % 1000 == 999) {
             input.position[1] = (double)NAN;
         }
@@ -332,8 +332,8 @@ TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
 
 TEST(estimators_and_gratings_ask_for_nothing) {
     knurl_velocity velocities[3];
-    knurl_grating gratings[2] = {{{1000.0, 500.0}, 0.0003, 1000.0, KNURL_S1, 0, 0.0, 0.0},
-                                 {{1000.0, 500.0}, 0.0003, 1000.0, KNURL_S2, 0, 0.0, 0.0}};
+    knurl_grating gratings[2] = {{KNURL_S1, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0},
+                                 {KNURL_S2, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0}};
     knurl_grating_state states[2];
     memset(states, 0, sizeof states);
     assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, 0.055e-3, 1000.0, &velocities[0]), KNURL_OK);

@@ -366,7 +366,7 @@ TEST(eight_hips_feel_each_what_one_alone_feels) {
     }
     for (int k = 0; k < 600; k++) {
         for (uint32_t i = 0; i < HIPS; i++) {
-            knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, 0};
+            knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
             wander(&w[i], &seeds[i]);
             memcpy(input.position, w[i].at, sizeof input.position);
             memcpy(input.velocity, w[i].velocity, sizeof input.velocity);

@@ -201,10 +201,10 @@ TEST(materials_out_of_range_are_refused_by_name) {
             CHECK_REFUSED(knurl_scene_set_material(scene, id, &bad.material), KNURL_ERROR_ARGUMENT, bad);
         }
     }
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK); /* what was set first still holds */
-    assert_memory_equal(&info.material, &good.material, sizeof info.material);
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
+    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK); /* what was set first still holds */
+    assert_memory_equal(&material, &good.material, sizeof material);
     knurl_scene_destroy(scene);
 }
 

@@ -106,7 +106,7 @@ TEST(memory_that_runs_out_makes_no_scene) {
 /* Callers of another version: what a material was before `damping` was appended, and after something else will be. */
 TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     surface_parts parts = surface_plane();
-    knurl_surface_info info;
+    knurl_material_desc material;
     knurl_scene *scene = empty_scene(1);
     parts.material.stiffness = 123.0;
     parts.material.damping = (double)NAN; /* not read */
@@ -114,12 +114,12 @@ TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     parts.material.orientation = (double)NAN;
     parts.material.struct_size = offsetof(knurl_material_desc, damping);
     const knurl_surface_id id = add_surface(scene, &parts);
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
-    CHECK_SAME(info.material.stiffness, 123.0);
-    CHECK_SAME(info.material.damping, 0.0);
-    CHECK_SAME(info.material.friction, 0.0);
-    CHECK_SAME(info.material.orientation, 0.0);
+    knurl_material_desc_init(&material, sizeof material);
+    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
+    CHECK_SAME(material.stiffness, 123.0);
+    CHECK_SAME(material.damping, 0.0);
+    CHECK_SAME(material.friction, 0.0);
+    CHECK_SAME(material.orientation, 0.0);
     knurl_scene_destroy(scene);
 }
 
@@ -192,7 +192,10 @@ TEST(info_tells_what_a_plane_came_to_be) {
     assert_string_equal(info.model, "plane");
     assert_int_equal(info.triangle_count, 0);
     assert_int_equal(info.double_sided, 1);
-    assert_int_equal(info.material.method, KNURL_LOCKED); /* the default, resolved */
+    knurl_material_desc material;
+    knurl_material_desc_init(&material, sizeof material);
+    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
+    assert_int_equal(material.method, KNURL_LOCKED); /* the default, resolved */
     CHECK_VECTOR(info.bounds_min, -0.02, 0.0, 0.47, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.02, 0.0, 0.53, 1e-12);
     CHECK_VECTOR(info.anchor, 0.0, 0.0, 0.5, 1e-12);

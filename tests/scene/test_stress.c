@@ -134,7 +134,7 @@ static void *hip_thread(void *user) {
     while (!knurl_load_acquire(&s->over)) {
         for (int which = 0; which < 4; which++) {
             for (int k = 0; k <= PRESSED; k++) {
-                knurl_tick_input input = {{which, 0.0, k == 0 ? 0.02 : -BOTTOM}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, 0};
+                knurl_tick_input input = {{which, 0.0, k == 0 ? 0.02 : -BOTTOM}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
                 knurl_tick_output out;
                 input.velocity[0] = which == MOVED ? 0.5 : 0.0;
                 const uint64_t done = knurl_load_acquire(&s->done[which]);
@@ -268,7 +268,7 @@ static uint64_t watch(const stage *s, double seconds) {
 static void check_newest(stage *s, uint32_t hip) {
     for (int which = 0; which < 4; which++) {
         knurl_tick_output out;
-        knurl_tick_input input = {{which, 0.0, 0.02}, {which == MOVED ? 0.5 : 0.0, 0.0, 0.0}, 1, 0, 0.0, 0, 0};
+        knurl_tick_input input = {{which, 0.0, 0.02}, {which == MOVED ? 0.5 : 0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
         assert_int_equal(knurl_scene_tick(s->scene, hip, &input, &out), KNURL_OK);
         input.position[2] = -BOTTOM;
         assert_int_equal(knurl_scene_tick(s->scene, hip, &input, &out), KNURL_OK);

@@ -175,7 +175,7 @@ TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
 TEST(velocity_that_is_not_used_need_not_be_finite) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
-    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {(double)NAN, (double)INFINITY, 0.0}, 0, 0, 0.0, 0, 0};
+    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {(double)NAN, (double)INFINITY, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output out;
     assert_int_equal(knurl_scene_tick(scene, 0, &input, &out), KNURL_OK);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
@@ -312,7 +312,7 @@ TEST(hips_are_independent) {
         for (uint32_t hip = 0; hip < 2; hip++) {
             const double phase = (hip ? 0.037 : 0.023) * k;
             const knurl_tick_input input = {
-                {0.03 * sin(phase), 0.0, 0.003 * cos(0.7 * phase)}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+                {0.03 * sin(phase), 0.0, 0.003 * cos(0.7 * phase)}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
             knurl_tick_output expected;
             knurl_tick_output out;
             assert_int_equal(knurl_scene_tick(alone[hip], 0, &input, &expected), KNURL_OK);
@@ -344,7 +344,7 @@ TEST(a_batch_is_its_ticks_one_by_one) {
         assert_true(outputs[k].tick == (uint64_t)k);
         check_same_output(&outputs[k], &expected);
     }
-    inputs[1].reserved = 1;
+    inputs[1].reserved[0] = 1;
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 3, outputs), KNURL_ERROR_ARGUMENT);
     assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was none */
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 0, outputs), KNURL_OK);
@@ -372,7 +372,7 @@ TEST(configuring_a_hip_forgets_what_it_did) {
 }
 
 static void check_refused_tick(knurl_scene *scene, uint32_t hip, knurl_result expected) {
-    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output zero;
     knurl_tick_output out;
     memset(&zero, 0, sizeof zero);

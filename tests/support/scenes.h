@@ -91,7 +91,7 @@ static inline knurl_scene *scene_of(surface_parts *parts) {
 
 /** One tick of HIP 0 at a place, its velocity estimated. */
 static inline knurl_tick_output tick_at(knurl_scene *scene, double x, double y, double z) {
-    const knurl_tick_input input = {{x, y, z}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+    const knurl_tick_input input = {{x, y, z}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output output;
     assert_int_equal(knurl_scene_tick(scene, 0, &input, &output), KNURL_OK);
     return output;
@@ -99,7 +99,7 @@ static inline knurl_tick_output tick_at(knurl_scene *scene, double x, double y, 
 
 /** One tick of HIP 0 with a velocity given. */
 static inline knurl_tick_output tick_moving(knurl_scene *scene, const double position[3], const double velocity[3]) {
-    knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, 0};
+    knurl_tick_input input = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
     knurl_tick_output output;
     memcpy(input.position, position, sizeof input.position);
     memcpy(input.velocity, velocity, sizeof input.velocity);

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "e6afc1a44872c16f"
+#define KNURL_UNITY_INTERFACE "93a0ddd296696322"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -40,15 +40,15 @@
     FIELD(knurl_wave, part_count, "part_count", 84, 4) \
     FIELD(knurl_wave, saturated, "saturated", 88, 4) \
     FIELD(knurl_wave, reserved, "reserved", 92, 4) \
-    STRUCT(knurl_grating, 56) \
-    FIELD(knurl_grating, spatial_frequency, "spatial_frequency", 0, 16) \
-    FIELD(knurl_grating, amplitude, "amplitude", 16, 8) \
-    FIELD(knurl_grating, update_rate_hz, "update_rate_hz", 24, 8) \
-    FIELD(knurl_grating, method, "method", 32, 4) \
-    FIELD(knurl_grating, reserved, "reserved", 36, 4) \
-    FIELD(knurl_grating, resolution, "resolution", 40, 8) \
-    FIELD(knurl_grating, crossover_hz, "crossover_hz", 48, 8) \
-    STRUCT(knurl_grating_state, 96) \
+    STRUCT(knurl_grating, 64) \
+    FIELD(knurl_grating, method, "method", 0, 4) \
+    FIELD(knurl_grating, reserved, "reserved", 4, 12) \
+    FIELD(knurl_grating, spatial_frequency, "spatial_frequency", 16, 16) \
+    FIELD(knurl_grating, amplitude, "amplitude", 32, 8) \
+    FIELD(knurl_grating, update_rate_hz, "update_rate_hz", 40, 8) \
+    FIELD(knurl_grating, resolution, "resolution", 48, 8) \
+    FIELD(knurl_grating, crossover_hz, "crossover_hz", 56, 8) \
+    STRUCT(knurl_grating_state, 112) \
     FIELD(knurl_grating_state, event, "event", 0, 32) \
     FIELD(knurl_grating_state, event_count, "event_count", 32, 8) \
     FIELD(knurl_grating_state, next_tick, "next_tick", 40, 4) \
@@ -61,33 +61,23 @@
     FIELD(knurl_grating_state, sign, "sign", 80, 4) \
     FIELD(knurl_grating_state, axis, "axis", 84, 4) \
     FIELD(knurl_grating_state, across, "across", 88, 8) \
-    STRUCT(knurl_grating_output, 40) \
+    FIELD(knurl_grating_state, reserved, "reserved", 96, 16) \
+    STRUCT(knurl_grating_output, 48) \
     FIELD(knurl_grating_output, height, "height", 0, 8) \
     FIELD(knurl_grating_output, spatial_frequency, "spatial_frequency", 8, 8) \
     FIELD(knurl_grating_output, temporal_frequency, "temporal_frequency", 16, 8) \
     FIELD(knurl_grating_output, event, "event", 24, 8) \
     FIELD(knurl_grating_output, saturated, "saturated", 32, 4) \
     FIELD(knurl_grating_output, turned, "turned", 36, 4) \
-    STRUCT(knurl_velocity, 10376) \
-    FIELD(knurl_velocity, history, "history", 0, 10240) \
-    FIELD(knurl_velocity, held, "held", 10240, 32) \
-    FIELD(knurl_velocity, last, "last", 10272, 24) \
-    FIELD(knurl_velocity, smooth, "smooth", 10296, 24) \
-    FIELD(knurl_velocity, share, "share", 10320, 8) \
-    FIELD(knurl_velocity, rate, "rate", 10328, 8) \
-    FIELD(knurl_velocity, steps_per_m, "steps_per_m", 10336, 8) \
-    FIELD(knurl_velocity, slope_unit, "slope_unit", 10344, 8) \
-    FIELD(knurl_velocity, newest, "newest", 10352, 4) \
-    FIELD(knurl_velocity, started, "started", 10356, 4) \
-    FIELD(knurl_velocity, method, "method", 10360, 4) \
-    FIELD(knurl_velocity, avx, "avx", 10364, 4) \
-    FIELD(knurl_velocity, stride, "stride", 10368, 4) \
-    FIELD(knurl_velocity, phase, "phase", 10372, 4) \
-    STRUCT(knurl_workspace, 112) \
+    FIELD(knurl_grating_output, reserved, "reserved", 40, 8) \
+    STRUCT(knurl_velocity, 11264) \
+    FIELD(knurl_velocity, alignment, "alignment", 0, 8) \
+    FIELD(knurl_velocity, state, "state", 8, 11256) \
+    STRUCT(knurl_workspace, 128) \
     FIELD(knurl_workspace, origin, "origin", 0, 24) \
     FIELD(knurl_workspace, rotation, "rotation", 24, 72) \
     FIELD(knurl_workspace, scale, "scale", 96, 8) \
-    FIELD(knurl_workspace, reserved, "reserved", 104, 8) \
+    FIELD(knurl_workspace, reserved, "reserved", 104, 24) \
     STRUCT(knurl_material_desc, 64) \
     FIELD(knurl_material_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_material_desc, method, "method", 4, 4) \
@@ -131,7 +121,7 @@
     FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
     FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
     FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
-    STRUCT(knurl_surface_info, 376) \
+    STRUCT(knurl_surface_info, 312) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -147,24 +137,23 @@
     FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
     FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
     FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
-    FIELD(knurl_surface_info, material, "material", 224, 64) \
-    FIELD(knurl_surface_info, why, "why", 288, 8) \
-    FIELD(knurl_surface_info, model_error, "model_error", 296, 8) \
-    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 304, 4) \
-    FIELD(knurl_surface_info, reserved, "reserved", 308, 4) \
-    FIELD(knurl_surface_info, axis, "axis", 312, 24) \
-    FIELD(knurl_surface_info, stretch_y, "stretch_y", 336, 24) \
-    FIELD(knurl_surface_info, seam, "seam", 360, 8) \
-    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 368, 8) \
-    STRUCT(knurl_tick_input, 72) \
+    FIELD(knurl_surface_info, why, "why", 224, 8) \
+    FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
+    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
+    FIELD(knurl_surface_info, reserved, "reserved", 244, 4) \
+    FIELD(knurl_surface_info, axis, "axis", 248, 24) \
+    FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
+    FIELD(knurl_surface_info, seam, "seam", 296, 8) \
+    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
+    STRUCT(knurl_tick_input, 104) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
     FIELD(knurl_tick_input, has_velocity, "has_velocity", 48, 4) \
     FIELD(knurl_tick_input, absent, "absent", 52, 4) \
     FIELD(knurl_tick_input, attenuation, "attenuation", 56, 8) \
     FIELD(knurl_tick_input, paused, "paused", 64, 4) \
-    FIELD(knurl_tick_input, reserved, "reserved", 68, 4) \
-    STRUCT(knurl_tick_output, 240) \
+    FIELD(knurl_tick_input, reserved, "reserved", 68, 36) \
+    STRUCT(knurl_tick_output, 288) \
     FIELD(knurl_tick_output, device_force, "device_force", 0, 24) \
     FIELD(knurl_tick_output, force, "force", 24, 24) \
     FIELD(knurl_tick_output, hip, "hip", 48, 24) \
@@ -182,7 +171,8 @@
     FIELD(knurl_tick_output, flags, "flags", 216, 4) \
     FIELD(knurl_tick_output, contacts, "contacts", 220, 4) \
     FIELD(knurl_tick_output, cycles, "cycles", 224, 16) \
-    STRUCT(knurl_hip_counts, 128) \
+    FIELD(knurl_tick_output, reserved, "reserved", 240, 48) \
+    STRUCT(knurl_hip_counts, 160) \
     FIELD(knurl_hip_counts, ticks, "ticks", 0, 8) \
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
@@ -199,6 +189,14 @@
     FIELD(knurl_hip_counts, half_cycles_played, "half_cycles_played", 104, 8) \
     FIELD(knurl_hip_counts, squeezed_ticks, "squeezed_ticks", 112, 8) \
     FIELD(knurl_hip_counts, visit_limit_ticks, "visit_limit_ticks", 120, 8) \
+    FIELD(knurl_hip_counts, reserved, "reserved", 128, 32) \
+    STRUCT(knurl_surface_point, 72) \
+    FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \
+    FIELD(knurl_surface_point, surface, "surface", 8, 8) \
+    FIELD(knurl_surface_point, distance, "distance", 16, 8) \
+    FIELD(knurl_surface_point, position, "position", 24, 24) \
+    FIELD(knurl_surface_point, normal, "normal", 48, 24) \
     STRUCT(knurl_surface_check, 1064) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
@@ -207,6 +205,12 @@
     FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
+    STRUCT(knurl_hip_contact, 112) \
+    FIELD(knurl_hip_contact, surface, "surface", 0, 8) \
+    FIELD(knurl_hip_contact, proxy, "proxy", 8, 24) \
+    FIELD(knurl_hip_contact, normal, "normal", 32, 24) \
+    FIELD(knurl_hip_contact, depth, "depth", 56, 8) \
+    FIELD(knurl_hip_contact, reserved, "reserved", 64, 48) \
     STRUCT(knurl_audio_desc, 40) \
     FIELD(knurl_audio_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_audio_desc, is_offline, "is_offline", 4, 4) \
@@ -231,15 +235,16 @@
     FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
     FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
     FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
-    STRUCT(knurl_device_sample, 64) \
+    STRUCT(knurl_device_sample, 96) \
     FIELD(knurl_device_sample, position, "position", 0, 24) \
-    FIELD(knurl_device_sample, buttons, "buttons", 24, 4) \
-    FIELD(knurl_device_sample, reserved, "reserved", 28, 4) \
-    FIELD(knurl_device_sample, orientation, "orientation", 32, 32) \
-    STRUCT(knurl_device_listing, 1408) \
+    FIELD(knurl_device_sample, orientation, "orientation", 24, 32) \
+    FIELD(knurl_device_sample, buttons, "buttons", 56, 4) \
+    FIELD(knurl_device_sample, reserved, "reserved", 60, 36) \
+    STRUCT(knurl_device_listing, 1440) \
     FIELD(knurl_device_listing, uri, "uri", 0, 256) \
     FIELD(knurl_device_listing, name, "name", 256, 128) \
     FIELD(knurl_device_listing, reason, "reason", 384, 1024) \
+    FIELD(knurl_device_listing, reserved, "reserved", 1408, 32) \
     STRUCT(knurl_device_event, 24) \
     FIELD(knurl_device_event, time_ns, "time_ns", 0, 8) \
     FIELD(knurl_device_event, value, "value", 8, 8) \
@@ -348,7 +353,7 @@
     FIELD(knurl_stroke_report, follows, "follows", 8, 4) \
     FIELD(knurl_stroke_report, reserved, "reserved", 12, 4) \
     FIELD(knurl_stroke_report, length, "length", 16, 8) \
-    STRUCT(knurl_session_desc, 160) \
+    STRUCT(knurl_session_desc, 176) \
     FIELD(knurl_session_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_session_desc, reconnect, "reconnect", 4, 4) \
     FIELD(knurl_session_desc, clamp, "clamp", 8, 4) \
@@ -357,7 +362,7 @@
     FIELD(knurl_session_desc, stroke, "stroke", 24, 8) \
     FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
     FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
-    FIELD(knurl_session_desc, workspace, "workspace", 48, 112) \
+    FIELD(knurl_session_desc, workspace, "workspace", 48, 128) \
     STRUCT(knurl_session_state, 224) \
     FIELD(knurl_session_state, hip, "hip", 0, 24) \
     FIELD(knurl_session_state, proxy, "proxy", 24, 24) \

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #define KNURL_VERSION_MAJOR 0
-#define KNURL_VERSION_MINOR 2
+#define KNURL_VERSION_MINOR 3
 #define KNURL_VERSION_PATCH 0
 
 #if defined(_WIN32) && !defined(KNURL_STATIC)
@@ -97,6 +97,9 @@ KNURL_API knurl_result knurl_fail(knurl_result code, const char *format, ...) KN
 
 /** The version of the loaded library, "major.minor.patch"; static. [any thread] */
 KNURL_API const char *knurl_version_string(void);
+
+/** The same as a number: 10000 major + 100 minor + patch, for example 300 for 0.3.0. [any thread] */
+KNURL_API uint32_t knurl_version_number(void);
 
 /** A caller's memory functions, used for all memory of a scene; never called in a tick. */
 typedef struct knurl_allocator {

@@ -35,17 +35,18 @@ typedef struct knurl_device_info {
 /** One reading. Device frame: x right, y up, z towards the user. */
 typedef struct knurl_device_sample {
     double position[3];    /**< m */
-    uint32_t buttons;      /**< bit 0: first button */
-    uint32_t reserved;     /**< 0 */
     double orientation[4]; /**< of the stylus: a unit quaternion x, y, z, w, from its axes to the device's. 0, 0, 0, 0:
                                 the device does not measure it. For drawing: contact stays a point's */
+    uint32_t buttons;      /**< bit 0: first button */
+    uint32_t reserved[9];  /**< 0 */
 } knurl_device_sample;
 
 /** A connected device, or a kind of device of which none is connected. */
 typedef struct knurl_device_listing {
-    char uri[256];     /**< for knurl_device_open() */
-    char name[128];    /**< for people */
-    char reason[1024]; /**< why it cannot be used and what to do about it; "" where it can */
+    char uri[256];        /**< for knurl_device_open() */
+    char name[128];       /**< for people */
+    char reason[1024];    /**< why it cannot be used and what to do about it; "" where it can */
+    uint64_t reserved[4]; /**< 0 */
 } knurl_device_listing;
 
 /** All faults: code, number, name, sentence, and the unit of an event's value ("": no value). */
@@ -113,10 +114,10 @@ typedef struct knurl_device_functions {
     /** Prepares for this rate of reads; or null. Called first before any read; later also, where blocking, while the
      * I/O thread is reading. [game thread] */
     knurl_result (*start)(void *user, double update_rate_hz);
-    /** Gives the newest position. Required. Returns KNURL_OK, KNURL_ERROR_DEVICE_NOT_READY (no position this time: the
-     * last one is used for up to 10 ms, then the device counts as silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread;
-     * where blocking, the I/O thread: it should return within 5 ms, and after 1 s without a position the device counts
-     * as lost] */
+    /** Gives the newest position, in a sample that comes zeroed. Required. Returns KNURL_OK,
+     * KNURL_ERROR_DEVICE_NOT_READY (no position this time: the last one is used for up to 10 ms, then the device counts
+     * as silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5
+     * ms, and after 1 s without a position the device counts as lost] */
     knurl_result (*read)(void *user, knurl_device_sample *sample);
     /** Applies a force, finite and at most max_force. Required. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST. [as read;
      * also once at the end, on the thread that closes] */

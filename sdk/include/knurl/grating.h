@@ -35,11 +35,11 @@ enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3, K
 
 /** A grating's parameters; filled in by the caller, constant while it is played. */
 typedef struct knurl_grating {
+    int32_t method;              /**< KNURL_S1, KNURL_S2, KNURL_LOCKED or KNURL_AREA */
+    uint32_t reserved[3];        /**< 0 */
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
     double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
-    int32_t method;              /**< KNURL_S1, KNURL_S2, KNURL_LOCKED or KNURL_AREA */
-    uint32_t reserved;           /**< 0 */
     double resolution;           /**< m: quantisation of positions, 0 where they are exact. LOCKED, AREA: a backward
                                       motion of up to this is ignored */
     double crossover_hz;         /**< LOCKED: >= 1; 0 means KNURL_LOCKED_CROSSOVER_HZ, or f_h/4 where that is lower */
@@ -57,10 +57,11 @@ typedef struct knurl_grating_state {
     double played;               /**< LOCKED, AREA: cycles played up to the end of the event, counted as phase is */
     double held;                 /**< LOCKED, AREA: the position after hysteresis, m; on a grid along `axis` */
     int32_t direction;           /**< LOCKED, AREA: +1 or -1; 0 before the first tick */
-    int32_t moving; /**< S2: 1 after an event: the deadband is halved; others: 1 while events follow each other */
-    int32_t sign;   /**< sign of the latest height that was not 0: +1, -1, or 0 for none yet */
-    int32_t axis;   /**< AREA on a grid: 0 or 1, the axis whose cycles are counted */
-    double across;  /**< AREA on a grid: the position along the other axis, m */
+    int32_t moving;       /**< S2: 1 after an event: the deadband is halved; others: 1 while events follow each other */
+    int32_t sign;         /**< sign of the latest height that was not 0: +1, -1, or 0 for none yet */
+    int32_t axis;         /**< AREA on a grid: 0 or 1, the axis whose cycles are counted */
+    double across;        /**< AREA on a grid: the position along the other axis, m */
+    uint64_t reserved[2]; /**< 0 */
 } knurl_grating_state;
 
 /** A grating's output in one tick. */
@@ -74,6 +75,7 @@ typedef struct knurl_grating_output {
                                     cycle */
     uint32_t turned;           /**< 1: the height changed sign in this tick: a half cycle begins. Heights of 0 in
                                     between (idle S2) are skipped */
+    uint64_t reserved;         /**< 0 */
 } knurl_grating_output;
 
 /** Checks a grating's parameters, so that knurl_grating_step() need not. Replaces KNURL_METHOD_DEFAULT by KNURL_LOCKED.

@@ -37,24 +37,11 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
  * `velocity`, 10 Hz halves its error and doubles its delay; 40 Hz does the opposite. */
 #define KNURL_VELOCITY_LOWPASS_HZ 20.0
 
-/** The state of a velocity estimator for one point. Plain data; one per HIP, set up by knurl_velocity_init(). */
+/** A velocity estimator of one point; one per HIP, set up by knurl_velocity_init(). It may be copied and needs no
+ * freeing. Its size is the same in all versions; its contents are the library's and may change. */
 typedef struct knurl_velocity {
-    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /**< FOAW: a ring of 16 rows per tick of the stride; rows as in
-                                                       `held`, the newest in row `newest`, older ones after it. Each row
-                                                       is stored twice, so that a window never wraps */
-    double held[4];     /**< FOAW: the newest position after the backlash, in whole 1024ths of a quantum: x, y, z, 0 */
-    double last[3];     /**< DIFFERENCE, LOWPASS: the previous position, m */
-    double smooth[3];   /**< LOWPASS: the previous velocity, m/s */
-    double share;       /**< LOWPASS: weight of a new difference, 0 to 1 */
-    double rate;        /**< update rate, Hz */
-    double steps_per_m; /**< FOAW: fixed-point steps per metre */
-    double slope_unit;  /**< FOAW: m/s per step and sample */
-    uint32_t newest;    /**< FOAW: row of the newest position of a ring, 0 to 15 */
-    uint32_t started;   /**< 1: a position has been seen */
-    int32_t method;     /**< KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
-    uint32_t avx;       /**< FOAW: 1: computed with AVX, where available; 0 gives the same numbers, more slowly */
-    uint32_t stride;    /**< FOAW: ticks between samples */
-    uint32_t phase;     /**< FOAW: the ring of this tick, 0 to stride - 1 */
+    uint64_t alignment; /**< of what follows */
+    char state[11256];
 } knurl_velocity;
 
 /** Sets up an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
@@ -76,7 +63,7 @@ typedef struct knurl_workspace {
     double origin[3];   /**< scene position of the device's origin, m */
     double rotation[9]; /**< device axes in the scene: a row-major rotation matrix (right-handed, orthonormal) */
     double scale;       /**< scene metres per device metre, > 0. At the device a wall of K N/m has K * scale */
-    double reserved;    /**< 0 */
+    double reserved[3]; /**< 0 */
 } knurl_workspace;
 
 /** Sets the identity: origin 0, no rotation, scale 1. [any thread] */

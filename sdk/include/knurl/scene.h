@@ -128,33 +128,32 @@ typedef struct knurl_scene_desc {
 /** How a scene has built a surface. An output: set struct_size with knurl_surface_info_init() first. */
 typedef struct knurl_surface_info {
     uint32_t struct_size;
-    uint32_t triangle_count;      /**< 0 for a plane */
-    uint32_t dropped_triangles;   /**< left out: without area, or duplicates */
-    uint32_t double_sided;        /**< 1: as it was given, or because triangles came in reversed pairs */
-    const char *name;             /**< the scene's, valid while the surface is */
-    const char *shape;            /**< "plane" or "mesh": what was given; static */
-    const char *model;            /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
-    uint64_t bytes;               /**< memory that this surface uses in the scene; of a shared shape
-                                       (knurl_surface_desc.shape_of) its part */
-    double bounds_min[3];         /**< scene axes, m */
-    double bounds_max[3];         /**< scene axes, m */
-    double anchor[3];             /**< a point on the surface near the middle of its bounds, scene, m */
-    double anchor_x[3];           /**< unit, scene: the grating's x at the anchor */
-    double anchor_normal[3];      /**< unit, scene: the outward normal at the anchor */
-    double anchor_reach[4];       /**< m from the anchor in a straight line along +x, -x, +y, -y to the edge of the
-                                       bounds: an upper limit of how far a flat surface extends. Of no use on curved
-                                       surfaces; see knurl_fake_lay_stroke() */
-    double stretch[3];            /**< min, mean and max of d(surface coordinate)/d(distance on the surface) along x,
-                                       before `orientation`; 1: undistorted. S1 and LOCKED render fs times it */
-    knurl_material_desc material; /**< as rendered: the default method is resolved */
-    const char *why;              /**< why this model, in a sentence; static */
-    double model_error;           /**< m: the model's surface lies within this of what was given */
-    uint32_t reversed_twins;      /**< triangles left out because another has the same corners, facing the other way */
-    uint32_t reserved;            /**< 0 */
-    double axis[3];               /**< unit, the surface's frame: the axis that was given; 0 without one */
-    double stretch_y[3];          /**< as stretch, along y */
-    double seam;                  /**< m: edges closer than this count as connected; from the mesh's size and float32's
-                                       precision */
+    uint32_t triangle_count;    /**< 0 for a plane */
+    uint32_t dropped_triangles; /**< left out: without area, or duplicates */
+    uint32_t double_sided;      /**< 1: as it was given, or because triangles came in reversed pairs */
+    const char *name;           /**< the scene's, valid while the surface is */
+    const char *shape;          /**< "plane" or "mesh": what was given; static */
+    const char *model;          /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
+    uint64_t bytes;             /**< memory that this surface uses in the scene; of a shared shape
+                                     (knurl_surface_desc.shape_of) its part */
+    double bounds_min[3];       /**< scene axes, m */
+    double bounds_max[3];       /**< scene axes, m */
+    double anchor[3];           /**< a point on the surface near the middle of its bounds, scene, m */
+    double anchor_x[3];         /**< unit, scene: the grating's x at the anchor */
+    double anchor_normal[3];    /**< unit, scene: the outward normal at the anchor */
+    double anchor_reach[4];     /**< m from the anchor in a straight line along +x, -x, +y, -y to the edge of the
+                                     bounds: an upper limit of how far a flat surface extends. Of no use on curved
+                                     surfaces; see knurl_fake_lay_stroke() */
+    double stretch[3];          /**< min, mean and max of d(surface coordinate)/d(distance on the surface) along x,
+                                     before `orientation`; 1: undistorted. S1 and LOCKED render fs times it */
+    const char *why;            /**< why this model, in a sentence; static */
+    double model_error;         /**< m: the model's surface lies within this of what was given */
+    uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
+    uint32_t reserved;          /**< 0 */
+    double axis[3];             /**< unit, the surface's frame: the axis that was given; 0 without one */
+    double stretch_y[3];        /**< as stretch, along y */
+    double seam;                /**< m: edges closer than this count as connected; from the mesh's size and float32's
+                                     precision */
     uint64_t touching_pairs; /**< pairs of the mesh's triangles that touch elsewhere than at a shared edge: T-junctions,
                                   seams, parts that intersect. Ticks near them take longer; 0: a clean mesh. A lower
                                 bound: counting ends after 96 tests for each triangle */
@@ -173,7 +172,7 @@ typedef struct knurl_tick_input {
                                 it is 1, depths restart at 0, as on entry */
     uint32_t paused;       /**< 1: the HIP's position and velocity are reported, but nothing is touched: contacts end,
                                 the force is 0, and the next tick counts as the first */
-    uint32_t reserved;     /**< 0 */
+    uint32_t reserved[9];  /**< 0 */
 } knurl_tick_input;
 
 /** Bits of knurl_tick_output.flags. */
@@ -218,6 +217,7 @@ typedef struct knurl_tick_output {
     uint32_t contacts;          /**< surfaces in contact, 0 to KNURL_CONTACTS_MAX */
     double cycles[2];           /**< where on the grating: the surface's coordinates times fsx and fsy, cycles from its
                                      origin; 0 without a grating or without coordinates */
+    uint64_t reserved[6];       /**< 0 */
 } knurl_tick_output;
 
 /** Sums over a HIP's ticks since it was configured. */
@@ -243,6 +243,7 @@ typedef struct knurl_hip_counts {
     uint64_t half_cycles_played; /**< half cycles rendered: sign changes of the height */
     uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
     uint64_t visit_limit_ticks;  /**< ticks with KNURL_TICK_VISIT_LIMIT */
+    uint64_t reserved[4];        /**< 0 */
 } knurl_hip_counts;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -294,6 +295,41 @@ KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surfac
 KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                                  const double rotation[4], double seconds);
 
+/** Where a surface's origin is now, and how it is rotated (unit quaternion x, y, z, w), in scene axes: of one that
+ * moves, on its way. Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_get_transform(const knurl_scene *scene, knurl_surface_id surface, double position[3],
+                                                 double rotation[4]);
+
+/** 1 where the id names a surface of this scene; else 0, without a message. [any thread but the haptic] */
+KNURL_API uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surface);
+
+/** Stores a pointer of the caller's with a surface, for example to the game's object; the scene never uses it.
+ * knurl_scene_replace_surface() keeps it. Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_set_user_data(knurl_scene *scene, knurl_surface_id surface, void *user_data);
+
+/** The pointer that knurl_scene_set_user_data() stored; null where none was. Errors: KNURL_ERROR_STALE_ID. [any thread
+ * but the haptic] */
+KNURL_API knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl_surface_id surface, void **user_data);
+
+/** A point of a surface. An output: set struct_size with knurl_surface_point_init() first. */
+typedef struct knurl_surface_point {
+    uint32_t struct_size;
+    uint32_t reserved;        /**< 0 */
+    knurl_surface_id surface; /**< 0: none is near enough; the rest is 0 then */
+    double distance;          /**< m */
+    double position[3];       /**< scene axes, m */
+    double normal[3];         /**< unit, scene axes: outward from the front of the triangle or plane */
+} knurl_surface_point;
+
+/** Sets struct_size; `size` is the caller's sizeof. [any thread] */
+KNURL_API void knurl_surface_point_init(knurl_surface_point *point, uint32_t size);
+
+/** Finds the point of all surfaces, as they stand now, that is closest to `position` (scene axes, m, finite), up to
+ * `radius` (m, > 0) away. Gratings do not count. Takes longer the more surfaces there are; other editing threads wait,
+ * ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
+                                                knurl_surface_point *point);
+
 /** Prepares the scene for ticks: builds the broad phase over its surfaces. Call it once, after the first surfaces.
  * Errors: KNURL_ERROR_STATE (committed already), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
@@ -311,6 +347,11 @@ KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const 
 /** A surface's name; the scene's, valid while the surface exists. Errors: KNURL_ERROR_STALE_ID. [any thread] */
 KNURL_API knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
                                                     const char **name);
+
+/** A surface's material as rendered: the default method is resolved. material: set its struct_size with
+ * knurl_material_desc_init() first. Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_get_material(const knurl_scene *scene, knurl_surface_id surface,
+                                                knurl_material_desc *material);
 
 /** Describes how the scene has built a surface. It searches for the anchor: too slow for every frame. Errors:
  * KNURL_ERROR_STALE_ID. [any thread] */
@@ -415,6 +456,21 @@ KNURL_API knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip, 
  * Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_tick_output *output,
                                             knurl_hip_counts *counts);
+
+/** One of the contacts of a HIP, scene axes. */
+typedef struct knurl_hip_contact {
+    knurl_surface_id surface;
+    double proxy[3];      /**< the point on the surface that the HIP is held at, m */
+    double normal[3];     /**< outward, unit */
+    double depth;         /**< m; negative where only the grating's crests reach the HIP */
+    uint64_t reserved[6]; /**< 0 */
+} knurl_hip_contact;
+
+/** All contacts of a HIP's latest tick; knurl_tick_output has the deepest alone. contacts: room for `capacity`, the
+ * caller's; may be null where that is 0. Returns how many contacts there are, at most KNURL_CONTACTS_MAX; 0 for an
+ * invalid handle or HIP. [haptic thread: the one that ticks this HIP, for example in a loop's tick_callback] */
+KNURL_API uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_hip_contact *contacts,
+                                            uint32_t capacity) KNURL_NONBLOCKING;
 
 /** Locks all memory of the scene into RAM (mlock), so that no tick waits for a page. A loop calls it by itself.
  * Errors: KNURL_ERROR_SYSTEM (the system's limit; the scene works without). [game thread] */

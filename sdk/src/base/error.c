@@ -115,6 +115,10 @@ const char *knurl_version_string(void) {
     return KNURL_TEXT(KNURL_VERSION_MAJOR) "." KNURL_TEXT(KNURL_VERSION_MINOR) "." KNURL_TEXT(KNURL_VERSION_PATCH);
 }
 
+uint32_t knurl_version_number(void) {
+    return 10000u * KNURL_VERSION_MAJOR + 100u * KNURL_VERSION_MINOR + KNURL_VERSION_PATCH;
+}
+
 void knurl_desc_copy(const void *local, uint32_t local_size, void *caller, uint32_t size) {
     const uint32_t known = size < local_size ? size : local_size;
     memset(caller, 0, size);

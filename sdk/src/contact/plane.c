@@ -67,20 +67,47 @@ int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
     return covers(plane, p);
 }
 
+/* From the edge's closest point to p; returns the squared distance. */
+static double off_edge(const knurl_edge *edge, const double p[2], double off[2]) {
+    const double along[2] = {edge->to[0] - edge->from[0], edge->to[1] - edge->from[1]};
+    const double to[2] = {p[0] - edge->from[0], p[1] - edge->from[1]};
+    const double share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+    const double t = share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0; /* of an edge without a length: 0 */
+    off[0] = to[0] - t * along[0];
+    off[1] = to[1] - t * along[1];
+    return off[0] * off[0] + off[1] * off[1];
+}
+
 /* 1 where an edge of the outline is no farther than the seam. */
 static int is_near_outline(const knurl_plane *plane, const double p[2]) {
     for (uint32_t i = 0; i < plane->edge_count; i++) {
-        const double *from = plane->outline[i].from;
-        const double along[2] = {plane->outline[i].to[0] - from[0], plane->outline[i].to[1] - from[1]};
-        const double to[2] = {p[0] - from[0], p[1] - from[1]};
-        const double share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-        const double t = share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0; /* of an edge without a length: 0 */
-        const double off[2] = {to[0] - t * along[0], to[1] - t * along[1]};
-        if (off[0] * off[0] + off[1] * off[1] <= plane->seam * plane->seam) {
+        double off[2];
+        if (off_edge(&plane->outline[i], p, off) <= plane->seam * plane->seam) {
             return 1;
         }
     }
     return 0;
+}
+
+void knurl_plane_closest(const knurl_plane *plane, const double p[3], double closest[3]) {
+    closest[2] = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double h = plane->half_extents[i];
+        closest[i] = plane->outline ? p[i] : p[i] < -h ? -h : p[i] > h ? h : p[i];
+    }
+    if (covers(plane, closest)) {
+        return;
+    }
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < plane->edge_count; i++) {
+        double off[2];
+        const double square = off_edge(&plane->outline[i], p, off);
+        if (square < least) {
+            least = square;
+            closest[0] = p[0] - off[0];
+            closest[1] = p[1] - off[1];
+        }
+    }
 }
 
 int knurl_plane_cast(const knurl_plane *plane, const knurl_cast *cast, knurl_cast_hit *hit) {

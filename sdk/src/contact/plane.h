@@ -61,6 +61,9 @@ static inline int knurl_plane_band(const knurl_plane *plane, double y) {
  */
 int knurl_plane_covers(const knurl_plane *plane, const double p[2]) KNURL_NONBLOCKING;
 
+/* The point of the plane that is closest to p. */
+void knurl_plane_closest(const knurl_plane *plane, const double p[3], double closest[3]);
+
 uint64_t knurl_plane_bytes(const knurl_plane *plane);
 
 /* m that a rectangle reaches beyond its edges: rounding leaves no gap between planes side by side. */

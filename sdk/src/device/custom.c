@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct custom {
     knurl_device base;
@@ -19,10 +20,23 @@ static custom *of(knurl_device *device) {
     return (custom *)(void *)device; /* its first member */
 }
 
+/* A sample with reserved fields that are not 0 is refused, or a later version could not give them a meaning. */
+static knurl_result read_sample(custom *c, knurl_device_sample *sample) {
+    memset(sample, 0, sizeof *sample);
+    const knurl_result result = c->functions.read(c->functions.user, sample);
+    for (size_t i = 0; !result && i < sizeof sample->reserved / sizeof *sample->reserved; i++) {
+        if (sample->reserved[i] != 0) {
+            knurl_events_report(&c->base.events, KNURL_FAULT_CORRUPT, (double)sizeof sample->reserved);
+            return KNURL_ERROR_DEVICE_NOT_READY;
+        }
+    }
+    return result;
+}
+
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     const knurl_device_functions *f = &of(device)->functions;
     knurl_result result = f->write(f->user, force);
-    result = result ? result : f->read(f->user, sample);
+    result = result ? result : read_sample(of(device), sample);
     return result == KNURL_OK                  ? KNURL_LINK_POSITION
            : result == KNURL_ERROR_DEVICE_LOST ? KNURL_LINK_LOST
                                                : KNURL_LINK_NOTHING;
@@ -71,7 +85,7 @@ static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
 /* As an I/O thread's: the latest position holds for a while where there is none this time. */
 static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
     custom *c = of(device);
-    const knurl_result result = c->functions.read(c->functions.user, sample);
+    const knurl_result result = read_sample(c, sample);
     if (result == KNURL_OK) {
         c->latest = *sample;
         c->has_latest = 1;

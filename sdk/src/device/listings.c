@@ -3,11 +3,13 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...) {
     if (listings->count++ < listings->capacity) {
         knurl_device_listing *listing = &listings->to[listings->count - 1];
         va_list arguments;
+        memset(listing, 0, sizeof *listing);
         (void)snprintf(listing->uri, sizeof listing->uri, "%s", uri);
         (void)snprintf(listing->name, sizeof listing->name, "%s", name);
         va_start(arguments, reason);

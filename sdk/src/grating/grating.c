@@ -43,8 +43,10 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
     if (KNURL_IS_NULL(grating)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (grating->reserved != 0) { /* or a later version could not give it a meaning */
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "reserved: expected 0, found %lu", (unsigned long)grating->reserved);
+    const uint32_t *reserved = grating->reserved;
+    if (reserved[0] || reserved[1] || reserved[2]) { /* or a later version could not give them a meaning */
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "reserved: expected zeros, found [%lu, %lu, %lu]",
+                          (unsigned long)reserved[0], (unsigned long)reserved[1], (unsigned long)reserved[2]);
     }
     const double *fs = grating->spatial_frequency;
     if (!(fs[0] >= 0.0 && knurl_is_finite(fs[0]) && fs[1] >= 0.0 && knurl_is_finite(fs[1]))) {
@@ -145,6 +147,7 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
+    output->reserved = 0;
     if (grating->method == KNURL_LOCKED) {
         output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
     } else if (grating->method == KNURL_AREA) {

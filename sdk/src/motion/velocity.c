@@ -1,7 +1,7 @@
 /* Velocity estimators: first difference, low pass, and first-order adaptive windowing (FOAW; Janabi-Sharifi, Hayward
  * and Chen 2000) on integers stored in doubles.
  * SPDX-License-Identifier: MIT */
-#include <knurl/motion.h>
+#include "motion/velocity.h"
 
 #include "base/finite.h"
 #include "base/handle.h"
@@ -38,6 +38,8 @@
 
 #define TAU 6.283185307179586
 
+typedef char state_fits[sizeof(knurl_velocity_state) <= sizeof(knurl_velocity) ? 1 : -1];
+
 /* Ticks between samples: a millisecond. */
 static uint32_t stride_at(double rate) {
     const double ticks = floor(rate / 1000.0 + 0.5);
@@ -65,15 +67,16 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
         return knurl_fail(KNURL_ERROR_ARGUMENT, "resolution: FOAW expects at least 1e-9 m, found %g m", resolution);
     }
     memset(velocity, 0, sizeof *velocity);
-    velocity->method = method;
-    velocity->rate = update_rate_hz;
-    velocity->share = 1.0 - exp(-TAU * KNURL_VELOCITY_LOWPASS_HZ / update_rate_hz);
+    knurl_velocity_state *state = knurl_velocity_get_state(velocity);
+    state->method = method;
+    state->rate = update_rate_hz;
+    state->share = 1.0 - exp(-TAU * KNURL_VELOCITY_LOWPASS_HZ / update_rate_hz);
     if (method == KNURL_VELOCITY_FOAW) {
-        velocity->stride = stride_at(update_rate_hz);
-        velocity->steps_per_m = STEPS_PER_COUNT / resolution;
-        velocity->slope_unit = resolution / STEPS_PER_COUNT * update_rate_hz / velocity->stride;
+        state->stride = stride_at(update_rate_hz);
+        state->steps_per_m = STEPS_PER_COUNT / resolution;
+        state->slope_unit = resolution / STEPS_PER_COUNT * update_rate_hz / state->stride;
 #if AVX
-        velocity->avx = __builtin_cpu_supports("avx") != 0;
+        state->avx = __builtin_cpu_supports("avx") != 0;
 #endif
     }
     return KNURL_OK;
@@ -83,10 +86,10 @@ void knurl_velocity_reset(knurl_velocity *velocity) {
     if (!velocity) {
         return;
     }
-    velocity->started = 0;
+    knurl_velocity_get_state(velocity)->started = 0;
 }
 
-static void difference(knurl_velocity *velocity, const double position[3], double out[3]) {
+static void difference(knurl_velocity_state *velocity, const double position[3], double out[3]) {
     for (int axis = 0; axis < 3; axis++) {
         out[axis] = velocity->started ? (position[axis] - velocity->last[axis]) * velocity->rate : 0.0;
         velocity->last[axis] = position[axis];
@@ -94,7 +97,7 @@ static void difference(knurl_velocity *velocity, const double position[3], doubl
     velocity->started = 1;
 }
 
-static void lowpass(knurl_velocity *velocity, const double position[3], double out[3]) {
+static void lowpass(knurl_velocity_state *velocity, const double position[3], double out[3]) {
     const int started = velocity->started != 0;
     difference(velocity, position, out);
     for (int axis = 0; axis < 3; axis++) {
@@ -117,7 +120,7 @@ static const double scales[RING] = WINDOWS(SCALE);
 #define WHOLE 6755399441055744.0 /* 3 * 2^51: added and taken off again it rounds half to even */
 
 /* Forgets all positions, rings and mirrors; this one is held, in the middle of its backlash. */
-static void forget(knurl_velocity *velocity, const double position[3]) {
+static void forget(knurl_velocity_state *velocity, const double position[3]) {
     for (uint32_t phase = 0; phase < velocity->stride; phase++) {
         for (int i = 0; i < 2 * RING; i++) {
             double *row = velocity->history[phase][i];
@@ -154,7 +157,7 @@ static const double weights[RING] = WINDOWS(WEIGHT);
 #define TRIES(i) (TRIED >> (i) & 1u)
 
 /* Four lanes and no branch, so that compilers may vectorise it; the fourth is not used. */
-static void foaw(knurl_velocity *velocity, double (*rows)[4], const double position[3], double out[3]) {
+static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double position[3], double out[3]) {
     double x[4] = {0.0, 0.0, 0.0, 0.0};
     for (int axis = 0; axis < 3; axis++) {
         const double rounded = position[axis] * velocity->steps_per_m + WHOLE;
@@ -198,7 +201,7 @@ static void foaw(knurl_velocity *velocity, double (*rows)[4], const double posit
 static const double slacks[RING] = WINDOWS(SLACK);
 
 /* The choice by masks rather than by a blend, which GCC 12 takes apart into branches. */
-__attribute__((target("avx"))) static void foaw_avx(knurl_velocity *velocity, double (*rows)[4],
+__attribute__((target("avx"))) static void foaw_avx(knurl_velocity_state *velocity, double (*rows)[4],
                                                     const double position[3], double out[3]) {
     const __m256d steps =
         _mm256_mul_pd(_mm256_set_pd(0.0, position[2], position[1], position[0]), _mm256_set1_pd(velocity->steps_per_m));
@@ -242,27 +245,28 @@ void knurl_velocity_update(knurl_velocity *velocity, const double position[3], d
     if (!velocity || !position || !out) {
         return;
     }
-    if (velocity->method == KNURL_VELOCITY_DIFFERENCE) {
-        difference(velocity, position, out);
+    knurl_velocity_state *state = knurl_velocity_get_state(velocity);
+    if (state->method == KNURL_VELOCITY_DIFFERENCE) {
+        difference(state, position, out);
         return;
     }
-    if (velocity->method == KNURL_VELOCITY_LOWPASS) {
-        lowpass(velocity, position, out);
+    if (state->method == KNURL_VELOCITY_LOWPASS) {
+        lowpass(state, position, out);
         return;
     }
-    if (!velocity->started) {
-        forget(velocity, position);
+    if (!state->started) {
+        forget(state, position);
     }
-    if (++velocity->phase >= velocity->stride) { /* all rings have had their turn */
-        velocity->phase = 0;
-        velocity->newest = (velocity->newest - 1) % RING;
+    if (++state->phase >= state->stride) { /* all rings have had their turn */
+        state->phase = 0;
+        state->newest = (state->newest - 1) % RING;
     }
-    double (*rows)[4] = &velocity->history[velocity->phase][velocity->newest];
+    double (*rows)[4] = &state->history[state->phase][state->newest];
 #if AVX
-    if (velocity->avx) {
-        foaw_avx(velocity, rows, position, out);
+    if (state->avx) {
+        foaw_avx(state, rows, position, out);
         return;
     }
 #endif
-    foaw(velocity, rows, position, out);
+    foaw(state, rows, position, out);
 }

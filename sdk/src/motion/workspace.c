@@ -29,8 +29,11 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.scale: expected a finite number > 0, found %g",
                           workspace->scale);
     }
-    if (workspace->reserved != 0.0) { /* or a later version could not give it a meaning */
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.reserved: expected 0, found %g", workspace->reserved);
+    const double *reserved = workspace->reserved;
+    if (!(reserved[0] == 0.0 && reserved[1] == 0.0 &&
+          reserved[2] == 0.0)) { /* a later version may give them a meaning */
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.reserved: expected zeros, found [%g, %g, %g]", reserved[0],
+                          reserved[1], reserved[2]);
     }
     vec3_cross(r, r + 3, cross); /* the third row of a rotation is the cross product of the others */
     const double off =

@@ -43,7 +43,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     const knurl_material_desc *m = &c->record->material;
     knurl_grating_state *state = &c->candidate->grating;
     if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
-        const knurl_grating_output none = {0.0, 0.0, 0.0, KNURL_NO_EVENT, 0, 0};
+        const knurl_grating_output none = {.event = KNURL_NO_EVENT};
         out->grating = none;
         out->cycles[0] = out->cycles[1] = 0.0;
         return;
@@ -56,13 +56,11 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         !knurl_surface_rates(c->surface, c->record, &c->contact, over, velocity, &steepest)) {
         coordinates = NULL; /* they count the way */
     }
-    const knurl_grating grating = {{m->spatial_frequency[0], m->spatial_frequency[1]},
-                                   c->record->is_smooth ? 0.0 : wall->amplitude,
-                                   hip->rate,
-                                   m->method,
-                                   0,
-                                   hip->quantum * steepest,
-                                   0.0};
+    const knurl_grating grating = {.method = m->method,
+                                   .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
+                                   .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
+                                   .update_rate_hz = hip->rate,
+                                   .resolution = hip->quantum * steepest};
     knurl_grating_step(&grating, state, coordinates, velocity, &out->grating);
 }
 

@@ -23,8 +23,10 @@ static knurl_result check_number(const char *key, const char *unit, double value
 }
 
 static knurl_result check_material(knurl_material_desc *m) {
-    knurl_grating grating = {
-        {m->spatial_frequency[0], m->spatial_frequency[1]}, m->amplitude, 1000.0, m->method, 0, 0.0, 0.0};
+    knurl_grating grating = {.method = m->method,
+                             .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
+                             .amplitude = m->amplitude,
+                             .update_rate_hz = 1000.0};
     knurl_result result = knurl_grating_check(&grating);
     m->method = grating.method;
     result = result ? result : check_number("stiffness", "N/m", m->stiffness, 0);

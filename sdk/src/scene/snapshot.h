@@ -35,19 +35,20 @@ static inline void knurl_snapshot_put(knurl_published *published, const knurl_hi
     knurl_seqlock_put(&published->words[word], (const char *)counts + from, to - from);
 }
 
-/* A tick just counted. Counts of rare flags stand as they are where it has none. Never waits.
+/* A tick just counted. Counts of rare flags stand as they are where it has none, and reserved words are never written.
+ * Never waits.
  * [one thread: the haptic one] */
 static inline void knurl_snapshot_publish(knurl_published *published, const knurl_tick_output *output,
                                           const knurl_hip_counts *counts) {
     const size_t rare = offsetof(knurl_hip_counts, force_limit_ticks);
     const size_t after = offsetof(knurl_hip_counts, force_max);
     knurl_seqlock_begin(&published->sequence);
-    knurl_seqlock_put(published->words, output, sizeof *output);
+    knurl_seqlock_put(published->words, output, offsetof(knurl_tick_output, reserved));
     knurl_snapshot_put(published, counts, 0, rare);
     if (output->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
         knurl_snapshot_put(published, counts, rare, after);
     }
-    knurl_snapshot_put(published, counts, after, sizeof *counts);
+    knurl_snapshot_put(published, counts, after, offsetof(knurl_hip_counts, reserved));
     knurl_seqlock_end(&published->sequence);
 }
 

@@ -20,6 +20,7 @@ typedef struct knurl_surface_data {
     double axis[3];   /* unit, surface's frame; 0: none was given */
     char *name;
     const char *given; /* "plane" or "mesh" */
+    void *user_data;   /* edits: the caller's */
 } knurl_surface_data;
 
 /* A surface's shape as another may have it: the shape, shared, and what goes with it. */

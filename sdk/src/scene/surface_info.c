@@ -66,7 +66,6 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
     knurl_pose pose;
     memset(info, 0, sizeof *info);
     info->name = surface->name;
-    info->material = surface->record->material;
     vec3_copy(surface->axis, info->axis);
     const double now = knurl_scene_time(scene);
     knurl_motion_at(&surface->record->motion, now, &pose);
@@ -88,4 +87,19 @@ knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surfac
     }
     knurl_scene_unlock(scene);
     return data ? knurl_desc_return("knurl_surface_info", &made, sizeof made, info) : KNURL_ERROR_STALE_ID;
+}
+
+knurl_result knurl_scene_get_material(const knurl_scene *scene, knurl_surface_id surface,
+                                      knurl_material_desc *material) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(material)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_material_desc found;
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
+    if (data) {
+        found = data->record->material;
+    }
+    knurl_scene_unlock(scene);
+    return data ? knurl_desc_return("knurl_material_desc", &found, sizeof found, material) : KNURL_ERROR_STALE_ID;
 }

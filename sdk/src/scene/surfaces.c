@@ -44,8 +44,7 @@ knurl_result knurl_surfaces_add(knurl_surfaces *s, knurl_surface_data *surface) 
     }
     surface->place = s->vacant[--s->vacant_count];
     surface->generation = s->generations[surface->place];
-    surface->id =
-        (uint64_t)surface->generation << KNURL_ID_GENERATION_AT | s->tag << KNURL_ID_TAG_AT | (surface->place + 1);
+    surface->id = knurl_surfaces_make_id(s, surface->place, surface->generation);
     s->items[surface->place] = surface;
     s->order[s->count++] = surface->place;
     return KNURL_OK;
@@ -76,10 +75,15 @@ void knurl_surfaces_replace(knurl_surfaces *s, const knurl_surface_data *old, kn
     s->items[old->place] = made;
 }
 
-knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *s, knurl_surface_id id) {
+knurl_surface_data *knurl_surfaces_find(const knurl_surfaces *s, knurl_surface_id id) {
     const uint32_t place = (uint32_t)(id & KNURL_ID_PLACE_MAX) - 1; /* 0 wraps to a place that no scene has */
     knurl_surface_data *surface = place < s->capacity ? s->items[place] : NULL;
-    if (surface && surface->id == id) {
+    return surface && surface->id == id ? surface : NULL;
+}
+
+knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *s, knurl_surface_id id) {
+    knurl_surface_data *surface = knurl_surfaces_find(s, id);
+    if (surface) {
         return surface;
     }
     const uint64_t tag = id >> KNURL_ID_TAG_AT & KNURL_ID_TAG_MAX;

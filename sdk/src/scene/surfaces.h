@@ -29,6 +29,11 @@ typedef struct knurl_surfaces {
     uint64_t tag; /* 1 to KNURL_ID_TAG_MAX: of this scene, and of no other */
 } knurl_surfaces;
 
+static inline knurl_surface_id knurl_surfaces_make_id(const knurl_surfaces *surfaces, uint32_t place,
+                                                      uint32_t generation) {
+    return (uint64_t)generation << KNURL_ID_GENERATION_AT | surfaces->tag << KNURL_ID_TAG_AT | (place + 1);
+}
+
 /* Gives a surface its place and id. Errors: KNURL_ERROR_FULL, KNURL_ERROR_MEMORY. */
 knurl_result knurl_surfaces_add(knurl_surfaces *surfaces, knurl_surface_data *surface);
 
@@ -41,7 +46,10 @@ void knurl_surfaces_remove(knurl_surfaces *surfaces, knurl_surface_data *surface
 /* Puts `made` in the place of `old`, under its id; the caller releases `old`. */
 void knurl_surfaces_replace(knurl_surfaces *surfaces, const knurl_surface_data *old, knurl_surface_data *made);
 
-/* The surface of an id, or null with an error. */
+/* The surface of an id, or null. */
+knurl_surface_data *knurl_surfaces_find(const knurl_surfaces *surfaces, knurl_surface_id id);
+
+/* The same, with an error where there is none. */
 knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *surfaces, knurl_surface_id id);
 
 /* Releases the surfaces and the arrays. */

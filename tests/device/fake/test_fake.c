@@ -320,7 +320,9 @@ TEST(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness) {
     CHECK_CLOSE(sample.position[1], -0.001 + 0.002, 1e-12); /* the target is 1 mm below */
     CHECK_CLOSE(sample.position[2], -0.0005, 1e-12);
     assert_int_equal(sample.buttons, 0);
-    assert_int_equal(sample.reserved, 0);
+    for (size_t i = 0; i < COUNT_OF(sample.reserved); i++) {
+        assert_int_equal(sample.reserved[i], 0);
+    }
     knurl_device_close(device);
 }
 

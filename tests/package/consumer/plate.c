@@ -30,7 +30,7 @@ int main(void) {
         return failed("an empty file");
     }
 #endif
-    knurl_tick_input input = {{0.0, 0.0, 0.001}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, 0};
+    knurl_tick_input input = {{0.0, 0.0, 0.001}, {0.0, 0.0, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output output;
     for (int i = 0; i < 1000; i++) {
         input.position[2] = fmax(-0.001, 0.001 - 0.00001 * i);

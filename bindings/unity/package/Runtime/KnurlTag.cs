@@ -7,9 +7,8 @@ namespace Knurl
     /// cref="KnurlTags.Read"/>.</summary>
     public sealed class KnurlTag
     {
-        internal unsafe KnurlTag(knurl_surface_info* info)
+        internal unsafe KnurlTag(knurl_surface_info* info, knurl_material_desc* material)
         {
-            knurl_material_desc* material = &info->material;
             Name = Utf8.Read(info->name);
             SpatialFrequency = new Vector2((float)material->spatial_frequency[0],
                 (float)material->spatial_frequency[1]);

@@ -39,9 +39,12 @@ namespace Knurl
             {
                 knurl_surface_info info;
                 NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
-                KnurlException.Check(NativeMethods.knurl_scene_get_surface_info(scene,
-                    NativeMethods.knurl_scene_get_surface(scene, i), &info));
-                tags[i] = new KnurlTag(&info);
+                knurl_material_desc material;
+                NativeMethods.knurl_material_desc_init(&material, (uint)sizeof(knurl_material_desc));
+                ulong surface = NativeMethods.knurl_scene_get_surface(scene, i);
+                KnurlException.Check(NativeMethods.knurl_scene_get_surface_info(scene, surface, &info));
+                KnurlException.Check(NativeMethods.knurl_scene_get_material(scene, surface, &material));
+                tags[i] = new KnurlTag(&info, &material);
             }
             return tags;
         }

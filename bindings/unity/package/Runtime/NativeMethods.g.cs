@@ -71,11 +71,11 @@ namespace Knurl
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_grating
     {
+        public int method;
+        public fixed uint reserved[3];
         public fixed double spatial_frequency[2];
         public double amplitude;
         public double update_rate_hz;
-        public int method;
-        public uint reserved;
         public double resolution;
         public double crossover_hz;
     }
@@ -95,6 +95,7 @@ namespace Knurl
         public int sign;
         public int axis;
         public double across;
+        public fixed ulong reserved[2];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -106,25 +107,14 @@ namespace Knurl
         public long @event;
         public uint saturated;
         public uint turned;
+        public ulong reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_velocity
     {
-        public fixed double history[1280];
-        public fixed double held[4];
-        public fixed double last[3];
-        public fixed double smooth[3];
-        public double share;
-        public double rate;
-        public double steps_per_m;
-        public double slope_unit;
-        public uint newest;
-        public uint started;
-        public int method;
-        public uint avx;
-        public uint stride;
-        public uint phase;
+        public ulong alignment;
+        public fixed byte state[11256];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -133,7 +123,7 @@ namespace Knurl
         public fixed double origin[3];
         public fixed double rotation[9];
         public double scale;
-        public double reserved;
+        public fixed double reserved[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -213,7 +203,6 @@ namespace Knurl
         public fixed double anchor_normal[3];
         public fixed double anchor_reach[4];
         public fixed double stretch[3];
-        public knurl_material_desc material;
         public byte* why;
         public double model_error;
         public uint reversed_twins;
@@ -233,7 +222,7 @@ namespace Knurl
         public uint absent;
         public double attenuation;
         public uint paused;
-        public uint reserved;
+        public fixed uint reserved[9];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -256,6 +245,7 @@ namespace Knurl
         public uint flags;
         public uint contacts;
         public fixed double cycles[2];
+        public fixed ulong reserved[6];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -277,6 +267,18 @@ namespace Knurl
         public ulong half_cycles_played;
         public ulong squeezed_ticks;
         public ulong visit_limit_ticks;
+        public fixed ulong reserved[4];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_point
+    {
+        public uint struct_size;
+        public uint reserved;
+        public ulong surface;
+        public double distance;
+        public fixed double position[3];
+        public fixed double normal[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -289,6 +291,16 @@ namespace Knurl
         public double amplitude;
         public double amplitude_limit;
         public fixed byte message[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_hip_contact
+    {
+        public ulong surface;
+        public fixed double proxy[3];
+        public fixed double normal[3];
+        public double depth;
+        public fixed ulong reserved[6];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -327,9 +339,9 @@ namespace Knurl
     internal unsafe struct knurl_device_sample
     {
         public fixed double position[3];
-        public uint buttons;
-        public uint reserved;
         public fixed double orientation[4];
+        public uint buttons;
+        public fixed uint reserved[9];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -338,6 +350,7 @@ namespace Knurl
         public fixed byte uri[256];
         public fixed byte name[128];
         public fixed byte reason[1024];
+        public fixed ulong reserved[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -618,9 +631,9 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "e6afc1a44872c16f";
+        internal const string Interface = "93a0ddd296696322";
 
-        internal const string Version = "0.2.0";
+        internal const string Version = "0.3.0";
 
         /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
         internal static int SizeOf(string type)
@@ -645,7 +658,9 @@ namespace Knurl
                 case "knurl_tick_input": return sizeof(knurl_tick_input);
                 case "knurl_tick_output": return sizeof(knurl_tick_output);
                 case "knurl_hip_counts": return sizeof(knurl_hip_counts);
+                case "knurl_surface_point": return sizeof(knurl_surface_point);
                 case "knurl_surface_check": return sizeof(knurl_surface_check);
+                case "knurl_hip_contact": return sizeof(knurl_hip_contact);
                 case "knurl_audio_desc": return sizeof(knurl_audio_desc);
                 case "knurl_device_info": return sizeof(knurl_device_info);
                 case "knurl_device_sample": return sizeof(knurl_device_sample);
@@ -673,7 +688,7 @@ namespace Knurl
         }
 
         internal const int KNURL_VERSION_MAJOR = 0;
-        internal const int KNURL_VERSION_MINOR = 2;
+        internal const int KNURL_VERSION_MINOR = 3;
         internal const int KNURL_VERSION_PATCH = 0;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
@@ -794,6 +809,9 @@ namespace Knurl
         internal static extern byte* knurl_version_string();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_version_number();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_plane_desc_init(knurl_plane_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -908,6 +926,26 @@ namespace Knurl
             double* rotation, double seconds);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_transform(knurl_scene* scene, ulong surface, double* position,
+            double* rotation);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_scene_has_surface(knurl_scene* scene, ulong surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_user_data(knurl_scene* scene, ulong surface, IntPtr user_data);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_user_data(knurl_scene* scene, ulong surface, IntPtr* user_data);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_point_init(knurl_surface_point* point, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_find_closest(knurl_scene* scene, double* position, double radius,
+            knurl_surface_point* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_commit(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -921,6 +959,10 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_material(knurl_scene* scene, ulong surface,
+            knurl_material_desc* material);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_surface_info(knurl_scene* scene, ulong surface,
@@ -960,6 +1002,10 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_tick(knurl_scene* scene, uint hip, knurl_tick_output* output,
             knurl_hip_counts* counts);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_scene_get_contacts(knurl_scene* scene, uint hip, knurl_hip_contact* contacts,
+            uint capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_lock_memory(knurl_scene* scene);

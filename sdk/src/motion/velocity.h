@@ -1,0 +1,31 @@
+/* What a knurl_velocity holds. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_VELOCITY_H
+#define KNURL_SRC_VELOCITY_H
+
+#include <knurl/motion.h>
+
+typedef struct knurl_velocity_state {
+    double history[KNURL_FOAW_STRIDE_MAX][32][4]; /* FOAW: a ring of 16 rows per tick of the stride; rows as in `held`,
+                                                     the newest in row `newest`, older ones after it. Each row is stored
+                                                     twice, so that a window never wraps */
+    double held[4];     /* FOAW: the newest position after the backlash, in whole 1024ths of a quantum: x, y, z, 0 */
+    double last[3];     /* DIFFERENCE, LOWPASS: the previous position, m */
+    double smooth[3];   /* LOWPASS: the previous velocity, m/s */
+    double share;       /* LOWPASS: weight of a new difference, 0 to 1 */
+    double rate;        /* update rate, Hz */
+    double steps_per_m; /* FOAW: fixed-point steps per metre */
+    double slope_unit;  /* FOAW: m/s per step and sample */
+    uint32_t newest;    /* FOAW: row of the newest position of a ring, 0 to 15 */
+    uint32_t started;   /* 1: a position has been seen */
+    int32_t method;     /* KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
+    uint32_t avx;       /* FOAW: 1: computed with AVX, where available; 0 gives the same numbers, more slowly */
+    uint32_t stride;    /* FOAW: ticks between samples */
+    uint32_t phase;     /* FOAW: the ring of this tick, 0 to stride - 1 */
+} knurl_velocity_state;
+
+/* Compilers see no conflict with copies of a knurl_velocity, because that has characters in it. */
+static inline knurl_velocity_state *knurl_velocity_get_state(knurl_velocity *velocity) {
+    return (knurl_velocity_state *)(void *)velocity;
+}
+
+#endif

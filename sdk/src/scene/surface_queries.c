@@ -1,0 +1,178 @@
+/* What a game asks about a scene: where surfaces are, what is closest to a point, all contacts of a HIP.
+ * SPDX-License-Identifier: MIT */
+#include "scene/scene.h"
+
+#include "base/base.h"
+#include "contact/mesh_query.h"
+
+#include <string.h>
+
+/* The pose of a surface's own frame now; records keep that of its shape's. */
+static void find_pose(const knurl_scene *scene, const knurl_surface_data *surface, knurl_pose *pose) {
+    double turned[3];
+    knurl_pose shape;
+    knurl_motion_at(&surface->record->motion, knurl_scene_time(scene), &shape);
+    for (int row = 0; row < 3; row++) {
+        mat3_mul(surface->local.rotation, shape.rotation + 3 * (ptrdiff_t)row, pose->rotation + 3 * (ptrdiff_t)row);
+    }
+    mat3_mul(pose->rotation, surface->local.position, turned);
+    vec3_sub(shape.position, turned, pose->position);
+}
+
+knurl_result knurl_scene_get_transform(const knurl_scene *scene, knurl_surface_id surface, double position[3],
+                                       double rotation[4]) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_pose pose;
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
+    if (data) {
+        find_pose(scene, data, &pose);
+    }
+    knurl_scene_unlock(scene);
+    if (!data) {
+        return KNURL_ERROR_STALE_ID;
+    }
+    vec3_copy(pose.position, position);
+    quat_from_matrix(pose.rotation, rotation);
+    return KNURL_OK;
+}
+
+uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return 0;
+    }
+    knurl_scene_lock(scene);
+    const uint32_t is_there = knurl_surfaces_find(&scene->surfaces, surface) != NULL;
+    knurl_scene_unlock(scene);
+    return is_there;
+}
+
+knurl_result knurl_scene_set_user_data(knurl_scene *scene, knurl_surface_id surface, void *user_data) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_scene_lock(scene);
+    knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
+    if (data) {
+        data->user_data = user_data;
+    }
+    knurl_scene_unlock(scene);
+    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+}
+
+knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl_surface_id surface, void **user_data) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(user_data)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_scene_lock(scene);
+    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
+    if (data) {
+        *user_data = data->user_data;
+    }
+    knurl_scene_unlock(scene);
+    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+}
+
+void knurl_surface_point_init(knurl_surface_point *point, uint32_t size) {
+    const knurl_surface_point defaults = {0};
+    knurl_desc_write(&defaults, sizeof defaults, point, size);
+}
+
+/* m: from a point to a box. */
+static double distance_to_box(const double p[3], const double low[3], const double high[3]) {
+    double off[3];
+    for (int axis = 0; axis < 3; axis++) {
+        off[axis] = fmax(0.0, fmax(low[axis] - p[axis], p[axis] - high[axis]));
+    }
+    return vec3_length(off);
+}
+
+/* The closest point and its outward normal, shape's frame; 0 where none is within the radius. */
+static int find_closest(const knurl_shape *shape, const double p[3], double radius, double closest[3],
+                        double normal[3]) {
+    normal[0] = normal[1] = 0.0;
+    normal[2] = 1.0;
+    if (shape->plane) {
+        knurl_plane_closest(shape->plane, p, closest);
+        return 1;
+    }
+    knurl_contact found;
+    knurl_triangle triangle;
+    if (!knurl_mesh_closest(shape->geometry, p, radius, NULL, &found)) {
+        return 0;
+    }
+    knurl_mesh_triangle(shape->geometry, found.triangle, &triangle);
+    vec3_copy(found.proxy, closest);
+    vec3_copy(triangle.normal, normal);
+    return 1;
+}
+
+/* Looks at one surface; `best` is the closest so far, or has no surface and the radius as its distance. */
+static void look_at(const knurl_scene *scene, const knurl_surface_data *surface, const double position[3],
+                    knurl_surface_point *best) {
+    const double now = knurl_scene_time(scene);
+    const knurl_motion *motion = &surface->record->motion;
+    knurl_pose pose;
+    double low[3], high[3], own[3], closest[3], normal[3];
+    knurl_surface_bounds(surface, motion, now, low, high);
+    if (!(distance_to_box(position, low, high) <= best->distance)) {
+        return;
+    }
+    knurl_motion_at(motion, now, &pose);
+    knurl_pose_to_own(&pose, position, own);
+    if (!find_closest(&surface->shape, own, best->distance, closest, normal)) {
+        return;
+    }
+    knurl_pose_to_parent(&pose, closest, closest);
+    double off[3];
+    vec3_sub(position, closest, off);
+    const double distance = vec3_length(off);
+    if (distance < best->distance || (distance == best->distance && !best->surface)) {
+        best->surface = surface->id;
+        best->distance = distance;
+        vec3_copy(closest, best->position);
+        knurl_pose_vector_to_parent(&pose, normal, best->normal);
+    }
+}
+
+knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
+                                      knurl_surface_point *point) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(point)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    if (!vec3_finite(position)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers (m), found [%g, %g, %g]",
+                          position[0], position[1], position[2]);
+    }
+    if (!(radius > 0.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "radius: expected more than 0 m, found %g", radius);
+    }
+    knurl_surface_point best = {.distance = radius};
+    knurl_scene_lock(scene);
+    for (uint32_t i = 0; i < scene->surfaces.count; i++) {
+        look_at(scene, knurl_surfaces_at(&scene->surfaces, i), position, &best);
+    }
+    knurl_scene_unlock(scene);
+    best.distance = best.surface ? best.distance : 0.0;
+    return knurl_desc_return("knurl_surface_point", &best, sizeof best, point);
+}
+
+/* By place and generation: surfaces may have been removed and freed since the tick. */
+uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_hip_contact *contacts,
+                                  uint32_t capacity) {
+    if (!KNURL_IS_HANDLE(scene, SCENE) || hip >= scene->hip_count) {
+        return 0;
+    }
+    const knurl_contacts *c = &scene->hips[hip].contacts;
+    for (uint32_t i = 0; contacts && i < c->active_count && i < capacity; i++) {
+        const knurl_candidate *candidate = c->active[i].candidate;
+        memset(&contacts[i], 0, sizeof contacts[i]);
+        contacts[i].surface = knurl_surfaces_make_id(&scene->surfaces, candidate->place, candidate->generation);
+        vec3_copy(candidate->proxy, contacts[i].proxy);
+        vec3_copy(candidate->normal, contacts[i].normal);
+        contacts[i].depth = -c->active[i].contact.z;
+    }
+    return c->active_count;
+}

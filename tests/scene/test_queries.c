@@ -1,0 +1,271 @@
+/* What a game asks about a scene: where a surface is, whether it exists, what of the game's it belongs to, what is
+ * closest to a point, all contacts of a HIP. SPDX-License-Identifier: MIT */
+#include "support/poses.h"
+
+static double flat(double x, double y) {
+    (void)x;
+    (void)y;
+    return 0.0;
+}
+
+static void check_transform(const knurl_scene *scene, knurl_surface_id id, const pose *expected) {
+    double position[3];
+    double rotation[4];
+    assert_int_equal(knurl_scene_get_transform(scene, id, position, rotation), KNURL_OK);
+    CHECK_VECTOR(position, expected->position[0], expected->position[1], expected->position[2], 1e-12);
+    double same = 0.0; /* the dot product of two unit quaternions: q and -q are one rotation */
+    for (int i = 0; i < 4; i++) {
+        same += rotation[i] * expected->quaternion[i];
+    }
+    CHECK_CLOSE(fabs(same), 1.0, 1e-12);
+}
+
+/* The second is a flat mesh off its origin, which the scene keeps as a plane with a frame of its own. */
+TEST(the_transform_that_was_set_is_got) {
+    uint64_t seed = 23;
+    shape sheet = shape_sheet(4, 4, (const double[2]){0.02, 0.03}, flat);
+    for (uint32_t i = 0; i < sheet.vertex_count; i++) {
+        sheet.positions[3 * i] += 0.25F;
+    }
+    surface_parts parts[2] = {surface_plane(), surface_mesh(&sheet)};
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 50; k++) {
+            const pose before = random_pose(&seed), after = random_pose(&seed);
+            memcpy(parts[i].desc.position, before.position, sizeof before.position);
+            memcpy(parts[i].desc.rotation, before.quaternion, sizeof before.quaternion);
+            parts[i].desc.axis[0] = 1.0;
+            knurl_scene *scene = scene_of(&parts[i]);
+            const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+            check_transform(scene, id, &before);
+            assert_int_equal(knurl_scene_set_transform(scene, id, after.position, after.quaternion, 0.0), KNURL_OK);
+            check_transform(scene, id, &after);
+            knurl_scene_destroy(scene);
+        }
+    }
+    shape_free(&sheet);
+}
+
+TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
+    static const double z[3] = {0.0, 0.0, 1.0};
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    pose end = {{0.1, -0.2, 0.0}, {0.0}}, middle = {{0.05, -0.1, 0.0}, {0.0}};
+    turn_about(z, 1.0, end.quaternion);
+    turn_about(z, 0.5, middle.quaternion);
+    assert_int_equal(knurl_scene_set_transform(scene, id, end.position, end.quaternion, 0.1), KNURL_OK);
+    for (int tick = 0; tick < 50; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.5);
+    }
+    check_transform(scene, id, &middle);
+    for (int tick = 0; tick < 60; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.5);
+    }
+    check_transform(scene, id, &end);
+    knurl_scene_destroy(scene);
+}
+
+TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    knurl_scene *other = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    assert_int_equal(knurl_scene_has_surface(scene, id), 1);
+    assert_int_equal(knurl_scene_has_surface(scene, 0), 0);
+    assert_int_equal(knurl_scene_has_surface(other, id), 0);
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    assert_int_equal(knurl_scene_has_surface(scene, id), 0);
+    knurl_scene_destroy(scene);
+    knurl_scene_destroy(other);
+}
+
+TEST(user_data_stays_with_a_surface_until_it_is_removed) {
+    int thing;
+    void *data = &thing;
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_OK);
+    assert_null(data);
+    assert_int_equal(knurl_scene_set_user_data(scene, id, &thing), KNURL_OK);
+    assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_OK);
+    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_OK);
+    assert_ptr_equal(data, &thing);
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_ERROR_STALE_ID);
+    assert_int_equal(knurl_scene_set_user_data(scene, id, &thing), KNURL_ERROR_STALE_ID);
+    knurl_scene_destroy(scene);
+}
+
+/* --- the closest point --- */
+
+/* A box about the origin, seen from outside: its closest point has the coordinates of p, held within its sides. A plane
+ * is a box without height. */
+static double clamp_to_box(const double p[3], const double half[3], double closest[3]) {
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        closest[i] = fmax(-half[i], fmin(half[i], p[i]));
+        square += (p[i] - closest[i]) * (p[i] - closest[i]);
+    }
+    return sqrt(square);
+}
+
+/* A plane, a box of triangles, and a flat mesh, each at a random pose. */
+TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
+    static const double half[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
+    uint64_t seed = 5;
+    shape box = shape_box(half[1], 0);
+    shape sheet = shape_sheet(1, 1, half[2], flat);
+    surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
+    for (int round = 0; round < 40; round++) {
+        knurl_scene *scene = empty_scene(1);
+        knurl_surface_id ids[3];
+        pose poses[3];
+        for (int i = 0; i < 3; i++) {
+            poses[i] = random_pose(&seed);
+            memcpy(parts[i].desc.position, poses[i].position, sizeof poses[i].position);
+            memcpy(parts[i].desc.rotation, poses[i].quaternion, sizeof poses[i].quaternion);
+            parts[i].desc.axis[0] = 1.0;
+            ids[i] = add_surface(scene, &parts[i]);
+        }
+        for (int k = 0; k < 50; k++) {
+            const double p[3] = {random_between(&seed, -0.6, 0.6), random_between(&seed, -0.6, 0.6),
+                                 random_between(&seed, -0.6, 0.6)};
+            double least = 10.0, expected[3] = {0.0};
+            int best = 0, is_inside = 0;
+            for (int i = 0; i < 3; i++) {
+                const double back[4] = {-poses[i].quaternion[0], -poses[i].quaternion[1], -poses[i].quaternion[2],
+                                        poses[i].quaternion[3]};
+                double off[3], own[3], closest[3];
+                for (int axis = 0; axis < 3; axis++) {
+                    off[axis] = p[axis] - poses[i].position[axis];
+                }
+                turn(back, off, own);
+                const double distance = clamp_to_box(own, half[i], closest);
+                is_inside |= i == 1 && distance == 0.0;
+                if (distance < least) {
+                    least = distance;
+                    best = i;
+                    pose_point(&poses[i], closest, expected);
+                }
+            }
+            knurl_surface_point found;
+            knurl_surface_point_init(&found, sizeof found);
+            assert_int_equal(knurl_scene_find_closest(scene, p, 10.0, &found), KNURL_OK);
+            if (is_inside) {
+                continue;
+            }
+            assert_true(found.surface == ids[best]);
+            CHECK_CLOSE(found.distance, least, 1e-7); /* meshes are of float32 */
+            CHECK_VECTOR(found.position, expected[0], expected[1], expected[2], 1e-7);
+            assert_int_equal(knurl_scene_find_closest(scene, p, 0.999 * least, &found), KNURL_OK);
+            assert_true(found.surface == 0 && found.distance == 0.0 && found.position[0] == 0.0);
+            assert_int_equal(knurl_scene_find_closest(scene, p, 1.001 * least, &found), KNURL_OK);
+            assert_true(found.surface == ids[best]);
+        }
+        knurl_scene_destroy(scene);
+    }
+    shape_free(&box);
+    shape_free(&sheet);
+}
+
+TEST(the_normal_at_the_closest_point_is_the_fronts) {
+    static const double half[3] = {0.03, 0.02, 0.04};
+    static const double above[3] = {0.001, 0.002, 0.5}, below[3] = {0.001, 0.002, -0.5};
+    shape box = shape_box(half, 0);
+    surface_parts parts[2] = {surface_plane(), surface_mesh(&box)};
+    for (int i = 0; i < 2; i++) {
+        knurl_surface_point found;
+        knurl_surface_point_init(&found, sizeof found);
+        parts[i].desc.axis[0] = 1.0;
+        knurl_scene *scene = scene_of(&parts[i]);
+        assert_int_equal(knurl_scene_find_closest(scene, above, 1.0, &found), KNURL_OK);
+        CHECK_VECTOR(found.normal, 0.0, 0.0, 1.0, 1e-9);
+        assert_int_equal(knurl_scene_find_closest(scene, below, 1.0, &found), KNURL_OK);
+        CHECK_VECTOR(found.normal, 0.0, 0.0, i == 0 ? 1.0 : -1.0, 1e-9); /* a plane has one front */
+        knurl_scene_destroy(scene);
+    }
+    shape_free(&box);
+}
+
+TEST(a_closest_point_is_asked_for_with_finite_numbers) {
+    static const double nowhere[3] = {0.0, (double)NAN, 0.0}, here[3] = {0.0, 0.0, 0.0};
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    CHECK_REFUSED(knurl_scene_find_closest(scene, nowhere, 1.0, &found), KNURL_ERROR_ARGUMENT, found);
+    CHECK_REFUSED(knurl_scene_find_closest(scene, here, 0.0, &found), KNURL_ERROR_ARGUMENT, found);
+    CHECK_REFUSED(knurl_scene_find_closest(scene, here, (double)NAN, &found), KNURL_ERROR_ARGUMENT, found);
+    assert_int_equal(knurl_scene_find_closest(scene, here, (double)INFINITY, &found), KNURL_OK);
+    knurl_scene_destroy(scene);
+}
+
+/* --- contacts --- */
+
+/* The floor faces +z, the wall at x = 0 faces +x. */
+static knurl_scene *floor_and_wall(knurl_surface_id ids[2]) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    ids[0] = add_surface(scene, &parts);
+    turn_about((const double[3]){0.0, 1.0, 0.0}, 2.0 * atan(1.0), parts.desc.rotation);
+    ids[1] = add_surface(scene, &parts);
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    return scene;
+}
+
+TEST(every_contact_of_a_tick_is_told) {
+    knurl_surface_id ids[2];
+    knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
+    knurl_scene *scene = floor_and_wall(ids);
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 0);
+    (void)tick_at(scene, 0.01, 0.0, 0.01);
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 0);
+    (void)tick_at(scene, 0.01, 0.0, -0.001); /* the floor alone */
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 1);
+    assert_true(contacts[0].surface == ids[0]);
+    CHECK_CLOSE(contacts[0].depth, 0.001, 1e-12);
+    const knurl_tick_output out = tick_at(scene, -0.002, 0.003, -0.001);
+    assert_int_equal(out.contacts, 2);
+    memset(contacts, 0x55, sizeof contacts);
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 2);
+    for (int i = 0; i < 2; i++) {
+        const int is_wall = contacts[i].surface == ids[1];
+        assert_true(is_wall || contacts[i].surface == ids[0]);
+        assert_true(contacts[0].surface != contacts[1].surface);
+        CHECK_VECTOR(contacts[i].normal, is_wall, 0.0, !is_wall, 1e-9);
+        CHECK_VECTOR(contacts[i].proxy, 0.0, 0.003, 0.0, 1e-8);
+        CHECK_CLOSE(contacts[i].depth, is_wall ? 0.002 : 0.001, 1e-8);
+        assert_true(contacts[i].reserved[0] == 0 && contacts[i].reserved[5] == 0);
+    }
+    knurl_scene_destroy(scene);
+}
+
+TEST(contacts_are_counted_beyond_the_room_that_is_given) {
+    knurl_surface_id ids[2];
+    knurl_hip_contact contacts[2];
+    knurl_scene *scene = floor_and_wall(ids);
+    (void)tick_at(scene, 0.01, 0.0, 0.01);
+    (void)tick_at(scene, -0.002, 0.0, -0.001);
+    memset(contacts, 0x55, sizeof contacts);
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, 1), 2);
+    assert_int_equal(contacts[1].surface, UINT64_C(0x5555555555555555));
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, NULL, 0), 2);
+    assert_int_equal(knurl_scene_get_contacts(scene, 1, contacts, 2), 0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(contacts_name_a_removed_surface_by_its_stale_id) {
+    knurl_surface_id ids[2];
+    knurl_hip_contact contacts[2];
+    knurl_scene *scene = floor_and_wall(ids);
+    (void)tick_at(scene, 0.01, 0.0, 0.01);
+    (void)tick_at(scene, 0.01, 0.0, -0.001);
+    assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
+    knurl_scene_collect(scene);
+    assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, 2), 1);
+    assert_true(contacts[0].surface == ids[0]);
+    assert_int_equal(knurl_scene_has_surface(scene, contacts[0].surface), 0);
+    knurl_scene_destroy(scene);
+}
