@@ -1,0 +1,115 @@
+/* Coordinates of meshes that may become planes: from which UVs, tangents and axes they come, and which keep a mesh.
+ * SPDX-License-Identifier: MIT */
+#include "flat_outcome.h"
+
+TEST(uvs_that_are_not_affine_keep_a_mesh) {
+    shape bent = shape_sheet(8, 8, (const double[2]){0.05, 0.05}, NULL);
+    for (uint32_t v = 0; v < bent.vertex_count; v++) {
+        const float u = bent.uvs[2 * v];
+        bent.uvs[2 * v] = u + 0.001F * u * u;
+    }
+    CHECK_STAYS(&bent, "mesh: its uvs are not affine");
+    shape seam = DRAWING("####", "####"); /* the right half starts again at 0, as an atlas does */
+    shape_unweld(&seam);
+    for (uint32_t i = 0; i < seam.index_count; i += 6) {
+        for (uint32_t k = i; seam.uvs && seam.positions[3 * i] >= (float)(2.0 * CELL) && k < i + 6; k++) {
+            seam.uvs[2 * k] -= 0.0625F;
+        }
+    }
+    CHECK_STAYS(&seam, "mesh: its uvs are not affine");
+}
+
+TEST(uvs_without_area_or_mirrored_in_part_keep_a_mesh) {
+    const char *const reason = "mesh: some of its uvs have no area, or run the other way round";
+    shape none = DRAWING("####", "####");
+    memset(none.uvs, 0, none.vertex_count * 2 * sizeof(float));
+    CHECK_STAYS(&none, reason);
+    shape folded = DRAWING("####", "####"); /* mirrored about its middle: the map is continuous */
+    for (uint32_t v = 0; v < folded.vertex_count; v++) {
+        folded.uvs[2 * v] = fabsf(folded.uvs[2 * v] - (float)(16.0 * CELL));
+    }
+    CHECK_STAYS(&folded, reason);
+}
+
+TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
+    shape s = DRAWING("####", "####");
+    float tangents[15][4];
+    knurl_mesh_desc desc = shape_desc(&s);
+    desc.tangents = &tangents[0][0];
+    static const struct {
+        float wrong[3];
+        const char *why;
+    } cases[] = {{{1.0F, 3e-4F, 0.0F}, "mesh: its tangents do not all run one way"},
+                 {{-1.0F, 0.0F, 0.0F}, "mesh: its tangents do not all run one way"},
+                 {{0.0F, 0.0F, 1.0F}, "mesh: its x direction stands on it like a post"},
+                 {{0.0F, 0.0F, 0.0F}, "mesh: its x direction stands on it like a post"},
+                 {{0.5F, 1e-5F, 0.3F}, "plane: a flat mesh, a rectangle"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        for (uint32_t v = 0; v < 15; v++) {
+            const float along[4] = {1.0F, 0.0F, 0.0F, 1.0F};
+            memcpy(tangents[v], along, sizeof along);
+        }
+        memcpy(tangents[7], cases[i].wrong, sizeof cases[i].wrong);
+        outcome o = decide_with(&desc, NULL);
+        assert_string_equal(o.why, cases[i].why);
+        forget(&o);
+    }
+    shape_free(&s);
+}
+
+TEST(axis_along_the_normal_keeps_a_mesh) {
+    const double upright[3] = {0.0, sin(0.009), cos(0.009)};
+    shape s = DRAWING("####", "####");
+    check_stays(&s, upright, "mesh: its x direction stands on it like a post", __LINE__);
+}
+
+TEST(mesh_without_axis_tangents_or_uvs_stays_one) {
+    shape s = DRAWING("####", "####");
+    free(s.uvs);
+    s.uvs = NULL;
+    CHECK_STAYS(&s, "mesh: nothing says which way its x runs");
+}
+
+TEST(axis_gives_metres_from_the_meshs_origin) {
+    const double axis[3] = {0.6, 0.64, 0.48};
+    shape s = DRAWING("#...", "#...", "####");
+    for (uint32_t v = 0; v < s.vertex_count; v++) {
+        s.positions[3 * v + 2] = 0.25F;
+    }
+    const knurl_mesh_desc desc = shape_desc(&s);
+    outcome o = decide_with(&desc, axis);
+    const double length = sqrt(0.36 + 0.4096);
+    assert_non_null(o.plane);
+    CHECK_CLOSE(o.rotation[0], 0.6 / length, 1e-12); /* the plane's x runs along the axis */
+    CHECK_CLOSE(o.rotation[3], 0.64 / length, 1e-12);
+    CHECK_CLOSE(o.plane->x[0], 1.0, 0.0);
+    for (int i = 0; i < 3; i++) {
+        CHECK_CLOSE(o.plane->stretch[0][i], length, 1e-12);
+    }
+    CHECK_CLOSE(o.plane->map[0][0], length, 1e-12);
+    CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* what 0.25 m along z adds is in it */
+    CHECK_CLOSE(o.plane->map[1][2], (o.position[1] * 0.6 - o.position[0] * 0.64) / length, 1e-12);
+    forget(&o);
+    shape_free(&s);
+}
+
+TEST(tangents_alone_give_no_coordinates) {
+    shape s = DRAWING("#...", "#...", "####");
+    float tangents[20][4];
+    for (uint32_t v = 0; v < 20; v++) {
+        const float along[4] = {0.0F, 2.0F, 0.0F, 1.0F};
+        memcpy(tangents[v], along, sizeof along);
+    }
+    knurl_mesh_desc desc = shape_desc(&s);
+    desc.tangents = &tangents[0][0];
+    desc.uvs = NULL;
+    outcome o = decide_with(&desc, NULL);
+    const double nothing[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    assert_non_null(o.plane);
+    assert_int_equal(o.plane->has_coordinates, 0);
+    assert_memory_equal(o.plane->map, nothing, sizeof nothing);
+    CHECK_CLOSE(o.rotation[3], 1.0, 1e-12); /* its x is the mesh's y */
+    CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 0.0);
+    forget(&o);
+    shape_free(&s);
+}

@@ -1,0 +1,200 @@
+/* The loop when its game gives no sign of life, and when ticks come late. By the test's own clock where that is
+ * possible. SPDX-License-Identifier: MIT */
+#include "fault_rig.h"
+
+/* --- heartbeat --- */
+
+/* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
+TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it, NULL, end_rig) {
+    for (int threaded = 0; threaded < 2; threaded++) {
+        knurl_device_event event;
+        init();
+        r.desc.heartbeat_s = 0.05;
+        r.desc.tick_limit = threaded ? 130 : 0;
+        rig_create(&r);
+        if (threaded) {
+            rig_run(&r); /* by the test's clock: the same */
+        } else {
+            assert_int_equal(knurl_loop_step(r.loop, 130), KNURL_OK);
+        }
+        for (int k = 0; k < 49; k++) {
+            CHECK_SAME(r.written[k][1], 1.0L);
+        }
+        assert_true(r.written[51][1] < 1.0);
+        for (int k = 52; k < 80; k++) {
+            CHECK_CLOSE(r.written[k][1], fmax(0.0, r.written[k - 1][1] - 1.0 / 21.0), 1e-12);
+        }
+        for (int k = 73; k < 130; k++) {
+            CHECK_SAME(r.written[k][1], 0.0L);
+        }
+        assert_int_equal(r.calls, 130); /* the callback goes on */
+        assert_int_equal(knurl_device_next_event(&r.device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_HEARTBEAT);
+        CHECK_CLOSE(event.value, 0.0505, 0.00051);
+        assert_int_equal(knurl_device_next_event(&r.device, &event), 0);
+        if (!threaded) {
+            knurl_loop_heartbeat(r.loop);
+            assert_int_equal(knurl_loop_step(r.loop, 40), KNURL_OK);
+            for (int k = 131; k < 170; k++) {
+                CHECK_CLOSE(r.written[k][1], fmin(1.0, r.written[k - 1][1] + 1.0 / 21.0), 1e-12);
+            }
+            CHECK_SAME(r.written[169][1], 1.0L);
+            assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+            assert_int_equal(next_event(), 0);
+        }
+        rig_destroy(&r);
+    }
+}
+
+TEST_WITH(with_signs_of_life_in_time_nothing_happens, NULL, end_rig) {
+    init();
+    r.desc.heartbeat_s = 0.02;
+    rig_create(&r);
+    for (int frame = 0; frame < 60; frame++) {
+        assert_int_equal(knurl_loop_step(r.loop, 17), KNURL_OK); /* 60 frames a second */
+        knurl_loop_heartbeat(r.loop);
+    }
+    for (uint64_t k = 0; k < r.writes; k++) {
+        CHECK_SAME(r.written[k][1], 1.0L);
+    }
+    assert_int_equal(next_event(), 0);
+}
+
+TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, NULL, end_rig) {
+    init();
+    r.desc.heartbeat_s = 0.01;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 20), KNURL_OK);
+    const double low = r.written[19][1];
+    assert_true(low > 0.2 && low < 0.9);
+    knurl_loop_heartbeat(r.loop);
+    assert_int_equal(knurl_loop_step(r.loop, 5), KNURL_OK);
+    for (int k = 20; k < 25; k++) {
+        assert_true(fabs(r.written[k][1] - r.written[k - 1][1]) <= 1.0 / 21.0 + 1e-12);
+    }
+    assert_true(r.written[24][1] > low);
+}
+
+/* The force comes back when the game does, and that is when it is told. */
+TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, NULL, end_rig) {
+    init();
+    r.desc.heartbeat_s = 0.02;
+    extra.not_ready_from = 100;
+    extra.not_ready_to = 110;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 200), KNURL_OK);
+    assert_int_equal(next_event(), KNURL_FAULT_HEARTBEAT);
+    assert_int_equal(next_event(), 0);
+    CHECK_SAME(r.written[199][1], 0.0L);
+    knurl_loop_heartbeat(r.loop);
+    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+    assert_int_equal(next_event(), 0);
+    assert_true(r.written[209][1] > 0.3);
+}
+
+/* --- lateness --- */
+
+TEST_WITH(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, NULL, end_rig) {
+    static int64_t late[100];
+    memset(late, 0, sizeof late);
+    late[10] = 700000; /* of 1 ms; above a half */
+    late[11] = late[12] = 900000;
+    late[13] = 400000; /* late, but no overrun */
+    late[30] = 2300000;
+    late[50] = 600000;
+    late[51] = 30000000;
+    init();
+    r.late = late;
+    r.late_count = COUNT_OF(late);
+    r.desc.tick_limit = 90;
+    rig_create(&r);
+    rig_run(&r);
+    static const double first[] = {0.0007, 0.0023, 0.0006};
+    for (size_t i = 0; i < COUNT_OF(first); i++) {
+        knurl_device_event event;
+        assert_int_equal(knurl_device_next_event(&r.device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_OVERRUN);
+        CHECK_CLOSE(event.value, first[i], 1e-9);
+    }
+    assert_int_equal(next_code(&r.device, 0), 0);
+    assert_int_equal(rig_stats(&r).overruns, 6);
+}
+
+/* While nobody read, the hand went on. */
+TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
+    static int64_t late[100];
+    memset(late, 0, sizeof late);
+    late[50] = 40000000;
+    init();
+    r.device.max_speed = KNURL_HAND_SPEED;
+    extra.speed = 1.0; /* m/s: 40 mm meanwhile */
+    r.late = late;
+    r.late_count = COUNT_OF(late);
+    r.desc.tick_limit = 90;
+    rig_create(&r);
+    rig_run(&r);
+    assert_int_equal(rig_stats(&r).absences, 0);
+    assert_int_equal(next_event(), 0);
+}
+
+/* A process that was stopped, or a machine that slept: nobody knows what the hand has done meanwhile. */
+TEST_WITH(a_loop_that_wakes_after_a_gap_zeroes_the_force_tells_it_and_ramps, NULL, end_rig) {
+    static const int64_t gaps[] = {51000000, INT64_C(2000000000)};
+    for (size_t i = 0; i < COUNT_OF(gaps); i++) {
+        static int64_t late[100];
+        knurl_device_event event;
+        memset(late, 0, sizeof late);
+        late[50] = gaps[i];
+        init();
+        r.late = late;
+        r.late_count = COUNT_OF(late);
+        r.desc.tick_limit = 90;
+        rig_create(&r);
+        rig_run(&r);
+        CHECK_SAME(r.written[49][1], 1.0L);
+        check_ramp_up(50);
+        assert_int_equal(knurl_device_next_event(&r.device, &event), 1);
+        assert_int_equal(event.code, KNURL_FAULT_GAP);
+        CHECK_CLOSE(event.value, 1e-9 * (double)gaps[i], 1e-9);
+        assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
+        assert_int_equal(next_event(), 0);
+        rig_destroy(&r);
+    }
+}
+
+TEST_WITH(without_a_ramp_the_first_force_after_a_gap_is_still_zero, NULL, end_rig) {
+    static int64_t late[100];
+    memset(late, 0, sizeof late);
+    late[50] = 100000000;
+    init();
+    r.desc.ramp_s = 0.0;
+    r.late = late;
+    r.late_count = COUNT_OF(late);
+    r.desc.tick_limit = 90;
+    rig_create(&r);
+    rig_run(&r);
+    CHECK_SAME(r.written[50][1], 0.0L);
+    CHECK_SAME(r.written[51][1], 1.0L);
+}
+
+static void stall(rig *self) {
+    sleep_ns(150000000);
+    self->seen = knurl_device_is_halted(self->desc.device);
+}
+
+TEST_WITH(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, NULL, end_rig) {
+    knurl_device_event event = {0};
+    init_real();
+    r.desc.watchdog_s = 0.05;
+    r.special_call = 60;
+    r.special = stall;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
+    assert_int_equal(wait_for_event(&r.device, KNURL_FAULT_WATCHDOG, &event), 1);
+    assert_true(event.value >= 0.05);
+    assert_int_equal(wait_for_event(&r.device, KNURL_FAULT_RESUMED, &event), 1);
+    assert_true(rig_stats(&r).watchdog_trips >= 1);
+    knurl_loop_stop(r.loop);
+    assert_int_equal(r.seen, 1);
+}
