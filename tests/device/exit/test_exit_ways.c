@@ -304,7 +304,7 @@ static void head(const char *title) {
         tell(wire_kinds[kind].name);
         tell(" |");
     }
-    tell("\n|---|---|---|---|---|\n");
+    tell("\n|---|---|---|---|---|---|\n");
 }
 
 /* 1: all is good. */

@@ -7,6 +7,8 @@
 #include "base/system.h"
 #include "device/falcon/falcon_sim.h"
 #include "device/falcon/transport.h"
+#include "device/inverse3/channel.h"
+#include "device/inverse3/inverse3_sim.h"
 #include "device/rawhid/hid_sim.h"
 #include "device/rawhid/rawhid.h"
 
@@ -184,6 +186,64 @@ static knurl_device *rawhid_open(int wire, wire_shared *shared, uint32_t guarded
     return device;
 }
 
+/* --- Inverse3 --- */
+
+static const char connecting[] = "connect"; /* its service has the first word */
+static inverse3_sim service;
+
+static void inverse3_reset(void) {
+    inverse3_sim_init(&service, seconds(), 0);
+}
+
+static size_t inverse3_hear(const uint8_t *bytes, size_t size, uint8_t *answer, int *has_force) {
+    char message[KNURL_INVERSE3_COMMAND + 1] = "";
+    char *text = (char *)answer;
+    memcpy(message, bytes, size < sizeof message ? size : 0);
+    const int length = strcmp(message, connecting) == 0 ? inverse3_sim_greet(&service, seconds(), text)
+                                                        : inverse3_sim_hear(&service, seconds(), message, text);
+    *has_force = service.limp_since < 0.0;
+    return (size_t)length;
+}
+
+static int inverse3_send(void *self, const char *text, size_t size) {
+    (void)self;
+    return put(text, size);
+}
+
+static int inverse3_receive(void *self, int milliseconds, knurl_inverse3_message *message) {
+    static uint8_t text[INVERSE3_SIM_ROOM];
+    (void)self;
+    const int got = take(text, sizeof text, milliseconds);
+    if (got > 0) {
+        message->text = (const char *)text;
+        message->size = (size_t)got;
+    }
+    return got > 0 ? 1 : got;
+}
+
+static int inverse3_connect(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+    const knurl_inverse3_channel made = {user, inverse3_send, inverse3_receive, leave_open};
+    (void)port;
+    (void)why;
+    (void)why_size;
+    *channel = made;
+    return put(connecting, sizeof connecting);
+}
+
+static knurl_device *inverse3_open(int wire, wire_shared *shared, uint32_t guarded) {
+    static int self;
+    static const knurl_inverse3_service simulated = {&self, inverse3_connect};
+    knurl_device *device = NULL;
+    (void)shared;
+    (void)guarded;
+    wire_of_child = wire;
+    if (knurl_inverse3_open("", &simulated, &device)) {
+        return NULL;
+    }
+    knurl_device_register(device);
+    return device;
+}
+
 /* --- a caller's functions --- */
 
 static void functions_reset(void) {}
@@ -254,6 +314,7 @@ static knurl_device *touch_open(int wire, wire_shared *shared, uint32_t guarded)
 const wire_kind wire_kinds[] = {
     {"falcon", falcon_open, falcon_reset, falcon_hear, NULL},
     {"rawhid", rawhid_open, rawhid_reset, rawhid_hear, NULL},
+    {"inverse3", inverse3_open, inverse3_reset, inverse3_hear, "its maker's service holds it, in another process"},
     {"touch", touch_open, NULL, NULL, "its maker's library drives it, from inside of the process"},
     {"functions", functions_open, functions_reset, functions_hear, "its handle is the caller's"},
 };
@@ -263,8 +324,8 @@ const size_t wire_kind_count = sizeof wire_kinds / sizeof *wire_kinds;
 
 static void *run(void *argument) {
     wire_device *device = argument;
-    uint8_t bytes[128];
-    uint8_t answer[128];
+    uint8_t bytes[KNURL_INVERSE3_COMMAND]; /* the longest of all */
+    uint8_t answer[INVERSE3_SIM_ROOM];
     ssize_t got;
     while ((got = recv(device->wire, bytes, sizeof bytes, 0)) > 0 && device->kind->hear) {
         int has_force = knurl_load_relaxed(&device->shared->told.limp_since) == 0;
