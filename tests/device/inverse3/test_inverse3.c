@@ -126,6 +126,27 @@ TEST(what_cannot_be_opened_says_why) {
     assert_int_equal(inverse3_double_connections(), 0);
 }
 
+TEST(its_devices_are_listed_by_id_or_why_there_is_none) {
+    knurl_device_listing found[4];
+    knurl_listings listings = {found, 4, 0};
+    inverse3_double_begin();
+    inverse3_double_sim()->has_second = 1;
+    knurl_inverse3_list(inverse3_double_service(), &listings);
+    assert_int_equal(listings.count, 2);
+    assert_string_equal(found[0].uri, "inverse3:0A11");
+    assert_string_equal(found[1].uri, "inverse3:049D");
+    assert_string_equal(found[1].reason, "");
+    inverse3_double_sim()->has_second = 0;
+    inverse3_double_sim()->is_gone = 1;
+    knurl_inverse3_list(inverse3_double_service(), &listings);
+    assert_non_null(strstr(found[2].reason, "none is connected: plug it in"));
+    inverse3_double_end_service(1);
+    knurl_inverse3_list(inverse3_double_service(), &listings);
+    assert_int_equal(strncmp(found[3].reason, "the Haply Inverse Service does not answer", 41), 0);
+    assert_int_equal(listings.count, 4);
+    assert_int_equal(inverse3_double_connections(), 0);
+}
+
 static void check_lost_and_had_back(void (*lose)(void), void (*mend)(void)) {
     static const double force[3] = {0.0, 1.0, 0.0};
     knurl_device_sample sample;

@@ -3,6 +3,7 @@
 #define KNURL_SRC_INVERSE3_CHANNEL_H
 
 #include "device/inverse3/message.h"
+#include "device/listings.h"
 
 #include <knurl/device.h>
 
@@ -33,5 +34,8 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
 
 /* The driver on another service. Errors: as knurl_device_open(). */
 knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_service *service, knurl_device **device);
+
+/* Lists the devices of another service at the usual port, or why there is none. */
+void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings);
 
 #endif

@@ -21,6 +21,7 @@
 #define HELLO_MS    500     /* for a first message, and for the first answer */
 #define RADIUS      0.1     /* m: of the workspace's sphere */
 
+#define NAME    "Haply Inverse3"
 #define PLUG_IN "plug it in, and its power supply as well; the Haply Hub shows it then"
 
 typedef struct inverse3 {
@@ -259,36 +260,39 @@ static void inverse3_close(knurl_device *device) {
     knurl_device_free(device);
 }
 
-static void inverse3_list(knurl_listings *listings) {
-    static const char name[] = "Haply Inverse3";
-    char why[512];
+void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings) {
     char uri[32];
     knurl_inverse3_channel channel;
     knurl_inverse3_state state;
-    const knurl_inverse3_service *service = knurl_inverse3_websocket(why, sizeof why);
-    if (!service) {
-        knurl_listings_add(listings, "inverse3", name, "%s", why);
-        return;
-    }
     if (receive_first(service, PORT, &channel, &state)) {
-        const char *reason = knurl_error_message(); /* less what stands in the listing already */
-        knurl_listings_add(listings, "inverse3", name, "%s", reason + strlen("device 'inverse3': "));
+        const char *reason = knurl_error_message() + strlen("device 'inverse3': "); /* that stands in the listing */
+        knurl_listings_add(listings, "inverse3", NAME, "%s", reason);
         return;
     }
     channel.close(channel.self);
     if (!knurl_inverse3_find(&state, "")) {
-        knurl_listings_add(listings, "inverse3", name, "none is connected: " PLUG_IN);
+        knurl_listings_add(listings, "inverse3", NAME, "none is connected: " PLUG_IN);
     }
     for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
         if (state.entries[i].id[0]) {
             (void)snprintf(uri, sizeof uri, "inverse3:%s", state.entries[i].id);
-            knurl_listings_add(listings, uri, name, "%s", "");
+            knurl_listings_add(listings, uri, NAME, "%s", "");
         }
     }
 }
 
+static void inverse3_list(knurl_listings *listings) {
+    char why[512];
+    const knurl_inverse3_service *service = knurl_inverse3_websocket(why, sizeof why);
+    if (service) {
+        knurl_inverse3_list(service, listings);
+    } else {
+        knurl_listings_add(listings, "inverse3", NAME, "%s", why);
+    }
+}
+
 static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
-    (void)snprintf(info->name, sizeof info->name, "Haply Inverse3");
+    (void)snprintf(info->name, sizeof info->name, NAME);
     for (int axis = 0; axis < 3; axis++) { /* the cube in its maker's sphere */
         info->workspace_max[axis] = 0.577350269189626 * RADIUS;
         info->workspace_min[axis] = -info->workspace_max[axis];
