@@ -35,6 +35,20 @@ static void press_on(const three *t, int i) {
     press(t->s, 0.2 * i, 0.0);
 }
 
+/* The first plate is touched, and that was told. */
+static void set_up_touching(three *t, const char *device) {
+    set_up(t, device);
+    press_on(t, 0);
+    knurl_session_update(t->s);
+    check_event(t->s, STARTED, t->plate[0]);
+}
+
+/* Nothing more is told. */
+static void check_end(knurl_session *s) {
+    check_no_event(s);
+    knurl_session_destroy(s);
+}
+
 TEST(a_touch_is_told_when_it_begins_and_when_it_is_over) {
     three t;
     set_up(&t, "fake");
@@ -53,8 +67,7 @@ TEST(a_touch_is_told_when_it_begins_and_when_it_is_over) {
     assert_true(state_of(t.s).surface == t.plate[0] && state_of(t.s).in_contact == 0);
     check_event(t.s, ENDED, t.plate[0]);
     assert_true(state_of(t.s).surface == 0);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(a_touch_shorter_than_a_frame_is_told) {
@@ -65,31 +78,23 @@ TEST(a_touch_shorter_than_a_frame_is_told) {
     knurl_session_update(t.s);
     check_event(t.s, STARTED, t.plate[0]);
     check_event(t.s, ENDED, t.plate[0]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(what_comes_back_within_a_frame_was_never_away) {
     three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    knurl_session_update(t.s);
-    check_event(t.s, STARTED, t.plate[0]);
+    set_up_touching(&t, "fake");
     lift(t.s);
     press_on(&t, 0);
     lift(t.s);
     press_on(&t, 0);
     knurl_session_update(t.s);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(several_touches_of_a_frame_are_told_in_their_order) {
     three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    knurl_session_update(t.s);
-    check_event(t.s, STARTED, t.plate[0]);
+    set_up_touching(&t, "fake");
     press_on(&t, 2);
     press_on(&t, 1);
     knurl_session_update(t.s);
@@ -97,16 +102,12 @@ TEST(several_touches_of_a_frame_are_told_in_their_order) {
     check_event(t.s, STARTED, t.plate[2]);
     check_event(t.s, ENDED, t.plate[2]);
     check_event(t.s, STARTED, t.plate[1]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(each_of_them_is_told_once_and_the_last_at_the_end) {
     three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    knurl_session_update(t.s);
-    check_event(t.s, STARTED, t.plate[0]);
+    set_up_touching(&t, "fake");
     press_on(&t, 2);
     press_on(&t, 1);
     press_on(&t, 2);
@@ -125,23 +126,18 @@ TEST(each_of_them_is_told_once_and_the_last_at_the_end) {
     check_event(t.s, ENDED, t.plate[0]);
     check_event(t.s, STARTED, t.plate[1]);
     check_event(t.s, ENDED, t.plate[1]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(removing_a_surface_ends_its_contact) {
     three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    knurl_session_update(t.s);
-    check_event(t.s, STARTED, t.plate[0]);
+    set_up_touching(&t, "fake");
     assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
     knurl_session_update(t.s); /* the latest tick still has it */
     check_event(t.s, ENDED, t.plate[0]);
     step(t.s, 1);
     knurl_session_update(t.s);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
@@ -157,8 +153,7 @@ TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
     knurl_session_update(t.s);
     check_event(t.s, ENDED, t.plate[1]);
     check_event(t.s, STARTED, t.plate[2]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(each_start_has_its_end_however_long_nobody_asked) {
@@ -192,8 +187,7 @@ TEST(closing_in_the_middle_of_fetching_leaves_one_end) {
     knurl_session_close(t.s);
     assert_true(state_of(t.s).surface == 0);
     check_event(t.s, ENDED, t.plate[0]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(closing_before_anything_was_fetched_leaves_nothing) {
@@ -202,17 +196,13 @@ TEST(closing_before_anything_was_fetched_leaves_nothing) {
     press_on(&t, 0);
     knurl_session_update(t.s);
     knurl_session_close(t.s);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 TEST(opened_again_it_tells_the_old_end_first) {
     const knurl_session_desc desc = describe("fake", "");
     three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    knurl_session_update(t.s);
-    check_event(t.s, STARTED, t.plate[0]);
+    set_up_touching(&t, "fake");
     knurl_session_close(t.s);
     open_session(t.s, &desc);
     begin(t.s);
@@ -220,8 +210,7 @@ TEST(opened_again_it_tells_the_old_end_first) {
     knurl_session_update(t.s);
     check_event(t.s, ENDED, t.plate[0]);
     check_event(t.s, STARTED, t.plate[0]);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 static void check_button(knurl_session *s, int32_t button, double pressed) {
@@ -246,8 +235,7 @@ TEST(a_button_is_told_when_it_goes_down_and_when_it_comes_up) {
     knurl_session_update(s);
     assert_int_equal(state_of(s).buttons, 0);
     check_button(s, 0, 0.0);
-    check_no_event(s);
-    knurl_session_destroy(s);
+    check_end(s);
 }
 
 TEST(every_button_has_its_number) {
@@ -262,8 +250,7 @@ TEST(every_button_has_its_number) {
     knurl_session_update(s);
     check_button(s, 0, 0.0);
     check_button(s, 31, 0.0);
-    check_no_event(s);
-    knurl_session_destroy(s);
+    check_end(s);
 }
 
 static void check_fault(knurl_session *s, int32_t code, double value) {
@@ -295,8 +282,7 @@ TEST(a_lost_device_is_told_and_then_the_end) {
     knurl_session_update(s);
     check_no_event(s); /* once */
     knurl_session_close(s);
-    check_no_event(s);
-    knurl_session_destroy(s);
+    check_end(s);
 }
 
 TEST(a_device_that_comes_back_is_told_and_goes_on) {
@@ -342,8 +328,7 @@ TEST(faults_come_with_their_values_after_touches_and_buttons) {
     check_event(t.s, STARTED, t.plate[0]);
     check_button(t.s, 0, 1.0);
     check_fault(t.s, KNURL_FAULT_SILENT, 0.012);
-    check_no_event(t.s);
-    knurl_session_destroy(t.s);
+    check_end(t.s);
 }
 
 /* A handler that takes longer than a device that fails in every tick. */

@@ -4,7 +4,7 @@ extends "res://suite.gd"
 # ridge lasts 10 ticks, at several pairs of frame and physics rates.
 
 const SPEED := 0.1
-const LENGTH := 1.6
+const LENGTH := 1.0
 
 
 func long_plate() -> PlaneMesh:
@@ -47,14 +47,14 @@ func slide(body: Node3D, physics: bool) -> Array:
 	d.move_hip(Vector3(0, -0.001, 0))
 	await until(func() -> bool: return d.in_contact)
 	var begin: int = d.ticks
-	while d.ticks < begin + 5000:
+	while d.ticks < begin + 2500:
 		if physics:
 			await physics_frame
 			body.position.x -= SPEED / Engine.physics_ticks_per_second
 		else:
 			await process_frame
 			body.position.x -= SPEED * root.get_process_delta_time()
-	var found := gaps(d, 3000)
+	var found := gaps(d, 2000)
 	clear()
 	return found
 

@@ -1,0 +1,217 @@
+/* Surfaces that move: jumps, which have no way, and whose time a way takes. SPDX-License-Identifier: MIT */
+#include "moving.h"
+
+/* --- jumps --- */
+
+TEST(jump_passes_by_what_is_on_its_way) {
+    static const double ends[] = {0.002, 0.005, 0.05, 0.5};
+    for (size_t i = 0; i < COUNT_OF(ends); i++) {
+        surface_parts parts = wide_plane();
+        const pose low = at_height(0.0, 0.0, -0.02);
+        const pose high = at_height(0.0, 0.0, ends[i]);
+        place(&parts, &low);
+        knurl_scene *scene = scene_of(&parts);
+        (void)stand_at(scene, 0.0, 0.0, 0.0);
+        (void)stand_at(scene, 0.0, 0.0, 0.0);
+        move_to(scene, knurl_scene_get_surface(scene, 0), &high, 0.0);
+        for (int k = 0; k < 5; k++) {
+            const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
+            CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
+            assert_int_equal(out.contacts, 0);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+/* Its way leads past the HIP, so that every tick looks at it, but it is still far off. */
+TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
+    surface_parts parts = wide_plane();
+    const pose low = at_height(0.0, 0.0, -0.2);
+    const pose high = at_height(0.0, 0.0, 0.2);
+    const pose above = at_height(0.0, 0.0, 0.004);
+    place(&parts, &low);
+    knurl_scene *scene = scene_of(&parts);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &high, 10.0);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    (void)stand_at(scene, 0.0, 0.0, 0.0);
+    move_to(scene, knurl_scene_get_surface(scene, 0), &above, 0.0);
+    for (int k = 0; k < 5; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
+        assert_int_equal(out.contacts, 0);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* A HIP that was in contact has a first tick with it: held up to 10 mm deep, no contact beyond; slid past at no speed.
+ */
+TEST(jump_of_what_is_touched_is_a_first_tick) {
+    static const struct {
+        double x, z;
+        double depth; /* 0: no contact */
+    } cases[] = {{0.0, 0.004, 0.005}, {0.0, 0.0088, 0.0098}, {0.0, 0.0092, 0.0},
+                 {0.0, 0.3, 0.0},     {0.1, 0.0, 0.001},     {0.4, 0.001, 0.002},
+                 {0.0, -0.002, 0.0},  {0.6, 0.0, 0.0},       {0.0, -0.0005, 0.0005}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        surface_parts parts = wide_plane();
+        knurl_surface_id id;
+        set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+        knurl_scene *scene = stood_on(&parts, &id);
+        const pose end = at_height(cases[i].x, 0.0, cases[i].z);
+        move_to(scene, id, &end, 0.0);
+        for (int k = 0; k < 3; k++) {
+            const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
+            CHECK_VECTOR(out.force, 0.0, 0.0, K * cases[i].depth, TOL);
+            assert_int_equal(out.contacts, cases[i].depth > 0.0);
+            CHECK_SAME(out.surface_velocity[0], 0.0);
+            assert_int_equal(out.event, KNURL_NO_EVENT);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
+
+TEST(jump_ends_a_way) {
+    surface_parts parts = wide_plane();
+    knurl_surface_id id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose up = at_height(0.0, 0.0, 0.005);
+    const pose home = HOME;
+    move_to(scene, id, &up, 0.05);
+    (void)stand_at(scene, 0.0, 0.0, -0.001);
+    move_to(scene, id, &home, 0.0);
+    for (int k = 0; k < 60; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001, 1e-15L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* --- time --- */
+
+TEST(while_nobody_ticks_the_way_waits) {
+    surface_parts parts = wide_plane();
+    knurl_surface_id id;
+    knurl_scene *scene = stood_on(&parts, &id);
+    const pose up = at_height(0.0, 0.0, 0.004);
+    const pose higher = at_height(0.0, 0.0, 0.008);
+    move_to(scene, id, &up, 0.01);
+    move_to(scene, id, &higher, 0.01); /* no tick between: from where it still is */
+    for (int k = 1; k <= 10; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0008 * k, 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* 1 kHz and 4 kHz side by side: each sees the same place at the same second, give or take a period of the slower. */
+TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
+    static const double rates[2] = {1000.0, 4000.0};
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = empty_scene(2);
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    const pose up = at_height(0.0, 0.0, 0.004);
+    const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
+    knurl_tick_output out[2];
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.workspace = &workspace;
+    hip.max_force = 100.0;
+    for (uint32_t i = 0; i < 2; i++) {
+        hip.update_rate_hz = rates[i];
+        assert_int_equal(knurl_scene_configure_hip(scene, i, &hip), KNURL_OK);
+    }
+    const knurl_surface_id id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    for (int k = 0; k < 480; k++) { /* quarters of a millisecond; a way of 0.08 s from 0.02 s on */
+        assert_int_equal(knurl_scene_tick(scene, 1, &input, &out[1]), KNURL_OK);
+        if (k % 4 == 3) {
+            assert_int_equal(knurl_scene_tick(scene, 0, &input, &out[0]), KNURL_OK);
+        }
+        if (k == 79) {
+            move_to(scene, id, &up, 0.08);
+        }
+        for (int i = 0; i < 2 && k > 3; i++) {
+            const double since = (k - 79) / 4000.0;
+            const double depth = 0.001 + 0.05 * fmin(0.08, fmax(0.0, since));
+            CHECK_CLOSE(out[i].depth, depth, 0.05 * 0.00101);
+        }
+    }
+    CHECK_CLOSE(out[0].depth, 0.005, 1e-15L);
+    CHECK_CLOSE(out[1].depth, 0.005, 1e-15L);
+    knurl_scene_destroy(scene);
+}
+
+/* The faster of two alone: its own seconds count. */
+TEST(way_at_4_khz_takes_its_seconds) {
+    surface_parts parts = wide_plane();
+    knurl_scene *scene = empty_scene(1);
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    const pose up = at_height(0.0, 0.0, 0.004);
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.workspace = &workspace;
+    hip.max_force = 100.0;
+    hip.update_rate_hz = 4000.0;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
+    const knurl_surface_id id = add_surface(scene, &parts);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)stand_at(scene, 0.0, 0.0, -0.001);
+    move_to(scene, id, &up, 0.02);
+    for (int k = 1; k <= 100; k++) {
+        CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.004 * (k < 80 ? k : 80) / 80.0, 1e-12L);
+    }
+    knurl_scene_destroy(scene);
+}
+
+/* The bounds of a turning rectangle against its corners along the way: they hold every one, and what they have to spare
+ * is at most the height of a corner's arc over its chord, not the ball in which it could turn.
+ */
+TEST(bounds_of_a_turn_hold_it_closely) {
+    static const double angles[] = {0.001, 0.01, 0.1, 0.5, 1.5, 3.1};
+    uint64_t seed = 5;
+    for (int round = 0; round < 20 * (int)COUNT_OF(angles); round++) {
+        const double angle = angles[round % (int)COUNT_OF(angles)];
+        surface_parts parts = surface_plane();
+        const pose start = random_pose(&seed);
+        pose end = random_pose(&seed);
+        double turning[4], axis[3] = {0.0, 0.0, 0.0}, least[3], greatest[3];
+        axis[round % 3] = 1.0;
+        turn_about(axis, angle, turning);
+        turn_after(turning, start.quaternion, end.quaternion);
+        parts.plane.half_extents[0] = 0.3;
+        place(&parts, &start);
+        knurl_scene *scene = scene_of(&parts);
+        const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+        move_to(scene, id, &end, 1.0);
+        knurl_surface_info info;
+        knurl_surface_info_init(&info, sizeof info);
+        assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+        for (int i = 0; i < 3; i++) {
+            least[i] = HUGE_VAL;
+            greatest[i] = -HUGE_VAL;
+        }
+        for (int k = 0; k < 4 * 101; k++) {
+            const double share = k / 4 / 100.0;
+            const double corner[3] = {k & 1 ? 0.3 : -0.3, k & 2 ? 0.05 : -0.05, 0.0};
+            pose now;
+            double at[3];
+            turn_about(axis, share * angle, turning);
+            turn_after(turning, start.quaternion, now.quaternion);
+            for (int i = 0; i < 3; i++) {
+                now.position[i] = start.position[i] + share * (end.position[i] - start.position[i]);
+            }
+            pose_point(&now, corner, at);
+            for (int i = 0; i < 3; i++) {
+                least[i] = fmin(least[i], at[i]);
+                greatest[i] = fmax(greatest[i], at[i]);
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            const double spare = hypot(0.3, 0.05) * fmin(angle * angle / 8.0, 2.0) + 1e-9;
+            assert_true(info.bounds_min[i] <= least[i] && info.bounds_max[i] >= greatest[i]);
+            assert_true(info.bounds_min[i] >= least[i] - spare && info.bounds_max[i] <= greatest[i] + spare);
+        }
+        knurl_scene_destroy(scene);
+    }
+}
