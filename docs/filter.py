@@ -31,7 +31,7 @@ def rewrite(page, text):
         name = page_name(file).replace("mainpage", "index")
         return f'@ref {name} "{words}"' if is_page(file) else words
 
-    text = re.sub(r'<picture>.*?<img src="([^"]*)" alt="([^"]*)".*?</picture>', r"![\2](\1)", text, flags=re.S)
+    text = re.sub(r'<picture>.*?<img src="([^"]*)"[^>]* alt="([^"]*)">.*?</picture>', r"![\2](\1)", text, flags=re.S)
     text = re.sub(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)", link, text)
     text = re.sub(r"(!\[[^\]]*\]\()[^)]*/([^)/]+\))", r"\1\2", text)  # pictures by name, from IMAGE_PATH
     return re.sub(r"^# (.+)$", rf"# \1 {{#{page_name(page)}}}", text, count=1, flags=re.M)
