@@ -191,7 +191,8 @@ TEST(twins_give_the_front_its_own_uvs_whichever_comes_first) {
     shape_unweld(&s);
     const uint32_t count = s.index_count;
     shape both = shape_new(2 * count, 2 * count, 1);
-    for (uint32_t i = 0; s.uvs && i < 2 * count; i++) { /* front, back, then back, front, and so on; the back is mirrored */
+    for (uint32_t i = 0; s.uvs && i < 2 * count;
+         i++) { /* front, back, then back, front, and so on; the back is mirrored */
         const uint32_t pair = i / 6;
         const int is_back = (i / 3) % 2 != pair % 2;
         const uint32_t corner = is_back ? 2 - i % 3 : i % 3;

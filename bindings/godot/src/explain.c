@@ -160,7 +160,8 @@ void explain_surface(surface *s, char *text, size_t size) {
 }
 
 void explain_device(const device *d, char *text, size_t size) {
-    static const char *const known[] = {"auto", "fake", "touch", "falcon", "rawhid", "serial", "dhd", "inverse3", "mouse"};
+    static const char *const known[] = {"auto",   "fake", "touch",    "falcon", "rawhid",
+                                        "serial", "dhd",  "inverse3", "mouse"};
     const char *uri = d->uri ? d->uri : "";
     uint8_t is_inside = 0;
     knurl_session_pose at;
@@ -171,8 +172,9 @@ void explain_device(const device *d, char *text, size_t size) {
         is_known |= strncmp(uri, known[i], length) == 0 && (uri[length] == '\0' || uri[length] == ':');
     }
     if (!is_known) {
-        (void)snprintf(text, size,
-                       "Its device is '%s': expected auto, fake, touch, falcon, rawhid, serial, dhd, inverse3 or mouse.", uri);
+        (void)snprintf(
+            text, size,
+            "Its device is '%s': expected auto, fake, touch, falcon, rawhid, serial, dhd, inverse3 or mouse.", uri);
     }
     gd_call(gd_method.Node_is_inside_tree, d->base.object, NULL, &is_inside);
     if (is_inside && !node_pose(d->base.object, &at)) {
