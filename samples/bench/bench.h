@@ -37,8 +37,17 @@ enum {
     BENCH_FIELD,
     BENCH_MOVING_FIELD, /* a thousand of its tiles move */
     BENCH_CROWD,
-    BENCH_MOVING
+    BENCH_MOVING,
+    /* contact has the most to look at; only run by their names: */
+    BENCH_WORST_REACH, /* a sphere whose amplitude exceeds its radius */
+    BENCH_WORST_CROWD, /* 32 spheres in one place */
+    BENCH_WORST_HEAP,  /* triangles that all go through one point */
+    BENCH_WORST_PLANES /* a thousand moving planes in one place */
 };
+
+static inline int bench_is_worst(int shape) {
+    return shape >= BENCH_WORST_REACH;
+}
 
 /* What its surface is like. */
 enum { BENCH_TEXTURED, BENCH_SMOOTH, BENCH_FRICTIONAL };
@@ -65,6 +74,7 @@ typedef struct bench_result {
     double triangles;                       /**< in all surfaces */
     double ticks;                           /**< timed */
     double contact;                         /**< share of them in contact */
+    double visit_limit;                     /**< share of them that met the limit of visits */
 } bench_result;
 
 /* The scene that is up; kept while the next case can use it. */
@@ -104,6 +114,17 @@ knurl_result bench_stage_set(bench_stage *stage, const bench_case *c);
 
 /** A frame of a game at 120 Hz: what moves of the scene is sent on its way. *moved: how many surfaces. */
 knurl_result bench_stage_move(bench_stage *stage, double seconds, uint32_t *moved);
+
+/* --- worst.c --- */
+
+/** The surfaces of a BENCH_WORST_ case. Results as the library's. */
+knurl_result bench_worst_add(knurl_scene *scene, const bench_case *c);
+
+/** A frame of BENCH_WORST_PLANES. *moved: how many surfaces. */
+knurl_result bench_worst_move(knurl_scene *scene, double seconds, uint32_t *moved);
+
+/** Where the HIP of a BENCH_WORST_ case is, m. */
+void bench_worst_place(double seconds, double out[3]);
 
 /* --- stroke.c: where the HIP is --- */
 

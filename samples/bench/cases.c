@@ -36,6 +36,11 @@ const bench_case bench_cases[] = {
     WARM("moving_1k", BENCH_MOVING_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
     WARM("crowded", BENCH_CROWD, BENCH_TEXTURED, KNURL_S2, 0),
     WARM("moving", BENCH_MOVING, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("worst_reach_327k", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 327000),
+    WARM("worst_reach_2m", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 2000000),
+    WARM("worst_crowd", BENCH_WORST_CROWD, BENCH_TEXTURED, KNURL_S1, 20000),
+    WARM("worst_heap", BENCH_WORST_HEAP, BENCH_TEXTURED, KNURL_S1, 100000),
+    WARM("worst_planes", BENCH_WORST_PLANES, BENCH_TEXTURED, KNURL_S1, 0),
     {"two_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 2, BENCH_WARM, 0},
     {"eight_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 8, BENCH_WARM, 0},
     {"paced_plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0, 1, BENCH_PACED, 0},
@@ -59,7 +64,7 @@ typedef struct subject {
 } subject;
 
 static int is_moving(const bench_case *c) {
-    return c->shape == BENCH_MOVING || c->shape == BENCH_MOVING_FIELD;
+    return c->shape == BENCH_MOVING || c->shape == BENCH_MOVING_FIELD || c->shape == BENCH_WORST_PLANES;
 }
 
 static void tick_foaw(subject *s, const knurl_tick_input *input) {
@@ -215,12 +220,13 @@ void bench_end(bench *b) {
 }
 
 /* All ticks of the first HIP since its case began are timed ones. */
-static double contact_share(const bench *b) {
+static void tell_shares(const bench *b, bench_result *result) {
     knurl_tick_output last;
     knurl_hip_counts counts;
-    return knurl_scene_get_tick(b->stage.scene, 0, &last, &counts) || counts.ticks == 0
-               ? 0.0
-               : (double)counts.contact_ticks / (double)counts.ticks;
+    if (knurl_scene_get_tick(b->stage.scene, 0, &last, &counts) == KNURL_OK && counts.ticks > 0) {
+        result->contact = (double)counts.contact_ticks / (double)counts.ticks;
+        result->visit_limit = (double)counts.visit_limit_ticks / (double)counts.ticks;
+    }
 }
 
 int bench_run(bench *b, const bench_case *c, bench_result *result) {
@@ -245,7 +251,9 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     bench_percentiles(b->samples, count, b->timer_ns, result);
     result->edits_per_s = s.edits > 0 ? 1e9 * (double)s.edits / (double)s.editing_ns : 0.0;
     result->ticks = (double)count;
-    result->contact = s.tick == tick_scene ? contact_share(b) : 0.0;
+    if (s.tick == tick_scene) {
+        tell_shares(b, result);
+    }
     if (c->pace == BENCH_WARM && c->hips == 1 && !is_moving(c)) {
         result->batch_ns = time_batches(&s, ticks);
     }

@@ -85,6 +85,9 @@ static knurl_result add_stack(knurl_scene *scene, const knurl_material_desc *m) 
 static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const knurl_mesh_desc *mesh) {
     static const double origin[3];
     knurl_material_desc m;
+    if (bench_is_worst(c->shape)) {
+        return bench_worst_add(scene, c);
+    }
     make_material(c, &m);
     switch (c->shape) {
     case BENCH_PLANE:
@@ -219,5 +222,6 @@ static knurl_result move_stack(bench_stage *stage, double seconds, uint32_t *mov
 knurl_result bench_stage_move(bench_stage *stage, double seconds, uint32_t *moved) {
     return stage->shape == BENCH_MOVING         ? move_stack(stage, seconds, moved)
            : stage->shape == BENCH_MOVING_FIELD ? move_field(stage, seconds, moved)
+           : stage->shape == BENCH_WORST_PLANES ? bench_worst_move(stage->scene, seconds, moved)
                                                 : KNURL_OK;
 }

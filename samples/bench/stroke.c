@@ -12,6 +12,10 @@ static void place(const bench_case *c, uint32_t hip, double seconds, double out[
     const double x = BENCH_REACH * sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
     const double y = LINE * (1.0 + hip);
     double normal[3] = {0.0, 0.0, 1.0};
+    if (bench_is_worst(c->shape)) {
+        bench_worst_place(seconds, out);
+        return;
+    }
     out[0] = x;
     out[1] = y;
     out[2] = 0.0;

@@ -382,6 +382,8 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "slews", (double)counts.slew_ticks);
     json_number(&json, "heats", (double)counts.heat_ticks);
     json_number(&json, "passivities", (double)counts.passivity_ticks);
+    json_number(&json, "squeezes", (double)counts.squeezed_ticks);
+    json_number(&json, "visit_limits", (double)counts.visit_limit_ticks);
     json_number(&json, "heat", counts.heat);
     json_number(&json, "force_max_n", counts.force_max);
     faults_print(&r->faults, &json);

@@ -67,8 +67,8 @@ static const help_command commands[] = {
      "CSV out (--out): t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz. x..z and f in scene axes (m, N), v in the\n"
      "surface's frame (m/s), surface a name or none.\n"
      "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
-     "watchdogs, absences, saturations, frequency_saturations, not_finite, entries, slews, heats, passivities, heat,\n"
-     "force_max_n, faults, tick_ns and jitter_us {p50, p99, max}.\n"
+     "watchdogs, absences, saturations, frequency_saturations, not_finite, entries, slews, heats, passivities,\n"
+     "squeezes, visit_limits, heat, force_max_n, faults, tick_ns and jitter_us {p50, p99, max}.\n"
      "Files are written completely or not at all, and never replace one that is read.\n"
      "Keys of --device fake:?key=value&key=value:\n",
      knurl_fake_keys},
@@ -100,7 +100,7 @@ static const help_command commands[] = {
      "",
      "time ticks on this machine (about half a minute)",
      {{"--json", "", "as JSON"},
-      {"--case", "NAME", "one case only; a wrong name lists all"},
+      {"--case", "NAME", "one case only; a wrong name lists all. worst_... runs by name only"},
       {"--ticks", "N", "ticks to time per case"}},
      "JSON: version, timer_ns, clock_step_ns, machine, cases [{case, batch_ns, p50_ns, p99_ns, p999_ns, max_ns, bytes,\n"
      "build_ms, ...}], skipped [{case, why}].",

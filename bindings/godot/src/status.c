@@ -64,6 +64,8 @@ static void tell_hip(const knurl_scene *scene, void *to) {
     whole(to, "slews", counts.slew_ticks);
     whole(to, "heats", counts.heat_ticks);
     whole(to, "passivities", counts.passivity_ticks);
+    whole(to, "squeezes", counts.squeezed_ticks);
+    whole(to, "visit_limits", counts.visit_limit_ticks);
     number(to, "force_max", counts.force_max);
     number(to, "heat", counts.heat);
     whole(to, "surfaces", knurl_scene_get_surface_count(scene));

@@ -39,13 +39,20 @@ static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const doubl
     return sum;
 }
 
-/* Whether the box of a segment, widened by `margin`, overlaps a node's box. Allowed in a tick. */
-static inline int knurl_bvh_overlaps(const knurl_bvh_node *node, const double a[3], const double b[3],
-                                     double margin) KNURL_NONBLOCKING {
+/* The box of a segment, widened by `margin`. Allowed in a tick. */
+static inline void knurl_bvh_bound(const double a[3], const double b[3], double margin, double low[3],
+                                   double high[3]) KNURL_NONBLOCKING {
     for (int axis = 0; axis < 3; axis++) {
-        const double low = a[axis] < b[axis] ? a[axis] : b[axis];
-        const double high = a[axis] < b[axis] ? b[axis] : a[axis];
-        if (low - margin > (double)node->max[axis] || high + margin < (double)node->min[axis]) {
+        low[axis] = (a[axis] < b[axis] ? a[axis] : b[axis]) - margin;
+        high[axis] = (a[axis] < b[axis] ? b[axis] : a[axis]) + margin;
+    }
+}
+
+/* Whether a box overlaps a node's. Allowed in a tick. */
+static inline int knurl_bvh_meets(const knurl_bvh_node *node, const double low[3],
+                                  const double high[3]) KNURL_NONBLOCKING {
+    for (int axis = 0; axis < 3; axis++) {
+        if (low[axis] > (double)node->max[axis] || high[axis] < (double)node->min[axis]) {
             return 0;
         }
     }

@@ -71,13 +71,14 @@ static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *
 int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_hit *hit) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
-    const double margin = mesh->seam + KNURL_CAST_SLACK;
+    double low[3], high[3];
+    knurl_bvh_bound(cast->from, cast->to, mesh->seam + KNURL_CAST_SLACK, low, high);
     hit->share = 1.5;
     stack[top++] = 0;
     while (top > 0) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
-        if (!knurl_bvh_overlaps(node, cast->from, cast->to, margin)) {
+        if (!knurl_bvh_meets(node, low, high)) {
             continue;
         }
         if (!knurl_visits_take(cast->visits, 1 + node->count)) {

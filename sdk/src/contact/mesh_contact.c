@@ -149,25 +149,20 @@ static int contact_at(const knurl_mesh *mesh, const knurl_contact_query *query, 
 static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query, double radius,
                         const knurl_contact_state *state, knurl_closest_point *closest) {
     const double *hip = query->hip;
-    knurl_visits half = {query->visits ? query->visits->left / 2 : 0, 0};
-    knurl_visits *visits = query->visits ? &half : NULL;
-    const uint32_t before = half.left;
+    knurl_visits half = knurl_visits_halve(query->visits);
     knurl_contact nearest;
     int found = 0;
     if (state->side != 0) {
         knurl_closest_on_triangle(mesh, state->triangle, hip, closest);
-        (void)knurl_mesh_walk(mesh, hip, state->side, visits, closest);
+        (void)knurl_mesh_walk(mesh, hip, state->side, &half, closest);
         found = closest->distance2 <= radius * radius;
         radius = found ? sqrt(closest->distance2) * (1.0 - 1e-9) : radius;
     }
-    if (knurl_mesh_closest(mesh, hip, radius, visits, &nearest)) {
+    if (knurl_mesh_closest(mesh, hip, radius, &half, &nearest)) {
         knurl_closest_on_triangle(mesh, nearest.triangle, hip, closest);
         found = 1;
     }
-    if (visits) {
-        query->visits->left -= before - half.left;
-        query->visits->exhausted |= half.exhausted;
-    }
+    knurl_visits_settle(query->visits, &half);
     return found;
 }
 
@@ -176,8 +171,13 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
                              knurl_contact_state *state, knurl_contact *c) {
     uint32_t triangle;
     knurl_closest_point closest;
-    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, query->visits, &triangle);
+    knurl_visits half = knurl_visits_halve(query->visits);
+    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &half, &triangle);
+    knurl_visits_settle(query->visits, &half);
     if (side == 0) {
+        if (half.exhausted && query->visits) { /* it is not known whether the HIP has crossed the surface */
+            query->visits->left = 0;
+        }
         return 0;
     }
     knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);

@@ -6,10 +6,26 @@
 
 #include <string.h>
 
+/* 1 where the triangle's plane is farther from p than the square root of `best2`. Rounding (the two terms added) never
+ * makes it 1 where the triangle is as near. */
+static int is_plane_beyond(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2) {
+    double corners[3][3], ab[3], ac[3], ap[3], normal[3];
+    knurl_mesh_corners(mesh, triangle, corners);
+    vec3_sub(corners[1], corners[0], ab);
+    vec3_sub(corners[2], corners[0], ac);
+    vec3_sub(p, corners[0], ap);
+    vec3_cross(ab, ac, normal);
+    const double height = vec3_dot(ap, normal);
+    return height * height > (best2 * (1.0 + 1e-9) + 1e-24) * vec3_dot(normal, normal);
+}
+
 /* Keeps a triangle's nearest point if it is nearer than `best2`; returns the smaller of the two distances, squared. */
 static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
-                                  knurl_contact *nearest) {
+                                  knurl_visits *visits, knurl_contact *nearest) {
     knurl_closest_point closest;
+    if (is_plane_beyond(mesh, triangle, p, best2) || !knurl_visits_take(visits, KNURL_VISITS_CLOSEST)) {
+        return best2;
+    }
     knurl_closest_on_triangle(mesh, triangle, p, &closest);
     if (closest.distance2 >= best2) {
         return best2;
@@ -22,33 +38,55 @@ static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, con
 
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_visits *visits,
                        knurl_contact *nearest) {
-    uint32_t stack[KNURL_BVH_DEPTH_MAX];
-    uint32_t top = 0;
+    struct {
+        double distance2;
+        uint32_t index;
+    } stack[KNURL_BVH_DEPTH_MAX];
+    uint32_t top = 1;
     const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
     double best2 = limit2;
-    stack[top++] = 0;
+    stack[0].index = 0;
+    stack[0].distance2 = knurl_bvh_distance2(mesh->nodes, p);
     while (top > 0) {
-        const uint32_t index = stack[--top];
+        const uint32_t index = stack[--top].index;
         const knurl_bvh_node *node = &mesh->nodes[index];
-        if (knurl_bvh_distance2(node, p) >= best2) {
+        if (stack[top].distance2 >= best2) {
             continue;
         }
-        if (!knurl_visits_take(visits, 1 + node->count)) {
+        if (!knurl_visits_take(visits, 2 + node->count)) { /* a node's children are looked at too */
             break;
         }
         for (uint32_t i = 0; i < node->count; i++) {
-            best2 = closest_in_triangle(mesh, node->first + i, p, best2, nearest);
+            best2 = closest_in_triangle(mesh, node->first + i, p, best2, visits, nearest);
         }
         if (node->count == 0) { /* the nearer child is looked at first */
-            const uint32_t left = index + 1;
-            const uint32_t right = node->first;
-            const int left_nearer =
-                knurl_bvh_distance2(&mesh->nodes[left], p) <= knurl_bvh_distance2(&mesh->nodes[right], p);
-            stack[top++] = left_nearer ? right : left;
-            stack[top++] = left_nearer ? left : right;
+            const uint32_t children[2] = {index + 1, node->first};
+            const double distances2[2] = {knurl_bvh_distance2(&mesh->nodes[children[0]], p),
+                                          knurl_bvh_distance2(&mesh->nodes[children[1]], p)};
+            const int nearer = distances2[0] <= distances2[1] ? 0 : 1;
+            for (int k = 0; k < 2; k++) {
+                const int child = k == 0 ? 1 - nearer : nearer;
+                stack[top].index = children[child];
+                stack[top++].distance2 = distances2[child];
+            }
         }
     }
     return best2 < limit2;
+}
+
+/* 1 where a segment is on one side of a triangle's plane, by more than the slack of hit_triangle() and rounding. */
+static int is_on_one_side(const double edge1[3], const double edge2[3], const double from[3],
+                          const double direction[3]) {
+    double normal[3];
+    vec3_cross(edge1, edge2, normal);
+    const double start = vec3_dot(from, normal);
+    const double rise = vec3_dot(direction, normal);
+    double size = 0.0;
+    for (int i = 0; i < 3; i++) {
+        size += (fabs(from[i]) + fabs(direction[i])) * fabs(normal[i]);
+    }
+    const double margin = 1e-6 * fabs(rise) + 1e-12 * size;
+    return (start > margin && start + rise > margin) || (start < -margin && start + rise < -margin);
 }
 
 /* Where along a + s (b - a) it hits a triangle (Moeller and Trumbore 1997), or a value above `best`. Edges are widened
@@ -59,13 +97,16 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
     const double slack = 1e-7;
     vec3_sub(corners[1], corners[0], edge1);
     vec3_sub(corners[2], corners[0], edge2);
+    vec3_sub(a, corners[0], from);
+    if (is_on_one_side(edge1, edge2, from, direction)) {
+        return 2.0;
+    }
     vec3_cross(direction, edge2, p);
     const double det = vec3_dot(edge1, p); /* above 0 where the way goes in from the front */
     if (det == 0.0 || (det < 0.0 && !double_sided)) {
         return 2.0;
     }
     const double inverse = 1.0 / det;
-    vec3_sub(a, corners[0], from);
     vec3_cross(from, edge1, q);
     const double u = vec3_dot(from, p) * inverse;
     const double v = vec3_dot(direction, q) * inverse;
@@ -85,12 +126,13 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
     double best = 1.5;
     int side = 0;
     vec3_sub(b, a, direction);
-    const double margin = 1e-7 * vec3_length(direction) + 1e-9;
+    double low[3], high[3];
+    knurl_bvh_bound(a, b, 1e-7 * vec3_length(direction) + 1e-9, low, high);
     stack[top++] = 0;
     while (top > 0) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
-        if (!knurl_bvh_overlaps(node, a, b, margin)) {
+        if (!knurl_bvh_meets(node, low, high)) {
             continue;
         }
         if (!knurl_visits_take(visits, 1 + node->count)) {

@@ -201,8 +201,8 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
     bounded own[LEAF_MAX];
     double low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = (double)leaf->min[axis];
-        high[axis] = (double)leaf->max[axis];
+        low[axis] = (double)leaf->min[axis] - mesh->seam;
+        high[axis] = (double)leaf->max[axis] + mesh->seam;
     }
     for (uint32_t first = leaf->first; first < leaf->first + leaf->count; first += LEAF_MAX) {
         const uint32_t left = leaf->first + leaf->count - first;
@@ -216,7 +216,7 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
             const uint32_t index = stack[--top];
             --*steps;
             const knurl_bvh_node *node = &mesh->nodes[index];
-            if (!knurl_bvh_overlaps(node, low, high, mesh->seam)) {
+            if (!knurl_bvh_meets(node, low, high)) {
                 continue;
             }
             if (node->count == 0) {

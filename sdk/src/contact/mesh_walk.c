@@ -48,11 +48,15 @@ static void vertex_of(const knurl_mesh *mesh, uint32_t corner, double out[3]) {
 }
 
 /* A triangle beyond the feature has a closer point only where its far corner lies towards p; then: has it? */
-static int closer_beyond(const walk *w, uint32_t apex, const knurl_closest_point *from, knurl_closest_point *to) {
+static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from, knurl_closest_point *to) {
     double corner[3];
     vertex_of(w->mesh, apex, corner);
     vec3_sub(corner, from->point, corner);
     if (!(vec3_dot(corner, from->offset) > 0.0)) {
+        return 0;
+    }
+    if (!knurl_visits_take(w->visits, KNURL_VISITS_CLOSEST)) {
+        w->capped = 1;
         return 0;
     }
     knurl_closest_on_triangle(w->mesh, apex >> 2, w->p, to);
@@ -100,7 +104,7 @@ static int step_at_non_manifold(walk *w, const knurl_closest_point *from, knurl_
     const uint32_t count = corners_at(w->mesh, from, &corners);
     double best = -HUGE_VAL;
     int found = 0;
-    if (!knurl_visits_take(w->visits, count)) {
+    if (!knurl_visits_take(w->visits, (1 + KNURL_VISITS_CLOSEST) * count)) {
         w->capped = 1;
         return 0;
     }
@@ -170,15 +174,19 @@ static int step(walk *w, const knurl_closest_point *from, knurl_closest_point *t
 typedef struct side_sums {
     const knurl_mesh *mesh;
     const knurl_closest_point *closest;
-    uint32_t count;
+    knurl_visits *visits;
     int front, back; /* whether p is in front of any of them, behind any */
     int oblique;     /* whether any normal is more than 37 degrees off the offset: 0.64 is the square of the cosine */
     double weighted; /* sum of cosines, weighted by angle at a vertex, alike on an edge */
 } side_sums;
 
+/* Nothing is added once the visits are used up. */
 static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     double c[3][3];
     double next[3], last[3], normal[3];
+    if (!knurl_visits_take(sums->visits, 1)) {
+        return;
+    }
     knurl_mesh_corners(sums->mesh, corner >> 2, c);
     const uint32_t k = corner & 3;
     const uint32_t k1 = k == 2 ? 0 : k + 1;
@@ -186,7 +194,6 @@ static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     vec3_sub(c[3 - k - k1], c[k], last);
     vec3_cross(next, last, normal);
     const double along = vec3_dot(sums->closest->offset, normal);
-    sums->count++;
     sums->front |= along > 0.0;
     sums->back |= along < 0.0;
     sums->oblique |= along * along < 0.64 * sums->closest->distance2 * vec3_dot(normal, normal);
@@ -247,9 +254,8 @@ static int is_caught(const walk *w, const knurl_closest_point *closest) {
     if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * w->side > 0.0) {
         return 0;
     }
-    side_sums sums = {w->mesh, closest, 0, 0, 0, 0, 0.0};
+    side_sums sums = {w->mesh, closest, w->visits, 0, 0, 0, 0.0};
     (void)add_round(&sums, 0);
-    (void)knurl_visits_take(w->visits, sums.count);
     return sums.oblique;
 }
 
@@ -287,11 +293,14 @@ int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knu
     int steps = 0;
     while (steps < MAX_STEPS && step(&w, here, &points[steps & 1])) {
         here = &points[steps++ & 1];
+        if (!knurl_visits_take(visits, 1)) {
+            w.capped = 1;
+            break;
+        }
     }
     if (here != closest) {
         *closest = *here;
     }
-    (void)knurl_visits_take(visits, (uint32_t)steps);
     const int jumps = w.capped || steps == MAX_STEPS || is_caught(&w, closest);
     if (jumps) {
         jump_to_nearest(&w, closest);
@@ -308,9 +317,8 @@ int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, 
         *boundary = 0;
         return (along > 0.0) - (along < 0.0);
     }
-    side_sums sums = {mesh, closest, 0, 0, 0, 0, 0.0};
+    side_sums sums = {mesh, closest, visits, 0, 0, 0, 0.0};
     *boundary = add_round(&sums, 0);
-    (void)knurl_visits_take(visits, sums.count);
     if (sums.front && sums.back) {
         (void)add_round(&sums, 1);
         return sums.weighted < 0.0 ? -1 : 1;

@@ -188,7 +188,8 @@ void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *sur
                                double time) {
     knurl_broad_index *index = phase->index;
     float swept[6];
-    knurl_surface_box(surface, record, time, 0.0, swept);
+    knurl_surface_set_boxes(surface, record);
+    memcpy(swept, knurl_record_box(record, time), sizeof swept);
     const int stays = index && holds(record->arrived, swept); /* still the old record's */
     if (!stays) {
         knurl_surface_set_arrival(surface, record, index ? margin_of(&record->motion) : 0.0);
@@ -258,9 +259,7 @@ static int is_there_now(const knurl_broad_index *index, uint32_t place, const kn
     }
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
     if (view->exact) {
-        float box[6];
-        knurl_surface_box(surface, record, view->time, 0.0, box);
-        return meets(box, view);
+        return meets(knurl_record_box(record, view->time), view);
     }
     return !knurl_motion_is_over(&record->motion, view->time) || meets(record->arrived, view);
 }

@@ -1,6 +1,8 @@
 /* Poses and boxes of a surface near a HIP. SPDX-License-Identifier: MIT */
 #include "scene/candidate.h"
 
+#include <string.h>
+
 static void pose_at(const knurl_motion *motion, double time, knurl_pose *pose) {
     if (knurl_motion_is_over(motion, time)) {
         *pose = motion->end;
@@ -59,7 +61,7 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
     int near = !was_seen || is_near(candidate->swept, path, wide); /* a tick ago it was in there */
     if (!was_seen || candidate->swept_of != record || candidate->swept_start != record->motion.start_time ||
         candidate->swept_reach != record->reach) {
-        knurl_surface_box(surface, record, clock->previous_time, 0.0, candidate->swept);
+        memcpy(candidate->swept, knurl_record_box(record, clock->previous_time), sizeof candidate->swept);
         candidate->swept_of = record;
         candidate->swept_start = record->motion.start_time;
         candidate->swept_reach = record->reach;

@@ -52,7 +52,7 @@ static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_
 
 uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segment *segment, knurl_cast_hit *hit) {
     uint32_t first = KNURL_NO_OBSTACLE;
-    for (uint32_t i = 0; i < obstacles->count; i++) {
+    for (uint32_t i = 0; i < obstacles->count && !knurl_obstacles_are_unknown(obstacles); i++) {
         knurl_cast_hit found;
         if (i != segment->except && cast_at(&obstacles->list[i], segment, obstacles->visits, &found) &&
             (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {

@@ -17,7 +17,14 @@ typedef struct knurl_record {
     int32_t is_smooth;            /* 1: neither ridges nor height */
     knurl_motion motion;          /* of the shape's frame */
     float arrived[6];             /* a box of where it is once the motion is over, with a margin; scene axes */
+    float moving_box[6];          /* scene axes, crests included: all that the motion sweeps, */
+    float end_box[6];             /* and where it is once the motion is over */
 } knurl_record;
+
+/* The box of a record's surface from `time` (s) on. Allowed in a tick. */
+static inline const float *knurl_record_box(const knurl_record *record, double time) {
+    return knurl_motion_is_over(&record->motion, time) ? record->end_box : record->moving_box;
+}
 
 /* Checks a material and sets it in a record, with all that follows from it. has_coordinates: 1 where the surface has a
  * place on the grating to go by. Errors: as knurl_scene_set_material(). */

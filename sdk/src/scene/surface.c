@@ -157,6 +157,11 @@ void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *re
     }
 }
 
+void knurl_surface_set_boxes(const knurl_surface_data *surface, knurl_record *record) {
+    knurl_surface_box(surface, record, -HUGE_VAL, 0.0, record->moving_box);
+    knurl_surface_box(surface, record, HUGE_VAL, 0.0, record->end_box);
+}
+
 void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double margin) {
     knurl_surface_box(surface, record, HUGE_VAL, margin, record->arrived);
 }
@@ -205,6 +210,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     result = result ? result : set_name(heap, d->name, surface);
     if (!result) {
         knurl_motion_place(&pose, &surface->local, &surface->record->motion);
+        knurl_surface_set_boxes(surface, surface->record);
         knurl_surface_set_arrival(surface, surface->record, 0.0);
     }
     return result;

@@ -52,6 +52,9 @@ void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion 
 void knurl_surface_box(const knurl_surface_data *surface, const knurl_record *record, double time, double margin,
                        float box[6]) KNURL_NONBLOCKING;
 
+/* Sets a record's boxes but `arrived`: whenever its motion or its reach has changed. */
+void knurl_surface_set_boxes(const knurl_surface_data *surface, knurl_record *record);
+
 /* Sets the box of where a record's surface arrives, with `margin` (m) round it. */
 void knurl_surface_set_arrival(const knurl_surface_data *surface, knurl_record *record, double margin);
 

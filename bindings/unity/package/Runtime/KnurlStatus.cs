@@ -93,6 +93,13 @@ namespace Knurl
         /// <summary>Ticks whose force was shortened because a wall gave out more energy than was put in.</summary>
         public long Passivities;
 
+        /// <summary>Ticks in which two surfaces closed in on the HIP, so that one of them no longer holds it.</summary>
+        public long Squeezes;
+
+        /// <summary>Ticks that met the limit of what contact looks at: the scene is too crowded there, or a
+        /// grating's amplitude too great for its mesh.</summary>
+        public long VisitLimits;
+
         /// <summary>The longest force played (N).</summary>
         public double ForceMax;
 
@@ -164,6 +171,8 @@ namespace Knurl
             Slews = (long)counts.slew_ticks;
             Heats = (long)counts.heat_ticks;
             Passivities = (long)counts.passivity_ticks;
+            Squeezes = (long)counts.squeezed_ticks;
+            VisitLimits = (long)counts.visit_limit_ticks;
             ForceMax = counts.force_max;
             Heat = counts.heat;
             Surfaces = NativeMethods.knurl_scene_get_surface_count(scene);
