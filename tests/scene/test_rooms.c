@@ -261,6 +261,23 @@ TEST(rooms_that_move_hold) {
     check_rooms_that_move(ROOM_MIXED, "planes and meshes that all move");
 }
 
+/* A proxy on the top of one of two flush boxes slid into the seams between them, and was held there by the one's wall
+ * alone. */
+TEST(a_press_onto_a_seam_between_flush_solids_holds) {
+    tally sum;
+    memset(&sum, 0, sizeof sum);
+    visit_room(15170, ROOM_MESHES, ONE_SOLID, 50, &sum);
+    assert_int_equal(sum.lost, 0);
+}
+
+/* A HIP that left one of two wedges which go through each other felt a crest at a place inside the other. */
+TEST(a_crest_is_felt_outside_of_solids_that_intersect) {
+    tally sum;
+    memset(&sum, 0, sizeof sum);
+    visit_room(28900, ROOM_ONE_MESH, EVERYTHING, 50, &sum);
+    assert_int_equal(sum.inside, 0);
+}
+
 TEST(rooms_in_which_one_solid_moves_hold) {
     (void)check_rooms(ROOM_MESHES, ONE_SOLID, "meshes, one of which moves");
     (void)check_rooms(ROOM_PLANES, ONE_SOLID, "planes, some of which move");

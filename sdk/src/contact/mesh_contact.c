@@ -225,6 +225,15 @@ static int begin_contact(const knurl_mesh *mesh, const knurl_contact_query *quer
     return c->z >= 0.0 ? c->z <= reach : captures;
 }
 
+/* A HIP that has just left a mesh of several parts: crests are felt where the mesh is nearest of all. Where the proxy
+ * was may lie inside another part. */
+static void move_to_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, int32_t side, knurl_contact *c) {
+    knurl_contact nearest = *c;
+    if (contact_nearest(mesh, query, c->z * (1.0 - 1e-9), side, &nearest) && nearest.z >= 0.0) {
+        *c = nearest;
+    }
+}
+
 /* A HIP inside: the proxy walks after it. A triangle that it stays on is kept. */
 static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                         knurl_contact_state *state, knurl_contact *c) {
@@ -240,6 +249,9 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
         c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, query->visits, &closest);
     }
     const int held = contact_at(mesh, query, reach, &closest, &state->side, c);
+    if (held && c->z > KNURL_ON_SURFACE && mesh->touching > 0) {
+        move_to_nearest(mesh, query, state->side, c);
+    }
     if (facet && held && closest.feature == 7 && c->triangle == closest.triangle && c->triangle == state->triangle) {
         knurl_facet_keep(&closest, state->side, facet);
         c->facet = facet;

@@ -39,6 +39,27 @@ static void stop_before(knurl_god_object *g, const knurl_active_face *face, cons
     }
 }
 
+/* The sine squared below which two faces count as parallel: 1e-6 rad. */
+#define PARALLEL 1e-12
+
+/* 1 where `face` looks at a face that holds the object, across a crack that their seams bridge: faces of two solids
+ * that are flush. Nothing rests between them, so the object is moved out of the crack, by their seams at most, to where
+ * the face that holds it lets it be. */
+static int leave_crack(knurl_god_object *g, const knurl_active_face *face) {
+    for (uint32_t i = 0; i < g->faces.count; i++) {
+        const knurl_active_face *other = &g->faces.list[i];
+        const double overlap = face->offset + other->offset;
+        double across[3];
+        vec3_cross(face->normal, other->normal, across);
+        if (vec3_dot(across, across) <= PARALLEL && vec3_dot(face->normal, other->normal) < 0.0 && overlap > 0.0 &&
+            overlap <= 2.0 * (face->rest + other->rest)) {
+            vec3_madd(g->at, other->offset - vec3_dot(g->at, other->normal), other->normal, g->at);
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* One look at what is in the way. Returns 1 where it has got on. */
 static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const double hip[3]) {
     double goal[3];
@@ -61,7 +82,9 @@ static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const dou
         }
         set_face(obstacles, obstacle, &hit, &face);
         stop_before(g, &face, goal);
-        knurl_active_faces_add(&g->faces, &face);
+        if (!leave_crack(g, &face)) {
+            knurl_active_faces_add(&g->faces, &face);
+        }
     }
     return vec3_distance2(start, g->at) > ARRIVED * ARRIVED;
 }
