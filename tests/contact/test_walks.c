@@ -198,11 +198,43 @@ TEST(strokes_on_a_sphere_are_held_at_their_depth) {
     }
 }
 
-TEST(strokes_on_random_heights_never_lose_contact) {
+static void facet_normal(const shape *s, uint32_t triangle, double normal[3]) {
+    double edges[2][3];
+    const float *p[3];
+    for (int k = 0; k < 3; k++) {
+        p[k] = &s->positions[3 * (size_t)s->indices[3 * triangle + (uint32_t)k]];
+    }
+    for (int i = 0; i < 3; i++) {
+        edges[0][i] = (double)p[1][i] - (double)p[0][i];
+        edges[1][i] = (double)p[2][i] - (double)p[0][i];
+    }
+    cross3(edges[0], edges[1], normal);
+    add3(normal, 1.0 / length3(normal) - 1.0, normal, normal);
+}
+
+/* The least cosine between two facets of a sheet of `columns` cells that are no farther apart than a cell. */
+static double sharpest_turn(const shape *s, uint32_t columns) {
+    double least = 1.0;
+    for (uint32_t i = 0; i < s->index_count / 3; i++) {
+        double own[3], other[3];
+        facet_normal(s, i, own);
+        for (uint32_t k = i + 1; k < s->index_count / 3 && k <= i + 2 * columns + 3; k++) {
+            facet_normal(s, k, other);
+            least = k <= i + 3 || k + 3 >= i + 2 * columns ? fmin(least, dot3(own, other)) : least;
+        }
+    }
+    return least;
+}
+
+/* As on waves: by the sharpest turn from one facet to the next. */
+TEST(strokes_on_random_heights_are_held_at_their_depth) {
     for (uint64_t seed = 1; seed <= 3; seed++) {
         shape s = body_noise(seed, 40, 0.001);
+        const double bound = 1.0 / sharpest_turn(&s, 40);
         const outcome out = scan(&s, 0.03, 0.001, 0.247, 3000);
         say("scan random heights", &out);
+        printf("at most %.3f by the sharpest turn\n", bound);
+        assert_true(out.worst_ratio <= bound);
     }
 }
 
