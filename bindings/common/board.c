@@ -24,6 +24,7 @@ void knurl_board_take(const knurl_tick_output *output, void *user) {
     const uint64_t written = __atomic_load_n(&b->written, __ATOMIC_RELAXED);
     tick.sent = written + 1;
     knurl_seqlock_write(&b->sequence, b->words, &tick, sizeof tick);
+    __atomic_store_n(&b->tick, tick.tick, __ATOMIC_RELEASE);
     float row[2] = {(float)output->height, 0.0F};
     for (int i = 0; i < 3; i++) {
         row[1] += (float)(output->force[i] * output->normal[i]);
@@ -45,6 +46,10 @@ void knurl_board_take(const knurl_tick_output *output, void *user) {
 
 void knurl_board_read(const knurl_board *b, knurl_board_tick *tick) {
     knurl_seqlock_read(&b->sequence, b->words, tick, sizeof *tick);
+}
+
+uint64_t knurl_board_get_tick(const knurl_board *b) {
+    return __atomic_load_n(&b->tick, __ATOMIC_ACQUIRE);
 }
 
 /* What a ring got from `begin` on, at most as much as it holds. What was overwritten while it was copied is left out,

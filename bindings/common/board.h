@@ -22,6 +22,7 @@ enum { KNURL_BOARD_WORDS = sizeof(knurl_board_tick) / sizeof(uint64_t) };
 typedef struct knurl_board {
     /* atomics */
     uint64_t sequence, words[KNURL_BOARD_WORDS];
+    uint64_t tick;                                /* the latest's */
     uint64_t written, history[KNURL_BOARD_TICKS]; /* two floats a tick: m, N along the normal */
     uint64_t changes, changed[KNURL_BOARD_CHANGES];
     /* the haptic thread's */
@@ -38,6 +39,9 @@ typedef struct knurl_board {
 void knurl_board_take(const knurl_tick_output *output, void *user) KNURL_NONBLOCKING;
 
 void knurl_board_read(const knurl_board *b, knurl_board_tick *tick);
+
+/* The latest tick's number alone, for what is asked for each surface that moves. */
+uint64_t knurl_board_get_tick(const knurl_board *b);
 
 /* The latest `count` ticks, oldest first, two floats each. Returns how many there were. */
 uint32_t knurl_board_history(const knurl_board *b, uint32_t count, float *rows);

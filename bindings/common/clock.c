@@ -23,9 +23,7 @@
 #define MARGIN    0.1
 
 static double now_of(const knurl_session *s) {
-    knurl_board_tick sent;
-    knurl_board_read(&s->board, &sent);
-    return (double)sent.tick / s->desc.update_rate_hz;
+    return (double)knurl_board_get_tick(&s->board) / s->desc.update_rate_hz;
 }
 
 /* One more step, of `elapsed` (s), for which a lag of `needed` would have done. */

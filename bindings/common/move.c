@@ -37,20 +37,19 @@ static knurl_result fail_clock(const char *name, uint32_t clock) {
 /* How long a move to a position takes: s; 0: a leap. *next: the way after it. */
 static double plan_move(const knurl_session *session, const knurl_session_way *way, const double position[3],
                         knurl_session_way *next) {
-    knurl_board_tick sent;
+    const uint64_t tick = knurl_board_get_tick(&session->board);
     knurl_session_pace pace = {0.0, 0.0, 0.0};
     double length = 0.0;
-    knurl_board_read(&session->board, &sent);
     const int is_paced = knurl_session_find_pace(session, way, &pace);
     if (!is_paced && session->device) { /* by ticks: the game's clock may run slow */
-        pace.step = (double)(sent.tick - way->tick) / session->desc.update_rate_hz;
+        pace.step = (double)(tick - way->tick) / session->desc.update_rate_hz;
         pace.seconds = pace.step > LONGEST ? FIRST_MOVE : pace.step;
     }
     for (int i = 0; i < 3; i++) {
         length += (position[i] - way->position[i]) * (position[i] - way->position[i]);
     }
     *next = *way;
-    next->tick = sent.tick;
+    next->tick = tick;
     memcpy(next->position, position, sizeof next->position);
     next->time = session->clocks[way->clock].time;
     next->lag = pace.lag;

@@ -52,6 +52,7 @@ struct knurl_session {
     uint64_t overruns, counted_at; /* and the tick when they were counted */
     knurl_session_clock clocks[KNURL_SESSION_CLOCKS];
     knurl_board board;
+    knurl_sound *sound; /* atomic: of this run, or null: nobody has asked for it */
     knurl_mouse *mouse; /* the device's; null where that is no mouse */
 };
 
@@ -71,6 +72,9 @@ knurl_result knurl_session_check_run(const knurl_session *session);
 
 /* clock.c: the pace of a move by the way's clock. Returns 0 where the engine has not told that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
+
+/* sound.c: a knurl_tick_callback; user: the session. */
+void knurl_session_take(const knurl_tick_output *output, void *user) KNURL_NONBLOCKING;
 
 /* pose.c: of a right-handed rotation, row-major: x, y, z, w. */
 void knurl_session_to_quaternion(const double rotation[9], double quaternion[4]);

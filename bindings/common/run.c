@@ -117,8 +117,8 @@ static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
     desc.device = session->device;
     desc.scene = session->scene;
     desc.update_rate_hz = session->desc.update_rate_hz;
-    desc.tick_callback = knurl_board_take;
-    desc.user = &session->board;
+    desc.tick_callback = knurl_session_take;
+    desc.user = session;
     session->board.period = 1.0 / desc.update_rate_hz;
     desc.reconnect = session->desc.reconnect;
     desc.heartbeat_s = heartbeat_s;
@@ -217,6 +217,8 @@ void knurl_session_close(knurl_session *session) {
     }
     knurl_loop_destroy(session->loop);
     knurl_device_close(session->device);
+    knurl_sound_release(session->sound);
+    session->sound = NULL;
     session->loop = NULL;
     session->device = NULL;
     session->runs = session->is_fake = 0;

@@ -7,6 +7,7 @@
 #ifndef KNURL_SESSION_H
 #define KNURL_SESSION_H
 
+#include <knurl/audio.h>
 #include <knurl/loop.h>
 
 #ifdef __cplusplus
@@ -14,6 +15,7 @@ extern "C" {
 #endif
 
 typedef struct knurl_session knurl_session;
+typedef struct knurl_sound knurl_sound;
 
 /** The latest ticks that a session keeps for plots. */
 #define KNURL_SESSION_HISTORY 8192
@@ -193,6 +195,18 @@ KNURL_API knurl_result knurl_session_set_gain(knurl_session *session, double gai
 KNURL_API knurl_result knurl_session_set_force(knurl_session *session, const double force[3]);
 KNURL_API knurl_result knurl_session_vibrate(knurl_session *session, int32_t method, double frequency_hz,
                                              double amplitude, const double direction[3], double seconds);
+
+/** The sound of what is felt in this run, see knurl_audio; made at the first call. sample_rate_hz: 8000 to 192000;
+ * later calls in the same run give the same sound, of the first call's rate. *sound: to be released. Errors:
+ * KNURL_ERROR_STATE (it does not run), KNURL_ERROR_ARGUMENT (sample_rate_hz), KNURL_ERROR_MEMORY. [game thread] */
+KNURL_API knurl_result knurl_session_get_sound(knurl_session *session, double sample_rate_hz, knurl_sound **sound);
+
+/** Renders the next `count` samples, as knurl_audio_fill(). After the run they fade to exactly 0. Null: nothing is
+ * done. [audio thread, one per run] */
+KNURL_API void knurl_sound_fill(knurl_sound *sound, float *samples, uint32_t count) KNURL_NONBLOCKING;
+
+/** Gives a sound back, also after its session was destroyed; null is allowed. [any thread, after its last fill] */
+KNURL_API void knurl_sound_release(knurl_sound *sound);
 
 /** Tells how far one of the engine's clocks has come, once a frame, before surfaces are moved. clock:
  * KNURL_SESSION_FRAMES: the sum of the frames' lengths, as objects that are moved in frames are given them; or _STEPS:

@@ -57,6 +57,13 @@ VALUES = {
     "knurl_audio_fill.samples": "f->history",
     "knurl_audio_fill.count": "1",
     "knurl_audio_create.audio": "&f->new_audio",
+    "knurl_session_get_sound.session": "f->played_session",
+    "knurl_session_get_sound.sample_rate_hz": "48000.0",
+    "knurl_session_get_sound.sound": "&f->sound",
+    "knurl_sound_fill.sound": "f->sound",
+    "knurl_sound_fill.samples": "f->history",
+    "knurl_sound_fill.count": "1",
+    "knurl_sound_release.sound": "f->sound",
     "knurl_wave_init.method": "KNURL_T3",
     "knurl_loop_vibrate.method": "KNURL_T3",
     "knurl_loop_vibrate.direction": "f->axis",
@@ -117,7 +124,7 @@ VALUES = {
 # Parameters that may be null, each for a reason that its function's comment gives.
 MAY_BE_NULL = {
     "knurl_device_close.device", "knurl_loop_destroy.loop", "knurl_scene_destroy.scene", "knurl_session_destroy.session",
-    "knurl_audio_destroy.audio", "knurl_audio_create.desc",
+    "knurl_audio_destroy.audio", "knurl_sound_release.sound", "knurl_audio_create.desc",
     "knurl_scene_create.desc", "knurl_scene_configure_hip.desc",  # all defaults
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
@@ -212,7 +219,7 @@ def structs_of(functions):
         for kind, _ in parameters:
             name = kind.replace("const ", "")
             base = re.match(r"knurl_(\w+) \*$", name)
-            if base and base.group(1) not in HANDLES and base.group(1) != "surface":
+            if base and base.group(1) not in HANDLES + ("surface", "sound"):
                 found[base.group(1)] = initial.get(name)
     return found
 

@@ -58,8 +58,8 @@ static inline void begin(knurl_session *s) {
     desc.device = s->device;
     desc.scene = s->scene;
     desc.update_rate_hz = s->desc.update_rate_hz;
-    desc.tick_callback = knurl_board_take;
-    desc.user = &s->board;
+    desc.tick_callback = knurl_session_take;
+    desc.user = s;
     desc.reconnect = s->desc.reconnect;
     (void)knurl_scene_commit(s->scene);
     assert_int_equal(knurl_scene_configure_hip(s->scene, 0, &hip), KNURL_OK);

@@ -33,6 +33,7 @@ typedef struct fixture {
     knurl_loop *new_loop;
     knurl_session *new_session;
     knurl_audio *new_audio;
+    knurl_sound *sound;
     knurl_surface_id new_surface;
     const char *name;
     unsigned char file[65536];
@@ -194,6 +195,7 @@ static void make(fixture *f) {
     f->mouse_session = make_session(f, "mouse", 0);
     f->played_session = make_session(f, "fake", 1);
     f->open_session = make_session(f, "fake", 0);
+    NEED_OK(knurl_session_get_sound(f->played_session, 48000.0, &f->sound));
     destroy_some(f);
     f->with.loop_desc.device = f->device;
 }

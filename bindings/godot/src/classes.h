@@ -60,6 +60,12 @@ typedef struct gd_constant_row {
     int64_t value;
 } gd_constant_row;
 
+/* A method of the engine's base class that the engine calls, on any thread. */
+typedef struct gd_virtual_row {
+    const char *name;
+    GDExtensionClassCallVirtual call;
+} gd_virtual_row;
+
 struct gd_class {
     const char *name, *base;
     size_t size;             /* of an instance, which is zeroed before init() */
@@ -75,6 +81,9 @@ struct gd_class {
     uint32_t signal_count;
     const gd_constant_row *constants;
     uint32_t constant_count;
+    const gd_virtual_row *virtuals;
+    uint32_t virtual_count;
+    uint32_t is_hidden; /* 1: scripts and the class reference do not see it */
 };
 
 enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_FLAGS = 6, GD_HINT_RESOURCE_TYPE = 17 };

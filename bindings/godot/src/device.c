@@ -5,6 +5,7 @@
 #include "follow.h"
 #include "serve.h"
 #include "signals.h"
+#include "sound.h"
 #include "surface_node.h"
 
 #include <stdio.h>
@@ -143,6 +144,13 @@ void device_apply_force(const device *d) {
     }
 }
 
+void device_apply_sound(const device *d) {
+    const knurl_result result = sound_start(d);
+    if (result) {
+        (void)device_fail("KnurlDevice.sound", result);
+    }
+}
+
 /* Opens and runs. warning: 512 bytes. */
 static knurl_result run(device *d, char *warning) {
     knurl_result result = device_prepare(d);
@@ -159,6 +167,7 @@ static knurl_result run(device *d, char *warning) {
         d->ridges = 0.0;
         memset(d->impulse, 0, sizeof d->impulse);
         explain_start();
+        device_apply_sound(d);
     }
     return result;
 }
@@ -211,6 +220,7 @@ static void start_by_itself(device *d) {
 void device_stop(device *d) {
     d->wants_start = 0;
     if (d->runs) {
+        sound_stop(d);
         device_release(d);
         signals_end_contact(d); /* last: a handler finds a device that is stopped, and may start it */
     }

@@ -25,6 +25,9 @@ void device_move_workspace(device *d);
 /* Tells the session the property added_force. */
 void device_apply_force(const device *d);
 
+/* Plays the device's sound where the property sound says so. */
+void device_apply_sound(const device *d);
+
 /* Pushes knurl_error_message() as an error; the engine's Error of a result. */
 int64_t device_fail(const char *where, knurl_result result);
 

@@ -1,6 +1,7 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "explain.h"
+#include "sound.h"
 #include "status.h"
 #include "trace.h"
 #include "warnings.h"
@@ -81,6 +82,17 @@ static void change_clutch(void *self) {
         device_move_workspace(d); /* a scale that was set while the clutch was on is one about the HIP */
         (void)knurl_session_set_clutch(d->session, d->clutch);
     }
+}
+
+static void change_sound(void *self, const void *value) {
+    device *d = self;
+    sound_stop(d);
+    memcpy(&d->sound, value, sizeof d->sound);
+    device_apply_sound(d);
+}
+
+static void get_sound(void *self, void *value) {
+    *(uint8_t *)value = ((const device *)self)->sound;
 }
 
 static void change_layers(void *self) {
@@ -360,6 +372,7 @@ static const gd_property properties[] = {
     {"gain", FLOAT, offsetof(device, gain), 0.0, 1.0, 0.01, NULL, 0, NULL, NULL, change_gain},
     {.name = "added_force", .type = VECTOR3, .offset = offsetof(device, added_force), .changed = change_force},
     {.name = "clutch", .type = BOOL, .offset = offsetof(device, clutch), .changed = change_clutch},
+    {.name = "sound", .type = BOOL, .get = get_sound, .set = change_sound},
     {"layers", INT, offsetof(device, layers), 0.0, 255.0, 1.0, "1,2,3,4,5,6,7,8", GD_HINT_FLAGS, NULL, NULL,
      change_layers},
     {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},

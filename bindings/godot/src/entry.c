@@ -1,13 +1,15 @@
 /* Where the engine comes in. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "register.h"
+#include "sound.h"
 
 #include <string.h>
 
 /* The class reference, made of doc_classes/ when this was built: an XML document each, and null. */
 extern const char *const knurl_godot_documents[];
 
-static const gd_class *const classes[] = {&grating_class, &surface_class, &device_class};
+static const gd_class *const classes[] = {&grating_class, &surface_class, &device_class, &sound_stream_class,
+                                          &sound_playback_class};
 
 enum { CLASS_COUNT = sizeof classes / sizeof *classes };
 

@@ -162,7 +162,7 @@ void gd_register(const gd_class *class) {
     gd_name name = gd_name_new(class->name);
     gd_name base = gd_name_new(class->base);
     memset(&info, 0, sizeof info);
-    info.is_exposed = 1;
+    info.is_exposed = !class->is_hidden;
     info.create_instance_func = gd_create;
     info.free_instance_func = gd_free;
     info.notification_func = gd_notify;

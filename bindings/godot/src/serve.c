@@ -48,12 +48,21 @@ static void call_warnings(GDExtensionClassInstancePtr instance, const GDExtensio
     ((gd_instance *)instance)->of->warnings(instance, arguments, result);
 }
 
-GDExtensionClassCallVirtual gd_find_virtual(void *class_userdata, GDExtensionConstStringNamePtr name) {
-    const gd_class *class = class_userdata;
-    gd_name known = gd_name_new("_get_configuration_warnings");
+static int is_name(const void *name, const char *text) {
+    gd_name known = gd_name_new(text);
     const int same = ((const gd_name *)name)->opaque == known.opaque; /* names are unique */
     gd_name_end(&known);
-    return same && class->warnings ? call_warnings : NULL;
+    return same;
+}
+
+GDExtensionClassCallVirtual gd_find_virtual(void *class_userdata, GDExtensionConstStringNamePtr name) {
+    const gd_class *class = class_userdata;
+    for (uint32_t i = 0; i < class->virtual_count; i++) {
+        if (is_name(name, class->virtuals[i].name)) {
+            return class->virtuals[i].call;
+        }
+    }
+    return class->warnings && is_name(name, "_get_configuration_warnings") ? call_warnings : NULL;
 }
 
 void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class) {

@@ -41,7 +41,7 @@ typedef struct device {
     double rate, workspace_scale, gain;
     int64_t layers;
     float added_force[3]; /* N */
-    uint8_t clutch;
+    uint8_t clutch, sound;
     uint8_t moved, by_physics; /* 1: its node was moved or its scale set since the last frame; by a step of physics */
     uint8_t autostart, reconnect, clamp;
     uint8_t wants_start; /* at the next frame */

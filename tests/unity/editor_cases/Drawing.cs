@@ -248,7 +248,7 @@ namespace Knurl.Cases
             device.WorkspaceScale = 3f;
             Player.Frames(2);
             Assert.AreEqual(Vector3.right, BoxCentre(device));
-            Assert.AreEqual(1f, Gizmos.WireCubes.Single().MultiplyVector(Vector3.right).magnitude, 1e-6f);
+            Assert.AreEqual(3f, Gizmos.WireCubes.Single().MultiplyVector(Vector3.right).magnitude, 1e-6f);
             device.StopDevice();
             Assert.AreEqual(Vector3.right, BoxCentre(device));
         }

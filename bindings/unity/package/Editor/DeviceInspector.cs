@@ -40,6 +40,8 @@ namespace Knurl.Editing
             "is added to what surfaces give. Counts at once");
         static readonly GUIContent Clutch = new GUIContent("Clutch", "While it is on, nothing is felt and the HIP stays, so " +
             "that the hand can go back to where it has room");
+        static readonly GUIContent Sound = new GUIContent("Sound", "Whether what is felt is heard, by the Knurl Sound " +
+            "component of this object; one is added where there is none. Counts at once");
         static readonly GUIContent Layers = new GUIContent("Layers", "It feels the surfaces that have one of these layers " +
             "too: a bit each. Counts at once");
 
@@ -72,6 +74,7 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("gain"), Gain);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("addedForce"), AddedForce);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("clutch"), Clutch);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("sound"), Sound);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("layers"), Layers);
             showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
             for (int i = 0; showEvents && i < Events.Length; i++)

@@ -24,6 +24,7 @@ namespace Knurl
         [NonSerialized] Vector3 latestForce;          // as told to the run
         [NonSerialized] float latestGain;
         [NonSerialized] bool latestClutch;
+        [NonSerialized] bool latestSound;
         [NonSerialized] double ridges;                // as told to the surfaces that were touched
         [NonSerialized] double framesTime, stepsTime; // s: how far the game's frames and physics steps have come
 
@@ -182,6 +183,32 @@ namespace Knurl
                 latestClutch = clutch;
                 NativeMethods.knurl_session_set_clutch(session, clutch ? 1u : 0u);
             }
+            if (all || sound != latestSound)
+            {
+                latestSound = sound;
+                PlaySound();
+            }
+        }
+
+        void PlaySound()
+        {
+            KnurlSound player = GetComponent<KnurlSound>();
+            if (!isRunning || !sound)
+            {
+                if (player != null)
+                {
+                    player.Stop();
+                }
+                return;
+            }
+            try
+            {
+                (player != null ? player : gameObject.AddComponent<KnurlSound>()).Play(session);
+            }
+            catch (KnurlException e)
+            {
+                Complain("Sound", e.Message);
+            }
         }
 
         /// <summary>The workspace goes where the object went, in the scale that was set.</summary>
@@ -237,7 +264,12 @@ namespace Knurl
         unsafe void Release()
         {
             knurl_session_event ignored;
+            bool ran = isRunning;
             isRunning = false;
+            if (ran)
+            {
+                PlaySound(); // no longer
+            }
             if (session != null)
             {
                 NativeMethods.knurl_session_close(session);

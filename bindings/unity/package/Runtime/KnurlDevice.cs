@@ -60,6 +60,10 @@ namespace Knurl
             + "it has room.")]
         bool clutch;
 
+        [SerializeField, Tooltip("Whether what is felt is heard, by the Knurl Sound component of this object; one is added "
+            + "where there is none. Counts at once.")]
+        bool sound;
+
         [SerializeField, Tooltip("It feels the surfaces that have one of these layers too: a bit each.")]
         int layers = 1;
 
@@ -184,6 +188,14 @@ namespace Knurl
         {
             get { return clutch; }
             set { clutch = value; }
+        }
+
+        /// <summary>Whether what is felt is heard, by the <see cref="KnurlSound"/> of this object; one is added where there is
+        /// none. Default false.</summary>
+        public bool Sound
+        {
+            get { return sound; }
+            set { sound = value; }
         }
 
         /// <summary>It feels the surfaces that have one of these layers too (a bit each), see <see

@@ -16,6 +16,8 @@ namespace Knurl
 
     internal struct knurl_session { }
 
+    internal struct knurl_sound { }
+
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_allocator
     {
@@ -631,7 +633,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "93a0ddd296696322";
+        internal const string Interface = "679f5324e56d48b9";
 
         internal const string Version = "0.3.0";
 
@@ -1247,6 +1249,16 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_vibrate(SessionHandle session, int method, double frequency_hz,
             double amplitude, double* direction, double seconds);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_session_get_sound(SessionHandle session, double sample_rate_hz,
+            knurl_sound** sound);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_sound_fill(knurl_sound* sound, float* samples, uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_sound_release(knurl_sound* sound);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_session_tell_time(SessionHandle session, uint clock, double seconds);

@@ -228,6 +228,13 @@ namespace Knurl
         /// <summary>Whether the haptic thread runs.</summary>
         public bool Running { get { return Object.Get("running").AsBool(); } }
 
+        /// <summary>Whether what is felt is heard: the surface under the HIP, from the motion between ticks, so that it
+        /// is there above what a hand feels as well. It is played by the child node Sound: an AudioStreamPlayer that
+        /// the device makes, or one of the game's own, also an AudioStreamPlayer2D or AudioStreamPlayer3D, with its
+        /// volume, bus and mix target. The signal is mono, exactly 0 at rest, and comes 16 ms after the motion plus the
+        /// engine's own latency.</summary>
+        public bool Sound { get { return Object.Get("sound").AsBool(); } set { Object.Set("sound", value); } }
+
         /// <summary>What the fake device's simulated hand does over the first surface: line, sweep, circle, press or
         /// rest. Empty: it stands still at the workspace's origin.</summary>
         public string Stroke { get { return Object.Get("stroke").AsString(); } set { Object.Set("stroke", value); } }
