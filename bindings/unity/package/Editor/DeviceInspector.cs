@@ -7,7 +7,7 @@ namespace Knurl.Editing
 {
     /// <summary>Which device and how; in play mode what it is doing, and buttons to start and stop it.</summary>
     [CustomEditor(typeof(KnurlDevice)), CanEditMultipleObjects]
-    internal sealed class DeviceInspector : Editor
+    internal sealed class DeviceInspector : KnurlInspector
     {
         internal static readonly string[] Devices = { "auto", "fake", "mouse", "touch", "falcon", "rawhid", "serial", "dhd", "inverse3" };
         internal static readonly string[] Strokes = { "", "line", "sweep", "circle", "press", "rest" };
@@ -45,7 +45,6 @@ namespace Knurl.Editing
         static readonly GUIContent Layers = new GUIContent("Layers", "It feels the surfaces that have one of these layers " +
             "too: a bit each. Counts at once");
 
-        bool showEvents;
 
         public override void OnInspectorGUI()
         {
@@ -58,43 +57,31 @@ namespace Knurl.Editing
             }
             if (device.stringValue.StartsWith("fake", StringComparison.Ordinal))
             {
-                EditorGUILayout.PropertyField(serializedObject.FindProperty("stroke"), Stroke);
+                Draw("stroke", Stroke);
                 if (EditorGUILayout.DropdownButton(new GUIContent("Known strokes"), FocusType.Keyboard))
                 {
                     ShowMenu("stroke", Strokes);
                 }
             }
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("rate"), Rate);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("workspaceScale"), Scale);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("autostart"), Autostart);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("retry"), Retry);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("reconnect"), Reconnect);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("clamp"), Clamp);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("paused"), Paused);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("gain"), Gain);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("addedForce"), AddedForce);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("clutch"), Clutch);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("sound"), Sound);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("layers"), Layers);
-            showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
-            for (int i = 0; showEvents && i < Events.Length; i++)
-            {
-                EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
-            }
+            Draw("rate", Rate);
+            Draw("workspaceScale", Scale);
+            Draw("autostart", Autostart);
+            Draw("retry", Retry);
+            Draw("reconnect", Reconnect);
+            Draw("clamp", Clamp);
+            Draw("paused", Paused);
+            Draw("gain", Gain);
+            Draw("addedForce", AddedForce);
+            Draw("clutch", Clutch);
+            Draw("sound", Sound);
+            Draw("layers", Layers);
+            DrawEvents(Events);
             serializedObject.ApplyModifiedProperties();
-            foreach (string warning in ((KnurlDevice)target).GetWarnings())
-            {
-                EditorGUILayout.HelpBox(warning, MessageType.Warning);
-            }
+            DrawWarnings(((KnurlDevice)target).GetWarnings());
             if (!serializedObject.isEditingMultipleObjects && EditorApplication.isPlaying)
             {
                 ShowState((KnurlDevice)target);
             }
-        }
-
-        public override bool RequiresConstantRepaint()
-        {
-            return EditorApplication.isPlaying;
         }
 
         void ShowMenu(string field, string[] values)
@@ -102,20 +89,9 @@ namespace Knurl.Editing
             var menu = new GenericMenu();
             foreach (string value in values)
             {
-                menu.AddItem(new GUIContent(value == "" ? "none" : value), false, () => Put(field, value));
+                menu.AddItem(new GUIContent(value == "" ? "none" : value), false, () => Change(field, property => property.stringValue = value));
             }
             menu.ShowAsContext();
-        }
-
-        void Put(string field, string value)
-        {
-            if (target == null)
-            {
-                return; // it was deleted while the menu was open
-            }
-            serializedObject.Update();
-            serializedObject.FindProperty(field).stringValue = value;
-            serializedObject.ApplyModifiedProperties();
         }
 
         static void ShowState(KnurlDevice device)

@@ -6,7 +6,7 @@ namespace Knurl.Editing
 {
     /// <summary>A surface's settings, and why it cannot be felt, or not as asked for.</summary>
     [CustomEditor(typeof(KnurlSurface)), CanEditMultipleObjects]
-    internal sealed class SurfaceInspector : Editor
+    internal sealed class SurfaceInspector : KnurlInspector
     {
         const double SecondsBetweenLooks = 0.5; // a mesh may be large
 
@@ -26,38 +26,28 @@ namespace Knurl.Editing
         static readonly string[] Events = { "touched", "released", "ridgesPassed" };
 
         string[] warnings = new string[0];
-        bool showEvents;
         double lookAgain;
 
         public override void OnInspectorGUI()
         {
             serializedObject.Update();
             EditorGUI.BeginChangeCheck();
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("grating"), Grating);
+            Draw("grating", Grating);
             DrawGratings();
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("doubleSided"), DoubleSided);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("axis"), Axis);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("reaction"), Reaction);
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("layers"), Layers);
+            Draw("doubleSided", DoubleSided);
+            Draw("axis", Axis);
+            Draw("reaction", Reaction);
+            Draw("layers", Layers);
             if (EditorGUI.EndChangeCheck())
             {
                 lookAgain = 0.0;
             }
-            showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
-            for (int i = 0; showEvents && i < Events.Length; i++)
-            {
-                EditorGUILayout.PropertyField(serializedObject.FindProperty(Events[i]), true);
-            }
+            DrawEvents(Events);
             serializedObject.ApplyModifiedProperties();
             if (!serializedObject.isEditingMultipleObjects)
             {
                 ShowState((KnurlSurface)target);
             }
-        }
-
-        public override bool RequiresConstantRepaint()
-        {
-            return EditorApplication.isPlaying;
         }
 
         /// <summary>What is chosen is the project's own, to be edited: a preset is copied.</summary>
@@ -88,10 +78,7 @@ namespace Knurl.Editing
                 warnings = WarningsOf(surface);
                 lookAgain = EditorApplication.timeSinceStartup + SecondsBetweenLooks;
             }
-            foreach (string warning in warnings)
-            {
-                EditorGUILayout.HelpBox(warning, MessageType.Warning);
-            }
+            DrawWarnings(warnings);
             DrawMakeReadable(surface.GetComponent<MeshFilter>());
             if (!EditorApplication.isPlaying)
             {
@@ -126,13 +113,7 @@ namespace Knurl.Editing
 
         void Take(KnurlGrating given)
         {
-            if (target == null)
-            {
-                return; // it was deleted while the menu was open
-            }
-            serializedObject.Update();
-            serializedObject.FindProperty("grating").objectReferenceValue = given;
-            serializedObject.ApplyModifiedProperties();
+            Change("grating", property => property.objectReferenceValue = given);
             lookAgain = 0.0;
         }
     }

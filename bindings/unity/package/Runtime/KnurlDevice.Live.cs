@@ -60,16 +60,10 @@ namespace Knurl
         }
 
         /// <summary>The grating's height under the finger in the latest tick (m).</summary>
-        public float Height
-        {
-            get { return (float)GetState().height; }
-        }
+        public float Height => (float)GetState().height;
 
         /// <summary>Ridges a second that the motion asks for (Hz).</summary>
-        public float TemporalFrequency
-        {
-            get { return (float)GetState().temporal_frequency; }
-        }
+        public float TemporalFrequency => (float)GetState().temporal_frequency;
 
         /// <summary>How fast the haptic interaction point moves (m/s, global).</summary>
         public unsafe Vector3 Velocity
@@ -82,16 +76,10 @@ namespace Knurl
         }
 
         /// <summary>How deep the device is in what it touches (m).</summary>
-        public float Depth
-        {
-            get { return (float)GetState().depth; }
-        }
+        public float Depth => (float)GetState().depth;
 
         /// <summary>The device's buttons that are pressed, a bit each, as of the latest frame.</summary>
-        public int Buttons
-        {
-            get { return (int)GetState().buttons; }
-        }
+        public int Buttons => (int)GetState().buttons;
 
         /// <summary>How the stylus is turned (global), as of the latest frame, to draw one: contact is a point's. The
         /// identity with a device that does not measure it.</summary>
@@ -139,16 +127,10 @@ namespace Knurl
         }
 
         /// <summary>Ticks since the start.</summary>
-        public long Ticks
-        {
-            get { return (long)GetState().ticks; }
-        }
+        public long Ticks => (long)GetState().ticks;
 
         /// <summary>Ticks that came late, as of the latest frame.</summary>
-        public long Overruns
-        {
-            get { return (long)GetState().overruns; }
-        }
+        public long Overruns => (long)GetState().overruns;
 
         /// <summary>What the running device is, for people; "" while nothing runs.</summary>
         public string DeviceName
