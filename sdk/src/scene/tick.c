@@ -242,7 +242,7 @@ static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *inp
 
 /* Eight bytes at a time, which is faster than field by field. */
 static int is_reserved_zero(const knurl_tick_input *input) {
-    uint64_t words[sizeof input->reserved / sizeof(uint64_t)];
+    uint64_t words[4];
     memcpy(words, &input->reserved[1], sizeof words);
     return (input->reserved[0] | words[0] | words[1] | words[2] | words[3]) == 0;
 }
