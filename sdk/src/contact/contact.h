@@ -42,7 +42,7 @@ typedef struct knurl_contact {
     double normal[3];   /* unit, towards the side that the HIP came from */
     double z;           /* m along the normal, negative inside */
     double weights[3];  /* mesh: barycentric coordinates of the proxy */
-    uint32_t triangle;  /* mesh: which; plane: 0 */
+    uint32_t triangle;  /* mesh: which */
     knurl_facet *facet; /* mesh: that triangle's; null where none is kept */
     int32_t unsure; /* set without contact, too. 1: the HIP may have passed a face of this shape, by its rim, a seam or
                        another part; whether it has, a cast tells */

@@ -224,23 +224,17 @@ static void keep_uvs(const knurl_mesh *mesh, knurl_facet *f) {
     f->steepest = sqrt((u > v ? u : v) / f->area2);
 }
 
-void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
-                      double coordinates[2]) {
+void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
+                           double coordinates[2]) {
     knurl_facet *f = contact->facet;
-    const double *w = contact->weights;
-    if (!f || mesh->tangents || mesh->has_axis) {
-        find_frame(mesh, contact, x, y, coordinates);
-        return;
-    }
-    if (!f->has_frame) {
-        find_frame(mesh, contact, f->x, f->y, coordinates);
+    find_frame(mesh, contact, x, y, coordinates);
+    if (f && !mesh->tangents && !mesh->has_axis) {
+        vec3_copy(x, f->x);
+        vec3_copy(y, f->y);
         keep_uvs(mesh, f);
         f->has_frame = 1;
+        knurl_mesh_frame(mesh, contact, x, y, coordinates);
     }
-    vec3_copy(f->x, x);
-    vec3_copy(f->y, y);
-    coordinates[0] = f->has_uvs ? (f->u0 + w[1] * f->u1 + w[2] * f->u2) * f->scale[0] : 0.0;
-    coordinates[1] = f->has_uvs ? (f->v0 + w[1] * f->v1 + w[2] * f->v2) * f->scale[1] : 0.0;
 }
 
 /* rates_by_uvs() on a kept facet. */

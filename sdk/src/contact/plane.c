@@ -140,8 +140,7 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
     state->triangle = 0;
     contact->proxy[0] = point[0];
     contact->proxy[1] = point[1];
-    contact->proxy[2] = contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
-    contact->triangle = 0;
+    contact->proxy[2] = 0.0;
 }
 
 /* The side that the HIP comes from, or 0: through the plane between two ticks, or within reach of it. */
@@ -188,7 +187,8 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
         memset(state, 0, sizeof *state);
         return 0;
     }
-    knurl_plane_set_contact(hip, z, state, contact);
+    state->inside = z <= KNURL_ON_SURFACE;
+    knurl_plane_set_contact(hip, z, state->side, contact);
     return 1;
 }
 

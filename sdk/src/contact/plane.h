@@ -75,17 +75,13 @@ static inline int knurl_plane_spans(const knurl_plane *plane, const double p[2])
            fabs(p[1]) <= plane->half_extents[1] + KNURL_EDGE_SLACK;
 }
 
-/* The contact of a HIP that is at a height of z (m) over the plane, on the state's side. */
-static inline void knurl_plane_set_contact(const double hip[3], double z, knurl_contact_state *state,
-                                           knurl_contact *contact) {
-    state->inside = z <= KNURL_ON_SURFACE;
+/* The contact of a HIP that is at a height of z (m) over a side (+1 or -1) of the plane. */
+static inline void knurl_plane_set_contact(const double hip[3], double z, double side, knurl_contact *contact) {
     contact->proxy[0] = hip[0]; /* field by field: clearing all of it costs more than the rest */
     contact->proxy[1] = hip[1];
     contact->proxy[2] = contact->normal[0] = contact->normal[1] = 0.0;
-    contact->normal[2] = state->side;
+    contact->normal[2] = side;
     contact->z = z;
-    contact->weights[0] = contact->weights[1] = contact->weights[2] = 0.0;
-    contact->triangle = 0;
 }
 
 /* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed

@@ -5,15 +5,16 @@
 
 #include "contact/plane.h"
 
-/* The usual tick of knurl_plane_contact(), which gives the same: the HIP was inside, and still is over a rectangle. 0,
- * and nothing is changed, where it is not as usual. */
-static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3], knurl_contact_state *state,
+/* The usual tick of knurl_plane_contact(), which gives the same: the HIP was inside, and still is over a rectangle, so
+ * that its state stays as it is. 0, and nothing is changed, where it is not as usual. */
+static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3], const knurl_contact_state *state,
                                    knurl_contact *contact) {
-    const double z = hip[2] * state->side;
-    if (!state->inside || plane->outline || z > KNURL_ON_SURFACE || !knurl_plane_spans(plane, hip)) {
+    const double side = state->side;
+    const double z = hip[2] * side;
+    if (!state->inside || plane->outline || !(z <= KNURL_ON_SURFACE) || !knurl_plane_spans(plane, hip)) {
         return 0;
     }
-    knurl_plane_set_contact(hip, z, state, contact);
+    knurl_plane_set_contact(hip, z, side, contact);
     contact->unsure = 0;
     return 1;
 }

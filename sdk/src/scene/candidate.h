@@ -61,14 +61,22 @@ static inline void knurl_hip_path_bound(knurl_hip_path *path) {
 void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *motion, const knurl_hip_clock *clock,
                                 const knurl_pose **now, const knurl_pose **before) KNURL_NONBLOCKING;
 
+/* 1 where a candidate stood still at the last tick, and still does: its pose is motion->end. The usual tick of
+ * knurl_candidate_place(). */
+static inline int knurl_candidate_stands(knurl_candidate *c, const knurl_motion *motion, const knurl_hip_clock *clock) {
+    if (c->placed + 1 == clock->tick && c->settled == motion && c->settled_start == motion->start_time &&
+        c->settled_tick < clock->tick) {
+        c->placed = clock->tick;
+        return 1;
+    }
+    return 0;
+}
+
 /* The poses of a candidate's frame at this tick and at the last: as they were seen then, if they were. One and the same
  * where it stands still. Valid in this tick, while the list stays as it is. */
 static inline void knurl_candidate_place(knurl_candidate *c, const knurl_motion *motion, const knurl_hip_clock *clock,
                                          const knurl_pose **now, const knurl_pose **before) {
-    const int was_seen = c->placed + 1 == clock->tick;
-    if (was_seen & (c->settled == motion) & (c->settled_start == motion->start_time) &
-        (c->settled_tick < clock->tick)) {
-        c->placed = clock->tick;
+    if (knurl_candidate_stands(c, motion, clock)) {
         *now = *before = &motion->end;
     } else {
         knurl_candidate_place_anew(c, motion, clock, now, before);

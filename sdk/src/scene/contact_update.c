@@ -10,9 +10,6 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
                               knurl_contact_state *state) {
     const knurl_shape *shape = &a->surface->shape;
     knurl_contact_query query;
-    if (shape->plane && knurl_plane_hold(shape->plane, hip, state, &a->contact)) {
-        return 1;
-    }
     vec3_copy(hip, query.hip);
     vec3_copy(a->candidate->previous, query.previous);
     query.has_previous = c->has_previous;
@@ -37,9 +34,10 @@ static inline int is_within_view(const knurl_contacts *c, double margin, const d
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
                              const double position[3], double margin) {
     knurl_active_contact *a = &c->active[0];
-    const knurl_pose *before;
+    knurl_contact_state *state = &candidate->contact;
+    const knurl_contact_state before = *state;
+    const knurl_pose *pose_before;
     double hip[3], proxy[3], normal[3];
-    knurl_contact_state state = candidate->contact;
     a->candidate = candidate;
     a->surface = knurl_contacts_surface(index, candidate);
     if (!a->surface) {
@@ -50,24 +48,29 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     if (!candidate->has_previous || candidate->jumps != motion->jumps) {
         return 0;
     }
-    knurl_contacts_catch_up(c, motion);
-    knurl_candidate_place(candidate, motion, &c->clock, &a->pose, &before);
-    knurl_pose_to_own(a->pose, position, hip);
-    if (!query_shape(c, a, hip, &state)) {
-        return 0;
+    if (knurl_candidate_stands(candidate, motion, &c->clock)) {
+        a->pose = &motion->end;
+    } else {
+        knurl_contacts_catch_up(c, motion);
+        knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &pose_before);
     }
-    knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
-    knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
-    if (state.inside && !is_within_view(c, margin, proxy)) {
+    knurl_pose_to_own(a->pose, position, hip);
+    const knurl_plane *plane = a->surface->shape.plane;
+    const int is_settled = (plane && knurl_plane_hold(plane, hip, state, &a->contact)) || query_shape(c, a, hip, state);
+    if (is_settled) {
+        knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
+        knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
+    }
+    if (!is_settled || (state->inside && !is_within_view(c, margin, proxy))) {
+        *state = before;
         return 0;
     }
     vec3_copy(proxy, candidate->proxy);
     vec3_copy(normal, candidate->normal);
     vec3_copy(hip, candidate->previous);
-    candidate->contact = state;
     a->begins = 0;
     c->active_count = 1;
-    c->pressed = (uint32_t)state.inside;
+    c->pressed = (uint32_t)state->inside;
     return 1;
 }
 

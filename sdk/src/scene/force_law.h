@@ -27,8 +27,7 @@ typedef struct knurl_contact_force {
 static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_active_contact *c, double local[3]) {
     const knurl_motion *motion = &c->record->motion;
     if (!knurl_motion_is_over(motion, hip->clock->previous_time)) {
-        double surface[3];
-        double over[3];
+        double surface[3], over[3];
         knurl_motion_velocity(motion, hip->clock->time, hip->clock->period, c->candidate->proxy, surface);
         vec3_sub(hip->velocity, surface, over);
         knurl_pose_vector_to_own(c->pose, over, local);
@@ -37,7 +36,8 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
     }
 }
 
-/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. */
+/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. Functions
+ * that are not inlined are given copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
                                 const double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
@@ -50,18 +50,22 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     }
     out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* no -0 where there are no ridges */
     out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
+    const double place[2] = {coordinates[0], coordinates[1]};
+    const double *position = place;
     double velocity[2] = {out->velocity[0], out->velocity[1]};
     double steepest = 1.0;
     if (m->method >= KNURL_LOCKED && /* or AREA */
         !knurl_surface_rates(c->surface, c->record, &c->contact, over, velocity, &steepest)) {
-        coordinates = NULL; /* they count the way */
+        position = NULL; /* they count the way */
     }
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
                                    .update_rate_hz = hip->rate,
                                    .resolution = hip->quantum * steepest};
-    knurl_grating_step(&grating, state, coordinates, velocity, &out->grating);
+    knurl_grating_output played;
+    knurl_grating_step(&grating, state, position, velocity, &played);
+    out->grating = played;
 }
 
 /* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
@@ -95,10 +99,7 @@ static inline void friction_force(const knurl_active_contact *c, const knurl_wal
 /* The force of one contact. wall: as limited by the protections; its height is set. */
 static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                                    knurl_contact_force *out) {
-    double over[3];
-    double x[3];
-    double y[3];
-    double coordinates[2];
+    double over[3], x[3], y[3], coordinates[2];
     relative_velocity(hip, c, over);
     knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
     out->velocity[0] = vec3_dot(over, x);
@@ -107,8 +108,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     wall->height = out->grating.height;
     vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
     if (c->record->material.friction > 0.0) {
-        double tangential[3];
-        double force[3];
+        double tangential[3], force[3];
         friction_force(c, wall, tangential);
         knurl_pose_vector_to_parent(c->pose, tangential, force);
         vec3_madd(out->force, 1.0, force, out->force);

@@ -36,8 +36,9 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
     wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
 }
 
-/* Falling force is not limited: the change is measured from the nearest point between no force and the latest one. */
-void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) {
+/* Falling force is not limited: the change is measured from the nearest point between no force and the latest one.
+ * most: N that the force may change by. */
+static void limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
     const double latest2 = vec3_dot(guard->force, guard->force);
@@ -52,10 +53,20 @@ void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[
 }
 
 /* The gain applies to the force after it is cut to what the motors can give, so that a ramp's full length is used. */
-void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) {
+static void attenuate(const knurl_guard *guard, double force[3]) {
     const double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
     vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
+}
+
+void knurl_guard_limit_change(const knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
+    const double free = guard->slew + guard->gain * steps;
+    if (guard->gain < 1.0) {
+        attenuate(guard, force);
+    }
+    if (!(vec3_distance2(force, guard->force) <= free * free)) {
+        limit_slew(guard, free, force, flags);
+    }
 }
 
 void knurl_guard_note_sent(knurl_guard *guard, const double force[3]) {

@@ -50,17 +50,19 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
         *flags |= KNURL_TICK_ENTRY;
         wall->z = -most;
     }
-    wall->contact->depth = wall->z < 0.0 ? -wall->z : 0.0;
+    wall->contact->depth = knurl_max(-wall->z, 0.0);
 }
 
 /* Before a contact's force: limits its wall. Stiffness and amplitude are clamped where that was asked for, the depth
  * follows the entry ramp, and the wall is softened after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     if (guard->clamp) {
-        knurl_guard_limit_wall(&guard->bounds, wall);
+        knurl_wall limited = *wall; /* a copy, so that `wall` itself can stay in registers */
+        knurl_guard_limit_wall(&guard->bounds, &limited);
+        *wall = limited;
     }
     knurl_guard_enter(guard, wall, flags);
-    if ((wall->stiffness > guard->passivity.safe) | guard->passivity.alarmed) {
+    if (wall->stiffness > guard->passivity.safe || guard->passivity.alarmed) {
         knurl_passivity_watch(&guard->passivity, wall, flags);
     }
 }
@@ -78,23 +80,22 @@ static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wal
     return wall->stiffness * step;
 }
 
-/* Rare cases, called by knurl_guard_limit(). most: N that the force may change by. */
-void knurl_guard_attenuate(const knurl_guard *guard, double force[3]) KNURL_NONBLOCKING;
-void knurl_guard_limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
+/* Attenuates a force and limits its change, both rare: called by knurl_guard_limit(). */
+void knurl_guard_limit_change(const knurl_guard *guard, double steps, double force[3],
+                              uint32_t *flags) KNURL_NONBLOCKING;
 
 /* Limits the sum of all forces, in place: attenuation first, then the slew limit (the textures' own steps, N, and
  * falling forces are exempt), then what the motors can do now. Returns its length, N; NaN or infinite where the force
  * was. */
 static inline double knurl_guard_limit(knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
     double change[3];
-    double free = guard->slew + steps;
-    if (guard->gain < 1.0) {
-        knurl_guard_attenuate(guard, force);
-        free = guard->slew + guard->gain * steps;
-    }
+    const double free = guard->slew + steps;
     vec3_sub(force, guard->force, change);
-    if (!(vec3_dot(change, change) <= free * free)) {
-        knurl_guard_limit_slew(guard, free, force, flags);
+    if (guard->gain < 1.0 || !(vec3_dot(change, change) <= free * free)) {
+        double limited[3]; /* a copy, so that `force` itself can stay in registers */
+        vec3_copy(force, limited);
+        knurl_guard_limit_change(guard, steps, limited, flags);
+        vec3_copy(limited, force);
     }
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);

@@ -116,17 +116,11 @@ void knurl_passivity_follow(knurl_passivity *p) {
     p->depth = 0.0;
 }
 
-void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags) {
-    const double depth = -wall->z;
-    p->depth = depth > p->depth ? depth : p->depth;
-    p->busy = 1;
-    if (p->alarmed && depth > 0.0) {
-        const double most = SOFT_SHARE * p->safe;
-        p->off = 0.0;
-        wall->damping *= 1.0 - p->soft;
-        if (wall->stiffness > most) { /* its texture weakens with it: full steps would throw a hand off a soft wall */
-            wall->stiffness += p->soft * (most - wall->stiffness);
-        }
-        *flags |= KNURL_TICK_PASSIVITY;
+void knurl_passivity_soften(knurl_passivity *p, knurl_wall *wall) {
+    const double most = SOFT_SHARE * p->safe;
+    p->off = 0.0;
+    wall->damping *= 1.0 - p->soft;
+    if (wall->stiffness > most) { /* its texture weakens with it: full steps would throw a hand off a soft wall */
+        wall->stiffness += p->soft * (most - wall->stiffness);
     }
 }

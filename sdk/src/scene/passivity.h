@@ -40,7 +40,20 @@ void knurl_passivity_set_scale(knurl_passivity *passivity, int watches, const kn
 /* From one tick to the next; only while it is busy. */
 void knurl_passivity_follow(knurl_passivity *passivity) KNURL_NONBLOCKING;
 
+/* Softens a wall that the HIP is in during an alarm: called by knurl_passivity_watch(). */
+void knurl_passivity_soften(knurl_passivity *passivity, knurl_wall *wall) KNURL_NONBLOCKING;
+
 /* Follows the depth in a wall that could be unstable; during an alarm, softens it. */
-void knurl_passivity_watch(knurl_passivity *passivity, knurl_wall *wall, uint32_t *flags) KNURL_NONBLOCKING;
+static inline void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags) {
+    const double depth = -wall->z;
+    p->depth = depth > p->depth ? depth : p->depth;
+    p->busy = 1;
+    if (p->alarmed && depth > 0.0) {
+        knurl_wall softened = *wall; /* a copy, so that `wall` itself can stay in registers */
+        knurl_passivity_soften(p, &softened);
+        *wall = softened;
+        *flags |= KNURL_TICK_PASSIVITY;
+    }
+}
 
 #endif

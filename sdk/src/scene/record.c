@@ -58,6 +58,7 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
     record->cos_sin[1] = sin(m.orientation);
     record->reach = smooth ? 0.0 : m.amplitude * crest(m.method);
     record->is_smooth = smooth;
+    record->is_oriented = record->cos_sin[1] != 0.0 || record->cos_sin[0] != 1.0;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;
     return KNURL_OK;
 }

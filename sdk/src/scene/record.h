@@ -15,6 +15,7 @@ typedef struct knurl_record {
     double reach;                 /* the highest crest: m in front of the surface where contact begins */
     int32_t has_grating;          /* 0: nothing to play, the stage is left out */
     int32_t is_smooth;            /* 1: neither ridges nor height */
+    int32_t is_oriented;          /* 0: the orientation is 0, and is left out */
     knurl_motion motion;          /* of the shape's frame */
     float arrived[6];             /* a box of where it is once the motion is over, with a margin; scene axes */
     float moving_box[6];          /* scene axes, crests included: all that the motion sweeps, */

@@ -10,9 +10,9 @@
 static inline void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record,
                                        const knurl_contact *contact, double x[3], double y[3], double coordinates[2]) {
     knurl_shape_frame(&surface->shape, contact, x, y, coordinates);
-    const double c = record->cos_sin[0];
-    const double s = record->cos_sin[1];
-    if (s != 0.0 || c != 1.0) { /* the orientation rotates the frame, so the coordinates rotate back */
+    if (record->is_oriented) { /* the orientation rotates the frame, so the coordinates rotate back */
+        const double c = record->cos_sin[0];
+        const double s = record->cos_sin[1];
         const double place[2] = {coordinates[0], coordinates[1]};
         for (int i = 0; i < 3; i++) {
             const double along = x[i];
@@ -29,8 +29,9 @@ static inline void knurl_surface_frame(const knurl_surface_data *surface, const 
 static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
                                       const knurl_contact *contact, const double velocity[3], double rates[2],
                                       double *steepest) {
+    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* a copy, see force_law.h */
     double straight[2];
-    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
+    if (!knurl_shape_rates(&surface->shape, contact, moving, straight, steepest)) {
         return 0;
     }
     rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];

@@ -93,9 +93,9 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     return vec3_finite_both(out->hip, out->hip_velocity);
 }
 
-/* Adds one contact's force; of several contacts the deepest is reported. */
-static void add_contact(const knurl_active_contact *contact, const knurl_contact_force *share, knurl_tick_output *out) {
-    vec3_madd(out->force, 1.0, share->force, out->force);
+/* Reports one contact; of several the deepest. */
+static inline void report_contact(const knurl_active_contact *contact, const knurl_contact_force *share,
+                                  knurl_tick_output *out) {
     if (share->grating.saturated) {
         out->flags |= KNURL_TICK_FREQUENCY;
     }
@@ -118,16 +118,17 @@ static void add_contact(const knurl_active_contact *contact, const knurl_contact
 
 /* Counts events and half cycles. More than 1e9 half cycles in a tick are impossible and are dropped, so that an
  * overflow cannot spoil the sum. */
-static void count_grating(knurl_hip *hip, const knurl_active_contact *contact, const knurl_contact_force *share,
-                          int64_t events_before) {
+static inline void count_grating(knurl_hip *hip, const knurl_active_contact *contact, const knurl_contact_force *share,
+                                 int64_t events_before) {
     const double halves = 2.0 * share->grating.temporal_frequency * hip->contacts.clock.period;
     hip->counts.events += (uint64_t)(contact->candidate->grating.event_count - events_before);
     hip->counts.half_cycles_crossed += halves < 1e9 && !contact->record->is_smooth ? halves : 0.0;
     hip->counts.half_cycles_played += share->grating.turned;
 }
 
-/* Computes and adds one contact's force. Returns its texture's step, N. */
-static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knurl_tick_output *out) {
+/* Computes one contact's force and adds it to the sum. Returns its texture's step, N. */
+static inline double render_contact(knurl_hip *hip, const knurl_active_contact *c, double sum[3],
+                                    knurl_tick_output *out) {
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
@@ -137,27 +138,31 @@ static double render_contact(knurl_hip *hip, const knurl_active_contact *c, knur
     knurl_force_law(&motion, c, &wall, &share);
     const double step = knurl_guard_after(&hip->guard, &wall);
     count_grating(hip, c, &share, events);
-    add_contact(c, &share, out);
+    vec3_madd(sum, 1.0, share.force, sum);
+    report_contact(c, &share, out);
     return step;
 }
 
 /* 1 where nothing is in contact, no force is added and the latest tick's was 0: there is nothing to limit. */
 static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
     const double *force = hip->guard.force;
-    return (hip->contacts.active_count == 0) & !added & (force[0] == 0.0) & (force[1] == 0.0) & (force[2] == 0.0);
+    return hip->contacts.active_count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
 /* Sums all contacts' forces and what the game adds, and limits the sum (N, scene). Returns its length. */
-static double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
+static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
+    double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
-        steps += render_contact(hip, &hip->contacts.active[i], out);
+        steps += render_contact(hip, &hip->contacts.active[i], force, out);
     }
     if (added) {
-        vec3_madd(out->force, 1.0, added->force, out->force);
+        vec3_madd(force, 1.0, added->force, force);
         steps += added->step;
     }
-    return knurl_guard_limit(&hip->guard, steps, out->force, &out->flags);
+    const double length = knurl_guard_limit(&hip->guard, steps, force, &out->flags);
+    vec3_copy(force, out->force);
+    return length;
 }
 
 /* No force, no contact, a first tick next. */
