@@ -15,6 +15,9 @@
 #else
 #define AVX 0
 #endif
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 /* Positions become fixed point with this many steps a count: what sits on an encoder's counts stays exact, and what
  * does not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
@@ -156,44 +159,70 @@ static const double weights[RING] = WINDOWS(WEIGHT);
 #define TRIED    0x895eu
 #define TRIES(i) (TRIED >> (i) & 1u)
 
-/* Four lanes and no branch, so that compilers may vectorise it; the fourth is not used. */
-static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double position[3], double out[3]) {
-    double x[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int axis = 0; axis < 3; axis++) {
-        const double rounded = position[axis] * velocity->steps_per_m + WHOLE;
-        double least = rounded - (WHOLE + HALF_COUNT);
-        double most = rounded - (WHOLE - HALF_COUNT);
-        least = least < LIMIT ? least : LIMIT;
-        most = most > -LIMIT ? most : -LIMIT;
-        most = most < velocity->held[axis] ? most : velocity->held[axis];
-        x[axis] = least > most ? least : most;
-    }
-    memcpy(velocity->held, x, sizeof x);
-    memcpy(rows[0], x, sizeof x);
-    memcpy(rows[RING], x, sizeof x);
-    double low[4] = {-ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE, -ANY_SLOPE};
-    double high[4] = {ANY_SLOPE, ANY_SLOPE, ANY_SLOPE, ANY_SLOPE};
-    double best[4] = {0.0, 0.0, 0.0, 0.0};
-    double sums[RING][4] = {{0.0, 0.0, 0.0, 0.0}};
+/* By GCC's and Clang's vectors of two lanes, which SSE2 and NEON have; the fourth lane is not used. The least and the
+ * greatest of two numbers are one instruction each on x86, where the compilers do not find it by themselves. */
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_mask __attribute__((vector_size(16)));
+
+static inline pair choose(pair_mask which, pair yes, pair no) {
+    return (pair)((which & (pair_mask)yes) | (~which & (pair_mask)no));
+}
+
+static inline pair lesser(pair a, pair b) {
+#if defined(__SSE2__)
+    return _mm_min_pd(a, b);
+#else
+    return choose(a < b, a, b);
+#endif
+}
+
+static inline pair greater(pair a, pair b) {
+#if defined(__SSE2__)
+    return _mm_max_pd(a, b);
+#else
+    return choose(a > b, a, b);
+#endif
+}
+
+/* The velocities of two axes. */
+static inline pair foaw_pair(const knurl_velocity_state *velocity, double (*rows)[4], int axis, pair steps) {
+    pair held, best = {0.0, 0.0}, low = best - ANY_SLOPE, high = best + ANY_SLOPE;
+    pair sums[RING];
+    memcpy(&held, &velocity->held[axis], sizeof held);
+    const pair rounded = steps + WHOLE;
+    const pair least = lesser(rounded - (WHOLE + HALF_COUNT), best + LIMIT);
+    const pair most = greater(rounded - (WHOLE - HALF_COUNT), best - LIMIT);
+    const pair x = greater(least, lesser(most, held));
+    memcpy(&rows[0][axis], &x, sizeof x);
+    memcpy(&rows[RING][axis], &x, sizeof x);
+    sums[0] = best;
 #pragma GCC unroll 15
     for (int i = 1; i < RING; i++) {
+        pair row;
+        memcpy(&row, &rows[i][axis], sizeof row);
+        const pair way = x - row;
+        const pair slope = way * scales[i];
         const double slack = STEPS_PER_COUNT * scales[i];
-        for (int axis = 0; axis < 4; axis++) {
-            const double way = x[axis] - rows[i][axis];
-            const double slope = way * scales[i];
-            sums[i][axis] = sums[i - 1][axis] + way;
-            if (TRIES(i)) {
-                const int fits = (slope >= low[axis]) & (slope <= high[axis]);
-                const double thirds = sums[i][axis] - sums[FAR(i)][axis] - sums[NEAR(i)][axis];
-                best[axis] = fits ? thirds * weights[i] : best[axis];
-            }
-            low[axis] = slope - slack > low[axis] ? slope - slack : low[axis];
-            high[axis] = slope + slack < high[axis] ? slope + slack : high[axis];
+        sums[i] = sums[i - 1] + way;
+        if (TRIES(i)) {
+            best =
+                choose((slope >= low) & (slope <= high), (sums[i] - sums[FAR(i)] - sums[NEAR(i)]) * weights[i], best);
         }
+        low = greater(slope - slack, low);
+        high = lesser(slope + slack, high);
     }
-    for (int axis = 0; axis < 3; axis++) {
-        out[axis] = best[axis] * velocity->slope_unit;
-    }
+    return best * velocity->slope_unit;
+}
+
+static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double position[3], double out[3]) {
+    const pair xy = {position[0] * velocity->steps_per_m, position[1] * velocity->steps_per_m};
+    const pair z = {position[2] * velocity->steps_per_m, 0.0};
+    const pair first = foaw_pair(velocity, rows, 0, xy);
+    const pair second = foaw_pair(velocity, rows, 2, z);
+    memcpy(velocity->held, rows[0], sizeof velocity->held);
+    out[0] = first[0];
+    out[1] = first[1];
+    out[2] = second[0];
 }
 
 #if AVX
