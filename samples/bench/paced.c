@@ -68,6 +68,7 @@ knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *cou
     bench_stroke(c, 0, 0, &s.next);
     knurl_device_functions_init(&functions, sizeof functions);
     functions.user = &s;
+    functions.motors_known = 1; /* simulated */
     functions.get_info = get_info;
     functions.read = read_stroke;
     functions.write = write_force;

@@ -24,7 +24,7 @@ static knurl_result weigh_both(double *heavier) {
     double empty = 0.0;
     double loaded = 0.0;
     knurl_device *device = NULL;
-    (void)snprintf(uri, sizeof uri, "falcon:?gain=%g", GAIN);
+    (void)snprintf(uri, sizeof uri, "falcon:?gain=%g&motors_known=1", GAIN);
     knurl_result result = knurl_device_open(uri, &device);
     if (result) {
         return result;

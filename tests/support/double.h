@@ -32,6 +32,9 @@ typedef struct device_double {
     /** ns on the monotonic clock since when the simulated motors get no force; 0: they get one now. [any thread] */
     int64_t (*limp_since)(void);
     void (*close)(knurl_device *device); /**< driver and double */
+    /** The same without ?motors_known=1, loosely held, with motors that are wired backwards; null: its driver has no
+     * check. */
+    knurl_device *(*open_backwards)(void);
     double alone_ms; /**< for which its firmware plays on by itself when nothing reaches it any more; 0: not at all */
 } device_double;
 

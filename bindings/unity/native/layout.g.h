@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "679f5324e56d48b9"
+#define KNURL_UNITY_INTERFACE "57653a859db4a470"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -261,7 +261,7 @@
     FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
     FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
     FIELD(knurl_device_status, orientation, "orientation", 56, 32) \
-    STRUCT(knurl_device_functions, 64) \
+    STRUCT(knurl_device_functions, 72) \
     FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \
     FIELD(knurl_device_functions, user, "user", 8, 8) \
@@ -271,6 +271,8 @@
     FIELD(knurl_device_functions, write, "write", 40, 8) \
     FIELD(knurl_device_functions, reopen, "reopen", 48, 8) \
     FIELD(knurl_device_functions, close, "close", 56, 8) \
+    FIELD(knurl_device_functions, motors_known, "motors_known", 64, 4) \
+    FIELD(knurl_device_functions, reserved, "reserved", 68, 4) \
     STRUCT(knurl_stroke_desc, 136) \
     FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \

@@ -68,6 +68,18 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: when this one is killed, the force stays",   \
       "")                                                                                                              \
     X(KNURL_FAULT_GAP, 13, "gap", "the loop did not run for a while: the program or the machine stood still", "s")     \
+    X(KNURL_FAULT_BACKWARDS_X, 14, "backwards_x",                                                                      \
+      "the handle does not follow the force along x: a motor is wired or signed backwards; swap its two wires "        \
+      "(or, in a caller's device, change its sign), and open the device again",                                        \
+      "")                                                                                                              \
+    X(KNURL_FAULT_BACKWARDS_Y, 15, "backwards_y",                                                                      \
+      "the handle does not follow the force along y: a motor is wired or signed backwards; swap its two wires "        \
+      "(or, in a caller's device, change its sign), and open the device again",                                        \
+      "")                                                                                                              \
+    X(KNURL_FAULT_BACKWARDS_Z, 16, "backwards_z",                                                                      \
+      "the handle does not follow the force along z: a motor is wired or signed backwards; swap its two wires "        \
+      "(or, in a caller's device, change its sign), and open the device again",                                        \
+      "")                                                                                                              \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
@@ -127,6 +139,9 @@ typedef struct knurl_device_functions {
     knurl_result (*reopen)(void *user);
     /** The last call; or null. [the thread that closes the device, or that destroys the last loop that uses it] */
     void (*close)(void *user);
+    uint32_t motors_known; /**< 1: the motors are known to push where they are told to: they are not checked, see
+                                knurl_device_open(). Default 0 */
+    uint32_t reserved;     /**< 0 */
 } knurl_device_functions;
 
 /** The fake device's strokes: motions of its hand's target over a surface. */
@@ -188,6 +203,11 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * - inverse3, inverse3:ID: the first Haply Inverse3, or the one with this id, by its maker's service on this machine.
  *   ?port=N: the service's port, 1 to 65535; default 10001.
  *
+ * falcon, rawhid, serial and a caller's functions check their motors, because one that is wired or signed backwards
+ * pushes with the hand. The first force above 0.25 N along each axis is limited to 1 N and sent as pulses of 12 ms
+ * until the handle has followed it, usually for 0.1 to 0.5 s, then it ramps up. A handle that goes against the force,
+ * or aside, is a fault (backwards_x, _y, _z): no force until the device is opened again. ?motors_known=1: no check.
+ *
  * falcon and rawhid on Linux: ?guard=1 starts a small process in a session of its own that also holds the device. It
  * sends zero force when this process is gone (SIGKILL, _exit()) or has not run for 50 ms (SIGSTOP, a frozen machine),
  * and ends with this process or when the device is closed. If the guard itself is gone, that is an event (unguarded).
@@ -244,8 +264,9 @@ KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_ra
  * formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample);
 
-/** Writes the force (device axes, N). A force that is not finite is written as 0; one beyond max_force is shortened. A
- * device with an I/O thread plays it until the next one, for at most 10 ms.
+/** Writes the force (device axes, N). A force that is not finite is written as 0; one beyond max_force is shortened;
+ * while the motors are checked (see knurl_device_open()) less is sent. A device with an I/O thread plays it until the
+ * next one, for at most 10 ms.
  * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 

@@ -173,6 +173,9 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
     made->base.max_force = info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;
+    if (!f.motors_known) {
+        knurl_motor_check_init(&made->base.motor_check, info.max_force);
+    }
     result = knurl_device_start(&made->base, 1000.0);
     result = result || !f.blocking ? result : knurl_link_open(&made->link, &made->base, exchange, rate_of(made));
     if (result) {

@@ -66,6 +66,10 @@ int knurl_device_is_closed(const knurl_device *device) {
     return (knurl_load_acquire(&device->halted) & KNURL_HALTED_FOR_GOOD) != 0;
 }
 
+int knurl_device_may_resume(const knurl_device *device) {
+    return (knurl_load_acquire(&device->halted) & ~KNURL_HALTED) == 0;
+}
+
 knurl_result knurl_device_claim(knurl_device *device) {
     uint32_t use = 0;
     if (__atomic_compare_exchange_n(&device->use, &use, KNURL_DEVICE_LOOP, 0, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED)) {
@@ -161,6 +165,9 @@ knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
         }
         device->period = 1.0 / update_rate_hz;
         begin_check(device);
+        if (device->motor_check.is_on) {
+            knurl_motor_check_start(&device->motor_check, device->period);
+        }
     }
     return result;
 }
@@ -214,6 +221,14 @@ static void lose(knurl_device *device) {
     knurl_store_release(&device->lost, 1u);
 }
 
+static void check_motors(knurl_device *device, const double position[3]) {
+    const int backwards = knurl_motor_check_step(&device->motor_check, position);
+    if (backwards) {
+        (void)__atomic_fetch_or(&device->halted, KNURL_HALTED_BACKWARDS, __ATOMIC_ACQ_REL);
+        knurl_events_report(&device->events, KNURL_FAULT_BACKWARDS_X + (backwards - 1), 0.0);
+    }
+}
+
 static knurl_result read_device(knurl_device *device, knurl_device_sample *sample) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
@@ -224,6 +239,9 @@ static knurl_result read_device(knurl_device *device, knurl_device_sample *sampl
     device->check.gap += device->period;
     result = result ? result : check_position(device, found.position);
     if (!result) {
+        if (device->motor_check.is_on) {
+            check_motors(device, found.position);
+        }
         check_orientation(found.orientation);
         *sample = found;
         knurl_store_relaxed(&device->buttons, found.buttons);
@@ -258,6 +276,9 @@ static knurl_result write_device(knurl_device *device, const double force[3]) {
     if (knurl_is_finite(length) && !knurl_load_acquire(&device->halted)) {
         const double most = device->max_force * (1.0 + ROUNDING);
         vec3_scale(length > most ? device->max_force / length : 1.0, force, safe);
+    }
+    if (device->motor_check.is_on) {
+        knurl_motor_check_shape(&device->motor_check, safe);
     }
     if (!device->link) {
         knurl_device_before_force(device, safe);

@@ -5,6 +5,7 @@
 #include "base/handle.h"
 #include "base/seqlock.h"
 #include "device/events.h"
+#include "device/motor_check.h"
 #include "device/motors.h"
 
 #include <stdlib.h>
@@ -61,9 +62,10 @@ typedef struct knurl_position_check {
 #define KNURL_DEVICE_THREAD 2u
 #define KNURL_DEVICE_CLOSED 4u
 
-/* Bits of knurl_device.halted: until knurl_device_release_halt(); for good. */
-#define KNURL_HALTED          1u
-#define KNURL_HALTED_FOR_GOOD 2u
+/* Bits of knurl_device.halted: until knurl_device_release_halt(); closed; a motor is backwards, until it is closed. */
+#define KNURL_HALTED           1u
+#define KNURL_HALTED_FOR_GOOD  2u
+#define KNURL_HALTED_BACKWARDS 4u
 
 /* First member of every driver's own struct; zeroed but for handle, driver and max_force. */
 struct knurl_device {
@@ -74,6 +76,7 @@ struct knurl_device {
     double period;           /* s, of the latest start */
     struct knurl_link *link; /* the I/O thread that exchanges, see link.h; null: there is none */
     knurl_position_check check;
+    knurl_motor_check motor_check; /* begun by drivers whose motors may be wired or signed backwards */
     knurl_events events;
     knurl_motor_heat motors; /* a thread that starts a loop reads it, one that ends it writes it */
     /* atomics */

@@ -23,6 +23,9 @@ void knurl_device_claim_thread(knurl_device *device);
 /* 1: its owner has closed it. [any thread] */
 int knurl_device_is_closed(const knurl_device *device);
 
+/* 1: no halt but one that knurl_device_release_halt() ends. [any thread] */
+int knurl_device_may_resume(const knurl_device *device);
+
 /* knurl_device_start() for the loop that has claimed it. */
 knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz);
 

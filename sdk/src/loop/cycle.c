@@ -48,7 +48,7 @@ static double next_gain(knurl_loop *loop, int paused) {
     const int was_down = loop->was_halted || !loop->wanted;
     double gain = loop->was_halted || (paused && loop->ticks == 0) ? 0.0 : loop->gain;
     loop->wanted = is_game_alive(loop, paused) && !paused;
-    if (was_down && loop->wanted && loop->ticks > 0 && !knurl_device_is_closed(loop->desc.device)) {
+    if (was_down && loop->wanted && loop->ticks > 0 && knurl_device_may_resume(loop->desc.device)) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
     if (!loop->wanted) {

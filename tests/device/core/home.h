@@ -212,6 +212,7 @@ static inline knurl_device_functions home_functions(home *h, uint32_t blocking) 
     f.write = home_write;
     f.reopen = home_reopen;
     f.close = home_close;
+    f.motors_known = 1; /* it does not move by a force */
     return f;
 }
 

@@ -52,4 +52,5 @@ const device_double dhd_double = {"dhd",
                                   double_inject,
                                   double_limp_since,
                                   double_close,
+                                  NULL,
                                   20.0}; /* while a call blocks, the force stays */

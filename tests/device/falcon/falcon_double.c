@@ -5,20 +5,30 @@
 
 static falcon_fake fake;
 
-static knurl_device *double_open(void) {
+static knurl_device *open_wired(uint32_t backwards, const char *options) {
     knurl_device *device = NULL;
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = KNURL_STROKE_REST;
     stroke.depth = -0.005; /* stays at the height where strokes begin */
     falcon_fake_init(&fake, &stroke);
+    fake.sim.backwards = backwards;
+    fake.sim.plant.config.hand_stiffness = backwards ? 200.0 : fake.sim.plant.config.hand_stiffness;
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);
-    if (knurl_falcon_open_on(&bus, "", &device)) {
+    if (knurl_falcon_open_on(&bus, options, &device)) {
         falcon_fake_free(&fake);
         return NULL;
     }
     knurl_device_register(device);
     return device;
+}
+
+static knurl_device *double_open(void) {
+    return open_wired(0, "?motors_known=1");
+}
+
+static knurl_device *double_open_backwards(void) {
+    return open_wired(1, "");
 }
 
 static void double_inject(int fault) {
@@ -45,4 +55,5 @@ const device_double falcon_double = {
     .inject = double_inject,
     .limp_since = double_limp_since,
     .close = double_close,
+    .open_backwards = double_open_backwards,
 };

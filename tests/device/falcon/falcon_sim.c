@@ -193,7 +193,11 @@ static void hear_boot(falcon_sim *sim, uint8_t byte) {
 static void move(falcon_sim *sim) {
     double before[3];
     double speed[3];
-    falcon_sim_force(sim->plant.position, sim->motors, sim->force);
+    int16_t wired[3];
+    for (int leg = 0; leg < 3; leg++) {
+        wired[leg] = (int16_t)(sim->backwards >> leg & 1u ? -sim->motors[leg] : sim->motors[leg]);
+    }
+    falcon_sim_force(sim->plant.position, wired, sim->force);
     for (int axis = 0; axis < 3; axis++) {
         sim->force[axis] /= sim->gain;
     }

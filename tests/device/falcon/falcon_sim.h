@@ -17,10 +17,11 @@ typedef struct falcon_sim {
     knurl_hand hand;
     double target[3];
     uint64_t ticks;
-    double jump[3]; /* m: what the encoders tell beyond the truth */
-    double gain;    /* motor units that make a newton metre, over libnifalcon's 10000 */
-    double weight;  /* N that hang from its grip */
-    int is_moving;  /* 0: it stands where it was put, whatever the motors do */
+    double jump[3];     /* m: what the encoders tell beyond the truth */
+    double gain;        /* motor units that make a newton metre, over libnifalcon's 10000 */
+    uint32_t backwards; /* bits: motors that are wired backwards */
+    double weight;      /* N that hang from its grip */
+    int is_moving;      /* 0: it stands where it was put, whatever the motors do */
     /* what it says and hears */
     int16_t motors[3];
     double force[3]; /* N that they make there */

@@ -27,7 +27,9 @@ static void begin(void) {
 
 static knurl_device *open_with(const char *options) {
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);
-    if (knurl_falcon_open_on(&bus, options, &opened)) {
+    char all[512];
+    (void)snprintf(all, sizeof all, "%s%cmotors_known=1", options, options[0] ? '&' : '?');
+    if (knurl_falcon_open_on(&bus, all, &opened)) {
         fail_msg("%s", knurl_error_message());
     }
     knurl_device_register(opened);

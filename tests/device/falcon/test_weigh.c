@@ -25,7 +25,9 @@ static knurl_device *open_loose(double true_gain, const char *options) {
     memset(fake.sim.plant.position, 0, sizeof fake.sim.plant.position);
     fake.sim.weight = 0.3; /* its grip's own */
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);
-    if (knurl_falcon_open_on(&bus, options, &device)) {
+    char all[64];
+    (void)snprintf(all, sizeof all, "%s%cmotors_known=1", options, options[0] ? '&' : '?');
+    if (knurl_falcon_open_on(&bus, all, &device)) {
         fail_msg("%s", knurl_error_message());
     }
     knurl_device_register(device);

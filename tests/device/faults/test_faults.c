@@ -222,6 +222,44 @@ TEST(every_fault_of_every_device_zeroes_the_force_within_5_ms_of_its_event_and_i
     }
 }
 
+/* --- backwards motors --- */
+
+static outcome try_backwards(int which) {
+    trial t;
+    device_double on = *doubles[which];
+    on.open = on.open_backwards;
+    begin(&t, &on, 0.0);
+    assert_int_equal(wait_for_limp(&t, 0, 3000), 1);
+    t.injected = now_ns();
+    const int64_t until = now_ns() + 4000000000;
+    while (now_ns() < until && !has(&t.result, KNURL_FAULT_BACKWARDS_X) && !has(&t.result, KNURL_FAULT_BACKWARDS_Y) &&
+           !has(&t.result, KNURL_FAULT_BACKWARDS_Z)) {
+        sleep_ns(200000);
+        take_events(&t, KNURL_FAULT_OVERRUN);
+    }
+    t.limp = wait_for_limp(&t, 1, 100) ? on.limp_since() : 0;
+    t.limp = t.limp > 0 && t.limp < t.seen ? t.seen : t.limp; /* between two pulses */
+    t.result.is_back = wait_for_limp(&t, 0, 200);
+    take_events(&t, KNURL_FAULT_OVERRUN);
+    end(&t);
+    return t.result;
+}
+
+static int is_backwards(const outcome *r, int which) {
+    (void)which;
+    return r->code_count == 1 && r->codes[0] >= KNURL_FAULT_BACKWARDS_X && r->codes[0] <= KNURL_FAULT_BACKWARDS_Z &&
+           r->seen <= 1000.0 && r->zero >= 0.0 && r->zero <= BOUND && !r->is_back;
+}
+
+TEST(a_motor_that_is_wired_backwards_gets_no_force_until_the_device_is_opened_again) {
+    for (size_t i = 0; i < COUNT_OF(doubles); i++) {
+        if (doubles[i]->open_backwards) {
+            row *r = add_row(doubles[i]->name, "motors are wired backwards", "when it is opened again");
+            check_row(r, try_backwards, is_backwards, (int)i);
+        }
+    }
+}
+
 /* --- the loop's own --- */
 
 static outcome try_stall(const device_double *on, int64_t stall) {

@@ -195,4 +195,5 @@ const device_double inverse3_double = {"inverse3",
                                        double_inject,
                                        double_limp_since,
                                        knurl_device_close,
+                                       NULL,
                                        20.0}; /* while a call blocks, the force stays */

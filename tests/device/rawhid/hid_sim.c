@@ -169,7 +169,8 @@ int hid_sim_hear(hid_sim *sim, double time, const uint8_t *report, size_t size) 
     sim->begun_at = sim->reports == 0 ? time : sim->begun_at;
     sim->reports++;
     for (int i = 0; i < 3; i++) {
-        sim->current[i] = command == 1 ? 0 : word(report, i);
+        const int16_t sign = sim->backwards >> i & 1u ? -1 : 1;
+        sim->current[i] = command == 1 ? 0 : (int16_t)(sign * word(report, i));
         any |= sim->current[i] != 0;
         sim->offset[i] = command == 1 ? wrap(word(report, 4 + i) - true_counts(sim, i)) : sim->offset[i];
     }

@@ -26,6 +26,7 @@ typedef struct hid_sim {
     double angles[3];   /* rad, of the bodies */
     int16_t offset[3];  /* counters less true counts */
     int16_t current[3]; /* mA, as told */
+    uint32_t backwards; /* bits: motors that are wired backwards */
     int16_t info;
     uint32_t reports; /* heard */
     uint32_t commands;

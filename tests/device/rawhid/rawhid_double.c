@@ -6,15 +6,28 @@
 
 static fake_hid hid;
 
-static knurl_device *double_open(void) {
+static knurl_device *open_wired(uint32_t backwards, const char *options) {
     knurl_device *device = NULL;
     fake_hid_init(&hid, 64, NULL);
-    if (knurl_rawhid_open("", &hid.bus, &device)) {
+    hid.sim.backwards = backwards;
+    if (backwards) { /* loosely held */
+        hid.sim.plant.config.hand_stiffness = 200.0;
+        hid.sim.plant.config.hand_damping = 2.0;
+    }
+    if (knurl_rawhid_open(options, &hid.bus, &device)) {
         fake_hid_destroy(&hid);
         return NULL;
     }
     knurl_device_register(device);
     return device;
+}
+
+static knurl_device *double_open(void) {
+    return open_wired(0, "?motors_known=1");
+}
+
+static knurl_device *double_open_backwards(void) {
+    return open_wired(7, "");
 }
 
 /* Whose place was lost is well again when somebody has pressed its home button. */
@@ -47,4 +60,5 @@ const device_double rawhid_double = {"rawhid",
                                      double_inject,
                                      double_limp_since,
                                      double_close,
+                                     double_open_backwards,
                                      500.0};

@@ -149,6 +149,14 @@ knurl_device *serial_double_open(const char *options) {
 
 static knurl_device *double_open(void) {
     begin();
+    return serial_double_open("?motors_known=1");
+}
+
+static knurl_device *double_open_backwards(void) {
+    begin();
+    d.sim.backwards = 7;
+    d.sim.plant.config.hand_stiffness = 200.0; /* loosely held */
+    d.sim.plant.config.hand_damping = 2.0;
     return serial_double_open("");
 }
 
@@ -195,4 +203,5 @@ const device_double serial_double = {"serial",
                                      double_inject,
                                      double_limp_since,
                                      double_close,
+                                     double_open_backwards,
                                      100.0};

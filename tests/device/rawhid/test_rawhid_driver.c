@@ -237,7 +237,7 @@ TEST_WITH(no_motor_ever_gets_more_than_its_limit, set_up, tear_down) {
     char options[600];
     int greatest = 0;
     (void)snprintf(path, sizeof path, "%s/limit_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
-    (void)snprintf(options, sizeof options, "?geometry=%s", path);
+    (void)snprintf(options, sizeof options, "?motors_known=1&geometry=%s", path);
     FILE *file = fopen(path, "w");
     if (!file) {
         fail_msg("%s cannot be written", path);

@@ -391,6 +391,8 @@ namespace Knurl
         public IntPtr write;
         public IntPtr reopen;
         public IntPtr close;
+        public uint motors_known;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -633,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "679f5324e56d48b9";
+        internal const string Interface = "57653a859db4a470";
 
         internal const string Version = "0.3.0";
 
@@ -778,6 +780,9 @@ namespace Knurl
         internal const int KNURL_FAULT_UNCALIBRATED = 11;
         internal const int KNURL_FAULT_UNGUARDED = 12;
         internal const int KNURL_FAULT_GAP = 13;
+        internal const int KNURL_FAULT_BACKWARDS_X = 14;
+        internal const int KNURL_FAULT_BACKWARDS_Y = 15;
+        internal const int KNURL_FAULT_BACKWARDS_Z = 16;
         internal const int KNURL_FAULT_RESUMED = 32;
         internal const int KNURL_FAULT_RECONNECTED = 33;
         internal const int KNURL_STROKE_LINE = 1;

@@ -45,6 +45,7 @@ typedef struct falcon {
     double gain;
     uint32_t is_gain_set; /* 1: by whoever opened it */
     uint32_t wants_guard;
+    uint32_t motors_known;
     knurl_link link;
     /* the I/O thread's */
     knurl_falcon_decoder decoder;
@@ -337,10 +338,12 @@ static knurl_result parse(const char *options, falcon *f) {
     char name[KNURL_URI_ROOM];
     char gain[KNURL_URI_ROOM];
     char guard[KNURL_URI_ROOM];
+    char known[KNURL_URI_ROOM];
     char *firmware = f->firmware;
-    const knurl_uri_key keys[] = {{"firmware", firmware}, {"gain", gain}, {"guard", guard}};
+    const knurl_uri_key keys[] = {{"firmware", firmware}, {"gain", gain}, {"guard", guard}, {"motors_known", known}};
     knurl_result result = knurl_uri_parse("falcon", options, name, keys, sizeof keys / sizeof *keys);
     result = result ? result : knurl_uri_flag("falcon", "guard", guard, &f->wants_guard);
+    result = result ? result : knurl_uri_flag("falcon", "motors_known", known, &f->motors_known);
     if (!result && name[0]) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "device 'falcon': expected 'falcon' (the first one that is found) or "
@@ -370,6 +373,9 @@ knurl_result knurl_falcon_open_on(const knurl_falcon_bus *bus, const char *optio
     made->base.max_speed = KNURL_HAND_SPEED;
     made->bus = *bus;
     knurl_result result = parse(options, made);
+    if (!made->motors_known) {
+        knurl_motor_check_init(&made->base.motor_check, MAX_FORCE);
+    }
     result = result ? result : connect(made);
     result = result ? result : knurl_device_start(&made->base, 1000.0);
     if (result) {

@@ -35,6 +35,7 @@ typedef struct rawhid {
     size_t report_bytes;
     int16_t home[3];
     uint32_t home_on_open;
+    uint32_t motors_known;
     uint32_t wants_guard;
     /* the I/O thread's */
     double angles[3];
@@ -294,12 +295,14 @@ static knurl_result read_options(const char *options, const knurl_serial_ports *
     char geometry[KNURL_URI_ROOM];
     char homing[KNURL_URI_ROOM];
     char guard[KNURL_URI_ROOM];
+    char known[KNURL_URI_ROOM];
     uint32_t homes = 0;
     const char *driver = r->base.driver->uri;
-    const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}, {"guard", guard}};
+    const knurl_uri_key keys[] = {{"geometry", geometry}, {"home", homing}, {"guard", guard}, {"motors_known", known}};
     knurl_result result = knurl_uri_parse(driver, options, id, keys, sizeof keys / sizeof *keys);
     result = result ? result : knurl_uri_flag(driver, "home", homing, &homes);
     result = result ? result : knurl_uri_flag(driver, "guard", guard, &r->wants_guard);
+    result = result ? result : knurl_uri_flag(driver, "motors_known", known, &r->motors_known);
     knurl_rawhid_geometry_init(&r->geometry);
     if (ports) { /* hfabapi's, for this firmware: motors b and c turn the other way */
         r->geometry.sign[1] = r->geometry.sign[2] = -1.0;
@@ -335,6 +338,9 @@ static knurl_result open_on(const char *options, const knurl_rawhid_bus *bus, co
     knurl_result result = read_options(options, ports, made);
     made->base.max_force = made->geometry.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
+    if (!made->motors_known) {
+        knurl_motor_check_init(&made->base.motor_check, made->base.max_force);
+    }
     result = result ? result : connect(made, 0);
     result = result ? result : knurl_device_start(&made->base, 1000.0);
     if (result) {

@@ -394,6 +394,15 @@ namespace Knurl
         /// <summary>The loop did not run for a while: the program or the machine stood still.</summary>
         Gap = 13,
 
+        /// <summary>The handle does not follow the force along x: a motor is wired or signed backwards.</summary>
+        BackwardsX = 14,
+
+        /// <summary>The handle does not follow the force along y: a motor is wired or signed backwards.</summary>
+        BackwardsY = 15,
+
+        /// <summary>The handle does not follow the force along z: a motor is wired or signed backwards.</summary>
+        BackwardsZ = 16,
+
         /// <summary>No fault: the force comes back, by the ramp.</summary>
         Resumed = 32,
 
