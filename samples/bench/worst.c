@@ -99,7 +99,9 @@ static knurl_result add(knurl_scene *scene, knurl_surface_desc *d, const bench_c
     m.spatial_frequency[0] = 1.0 / BENCH_PERIOD;
     m.amplitude = c->shape == BENCH_WORST_REACH ? 1.2 * RADIUS : BENCH_AMPLITUDE;
     d->material = &m;
-    return knurl_scene_add_surface(scene, d, &surface);
+    const knurl_result result = knurl_scene_add_surface(scene, d, &surface);
+    d->material = NULL;
+    return result;
 }
 
 static knurl_result add_planes(knurl_scene *scene, const bench_case *c) {

@@ -95,7 +95,7 @@ void knurl_plane_closest(const knurl_plane *plane, const double p[3], double clo
         const double h = plane->half_extents[i];
         closest[i] = plane->outline ? p[i] : p[i] < -h ? -h : p[i] > h ? h : p[i];
     }
-    if (covers(plane, closest)) {
+    if (!plane->outline || covers(plane, closest)) {
         return;
     }
     double least = HUGE_VAL;
