@@ -172,6 +172,16 @@ knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
     return result;
 }
 
+knurl_result knurl_device_finish_open(knurl_device *device, knurl_result result, knurl_device **opened) {
+    result = result ? result : knurl_device_start(device, 1000.0);
+    if (result) {
+        device->driver->close(device);
+        return result;
+    }
+    *opened = device;
+    return KNURL_OK;
+}
+
 /* KNURL_OK where a hand may have moved the device there. */
 static knurl_result check_position(knurl_device *device, const double position[3]) {
     knurl_position_check *check = &device->check;

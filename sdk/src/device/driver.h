@@ -100,6 +100,10 @@ static inline void knurl_device_free(knurl_device *device) {
     free(device);
 }
 
+/* The end of a driver's open(): starts its device at 1 kHz, where `result` is KNURL_OK, and hands it out; else, and
+ * where it does not start, closes it by the driver. */
+knurl_result knurl_device_finish_open(knurl_device *device, knurl_result result, knurl_device **opened);
+
 /* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
 #define KNURL_HAND_SPEED 10.0
 

@@ -401,8 +401,8 @@ static void keep_contacts(joint_search *m) {
     }
 }
 
-/* The visits are used up and the HIP was free: tests each shape alone, with as many visits once more for all of them. A
- * sphere's pole, where a hundred triangles meet, needs some 300. */
+/* The visits are used up and the HIP was free: tests each shape alone. Together they may use max_visits once more; a
+ * pole where 100 triangles meet needs some 300. */
 static void begin_alone(joint_search *m) {
     knurl_contacts *c = m->contacts;
     const uint32_t share = 1 + c->max_visits / (m->near.count + 1);

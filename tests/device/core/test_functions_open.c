@@ -128,6 +128,46 @@ TEST(a_start_that_fails_is_passed_on) {
     }
 }
 
+/* --- the end of a driver's open() --- */
+
+static int closes;
+
+static knurl_result refuse_to_start(knurl_device *device, double update_rate_hz) {
+    (void)device;
+    return knurl_fail(KNURL_ERROR_DEVICE_LOST, "unplugged before its start at %g Hz", update_rate_hz);
+}
+
+static void count_close(knurl_device *device) {
+    (void)device;
+    closes++;
+}
+
+static void tell_nothing(const knurl_device *device, knurl_device_info *info) {
+    (void)device;
+    (void)info;
+}
+
+static void open_by(const knurl_driver *driver, knurl_result result, knurl_result expected) {
+    knurl_device device;
+    knurl_device *opened = NULL;
+    memset(&device, 0, sizeof device);
+    knurl_device_init(&device, driver);
+    closes = 0;
+    assert_int_equal(knurl_device_finish_open(&device, result, &opened), expected);
+    assert_int_equal(closes, expected != KNURL_OK);
+    assert_ptr_equal(opened, expected ? NULL : &device);
+}
+
+/* Its thread and its port are open by then. */
+TEST(a_driver_whose_device_cannot_be_opened_or_started_closes_it) {
+    static const knurl_driver starts = {.uri = "starts", .close = count_close, .get_info = tell_nothing};
+    static const knurl_driver fails = {.uri = "fails", .close = count_close, .start = refuse_to_start};
+    open_by(&starts, KNURL_OK, KNURL_OK);
+    open_by(&starts, KNURL_ERROR_ARGUMENT, KNURL_ERROR_ARGUMENT);
+    open_by(&fails, KNURL_OK, KNURL_ERROR_DEVICE_LOST);
+    assert_string_equal(knurl_error_message(), "unplugged before its start at 1000 Hz");
+}
+
 /* --- what it is --- */
 
 static void tell_little(void *user, knurl_device_info *info) {

@@ -225,14 +225,7 @@ static knurl_result dhd_open(const char *options, knurl_device **device) {
     knurl_result result = parse(options, made);
     result = result ? result : connect(made);
     made->base.max_force = models[made->model].max_force;
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
-    if (result) {
-        disconnect(made);
-        free(made);
-        return result;
-    }
-    *device = &made->base;
-    return KNURL_OK;
+    return knurl_device_finish_open(&made->base, result, device);
 }
 
 static knurl_result dhd_reopen(knurl_device *device) {

@@ -377,14 +377,7 @@ knurl_result knurl_falcon_open_on(const knurl_falcon_bus *bus, const char *optio
         knurl_motor_check_init(&made->base.motor_check, MAX_FORCE);
     }
     result = result ? result : connect(made);
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
-    if (result) {
-        disconnect(made);
-        free(made);
-        return result;
-    }
-    *device = &made->base;
-    return KNURL_OK;
+    return knurl_device_finish_open(&made->base, result, device);
 }
 
 static knurl_result falcon_open(const char *options, knurl_device **device) {

@@ -231,14 +231,7 @@ knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_servi
     made->service = service;
     knurl_result result = parse(options, made);
     result = result ? result : connect(made);
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
-    if (result) {
-        disconnect(made);
-        free(made);
-        return result;
-    }
-    *device = &made->base;
-    return KNURL_OK;
+    return knurl_device_finish_open(&made->base, result, device);
 }
 
 /* --- the driver --- */

@@ -342,13 +342,7 @@ static knurl_result open_on(const char *options, const knurl_rawhid_bus *bus, co
         knurl_motor_check_init(&made->base.motor_check, made->base.max_force);
     }
     result = result ? result : connect(made, 0);
-    result = result ? result : knurl_device_start(&made->base, 1000.0);
-    if (result) {
-        free(made);
-        return result;
-    }
-    *device = &made->base;
-    return KNURL_OK;
+    return knurl_device_finish_open(&made->base, result, device);
 }
 
 knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus, knurl_device **device) {
