@@ -1,33 +1,34 @@
 /* Smooth motion for surfaces that an engine moves. Engines move objects in physics steps or in frames, which do not
- * arrive at even times. Each move is therefore played with a short delay, until the time of its own step plus that
- * delay, so that constant motion is felt as constant at any pair of rates.
+ * arrive at even times. Each move is therefore delayed a little and ends at its own step's time plus that delay, so
+ * that a constant motion stays constant at any pair of rates.
  * SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <math.h>
 
-/* s: what comes no more often than this has no rhythm. */
+/* s: steps further apart than this start anew. */
 #define LONGEST 0.1
 
-/* s: the lag that a clock begins with, until its rhythm is known: a frame at 60 Hz. */
+/* s: the lag of a clock whose rate is not known yet: a frame at 60 Hz. */
 #define FIRST_LAG (1.0 / 60.0)
 
-/* s: the lag goes by what was needed in this time, or in twice as much. */
+/* s: the lag is the longest that was needed in the last one to two windows. */
 #define WINDOW 1.0
 
-/* The lag grows and shrinks by no more than these shares of the time: a speed that is off by as much is not felt (the
- * just noticeable difference of a vibration's frequency is some 10 %). It grows sooner than it has to: by what is
- * needed and this share of a step more. */
+/* The lag grows and shrinks by at most these shares of the time, which change a speed by as much: less than the just
+ * noticeable difference of a vibration's frequency, some 10 %. */
 #define GROWTH    0.05
 #define SHRINKING 0.02
-#define MARGIN    0.1
+
+/* The share of a step by which the lag exceeds what is needed, so that it rarely has to grow. */
+#define MARGIN 0.1
 
 static double now_of(const knurl_session *s) {
     return (double)knurl_board_get_tick(&s->board) / s->desc.update_rate_hz;
 }
 
-/* One more step, of `elapsed` (s), for which a lag of `needed` would have done. */
-static void learn(knurl_session_clock *c, double needed, double elapsed) {
+/* Adapts the lag to a step of `elapsed` (s) that needed a lag of `needed`. */
+static void adapt_lag(knurl_session_clock *c, double needed, double elapsed) {
     if (c->time - c->window > WINDOW) {
         c->window = c->time;
         c->needs[1] = c->needs[0];
@@ -62,10 +63,10 @@ knurl_result knurl_session_tell_time(knurl_session *session, uint32_t clock, dou
     const double elapsed = seconds - c->time;
     if (!c->is_told || elapsed < 0.0 || elapsed > LONGEST) {
         begin(c, seconds, now_of(session));
-    } else if (elapsed > 0.0) { /* by now, what came before had to be still on its way */
+    } else if (elapsed > 0.0) { /* the previous move had to last until now */
         const double needed = now_of(session) - c->time + 1.0 / session->desc.update_rate_hz;
         c->time = seconds;
-        learn(c, needed, elapsed);
+        adapt_lag(c, needed, elapsed);
     }
     return KNURL_OK;
 }
@@ -79,7 +80,7 @@ int knurl_session_find_pace(const knurl_session *session, const knurl_session_wa
     const double tick = 1.0 / session->desc.update_rate_hz;
     pace->step = way->moved ? c->time - way->time : HUGE_VAL;
     pace->lag = c->lag;
-    if (pace->step >= 0.0 && pace->step < LONGEST) { /* it may move more seldom than its clock */
+    if (pace->step >= 0.0 && pace->step < LONGEST) { /* the surface may move less often than its clock */
         const double needed = now - way->time + tick;
         const double own = fmin(way->lag - SHRINKING * pace->step, needed + LONGEST);
         pace->lag = fmax(c->lag, fmax(own, needed));

@@ -21,8 +21,8 @@ static void touch(knurl_session *s, knurl_surface_id id) {
     }
 }
 
-/* The latest tick as it was sent; 0 where there is none. A device without a position plays nothing. */
-static int look(const knurl_session *s, knurl_board_tick *sent) {
+/* Reads the latest tick, with zeros where the device had no position. Returns 0 if there is none yet. */
+static int read_tick(const knurl_session *s, knurl_board_tick *sent) {
     knurl_tick_output now;
     knurl_board_read(&s->board, sent);
     if (sent->tick > 0 && !knurl_scene_get_tick(s->scene, 0, &now, NULL) && now.flags & KNURL_TICK_ABSENT) {
@@ -34,12 +34,12 @@ static int look(const knurl_session *s, knurl_board_tick *sent) {
     return sent->tick > 0;
 }
 
-/* Touches shorter than a frame are reported too. A touch that is interrupted within a frame goes on. */
+/* Contacts shorter than a frame are reported too; one that is interrupted within a frame counts as one. */
 static void collect_touches(knurl_session *s) {
     knurl_surface_id met[KNURL_BOARD_CHANGES];
     knurl_board_tick sent;
     const uint32_t count = knurl_board_changes(&s->board, met);
-    (void)look(s, &sent);
+    (void)read_tick(s, &sent);
     const knurl_surface_id last = is_there(s, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
     for (uint32_t i = 0; i < count; i++) {
         int is_new = met[i] != 0 && met[i] != s->latest && met[i] != last;
@@ -64,7 +64,7 @@ static void collect_status(knurl_session *s) {
     }
 }
 
-/* Ten times a second: a loop's statistics are some microseconds of counting. */
+/* Ten times per second, because reading a loop's statistics takes some microseconds. */
 static void collect_overruns(knurl_session *s) {
     knurl_loop_stats stats;
     const uint64_t written = __atomic_load_n(&s->board.written, __ATOMIC_ACQUIRE);
@@ -92,7 +92,7 @@ void knurl_session_update(knurl_session *session) {
     }
 }
 
-void knurl_session_forget(knurl_session *session) {
+void knurl_session_drop_events(knurl_session *session) {
     session->first_touch = session->touch_count = 0;
     session->latest = 0;
     if (session->touched) {
@@ -104,7 +104,7 @@ void knurl_session_forget(knurl_session *session) {
     session->overruns = session->counted_at = 0;
 }
 
-/* A touch begins when the one before has ended, however many were forgotten in between. */
+/* Reports a contact's end before the next one's start, also where changes in between were dropped. */
 static int next_touch(knurl_session *s, knurl_session_event *event) {
     while (s->touch_count > 0) {
         const knurl_surface_id id = s->touches[s->first_touch];
@@ -207,7 +207,7 @@ void knurl_session_get_state(const knurl_session *session, knurl_session_state *
     state->overruns = session->overruns;
     turn_stylus(session, state->stylus);
     memset(&counts, 0, sizeof counts);
-    if (look(session, &sent)) {
+    if (read_tick(session, &sent)) {
         (void)knurl_scene_get_tick(session->scene, 0, NULL, &counts);
         const int stays = sent.tick <= session->clutch_tick;
         memcpy(state->hip, stays ? session->clutched_at : sent.hip, sizeof state->hip);

@@ -1,6 +1,4 @@
-/* What a game asks of the force beside its surfaces: a gain, a force, vibrations, a clutch. SPDX-License-Identifier:
- * MIT
- */
+/* The game's own influence on the force: gain, force, vibrations, clutch. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <string.h>
@@ -38,8 +36,8 @@ knurl_result knurl_session_vibrate(knurl_session *session, int32_t method, doubl
     return result ? result : knurl_loop_vibrate(session->loop, method, frequency_hz, amplitude, direction, seconds);
 }
 
-/* Moves the workspace by what the HIP would have moved meanwhile, and gives it the scale that it got meanwhile. */
-static knurl_result take_back(knurl_session *session) {
+/* Ends a clutch: moves the workspace so that the HIP is where the clutch began, and applies the latest scale. */
+static knurl_result end_clutch(knurl_session *session) {
     knurl_workspace *w = &session->desc.workspace;
     knurl_workspace to = *w;
     knurl_board_tick sent;
@@ -58,7 +56,7 @@ static knurl_result take_back(knurl_session *session) {
         session->shift[i] += w->rotation[i] * way[0] + w->rotation[3 + i] * way[1] + w->rotation[6 + i] * way[2];
     }
     *w = result ? *w : to;
-    session->clutch_tick = sent.tick + 1; /* which may be under way, and know the workspace from before */
+    session->clutch_tick = sent.tick + 1; /* one that runs now may still use the old workspace */
     return result;
 }
 
@@ -78,7 +76,7 @@ knurl_result knurl_session_set_clutch(knurl_session *session, uint32_t on) {
         session->clutch_tick = UINT64_MAX;
         session->clutch_scale = session->desc.workspace.scale;
     } else {
-        result = take_back(session);
+        result = end_clutch(session);
     }
     session->is_clutched = on != 0;
     knurl_session_set_paused(session, session->paused);

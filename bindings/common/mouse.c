@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* s: how far a steady motion lags behind. A critically damped filter of 2/LAG rad/s leaves 9 % (peak, by its transfer
- * function) of ripple in the velocity of steps that come at 60 Hz: less than what a finger can tell. */
+/* s: the delay of a steady motion. A critically damped filter of 2/LAG rad/s leaves 9 % (peak, by its transfer
+ * function) of ripple in the velocity of steps at 60 Hz: below the just noticeable difference. */
 #define LAG    0.025
 #define OMEGA  (2.0 / LAG)
-#define SPEED  5.0 /* m/s: a leap becomes a move at this speed; devices' positions are believed up to 10 m/s */
+#define SPEED  5.0 /* m/s: the fastest motion; the loop rejects positions that move at over 10 m/s */
 #define BOUNDS 1e3 /* m: it has no workspace */
 
 static void get_info(void *user, knurl_device_info *info) {
@@ -20,7 +20,7 @@ static void get_info(void *user, knurl_device_info *info) {
         info->workspace_min[axis] = -BOUNDS;
         info->workspace_max[axis] = BOUNDS;
     }
-    info->max_force = 3.3; /* N, a Touch's: no force is played, but it is shown */
+    info->max_force = 3.3; /* N, a Touch's: no motor plays the force, but games show it */
 }
 
 static knurl_result start(void *user, double update_rate_hz) {
@@ -31,8 +31,8 @@ static knurl_result start(void *user, double update_rate_hz) {
     return KNURL_OK;
 }
 
-/* The latest target: 1, or 0 where there is none, or none to be had in this tick (the game is just writing it). */
-static int look(const knurl_mouse *m, double target[3]) {
+/* Reads the latest target. Returns 0 if there is none, or the game is writing it now. */
+static int read_target(const knurl_mouse *m, double target[3]) {
     const uint64_t before = __atomic_load_n(&m->sequence, __ATOMIC_ACQUIRE);
     for (int i = 0; i < 3; i++) {
         __atomic_load(&m->target[i], &target[i], __ATOMIC_ACQUIRE);
@@ -63,7 +63,7 @@ static void follow(knurl_mouse *m, const double target[3]) {
 static knurl_result read(void *user, knurl_device_sample *sample) {
     knurl_mouse *m = user;
     double target[3];
-    const int is_fresh = look(m, target);
+    const int is_fresh = read_target(m, target);
     if (!m->is_there) {
         if (!is_fresh) {
             return KNURL_ERROR_DEVICE_NOT_READY;

@@ -143,17 +143,17 @@ void knurl_session_explain(knurl_session *session, knurl_surface_id surface, cha
     knurl_surface_check check;
     knurl_surface_info_init(&info, sizeof info);
     knurl_surface_check_init(&check, sizeof check);
-    knurl_session_hush(text, size);
+    knurl_session_clear_text(text, size);
     if (!session->device) {
         return;
     }
     if (!knurl_scene_get_surface_info(session->scene, surface, &info) && !is_in_reach(session, &info)) {
-        knurl_session_say(text, size,
-                          "It lies outside of the device's workspace: move the KnurlDevice there, or raise its "
-                          "workspace scale.");
+        knurl_session_add_line(text, size,
+                               "It lies outside of the device's workspace: move the KnurlDevice there, or raise its "
+                               "workspace scale.");
     }
     if (session->loop && !knurl_scene_check_surface(session->scene, 0, surface, &check) && check.exceeded) {
         check.message[sizeof check.message - 1] = '\0';
-        knurl_session_say(text, size, "%s", check.message);
+        knurl_session_add_line(text, size, "%s", check.message);
     }
 }

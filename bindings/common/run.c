@@ -128,10 +128,11 @@ static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
 static void warn(const knurl_session *session, knurl_surface_id outside, char *warning, uint32_t size) {
     const char *name = "";
     if (outside && !knurl_scene_get_surface_name(session->scene, outside, &name)) {
-        knurl_session_say(warning, size,
-                          "surface '%s' lies outside of the workspace, so the stroke over it is cut short: move the "
-                          "device to it",
-                          name);
+        knurl_session_add_line(
+            warning, size,
+            "surface '%s' lies outside of the workspace, so the stroke over it is cut short: move the "
+            "device to it",
+            name);
     }
 }
 
@@ -150,7 +151,7 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
     }
     if (!result) {
         session->runs = 1;
-        knurl_session_hush(warning, size);
+        knurl_session_clear_text(warning, size);
         warn(session, outside, warning, size);
     }
     return result;
@@ -229,5 +230,5 @@ void knurl_session_close(knurl_session *session) {
     session->is_clutched = 0;
     session->clutch_tick = 0;
     session->mouse = NULL;
-    knurl_session_forget(session);
+    knurl_session_drop_events(session);
 }

@@ -20,13 +20,13 @@ static void trim(char *text) {
     text[length] = '\0';
 }
 
-void knurl_session_hush(char *text, uint32_t size) {
+void knurl_session_clear_text(char *text, uint32_t size) {
     if (text && size > 0) {
         text[0] = '\0';
     }
 }
 
-void knurl_session_say(char *text, uint32_t size, const char *format, ...) {
+void knurl_session_add_line(char *text, uint32_t size, const char *format, ...) {
     const size_t length = text && size > 0 ? strlen(text) : 0;
     if (!text || length + 2 > size) {
         return;
@@ -48,10 +48,10 @@ void knurl_session_say(char *text, uint32_t size, const char *format, ...) {
 void knurl_session_fault_text(int32_t code, double value, char *text, uint32_t size) {
     const char *sentence = knurl_fault_string(code);
     const char *unit = knurl_fault_unit(code);
-    knurl_session_hush(text, size);
+    knurl_session_clear_text(text, size);
     if (*unit) {
-        knurl_session_say(text, size, "%s (%g %s)", sentence, value, unit);
+        knurl_session_add_line(text, size, "%s (%g %s)", sentence, value, unit);
     } else {
-        knurl_session_say(text, size, "%s", sentence);
+        knurl_session_add_line(text, size, "%s", sentence);
     }
 }

@@ -1,6 +1,6 @@
-/* Where the C++ library is linked in, each load of an engine's library makes its reserve for exceptions anew, and
- * nobody gives it back at the unloading: 72 KiB a round. libstdc++ has a function for just this, under a name that is
- * not for others to declare. SPDX-License-Identifier: MIT */
+/* A statically linked libstdc++ allocates 72 KiB for exceptions at each load of the engine's library and does not free
+ * them at the unload. It has a function that does, whose C++ name is reserved; hence its symbol.
+ * SPDX-License-Identifier: MIT */
 void knurl_free_reserve(void) __asm__("_ZN9__gnu_cxx9__freeresEv");
 
 __attribute__((destructor)) static void give_back(void) {

@@ -101,7 +101,7 @@ TEST(they_are_cut_off_between_characters) {
     const char *whole = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80.\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80";
     for (uint32_t size = 1; size < 32; size++) {
         char text[32] = "";
-        knurl_session_say(text, size, "%s", whole);
+        knurl_session_add_line(text, size, "%s", whole);
         check_cuts(whole, size, text);
     }
 }
@@ -109,7 +109,8 @@ TEST(they_are_cut_off_between_characters) {
 TEST(what_is_no_text_at_all_is_cut_off_too) {
     for (uint32_t size = 1; size < 16; size++) {
         char text[16] = "";
-        knurl_session_say(text, size, "%s", "\x80\x80\x80\x80\x80\x80\xFF\xFF\xC0\xE0\xF0\x80\x80\x80\x80\x80\x80");
+        knurl_session_add_line(text, size, "%s",
+                               "\x80\x80\x80\x80\x80\x80\xFF\xFF\xC0\xE0\xF0\x80\x80\x80\x80\x80\x80");
         assert_true(strlen(text) < size);
     }
 }

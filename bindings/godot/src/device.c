@@ -227,7 +227,7 @@ void device_stop(device *d) {
 }
 
 /* The engine's clocks. A time scale changes how much of the game's time a frame or a step is, not when it comes. */
-static void tell_time(device *d) {
+static void set_clocks(device *d) {
     double delta = 0.0;
     double scale = 1.0;
     int64_t steps = 0;
@@ -295,7 +295,7 @@ void device_process(device *d) {
         start_by_itself(d);
     }
     if (d->runs) {
-        tell_time(d);
+        set_clocks(d);
         device_move_workspace(d);
         follow_all(d);
         knurl_session_update(d->session);
