@@ -1,6 +1,5 @@
-/* Plans strokes of the simulated hand over a scene's surfaces: straight where a surface is flat, else along a path over
- * it. Game thread.
- * SPDX-License-Identifier: MIT */
+/* Plans strokes of the simulated hand over a scene's surfaces: straight on a flat surface, along a path on a curved
+ * one. Game thread. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 #include "scene/walk.h"
 
@@ -13,43 +12,44 @@
 
 #define HOVER     0.005  /* m above a surface that a stroke starts from */
 #define STEP      0.0005 /* m of the device between a path's rows */
-#define HALF_ROWS 400    /* in either direction from where a path begins: 0.2 m */
-#define SPREAD    0.9    /* of what there is up to a rim or the workspace's end: hands overshoot where they turn */
-#define LONG      0.040  /* m: a path of this length need not be longer to be felt */
-#define SHORT     0.001  /* m: what is not even this long is no path */
-#define LATITUDES 12     /* places to begin at, tried either side of the anchor */
-#define LATITUDE  10     /* steps between them */
-#define TURN_ROWS 128    /* of a circle */
-#define PROBES    16     /* along a straight stroke */
+#define HALF_ROWS 400    /* of a path, in either direction from its start: 0.2 m */
+#define SPREAD                                                                                                         \
+    0.9 /* the part of the distance to a rim or the workspace's end that is used: hands overshoot at the ends */
+#define LONG      0.040 /* m: long enough for a path; longer ones are not preferred */
+#define SHORT     0.001 /* m: shorter paths are not used */
+#define LATITUDES 12    /* starting points tried on either side of the anchor */
+#define LATITUDE  10    /* steps between them */
+#define TURN_ROWS 128   /* of a circle */
+#define PROBES    16    /* along a straight stroke */
 
-/* A path in device axes: rows of a place and the normal there. */
+/* A path in device axes: rows of a position and its normal. */
 typedef struct path {
     double rows[2 * HALF_ROWS + 1][6];
     uint32_t count;
     double length;  /* m */
-    double stretch; /* mean of how fast the grating's coordinate grows along it, against metres */
+    double stretch; /* mean growth of the grating's coordinate per metre along it */
     int is_flat;
 } path;
 
-/* Everything that laying a stroke needs. */
-typedef struct layer {
+/* The inputs and the work space of a stroke's planning. */
+typedef struct planner {
     const knurl_surface_data *surface;
     knurl_pose pose; /* of the shape's frame */
     knurl_workspace workspace;
     knurl_device_info limits;
     knurl_surface_info info;
     knurl_walker start; /* at the anchor */
-    path paths[2];      /* the best so far, and one that is tried */
+    path paths[2];      /* the best so far, and the candidate */
     double side[HALF_ROWS][6];
-} layer;
+} planner;
 
 void knurl_stroke_report_init(knurl_stroke_report *report, uint32_t size) {
     const knurl_stroke_report defaults = {0};
     knurl_desc_write(&defaults, sizeof defaults, report, size);
 }
 
-/* How far a device position can go along +-direction before it leaves the workspace; 0 outside. */
-static double room(const knurl_device_info *limits, const double from[3], const double direction[3]) {
+/* The distance that a device position can move along both directions within the workspace; 0 outside of it. */
+static double free_distance(const knurl_device_info *limits, const double from[3], const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
         const double space = fmin(limits->workspace_max[axis] - from[axis], from[axis] - limits->workspace_min[axis]);
@@ -63,8 +63,8 @@ static double room(const knurl_device_info *limits, const double from[3], const 
     return reach;
 }
 
-/* As far as the bounds of the surface and of the workspace go. */
-static void lay_straight(const layer *l, knurl_stroke_desc *desc) {
+/* A straight stroke about the anchor, as long as the surface's and the workspace's bounds allow. */
+static void lay_straight(const planner *l, knurl_stroke_desc *desc) {
     double y[3];
     knurl_workspace_to_device(&l->workspace, l->info.anchor, desc->centre);
     knurl_workspace_vector_to_device(&l->workspace, l->info.anchor_x, desc->x);
@@ -73,12 +73,12 @@ static void lay_straight(const layer *l, knurl_stroke_desc *desc) {
     const double *edge = l->info.anchor_reach;
     const double scale = l->workspace.scale;
     const double reach[2] = {fmin(edge[0], edge[1]) / scale, fmin(edge[2], edge[3]) / scale};
-    desc->reach[0] = fmin(1.0, fmax(1e-4, SPREAD * fmin(reach[0], room(&l->limits, desc->centre, desc->x))));
-    desc->reach[1] = fmin(1.0, fmax(1e-4, SPREAD * fmin(reach[1], room(&l->limits, desc->centre, y))));
+    desc->reach[0] = fmin(1.0, fmax(1e-4, SPREAD * fmin(reach[0], free_distance(&l->limits, desc->centre, desc->x))));
+    desc->reach[1] = fmin(1.0, fmax(1e-4, SPREAD * fmin(reach[1], free_distance(&l->limits, desc->centre, y))));
 }
 
-/* Whether a stroke from the anchor along a scene direction stays on the surface, so far (scene, m) either way. */
-static int stays_on(const layer *l, const double x, const double y, double reach) {
+/* 1 if a stroke through the anchor along x, y of its tangent plane stays on the surface for `reach` (scene, m). */
+static int stays_on(const planner *l, const double x, const double y, double reach) {
     double direction[3];
     vec3_scale(x, l->start.x, direction);
     vec3_madd(direction, y, l->start.y, direction);
@@ -98,8 +98,8 @@ static int stays_on(const layer *l, const double x, const double y, double reach
     return 1;
 }
 
-/* The walker's place as a row; 0 where a hand could not stand there or above it. */
-static int write_row(const layer *l, const knurl_walker *walker, double row[6]) {
+/* Writes the walker's position as a row. Returns 0 if it, or a HIP above it, lies outside the workspace. */
+static int write_row(const planner *l, const knurl_walker *walker, double row[6]) {
     double at[3];
     double above[3];
     knurl_pose_to_parent(&l->pose, walker->place, at);
@@ -117,7 +117,7 @@ static int write_row(const layer *l, const knurl_walker *walker, double row[6]) 
     return 1;
 }
 
-/* Where the grating's x runs on from a direction, whichever way it is told; 0 where it turns off by over 60 degrees:
+/* Turns a direction along the grating's x, of either sign. Returns 0 if that turns it by over 60 degrees: there begins
  * another island of uvs. */
 static int turn_along_x(const knurl_walker *walker, double direction[3]) {
     const double along = vec3_dot(walker->x, direction);
@@ -125,7 +125,7 @@ static int turn_along_x(const knurl_walker *walker, double direction[3]) {
     return fabs(along) >= 0.5;
 }
 
-/* Straight on over a curved surface. */
+/* Turns a direction into the surface's tangent plane. Returns 0 if it is nearly normal to it. */
 static int turn_straight(const knurl_walker *walker, double direction[3]) {
     vec3_make_tangent(walker->normal, direction);
     const double length = vec3_length(direction);
@@ -133,9 +133,9 @@ static int turn_straight(const knurl_walker *walker, double direction[3]) {
     return length > 0.5;
 }
 
-/* Walks on as far as it goes, at most `most` steps; writes a row for each. Returns how many; *is_closed: 1 where it
- * came back to where it began. */
-static uint32_t walk(const layer *l, knurl_walker walker, const double towards[3],
+/* Walks at most `most` steps over the surface and writes a row for each. Returns how many; *is_closed: 1 if it came
+ * back to its start. */
+static uint32_t walk(const planner *l, knurl_walker walker, const double towards[3],
                      int (*turn)(const knurl_walker *walker, double direction[3]), uint32_t most, double (*rows)[6],
                      path *sum, int *is_closed) {
     double direction[3];
@@ -169,8 +169,9 @@ static double length_of(const double (*rows)[6], uint32_t count) {
     return sum;
 }
 
-/* Along the grating's x both ways from a place, its ends left out where it has any; 0 rows where it cannot begin. */
-static void lay_along_x(layer *l, const knurl_walker *from, path *p) {
+/* A path along the grating's x, both ways from a position, shortened by SPREAD unless it is closed; 0 rows if it cannot
+ * start there. */
+static void lay_along_x(planner *l, const knurl_walker *from, path *p) {
     double opposite[3];
     int is_closed;
     double first[6];
@@ -200,23 +201,24 @@ static void lay_along_x(layer *l, const knurl_walker *from, path *p) {
     p->length = length_of((const double (*)[6])p->rows, p->count);
 }
 
-/* How well a path can be felt: long, with ridges about as far apart as they should be. */
-static double worth(const path *p) {
+/* Rates a path: its length, up to LONG; a quarter of that where the grating is stretched by over KNURL_STRETCH_MAX. */
+static double rate(const path *p) {
     const int is_even = p->stretch <= KNURL_STRETCH_MAX && p->stretch * KNURL_STRETCH_MAX >= 1.0;
     return (is_even ? 1.0 : 0.25) * fmin(p->length, LONG);
 }
 
-/* A path from there, kept where it is better than the best so far. 1: it need not be better still. */
-static int try_path(layer *l, const knurl_walker *from) {
+/* Plans a path from a position and keeps the better of it and the best so far. Returns 1 once that is long enough. */
+static int try_path(planner *l, const knurl_walker *from) {
     lay_along_x(l, from, &l->paths[1]);
-    if (worth(&l->paths[1]) > worth(&l->paths[0])) {
+    if (rate(&l->paths[1]) > rate(&l->paths[0])) {
         l->paths[0] = l->paths[1];
     }
-    return worth(&l->paths[0]) >= LONG;
+    return rate(&l->paths[0]) >= LONG;
 }
 
-/* At a pole the grating's x runs round in a ring of no length: further away along y the rings are longer. */
-static void find_path(layer *l) {
+/* Tries starting points along y. At a sphere's pole the grating's x runs round in a tiny ring; rings further along y
+ * are longer. */
+static void find_path(planner *l) {
     knurl_walker at[2] = {l->start, l->start};
     double towards[2][3];
     int goes[2] = {1, 1};
@@ -234,8 +236,8 @@ static void find_path(layer *l) {
     }
 }
 
-/* Back and forth. Flat surfaces are stroked straight from the anchor. */
-static int lay_line(layer *l, knurl_stroke_desc *desc) {
+/* A stroke back and forth. Returns 0 for flat surfaces, which are stroked straight. */
+static int lay_line(planner *l, knurl_stroke_desc *desc) {
     const int is_long = try_path(l, &l->start);
     if (l->paths[1].is_flat && stays_on(l, 1.0, 0.0, desc->reach[0] * l->workspace.scale)) {
         return 0;
@@ -248,9 +250,9 @@ static int lay_line(layer *l, knurl_stroke_desc *desc) {
     return l->paths[0].length >= SHORT;
 }
 
-/* Out along a spiral in one turn, then round: straight ways from the anchor in all directions, as long as the shortest
- * of them can be. */
-static int lay_circle(layer *l, knurl_stroke_desc *desc) {
+/* A circle round the anchor, reached by a spiral of one turn. Its radius is the shortest distance that a straight walk
+ * from the anchor can go. */
+static int lay_circle(planner *l, knurl_stroke_desc *desc) {
     path *p = &l->paths[0];
     path *walks = &l->paths[1];
     uint32_t least = HALF_ROWS / 4;
@@ -258,7 +260,7 @@ static int lay_circle(layer *l, knurl_stroke_desc *desc) {
     int is_closed;
     memset(p, 0, sizeof *p);
     walks->is_flat = 1;
-    for (uint32_t pass = 0; pass < 2; pass++) { /* how far it goes at all, then the rows */
+    for (uint32_t pass = 0; pass < 2; pass++) { /* first the radius, then the rows */
         for (uint32_t i = 0; i <= TURN_ROWS; i++) {
             const double angle = 6.283185307179586 * i / TURN_ROWS;
             double direction[3];
@@ -295,14 +297,14 @@ static int lay_circle(layer *l, knurl_stroke_desc *desc) {
     return 1;
 }
 
-/* On a tip, where many faces meet, a finger that is pressed in against one of them comes out through another: it is set
- * down beside it. */
-static int begin_beside(layer *l, double step, const double place[3], const double normal[3]) {
+/* At a tip, where many faces meet, a walker that is pressed in against one face leaves through another: start it beside
+ * the tip. */
+static int begin_beside(planner *l, double step, const double place[3], const double normal[3]) {
     double x[3];
     double y[3];
     vec3_any_tangent(normal, x);
     vec3_cross(normal, x, y);
-    for (int i = 0; i < 32; i++) { /* round it in eight directions, 2, 4, 8 and 16 steps away */
+    for (int i = 0; i < 32; i++) { /* in eight directions, 2, 4, 8 and 16 steps away */
         const double away = step * (2 << i / 8);
         const double angle = 0.7853981633974483 * (i % 8);
         double beside[3];
@@ -315,8 +317,8 @@ static int begin_beside(layer *l, double step, const double place[3], const doub
     return 0;
 }
 
-/* Sets the walker down on the anchor; its steps are short against the device and against the surface. */
-static int begin(layer *l) {
+/* Places the walker on the anchor. Its steps are small beside the device's workspace and the surface. */
+static int begin(planner *l) {
     double place[3];
     double normal[3];
     double size[3];
@@ -328,8 +330,8 @@ static int begin(layer *l) {
            (knurl_walker_begin(&l->start, l->surface, step, place, normal) || begin_beside(l, step, place, normal));
 }
 
-/* 1: along a path. */
-static int lay_path(layer *l, knurl_stroke_desc *desc) {
+/* Returns 1 if the stroke follows a path. */
+static int lay_path(planner *l, knurl_stroke_desc *desc) {
     const int is_circle = desc->stroke == KNURL_STROKE_CIRCLE;
     const int moves = is_circle || desc->stroke == KNURL_STROKE_LINE || desc->stroke == KNURL_STROKE_SWEEP;
     const int found = moves && begin(l) && (is_circle ? lay_circle(l, desc) : lay_line(l, desc));
@@ -340,7 +342,7 @@ static int lay_path(layer *l, knurl_stroke_desc *desc) {
     return found;
 }
 
-static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface_id id, int32_t stroke, knurl_device *device,
+static knurl_result lay(planner *l, const knurl_scene *scene, knurl_surface_id id, int32_t stroke, knurl_device *device,
                         knurl_stroke_report *report) {
     knurl_stroke_desc desc;
     knurl_stroke_desc_init(&desc, sizeof desc);
@@ -355,7 +357,7 @@ static knurl_result lay(layer *l, const knurl_scene *scene, knurl_surface_id id,
     knurl_motion_at(&l->surface->record->motion, knurl_scene_time(scene), &l->pose);
     report->follows = (uint32_t)lay_path(l, &desc);
     knurl_scene_unlock(scene);
-    report->is_outside = room(&l->limits, desc.centre, desc.normal) <= 0.0;
+    report->is_outside = free_distance(&l->limits, desc.centre, desc.normal) <= 0.0;
     if (stroke == KNURL_STROKE_LINE || stroke == KNURL_STROKE_SWEEP) {
         report->length = report->follows ? l->paths[0].length : 2.0 * desc.reach[0];
     } else if (stroke == KNURL_STROKE_CIRCLE) {
@@ -370,7 +372,7 @@ knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scen
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_stroke_report made = {0};
-    layer *l = calloc(1, sizeof *l);
+    planner *l = calloc(1, sizeof *l);
     if (!l) {
         return knurl_fail(KNURL_ERROR_MEMORY, "stroke: could not get %u bytes", (unsigned)sizeof *l);
     }
