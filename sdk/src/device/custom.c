@@ -9,10 +9,10 @@
 typedef struct custom {
     knurl_device base;
     knurl_device_functions functions;
-    knurl_link link; /* where they block */
-    /* where they do not */
+    knurl_link link; /* for functions that block */
+    /* for functions that do not */
     knurl_device_sample latest;
-    uint64_t without; /* reads since then that brought nothing */
+    uint64_t without; /* reads since then without a position */
     uint32_t has_latest;
 } custom;
 
@@ -20,7 +20,7 @@ static custom *of(knurl_device *device) {
     return (custom *)(void *)device; /* its first member */
 }
 
-/* A sample with reserved fields that are not 0 is refused, or a later version could not give them a meaning. */
+/* Refuses reserved fields that are not 0, so that later versions can use them. */
 static knurl_result read_sample(custom *c, knurl_device_sample *sample) {
     memset(sample, 0, sizeof *sample);
     const knurl_result result = c->functions.read(c->functions.user, sample);
@@ -42,7 +42,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
                                                : KNURL_LINK_NOTHING;
 }
 
-/* Before its owner has said anything: nothing is promised, nothing is limited. */
+/* The defaults, before the owner's get_info(): no limits. */
 static void ask_info(const knurl_device_functions *f, knurl_device_info *info) {
     info->continuous_force = info->max_stiffness = info->max_damping = INFINITY;
     info->heat_time = 60.0;
@@ -51,7 +51,7 @@ static void ask_info(const knurl_device_functions *f, knurl_device_info *info) {
     info->native_rate = f->blocking && !(info->native_rate > 0.0) ? 1000.0 : info->native_rate;
 }
 
-/* How often the I/O thread asks. */
+/* Hz: the I/O thread's rate. */
 static double rate_of(const custom *c) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
@@ -82,14 +82,14 @@ static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
     return f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
 }
 
-/* As an I/O thread's: the latest position holds for a while where there is none this time. */
+/* Without a new position the latest one holds for a while, as with an I/O thread. */
 static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
     custom *c = of(device);
     const knurl_result result = read_sample(c, sample);
     if (result == KNURL_OK) {
         c->latest = *sample;
         c->has_latest = 1;
-        c->base.check.gap += (double)c->without * c->base.period; /* what held was no new position */
+        c->base.check.gap += (double)c->without * c->base.period; /* repeated positions count as a gap */
         c->without = 0;
     }
     if (result == KNURL_OK || result == KNURL_ERROR_DEVICE_LOST) {
@@ -114,7 +114,7 @@ static knurl_result custom_reopen(knurl_device *device) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     if (c->functions.blocking) {
-        knurl_link_close(&c->link); /* its thread has ended by itself */
+        knurl_link_close(&c->link); /* the thread has ended already */
     }
     const knurl_result result = c->functions.reopen(c->functions.user);
     c->has_latest = 0;

@@ -8,11 +8,11 @@
 
 #include <string.h>
 
-/* What was shortened to the greatest force already may be longer by its rounding, and is sent as it is told. */
+/* A force that was limited to the maximum already may exceed it by rounding; it is sent unchanged. */
 #define ROUNDING 1e-15
 
-/* How far a position may be off after however short a gap, s at the greatest speed: devices that bring positions at
- * 1 kHz move in steps when they are read faster. Slower ones move further. */
+/* s: the shortest gap that a position is checked against. Devices that deliver positions at 1 kHz move in steps when
+ * they are read faster. */
 #define LEAST_GAP 0.002
 
 void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
@@ -31,7 +31,7 @@ static void close_now(knurl_device *device) {
     device->driver->close(device);
 }
 
-/* Whoever comes last closes it: the owner, or the loop that uses it. */
+/* Closed by the owner or by the loop that uses it, whichever comes last. */
 void knurl_device_close(knurl_device *device) {
     if (!device || KNURL_BAD_HANDLE(device, DEVICE)) {
         return;
@@ -127,7 +127,7 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
-/* Positions of before say nothing about those that come now. */
+/* Forgets earlier positions. */
 static void begin_check(knurl_device *device) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
@@ -182,7 +182,7 @@ knurl_result knurl_device_finish_open(knurl_device *device, knurl_result result,
     return KNURL_OK;
 }
 
-/* KNURL_OK where a hand may have moved the device there. */
+/* KNURL_OK if a hand can have moved the device there. */
 static knurl_result check_position(knurl_device *device, const double position[3]) {
     knurl_position_check *check = &device->check;
     if (!vec3_finite(position)) {
@@ -207,7 +207,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
     vec3_copy(position, check->last);
     check->has_last = 1;
     check->gap = 0.0;
-    if (check->settle > 0.0) { /* a jump may be for good: where it then stays is believed */
+    if (check->settle > 0.0) { /* after a jump the new position is accepted once it stays */
         check->settle -= device->period;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
@@ -215,7 +215,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
     return KNURL_OK;
 }
 
-/* What is no unit quaternion is none. */
+/* Replaces what is no unit quaternion by zeros. */
 static void check_orientation(double q[4]) {
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     if (!(square > 0.98 && square < 1.02)) {
@@ -225,7 +225,7 @@ static void check_orientation(double q[4]) {
 
 static void lose(knurl_device *device) {
     knurl_device_halt(device);
-    if (!device->link) { /* an I/O thread has told already */
+    if (!device->link) { /* an I/O thread has reported it already */
         knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
     }
     knurl_store_release(&device->lost, 1u);
@@ -295,7 +295,7 @@ static knurl_result write_device(knurl_device *device, const double force[3]) {
     }
     const knurl_result result =
         device->link ? knurl_link_write(device->link, safe) : device->driver->write(device, safe);
-    if (!device->link && !device->driver->serve) { /* else the thread that sends it says so when it is out */
+    if (!device->link && !device->driver->serve) { /* else the sending thread sets it after the transfer */
         knurl_device_after_force(device, safe);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-/* Where listings go: counts all, keeps what there is room for. */
+/* A list of devices: counts all, stores as many as fit. */
 typedef struct knurl_listings {
     knurl_device_listing *to;
     uint32_t capacity;
@@ -18,9 +18,9 @@ typedef struct knurl_listings {
 } knurl_listings;
 
 typedef struct knurl_driver {
-    const char *uri;     /* what a URI begins with, up to a ':' */
-    uint32_t keeps_heat; /* 1: a device that is opened again is as warm as the one of its kind that was closed last */
-    /* What is connected; at least one entry, with a reason where nothing is. [game thread] */
+    const char *uri;     /* a URI's part before ':' */
+    uint32_t keeps_heat; /* 1: an opened device starts with the heat of the last closed one of its kind */
+    /* Lists connected devices; at least one entry, with a reason if there is none. [game thread] */
     void (*list)(knurl_listings *listings);
     /* options: what follows "uri:", or "". Makes a zeroed knurl_device with knurl_device_init() and max_force set,
      * ready to be started. Errors: as knurl_device_open(). */
@@ -28,14 +28,14 @@ typedef struct knurl_driver {
     /* The force has been set to zero, or is now; ends with knurl_device_free(). */
     void (*close)(knurl_device *device);
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
-    /* Null where there is nothing to tell beyond what every device tells. */
+    /* Null if the driver adds nothing to the common fields. */
     void (*get_status)(const knurl_device *device, knurl_device_status *status);
-    /* These three: null where an I/O thread does all of it (link.h). */
+    /* These three are null if an I/O thread does the work (link.h). */
     knurl_result (*start)(knurl_device *device, double update_rate_hz);
     /* KNURL_OK, KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_DEVICE_NOT_READY (the driver has reported why) */
     knurl_result (*read)(knurl_device *device, knurl_device_sample *sample);
     knurl_result (*write)(knurl_device *device, const double force[3]);
-    /* Looks for a lost device again; null: it cannot be had back. Called while nobody reads or writes. */
+    /* Reopens a lost device; null: not supported. Never called during a read or write. */
     knurl_result (*reopen)(knurl_device *device);
     /* A driver that owns the servo thread: from there it calls `tick` once a period of the started rate, until that
      * returns 0, and never afterwards; read and write work inside of it. When the device gets lost, `tick` is called
@@ -46,12 +46,12 @@ typedef struct knurl_driver {
     uint32_t (*leave)(knurl_device *device);
 } knurl_driver;
 
-/* Positions are held against the last one. */
+/* Checks each position against the last one. */
 typedef struct knurl_position_check {
     double last[3];   /* m */
     double gap;       /* s since then */
     double least_gap; /* s */
-    double settle;    /* s for which positions still have to stay believable */
+    double settle;    /* s: positions must pass for so long before they count again */
     uint32_t has_last;
     uint32_t not_finite; /* 1: reported */
 } knurl_position_check;
@@ -82,19 +82,19 @@ struct knurl_device {
     /* atomics */
     uint32_t use;     /* KNURL_DEVICE_ bits */
     uint32_t halted;  /* KNURL_HALTED bits */
-    uint32_t lost;    /* nobody but reopen() may call the driver any more */
-    uint32_t quiet;   /* 1: the latest force that went out was 0, and none is on its way */
+    uint32_t lost;    /* 1: only reopen() may call the driver */
+    uint32_t quiet;   /* 1: the latest force sent was 0, and no transfer is under way */
     uint32_t buttons; /* of the latest reading */
     KNURL_SEQLOCK(double[4]) orientation;
 };
 
-/* What a driver's zeroed device begins with. */
+/* Sets up a driver's zeroed device. */
 static inline void knurl_device_init(knurl_device *device, const knurl_driver *driver) {
     device->handle = KNURL_HANDLE_DEVICE;
     device->driver = driver;
 }
 
-/* The end of a driver's own struct, from calloc(). */
+/* Frees a driver's own struct, from calloc(). */
 static inline void knurl_device_free(knurl_device *device) {
     knurl_handle_clear(&device->handle);
     free(device);
@@ -104,20 +104,20 @@ static inline void knurl_device_free(knurl_device *device) {
  * where it does not start, closes it by the driver. */
 knurl_result knurl_device_finish_open(knurl_device *device, knurl_result result, knurl_device **opened);
 
-/* No hand is faster: baseball pitchers' reach some 10 m/s without a device in them. */
+/* m/s: faster than a hand that holds a device. */
 #define KNURL_HAND_SPEED 10.0
 
-/* How long positions must be believable again after one was not, s. */
+/* s: after an implausible position, how long positions must be plausible before they count again. */
 #define KNURL_SETTLE_TIME 0.02
 
-/* KNURL_OK where `use`, of KNURL_DEVICE_ bits, is not made of it; else KNURL_ERROR_STATE with a sentence. */
+/* KNURL_OK if none of the KNURL_DEVICE_ bits in `use` is set; else KNURL_ERROR_STATE with a message. */
 knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use);
 
 /* 1: the process is about to end or to stop, and no force may go out (exit.c). [any thread] */
 uint32_t knurl_device_must_be_zero(void);
 
-/* Around sending a force, on the thread that sends it: the device is not quiet from before a force goes out until after
- * none has; a force that would go out while the process ends becomes none. */
+/* Called before and after sending a force, on the sending thread. The device is not quiet from before a force is sent
+ * until a zero was sent. While the process ends every force becomes zero. */
 void knurl_device_before_force(knurl_device *device, double force[3]);
 void knurl_device_after_force(knurl_device *device, const double force[3]);
 

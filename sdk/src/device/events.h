@@ -21,7 +21,7 @@ typedef struct knurl_events {
     } slots[KNURL_EVENT_ROOM];
 } knurl_events;
 
-/* Writes down what happened now. Zeroed memory is an empty ring. [any thread] */
+/* Adds an event with the present time. Zeroed memory is an empty ring. [any thread] */
 void knurl_events_report(knurl_events *events, int32_t code, double value);
 
 /* The next one: 1, or 0 where there is none. [one thread] */

@@ -3,10 +3,10 @@
 #include "base/system.h"
 #include "device/driver.h"
 
-/* More devices than anyone has on the desk; one beyond it is not waited for, but gets no force either. */
+/* More devices than a desk holds. Further ones get no force at the end either, but are not waited for. */
 #define DEVICE_ROOM 16
 
-/* How long an end waits for the threads that write: an I/O thread's exchange takes 5 ms at most. */
+/* How long the end of the process waits for sending threads: an I/O thread's exchange takes at most 5 ms. */
 #define WAIT_NS 20000000
 
 /* Bits of `reasons`; the rest counts stops under way. */
@@ -24,8 +24,8 @@ static int is_zero(const double force[3]) {
     return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
-/* Whoever sends looks at `reasons` after having cleared `quiet`, and who ends the process looks at `quiet` after having
- * set `reasons`: one of them sees the other. */
+/* A sending thread clears `quiet`, then reads `reasons`; the ending thread sets `reasons`, then reads `quiet`. So at
+ * least one of the two sees the other's store. */
 void knurl_device_before_force(knurl_device *device, double force[3]) {
     if (!is_zero(force)) {
         __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
@@ -42,7 +42,7 @@ void knurl_device_after_force(knurl_device *device, const double force[3]) {
 }
 
 void knurl_device_register(knurl_device *device) {
-    if (!device->link) { /* an I/O thread tells by itself */
+    if (!device->link) { /* an I/O thread reports it itself */
         knurl_store_release(&device->quiet, 1u);
     }
     for (int i = 0; i < DEVICE_ROOM; i++) {
@@ -98,7 +98,7 @@ static void stop(void) {
 }
 
 static void resume(void) {
-    halt_all(); /* so that forces come back by the ramp */
+    halt_all(); /* so that forces return by the ramp */
     (void)__atomic_fetch_sub(&reasons, ONE_STOP, __ATOMIC_SEQ_CST);
 }
 

@@ -13,7 +13,7 @@ static int64_t patience_ns(void) {
     return (int64_t)(KNURL_LINK_PATIENCE * 1e9);
 }
 
-/* The force to be sent now: the newest, unless the device is halted or it is too old. */
+/* The force to send now: the newest; zero if the device is halted or the force is too old. */
 static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = link->device;
@@ -22,7 +22,7 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     const int64_t age = now - link->forces[link->orders.front].time_ns;
     const int is_late = vec3_dot(newest, newest) > 0.0 && age > patience_ns();
     if (is_late && !link->is_late && !knurl_load_acquire(&device->halted)) {
-        knurl_device_halt(device); /* whoever writes again comes back by a ramp */
+        knurl_device_halt(device); /* later forces return by a ramp */
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
@@ -36,7 +36,7 @@ static void publish(knurl_link *link, const knurl_device_sample *sample) {
     knurl_count_up(&link->exchanges);
 }
 
-/* By whoever notices it first: once, until the device is heard again. */
+/* Reported once by either thread, until the device answers again. */
 static void tell_silence(knurl_link *link, double seconds) {
     if (!knurl_load_relaxed(&link->is_silent) && !__atomic_exchange_n(&link->is_silent, 1, __ATOMIC_ACQ_REL)) {
         knurl_device_halt(link->device);
@@ -44,7 +44,7 @@ static void tell_silence(knurl_link *link, double seconds) {
     }
 }
 
-/* What the outcome of an exchange means for the hand on the device. */
+/* Acts on the outcome of an exchange. */
 static void judge(knurl_link *link, int outcome, int64_t now) {
     knurl_device *device = link->device;
     if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION) {
@@ -62,7 +62,7 @@ static void judge(knurl_link *link, int outcome, int64_t now) {
     }
 }
 
-/* A guard takes silence for an end. */
+/* The guard process counts silence as the host's end. */
 static void tell_guard(knurl_link *link, int64_t now) {
     if (link->guard && !link->is_unguarded && now - link->told_guard_at >= KNURL_GUARD_SIGN_MS * (int64_t)1000000) {
         link->told_guard_at = now;
@@ -73,7 +73,7 @@ static void tell_guard(knurl_link *link, int64_t now) {
     }
 }
 
-/* One exchange. Returns 0 when there will be no further one. */
+/* One exchange. Returns 0 after the last. */
 static int run_cycle(knurl_link *link) {
     double force[3];
     knurl_device_sample sample;
@@ -103,11 +103,11 @@ static void io_thread(void *argument) {
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
         if (!run_cycle(link)) {
-            knurl_store_release(&link->device->quiet, 1u); /* there is nobody to be told */
+            knurl_store_release(&link->device->quiet, 1u); /* no device is left to send to */
             return;
         }
         const int64_t now = knurl_system_now_ns();
-        next = next + period > now ? next + period : now; /* transfers that take longer set the rhythm */
+        next = next + period > now ? next + period : now; /* slow transfers set the rate */
         knurl_system_sleep_until_ns(next);
     }
     (void)link->exchange(link->device, none, &ignored); /* twice: the first may answer for an earlier one */
@@ -119,7 +119,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     link->device = device;
     link->exchange = exchange;
     link->native_rate = native_rate;
-    if (device->link != link) { /* it is the same when a lost device is found again; any thread may be asking it then */
+    if (device->link != link) { /* after a reopen it is set already, and other threads may read it */
         device->link = link;
     }
     knurl_mailbox_init(&link->positions);
@@ -146,7 +146,7 @@ void knurl_link_close(knurl_link *link) {
 
 void knurl_link_start(knurl_link *link, double update_rate_hz) {
     const double slower = update_rate_hz < link->native_rate ? update_rate_hz : link->native_rate;
-    const double period = 1.0 / slower; /* either may be what new positions wait for */
+    const double period = 1.0 / slower; /* the slower of the two limits new positions */
     link->patience = (uint64_t)((KNURL_LINK_PATIENCE + 2.0 * period) * update_rate_hz);
 }
 
@@ -159,14 +159,14 @@ knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     link->watched = cycles;
     if (knurl_mailbox_take(&link->positions)) {
         link->has_sample = 1;
-        link->device->check.gap += (double)link->stale * link->device->period; /* what held was no new position */
+        link->device->check.gap += (double)link->stale * link->device->period; /* repeated positions count as a gap */
         link->stale = 0;
         *sample = link->samples[link->positions.front];
         return KNURL_OK;
     }
     link->stale++;
     if (link->stuck >= link->patience) {
-        /* the I/O thread itself hangs, so that nobody else tells; motors go on until the device's own watchdog acts */
+        /* the I/O thread hangs and cannot report it; the motors go on until the device's own watchdog acts */
         tell_silence(link, (double)link->stuck * link->device->period);
     }
     if (!link->has_sample || link->stale >= link->patience || knurl_load_acquire(&link->is_silent)) {
@@ -187,7 +187,7 @@ knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
 }
 
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
-    status->lost |= knurl_load_acquire(&link->lost); /* also where nobody has read it since */
+    status->lost |= knurl_load_acquire(&link->lost); /* also if it was not read since */
     status->exchanges = knurl_load_relaxed(&link->exchanges);
     status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
     status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);

@@ -13,7 +13,7 @@
 /* How an exchange ended. */
 enum {
     KNURL_LINK_POSITION,    /* a position came */
-    KNURL_LINK_NO_POSITION, /* the device answers, but does not know where it is (reported by the driver) */
+    KNURL_LINK_NO_POSITION, /* the device answers without a position (reported by the driver) */
     KNURL_LINK_NOTHING,     /* no answer in time */
     KNURL_LINK_LOST         /* it is gone */
 };
@@ -21,7 +21,7 @@ enum {
 /* Sends a force (N, device axes, finite, at most max_force) and waits for a position, 5 ms at most. KNURL_LINK_. */
 typedef int (*knurl_link_exchange)(knurl_device *device, const double force[3], knurl_device_sample *sample);
 
-/* s after which a force is too old to be played on, and after which silence is a fault: ten exchanges at 1 kHz. */
+/* s: a force older than this is not sent again, and silence for as long is a fault: ten exchanges at 1 kHz. */
 #define KNURL_LINK_PATIENCE 0.01
 
 /* s of silence after which a device counts as lost. */
@@ -30,10 +30,10 @@ typedef int (*knurl_link_exchange)(knurl_device *device, const double force[3], 
 typedef struct knurl_link {
     knurl_device *device;
     knurl_link_exchange exchange;
-    double native_rate; /* Hz: exchanges are no more frequent than that */
+    double native_rate; /* Hz: the highest rate of exchanges */
     knurl_thread *thread;
     knurl_guard_process *guard; /* null: none; the driver's, which starts it before and stops it after the thread */
-    uint64_t patience;          /* reads without a new position after which there is none */
+    uint64_t patience;          /* reads for which the latest position holds */
     /* to the haptic thread */
     knurl_mailbox positions;
     knurl_device_sample samples[3];
@@ -67,7 +67,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
 /* Ends the thread, whose last exchanges carry no force. A link that was never opened is fine. */
 void knurl_link_close(knurl_link *link);
 
-/* What the device does in place of its driver. */
+/* The driver's functions, done by the link. */
 void knurl_link_start(knurl_link *link, double update_rate_hz);
 knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample);
 knurl_result knurl_link_write(knurl_link *link, const double force[3]);

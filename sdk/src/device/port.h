@@ -10,11 +10,11 @@
 /* s without a tick after which a device that owns the servo thread counts as lost. */
 #define KNURL_SERVE_GIVE_UP 1.0
 
-/* A loop takes the device, which from then on is the loop's alone, and keeps it in being. Errors: KNURL_ERROR_STATE
- * (another loop's, or it was closed). [any thread] */
+/* Claims the device for one loop, and keeps it from being freed. Errors: KNURL_ERROR_STATE (another loop has it, or it
+ * was closed). [any thread] */
 knurl_result knurl_device_claim(knurl_device *device);
 
-/* The loop is done with it; closes what its owner closed meanwhile. [not the haptic thread] */
+/* Ends the claim; closes the device if its owner did meanwhile. [not the haptic thread] */
 void knurl_device_release(knurl_device *device);
 
 /* The loop is about to start its haptic thread. */
@@ -29,13 +29,13 @@ int knurl_device_may_resume(const knurl_device *device);
 /* knurl_device_start() for the loop that has claimed it. */
 knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz);
 
-/* Looks for a lost device again. KNURL_OK: it is there. [not the haptic thread, while nobody reads or writes] */
+/* Reopens a lost device. KNURL_OK: it is back. [not the haptic thread, and never during a read or write] */
 knurl_result knurl_device_reopen(knurl_device *device);
 
 /* 1: lost, and not found again yet. [any thread] */
 int knurl_port_is_lost(const knurl_device *device);
 
-/* The loop has found out that it is lost: zeroes the force, tells it, marks it. [any thread] */
+/* Zeroes the force of a device that the loop found to be lost, reports the fault and marks it. [any thread] */
 void knurl_port_lose(knurl_device *device);
 
 /* Puts a fault on the device's event ring (KNURL_FAULT_). [any thread, without waiting] */
@@ -44,7 +44,7 @@ void knurl_port_report(knurl_device *device, int32_t code, double value);
 /* 1: it has a servo thread of its own, which calls the tick (knurl_driver.serve). */
 int knurl_port_owns_thread(const knurl_device *device);
 
-/* 1: it can be read and written as fast as the machine can, on any thread. */
+/* 1: reads and writes never wait and may run on any thread. */
 int knurl_port_can_step(const knurl_device *device);
 
 /* Has its servo thread call `tick` once a period, until that returns 0. Errors: as knurl_driver.serve. */
@@ -54,10 +54,10 @@ knurl_result knurl_port_serve(knurl_device *device, uint32_t (*tick)(void *argum
  * call is under way, or where the device has no such thread. [not the haptic thread] */
 int knurl_port_leave(knurl_device *device);
 
-/* s that passed without a reading, in which a hand went on. [haptic thread] */
+/* Adds s without a reading, in which the hand may have moved. [haptic thread] */
 void knurl_port_add_gap(knurl_device *device, double seconds);
 
-/* 1: a force that was sent may still be played, so that the loop has to write a zero at its end. */
+/* 1: the device may still play the last force, so that the loop must write a zero at its end. */
 int knurl_port_may_hold_force(const knurl_device *device);
 
 /* Its URI's first part, for messages; static. */
