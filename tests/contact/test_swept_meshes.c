@@ -19,9 +19,10 @@ typedef double (*coordinate)(const double p[3], const void *of);
 typedef struct turned {
     double profile[64][2]; /* radius and height, from below upwards outside */
     uint32_t count;
-    int lying;     /* 1: its axis is x; 0: y */
-    int inwards;   /* 1: its faces look at the axis */
-    double around; /* m of x in a turn: the area-weighted mean of the circumference */
+    int lying;         /* 1: its axis is x; 0: y */
+    int inwards;       /* 1: its faces look at the axis */
+    uint32_t segments; /* round the axis; 0: SEGMENTS */
+    double around;     /* m of x in a turn: the area-weighted mean of the circumference */
 } turned;
 
 static void add_point(turned *t, double radius, double height) {
@@ -44,8 +45,9 @@ static double angle_round(const double p[3], const void *of) {
 }
 
 static shape turn(turned *t) {
-    const uint32_t columns = SEGMENTS + 1;
-    shape s = shape_new(columns * t->count, 6 * SEGMENTS * (t->count - 1), 1);
+    const uint32_t segments = t->segments > 0 ? t->segments : SEGMENTS;
+    const uint32_t columns = segments + 1;
+    shape s = shape_new(columns * t->count, 6 * segments * (t->count - 1), 1);
     double area = 0.0;
     double sum = 0.0;
     uint32_t at = 0;
@@ -53,10 +55,10 @@ static shape turn(turned *t) {
         const double r = t->profile[i][0];
         const double h = t->profile[i][1];
         for (uint32_t j = 0; j < columns; j++) {
-            const double a = 2.0 * PI * j / SEGMENTS;
+            const double a = 2.0 * PI * j / segments;
             const uint32_t v = i * columns + j;
             shape_set(&s, v, t->lying ? h : r * sin(a), t->lying ? -r * sin(a) : h, r * cos(a));
-            s.uvs[2 * v] = (float)((double)j / SEGMENTS);
+            s.uvs[2 * v] = (float)((double)j / segments);
             s.uvs[2 * v + 1] = (float)((double)i / (t->count - 1));
             if (i + 1 < t->count && j + 1 < columns) {
                 const uint32_t up = v + columns;
@@ -241,6 +243,16 @@ TEST(a_sphere_is_felt) {
     turned t = {.count = 0};
     add_arc(&t, 0.0, 0.0, 0.03, -0.5 * PI, 0.5 * PI);
     check_turned("sphere", &t);
+}
+
+/* The sweep begins on the pole, where so many triangles meet in one vertex that a tick cannot look at all of them. */
+TEST(a_sphere_is_felt_however_many_triangles_meet_at_its_pole) {
+    static const uint32_t segments[3] = {384, 512, 1024};
+    for (size_t i = 0; i < COUNT_OF(segments); i++) {
+        turned t = {.count = 0, .segments = segments[i]};
+        add_arc(&t, 0.0, 0.0, 0.03, -0.5 * PI, 0.5 * PI);
+        check_turned("sphere of many segments", &t);
+    }
 }
 
 TEST(a_torus_is_felt_lying_and_standing) {

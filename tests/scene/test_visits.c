@@ -7,9 +7,8 @@
 #define RADIUS 0.03
 #define PI     3.14159265358979323846
 
-/* A sphere of longitudes and latitudes: around its poles, z up and down, 96 triangles meet in a point. */
-static shape globe(void) {
-    const uint32_t n = 48, w = 96;
+/* A sphere of longitudes and latitudes: around its poles, z up and down, `w` triangles meet in a point. n: rows. */
+static shape globe(uint32_t w, uint32_t n) {
     shape s = shape_new((n + 1) * (w + 1), 6 * w * n, 0);
     uint32_t at = 0;
     for (uint32_t i = 0; i < (n + 1) * (w + 1); i++) {
@@ -91,7 +90,7 @@ TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) 
 
 /* From a meridian over the pole to the next; held in every tick, by a force that is no more than the depth's. */
 TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
-    shape s = globe();
+    shape s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
     static const uint32_t limits[2] = {100, 1000}; /* round the pole, 96 triangles: up to five visits each, and more */
     for (int i = 0; i < 2; i++) {
@@ -116,7 +115,7 @@ TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
 
 /* Exactly onto a pole, where the way of the proxy over 96 triangles takes more than a tick has. */
 TEST(a_contact_begins_although_the_visits_are_used_up) {
-    shape s = globe();
+    shape s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
     knurl_scene *scene = scene_within(&parts, 0);
     for (int k = 0; k < 20; k++) {
@@ -126,6 +125,52 @@ TEST(a_contact_begins_although_the_visits_are_used_up) {
             fail_msg("lost at z = %g", z);
         }
     }
+    knurl_scene_destroy(scene);
+    shape_free(&s);
+}
+
+/* Presses a HIP into a sphere from 2 mm outside to 1 mm inside, `step` (m) a tick, at an angle (rad) from the pole, and
+ * then slides it by 3 mm. It is to be held in each tick from 0.6 mm on, by the force of `most` (m) more than its depth
+ * at most. */
+static void check_press(knurl_scene *scene, double angle, double step, double most) {
+    double radius = RADIUS + 0.002;
+    for (int k = 0; k < 160; k++) {
+        const double slide = radius > RADIUS - 0.001 ? 0.0 : 0.001;
+        radius -= slide > 0.0 ? 0.0 : step;
+        angle += slide;
+        const knurl_tick_output out = tick_at(scene, radius * sin(angle), 1e-9, radius * cos(angle));
+        const double force = length3(out.force);
+        if ((radius < RADIUS - 0.0006 && !(force > 0.0)) || force > K * fmax(0.0, RADIUS - radius + most)) {
+            fail_msg("step %g, tick %d: %u contacts, %g N", step, k, (unsigned)out.contacts, force);
+        }
+    }
+}
+
+TEST(a_pole_of_any_number_of_triangles_holds_a_hip_that_is_pressed_onto_it) {
+    static const uint32_t fans[3] = {256, 512, 1024};
+    static const double steps[3] = {5.5e-5, 2.5e-4, 1e-3};
+    for (int i = 0; i < 9; i++) {
+        shape s = globe(fans[i / 3], 16);
+        surface_parts parts = surface_shape(&s, 0.0001);
+        knurl_scene *scene = scene_within(&parts, 0);
+        check_press(scene, 0.0, steps[i % 3], 0.001);
+        knurl_scene_destroy(scene);
+        shape_free(&s);
+    }
+}
+
+/* 32 spheres of 20,480 triangles each, 10 um beside one another. */
+TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
+    shape s = shape_sphere(RADIUS, 5);
+    surface_parts parts = surface_shape(&s, 0.0);
+    knurl_scene *scene = empty_scene(1);
+    for (int i = 0; i < 32; i++) {
+        parts.desc.position[0] = 1e-5 * i;
+        (void)add_surface(scene, &parts);
+    }
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    check_press(scene, 0.29, 1e-4, 32 * 0.002);
     knurl_scene_destroy(scene);
     shape_free(&s);
 }
@@ -142,7 +187,7 @@ static uint32_t exceeded_by(const shape *s, double amplitude) {
 
 TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     shape ball = shape_sphere(0.01, 5);
-    shape earth = globe();
+    shape earth = globe(96, 48);
     shape heap = heap_of_triangles(2000);
     assert_int_equal(exceeded_by(&ball, 0.02), KNURL_LIMIT_VISITS);
     assert_int_equal(exceeded_by(&heap, 0.0), KNURL_LIMIT_VISITS);

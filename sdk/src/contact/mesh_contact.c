@@ -166,6 +166,24 @@ static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query
     return found;
 }
 
+/* The search for a crossing was cut short: the HIP has crossed the nearest triangle that is found within its way, if it
+ * is behind that one and was in front. Returns the side as knurl_mesh_cross() does. */
+static int32_t cross_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, uint32_t *triangle) {
+    double way[3], before[3], now[3];
+    knurl_contact nearest;
+    knurl_triangle t;
+    vec3_sub(query->hip, query->previous, way);
+    if (!knurl_mesh_closest(mesh, query->hip, vec3_length(way), query->visits, &nearest)) {
+        return 0;
+    }
+    knurl_mesh_triangle(mesh, nearest.triangle, &t);
+    vec3_sub(query->previous, t.corners[0], before);
+    vec3_sub(query->hip, t.corners[0], now);
+    const double from = vec3_dot(before, t.normal), to = vec3_dot(now, t.normal);
+    *triangle = nearest.triangle;
+    return from >= 0.0 && to < 0.0 ? 1 : query->double_sided && from <= 0.0 && to > 0.0 ? -1 : 0;
+}
+
 /* Contact that begins because the HIP has crossed the surface since the last tick. */
 static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                              knurl_contact_state *state, knurl_contact *c) {
@@ -174,6 +192,9 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
     knurl_visits half = knurl_visits_halve(query->visits);
     int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &half, &triangle);
     knurl_visits_settle(query->visits, &half);
+    if (side == 0 && half.exhausted) {
+        side = cross_nearest(mesh, query, &triangle);
+    }
     if (side == 0) {
         if (half.exhausted && query->visits) { /* it is not known whether the HIP has crossed the surface */
             query->visits->left = 0;

@@ -136,7 +136,7 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
             continue;
         }
         if (!knurl_visits_take(visits, 1 + node->count)) {
-            return 0;
+            break;
         }
         for (uint32_t i = 0; i < node->count; i++) {
             double corners[3][3];

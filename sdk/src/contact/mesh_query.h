@@ -14,7 +14,7 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
                        knurl_contact *nearest) KNURL_NONBLOCKING;
 
 /* Where the segment from a to b first goes through a triangle: from the front, or from either side. Returns the side
- * (+1, -1) or 0 for none. Cut short: 0. */
+ * (+1, -1) or 0 for none. Cut short, it is the first of those looked at. */
 int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
                      knurl_visits *visits, uint32_t *triangle) KNURL_NONBLOCKING;
 

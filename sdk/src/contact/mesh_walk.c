@@ -10,8 +10,14 @@
  * thousands. */
 #define MAX_STEPS 64
 
-/* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part. */
-#define MAX_FAN 256
+/* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part: so many triangles to
+ * go on over, so many to tell the side. */
+#define MAX_FAN  1024
+#define MAX_SIDE 256
+
+/* Steps after which a walk looks whether it is on its way round a vertex, of so many triangles at least. */
+#define FAN_STEPS 16
+#define FAN_MIN   32
 
 /* One walk. */
 typedef struct walk {
@@ -90,12 +96,12 @@ static double continues(const knurl_closest_point *from, const knurl_closest_poi
     return along < 0.0 ? 2.0 + vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2) : -to->distance2;
 }
 
-/* The listed corners of a non-manifold vertex; returns how many, at most MAX_FAN. */
+/* The listed corners of a non-manifold vertex; returns how many, at most MAX_SIDE. */
 static uint32_t corners_at(const knurl_mesh *mesh, const knurl_closest_point *closest, const uint32_t **corners) {
     const uint32_t vertex = mesh->triangles[3 * (size_t)closest->triangle + feature_corner(closest)];
     const knurl_vertex_corners *vertex_corners = &mesh->non_manifold[corner_find_non_manifold(mesh, vertex)];
     *corners = &mesh->non_manifold_corners[vertex_corners->first];
-    return vertex_corners->count < MAX_FAN ? vertex_corners->count : MAX_FAN;
+    return vertex_corners->count < MAX_SIDE ? vertex_corners->count : MAX_SIDE;
 }
 
 /* Where sheets branch, the surface goes on straight ahead: an inner wall below it does not take the proxy over. */
@@ -108,7 +114,7 @@ static int step_at_non_manifold(walk *w, const knurl_closest_point *from, knurl_
         w->capped = 1;
         return 0;
     }
-    w->capped |= count == MAX_FAN;
+    w->capped |= count == MAX_SIDE;
     for (uint32_t i = 0; i < count; i++) {
         knurl_closest_point other;
         knurl_closest_on_triangle(w->mesh, corners[i] >> 2, w->p, &other);
@@ -237,7 +243,7 @@ static int add_round(side_sums *sums, int weigh) {
     for (int way = 0; way < 2; way++) {
         knurl_swing s = ways[way];
         while ((corner_swing(mesh, &s) & 3) != 3) {
-            if (s.corner == start || ++seen == MAX_FAN) {
+            if (s.corner == start || ++seen == MAX_SIDE) {
                 return 0;
             }
             add_triangle(sums, s.corner, weigh);
@@ -285,13 +291,57 @@ static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     }
 }
 
+/* A walk of many steps may be on its way round a vertex of many triangles: goes at once to where one of their edges
+ * leads towards p most. */
+static int step_across_fan(walk *w, const knurl_closest_point *from, uint32_t corner, knurl_closest_point *to) {
+    const knurl_swing ways[2] = {{corner, corner_next(corner)}, {corner, corner_last(corner)}};
+    double at[3], off[3], most = -HUGE_VAL;
+    uint32_t best = corner, seen = 1;
+    vertex_of(w->mesh, corner, at);
+    vec3_sub(w->p, at, off);
+    for (int way = 0; way < 2; way++) {
+        knurl_swing s = ways[way];
+        uint32_t apex = corner_swing(w->mesh, &s);
+        for (; (apex & 3) != 3 && s.corner != corner; apex = corner_swing(w->mesh, &s)) {
+            double edge[3];
+            if (++seen == MAX_FAN || !knurl_visits_take(w->visits, 1)) {
+                return 0;
+            }
+            vertex_of(w->mesh, apex, edge);
+            vec3_sub(edge, at, edge);
+            const double along = vec3_dot(edge, off) / vec3_length(edge);
+            best = along > most ? s.corner : best;
+            most = along > most ? along : most;
+        }
+        if (s.corner == corner) {
+            break;
+        }
+    }
+    if (seen < FAN_MIN || !knurl_visits_take(w->visits, KNURL_VISITS_CLOSEST)) {
+        return 0;
+    }
+    knurl_closest_on_triangle(w->mesh, best >> 2, w->p, to);
+    return is_closer(to, from);
+}
+
+/* The same round either corner of an edge. */
+static int step_across_fans(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
+    for (unsigned k = 0; k < 3; k++) {
+        if ((from->feature >> k & 1) && step_across_fan(w, from, 4 * from->triangle + k, to)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knurl_visits *visits,
                     knurl_closest_point *closest) {
     knurl_closest_point points[2];
     const knurl_closest_point *here = closest;
     walk w = {mesh, p, visits, side, 0};
     int steps = 0;
-    while (steps < MAX_STEPS && step(&w, here, &points[steps & 1])) {
+    while (steps < MAX_STEPS && ((steps == FAN_STEPS && step_across_fans(&w, here, &points[steps & 1])) ||
+                                 step(&w, here, &points[steps & 1]))) {
         here = &points[steps++ & 1];
         if (!knurl_visits_take(visits, 1)) {
             w.capped = 1;
@@ -322,6 +372,10 @@ int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, 
     if (sums.front && sums.back) {
         (void)add_round(&sums, 1);
         return sums.weighted < 0.0 ? -1 : 1;
+    }
+    if (!sums.front && !sums.back) { /* no visits were left: the point's own face decides */
+        const double along = vec3_dot(closest->offset, closest->normal);
+        return (along > 0.0) - (along < 0.0);
     }
     return sums.front - sums.back;
 }

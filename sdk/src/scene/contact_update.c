@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* Finds one shape's contact with the HIP. hip: in the shape's frame. Returns 0 where joint contact has to decide. */
+/* Finds one shape's contact with the HIP. hip: in the shape's frame. Returns whether it holds the HIP or is in reach.
+ */
 static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
                               knurl_contact_state *state) {
     const knurl_shape *shape = &a->surface->shape;
@@ -17,7 +18,7 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
     query.double_sided = a->surface->double_sided;
     query.facet = &a->candidate->facet;
     query.visits = &c->visits;
-    return knurl_shape_contact(shape, &query, state, &a->contact) && !a->contact.unsure && c->visits.left > 0;
+    return knurl_shape_contact(shape, &query, state, &a->contact);
 }
 
 /* 1 where nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
@@ -30,7 +31,7 @@ static inline int is_within_view(const knurl_contacts *c, double margin, const d
 }
 
 /* Nothing but `candidate`, which is in contact, is near: tests its shape alone. Returns 0, with nothing changed, where
- * joint contact has to decide. margin: as for is_within_view(). */
+ * joint contact has to decide; c->asked then has what the shape said. margin: as for is_within_view(). */
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
                              const double position[3], double margin) {
     knurl_active_contact *a = &c->active[0];
@@ -56,12 +57,21 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     }
     knurl_pose_to_own(a->pose, position, hip);
     const knurl_plane *plane = a->surface->shape.plane;
-    const int is_settled = (plane && knurl_plane_hold(plane, hip, state, &a->contact)) || query_shape(c, a, hip, state);
+    int held = plane && knurl_plane_hold(plane, hip, state, &a->contact);
+    const int is_asked = !held;
+    held = held || query_shape(c, a, hip, state);
+    const int is_settled = held && !a->contact.unsure && c->visits.left > 0;
     if (is_settled) {
         knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
         knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
     }
     if (!is_settled || (state->inside && !is_within_view(c, margin, proxy))) {
+        if (is_asked) {
+            c->asked.held = held;
+            c->asked.state = *state;
+            c->asked.contact = a->contact;
+            c->asked_of = candidate;
+        }
         *state = before;
         return 0;
     }
@@ -190,6 +200,7 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
     double margin = -1.0;
     c->visits.left = c->max_visits;
     c->visits.exhausted = 0;
+    c->asked_of = NULL;
     knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;
     if (!clear) {
         alone = update_candidates(c, phase, index, position, &margin);

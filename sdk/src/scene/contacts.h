@@ -54,8 +54,10 @@ typedef struct knurl_contacts {
     int32_t everything;                              /* 1: every tick looks at every surface (KNURL_FULL_SEARCH) */
     knurl_active_contact active[KNURL_CONTACTS_MAX]; /* in this tick; what they point to is gone after it */
     uint32_t active_count;
-    uint32_t max_visits; /* a tick's */
-    knurl_visits visits; /* this tick's */
+    knurl_touched asked;             /* in this tick: what the shape of */
+    const knurl_candidate *asked_of; /* this one said when it was asked alone; null: none was */
+    uint32_t max_visits;             /* a tick's */
+    knurl_visits visits;             /* this tick's */
     knurl_candidates candidates;
 } knurl_contacts;
 

@@ -20,6 +20,7 @@ typedef struct joint_search {
     knurl_obstacles near;
     knurl_touched touched[KNURL_CANDIDATES_MAX];
     int jumped;      /* 1: a surface in contact has jumped */
+    uint32_t asked;  /* so many of the first obstacles were asked for their contact with the HIP: `touched` */
     int unknown;     /* 1: the visits were used up before the contacts were found */
     double margin;   /* m: obstacles were collected this far around the path; a proxy may move no farther */
     double proxy[3]; /* results, with `touched`: */
@@ -82,6 +83,10 @@ static void query_contact(joint_search *m, const knurl_obstacle *o, knurl_touche
     const knurl_contacts *c = m->contacts;
     const int jumped = knurl_obstacle_has_jumped(o);
     const int anew = !c->has_previous || (jumped && o->candidate->in_contact);
+    if (o->candidate == c->asked_of && !anew) {
+        *touched = c->asked;
+        return;
+    }
     touched->state = o->candidate->contact;
     if (anew) {
         memset(&touched->state, 0, sizeof touched->state);
@@ -151,6 +156,7 @@ static int begin_contact(joint_search *m) {
     set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         query_contact(m, &m->near.list[i], &m->touched[i]);
+        m->asked = i + 1;
         if (m->touched[i].contact.unsure || (is_inside(&m->touched[i]) && holder != KNURL_NO_OBSTACLE) ||
             knurl_obstacles_are_unknown(&m->near)) {
             return 0;
@@ -183,6 +189,7 @@ static int continue_contact(joint_search *m) {
     }
     knurl_touched *touched = &m->touched[holder];
     query_contact(m, &m->near.list[holder], touched);
+    m->asked = m->near.count == 1;
     const int unsure = touched->contact.unsure;
     if ((!touched->held && unsure) || knurl_obstacles_are_unknown(&m->near)) {
         return 0;
@@ -387,9 +394,14 @@ static void keep_contact(const joint_search *m, const knurl_obstacle *o, knurl_t
     touched->held = contact->z <= reach && (touched->state.inside || contact->z >= 0.0);
 }
 
-/* The visits are used up and the HIP was in contact: repeats the last tick's contacts; none begins. */
+/* The visits are used up and the HIP was in contact: a surface that nothing else is near goes on alone, others repeat
+ * the last tick's contact; none begins. */
 static void keep_contacts(joint_search *m) {
     set_free(m);
+    if (m->asked == 1 && is_inside(&m->touched[0])) {
+        set_proxy(m, 0);
+        return;
+    }
     for (uint32_t i = 0; i < m->near.count; i++) {
         const knurl_obstacle *o = &m->near.list[i];
         keep_contact(m, o, &m->touched[i]);
@@ -411,9 +423,12 @@ static void begin_alone(joint_search *m) {
     set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_touched *touched = &m->touched[i];
-        c->visits.left = share;
-        query_contact(m, &m->near.list[i], touched);
-        if (c->visits.left == 0) {
+        if (i >= m->asked || !is_inside(touched)) {
+            c->asked_of = NULL;
+            c->visits.left = share;
+            query_contact(m, &m->near.list[i], touched);
+        }
+        if (c->visits.left == 0 && !is_inside(touched)) {
             keep_contact(m, &m->near.list[i], touched);
         }
         if (is_inside(touched)) {
@@ -455,6 +470,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.path = path;
     m.near.visits = &c->visits;
     m.unknown = 0;
+    m.asked = 0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
     collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
