@@ -44,6 +44,11 @@ void knurl_session_to_quaternion(const double r[9], double q[4]) {
     }
 }
 
+/* fmax() is a call, and this is asked twice for each surface that turns. */
+static double larger(double a, double b) {
+    return b > a ? b : a;
+}
+
 uint32_t knurl_session_same_rest(const double a[9], const double b[9]) {
     if (KNURL_IS_NULL(a) || KNURL_IS_NULL(b)) {
         return 0;
@@ -51,8 +56,8 @@ uint32_t knurl_session_same_rest(const double a[9], const double b[9]) {
     double largest = 0.0;
     double difference = 0.0;
     for (int i = 0; i < 9; i++) {
-        largest = fmax(largest, fmax(fabs(a[i]), fabs(b[i])));
-        difference = fmax(difference, fabs(a[i] - b[i]));
+        largest = larger(larger(largest, fabs(a[i])), fabs(b[i]));
+        difference = larger(difference, fabs(a[i] - b[i]));
     }
     return difference <= ROUNDING * largest;
 }

@@ -226,13 +226,12 @@ void device_stop(device *d) {
     }
 }
 
-/* The engine's clocks. A time scale changes how much of the game's time a frame or a step is, not when it comes. */
-static void set_clocks(device *d) {
-    double delta = 0.0;
+/* The engine's clocks; delta: s of the game's time since the last frame. A time scale changes how much of the game's
+ * time a frame or a step is, not when it comes. */
+static void set_clocks(device *d, double delta) {
     double scale = 1.0;
     int64_t steps = 0;
     int64_t rate = 0;
-    gd_call(gd_method.Node_get_process_delta_time, d->base.object, NULL, &delta);
     gd_call(gd_method.Engine_get_time_scale, gd_engine, NULL, &scale);
     gd_call(gd_method.Engine_get_physics_frames, gd_engine, NULL, &steps);
     gd_call(gd_method.Engine_get_physics_ticks_per_second, gd_engine, NULL, &rate);
@@ -295,7 +294,7 @@ void device_process(device *d) {
         start_by_itself(d);
     }
     if (d->runs) {
-        set_clocks(d);
+        set_clocks(d, delta);
         device_move_workspace(d);
         follow_all(d);
         knurl_session_update(d->session);

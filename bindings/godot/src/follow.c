@@ -6,6 +6,7 @@
 #include "warnings.h"
 #include "watch.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -37,10 +38,16 @@ static int can_be_felt(const surface *s) {
     return s->enabled && s->grating && !s->is_leaving && !refusal[0];
 }
 
+static void keep_rotation(surface_placement *placement, const gd_transform *transform, const double quaternion[4]) {
+    memcpy(placement->basis, transform->basis, sizeof placement->basis);
+    memcpy(placement->quaternion, quaternion, sizeof placement->quaternion);
+}
+
 void follow_put(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
     const knurl_surface_id before = s->ids[d->slot];
+    gd_transform transform;
     knurl_session_pose at;
     s->moved &= others;
     s->changed &= others;
@@ -53,7 +60,8 @@ void follow_put(device *d, surface *s) {
         follow_remove(d, s);
         return;
     }
-    if (!node_pose(s->base.object, &at)) {
+    node_transform(s->base.object, &transform);
+    if (!transform_pose(&transform, &at)) {
         s->flat |= bit;
         follow_remove(d, s);
         return;
@@ -64,12 +72,13 @@ void follow_put(device *d, surface *s) {
         return;
     }
     warnings_keep(s, NULL);
-    knurl_session_way *way = &s->ways[d->slot];
+    surface_placement *placement = &s->placements[d->slot];
     if (!before) {
-        memset(way, 0, sizeof *way);
+        memset(&placement->way, 0, sizeof placement->way);
     }
-    memcpy(way->position, at.position, sizeof way->position);
-    memcpy(s->rest[d->slot], at.rest, sizeof at.rest);
+    memcpy(placement->way.position, at.position, sizeof at.position);
+    memcpy(placement->rest, at.rest, sizeof at.rest);
+    keep_rotation(placement, &transform, at.quaternion);
 }
 
 void follow_remove(device *d, surface *s) {
@@ -81,15 +90,39 @@ void follow_remove(device *d, surface *s) {
     }
 }
 
-static void move(device *d, surface *s) {
-    const int slot = d->slot;
+/* Where the node stands: 1; 0 where the surface has to be put there anew, because its scale has changed or there is
+ * none. Most moves keep the basis, and with it rotation and scale: splitting it is a third of what a move costs. */
+static int follow_node(surface_placement *placement, const gd_transform *transform, double position[3]) {
     knurl_session_pose at;
-    if (!node_pose(s->base.object, &at) || !knurl_session_same_rest(at.rest, s->rest[slot])) {
+    int is_same = 1;
+    for (int i = 0; i < 3; i++) {
+        position[i] = (double)transform->origin[i];
+        is_same = is_same && isfinite(position[i]);
+        for (int j = 0; j < 3; j++) {
+            is_same = is_same && placement->basis[i][j] == transform->basis[i][j];
+        }
+    }
+    if (is_same) {
+        return 1;
+    }
+    if (!transform_pose(transform, &at) || !knurl_session_same_rest(at.rest, placement->rest)) {
+        return 0;
+    }
+    keep_rotation(placement, transform, at.quaternion);
+    return 1;
+}
+
+static void move(device *d, surface *s) {
+    surface_placement *placement = &s->placements[d->slot];
+    gd_transform transform;
+    double position[3];
+    node_transform(s->base.object, &transform);
+    if (!follow_node(placement, &transform, position)) {
         follow_put(d, s);
         return;
     }
-    s->ways[slot].clock = s->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES;
-    if (knurl_session_move_surface(d->session, s->ids[slot], &s->ways[slot], at.position, at.quaternion)) {
+    placement->way.clock = s->by_physics ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES;
+    if (knurl_session_move_surface(d->session, s->ids[d->slot], &placement->way, position, placement->quaternion)) {
         complain(d, s);
     }
 }

@@ -15,17 +15,25 @@ int surface_is_on_layer_of(const surface *s, const device *d) {
     return (s->layers & d->layers) != 0;
 }
 
-int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
-    gd_transform transform;
+void node_transform(GDExtensionObjectPtr node, gd_transform *transform) {
+    gd_call(gd_method.Node3D_get_global_transform, node, NULL, transform);
+}
+
+int transform_pose(const gd_transform *transform, knurl_session_pose *pose) {
     double matrix[12];
-    gd_call(gd_method.Node3D_get_global_transform, node, NULL, &transform);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            matrix[4 * i + j] = (double)transform.basis[i][j];
+            matrix[4 * i + j] = (double)transform->basis[i][j];
         }
-        matrix[4 * i + 3] = (double)transform.origin[i];
+        matrix[4 * i + 3] = (double)transform->origin[i];
     }
     return (int)knurl_session_split_pose(matrix, pose);
+}
+
+int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose) {
+    gd_transform transform;
+    node_transform(node, &transform);
+    return transform_pose(&transform, pose);
 }
 
 static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *id) {

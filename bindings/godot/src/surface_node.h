@@ -8,7 +8,13 @@
 /* The node whose triangles are felt. */
 GDExtensionObjectPtr surface_parent(const surface *s);
 
-/* Where a Node3D stands, in the world: 1, or 0 where it is scaled to nothing. */
+/* A Node3D's transform in the world, as the engine has it. */
+void node_transform(GDExtensionObjectPtr node, gd_transform *transform);
+
+/* The same as a pose: 1, or 0 where it is scaled to nothing. */
+int transform_pose(const gd_transform *transform, knurl_session_pose *pose);
+
+/* Both at once. */
 int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
 
 /* 1: surface and device have a layer in common. */

@@ -9,6 +9,14 @@
 /* Devices that run at once; each has a bit in a surface's masks. */
 enum { DEVICE_SLOTS = 8, ALL_SLOTS = 255 };
 
+/* A surface in a running device's scene, as it was put or moved there last. */
+typedef struct surface_placement {
+    knurl_session_way way;
+    float basis[3][3];    /* the node's */
+    double quaternion[4]; /* what follows from the basis: the rotation, */
+    double rest[9];       /* and the scale that is baked in */
+} surface_placement;
+
 typedef struct surface {
     gd_instance base;
     gd_variant held; /* keeps the grating's reference */
@@ -30,8 +38,7 @@ typedef struct surface {
     uint8_t by_physics;                 /* 1: a step of the physics moved it last */
     uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
     knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */
-    knurl_session_way ways[DEVICE_SLOTS];
-    double rest[DEVICE_SLOTS][9]; /* scale that is baked in */
+    surface_placement placements[DEVICE_SLOTS];
 } surface;
 
 typedef struct device {
