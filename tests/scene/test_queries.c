@@ -188,8 +188,10 @@ TEST(the_normal_at_the_closest_point_is_the_fronts) {
     shape_free(&box);
 }
 
-TEST(a_closest_point_is_asked_for_with_finite_numbers) {
+/* 1e300: its square is no number any more, and no surface was found. */
+TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, here[3] = {0.0, 0.0, 0.0};
+    static const double beyond[3] = {0.0, 0.0, 1e300}, far[3] = {0.0, 0.0, 1e30};
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
     knurl_surface_point found;
@@ -197,7 +199,163 @@ TEST(a_closest_point_is_asked_for_with_finite_numbers) {
     CHECK_REFUSED(knurl_scene_find_closest(scene, nowhere, 1.0, &found), KNURL_ERROR_ARGUMENT, found);
     CHECK_REFUSED(knurl_scene_find_closest(scene, here, 0.0, &found), KNURL_ERROR_ARGUMENT, found);
     CHECK_REFUSED(knurl_scene_find_closest(scene, here, (double)NAN, &found), KNURL_ERROR_ARGUMENT, found);
+    assert_string_equal(knurl_error_message(), "radius: expected more than 0 m, found nan");
+    CHECK_REFUSED(knurl_scene_find_closest(scene, beyond, (double)INFINITY, &found), KNURL_ERROR_ARGUMENT, found);
+    assert_string_equal(knurl_error_message(),
+                        "position: expected numbers from -1.2e+30 to 1.2e+30 (m), found [0, 0, 1e+300]");
     assert_int_equal(knurl_scene_find_closest(scene, here, (double)INFINITY, &found), KNURL_OK);
+    assert_int_equal(knurl_scene_find_closest(scene, far, (double)INFINITY, &found), KNURL_OK);
+    assert_true(found.surface != 0);
+    CHECK_CLOSE(found.distance / 1e30, 1.0, 1e-12);
+    knurl_scene_destroy(scene);
+}
+
+/* --- rays --- */
+
+/* Where p + t * way, t from 0 to 1, goes into a box about the origin, by slabs: t, or 2 where it does not. */
+static double enter_box(const double p[3], const double way[3], const double half[3]) {
+    double begin = -1.0, end = 2.0;
+    for (int i = 0; i < 3; i++) {
+        const double a = (-half[i] - p[i]) / way[i], b = (half[i] - p[i]) / way[i];
+        begin = fmax(begin, fmin(a, b));
+        end = fmin(end, fmax(a, b));
+    }
+    return begin > end || begin <= 0.0 || begin >= 1.0 ? 2.0 : begin;
+}
+
+/* Three surfaces at random poses, and the ray's way through their boxes. */
+typedef struct three {
+    knurl_scene *scene;
+    knurl_surface_id ids[3];
+    pose poses[3];
+} three;
+
+static const double THREE_HALVES[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
+
+static three place_three(surface_parts parts[3], uint64_t *seed) {
+    three t = {.scene = empty_scene(1)};
+    for (int i = 0; i < 3; i++) {
+        t.poses[i] = random_pose(seed);
+        memcpy(parts[i].desc.position, t.poses[i].position, sizeof t.poses[i].position);
+        memcpy(parts[i].desc.rotation, t.poses[i].quaternion, sizeof t.poses[i].quaternion);
+        parts[i].desc.axis[0] = 1.0;
+        t.ids[i] = add_surface(t.scene, &parts[i]);
+    }
+    return t;
+}
+
+/* The first surface that a ray hits, or -1, where (a share of the way), and whether on its front. The box of a plane
+ * has no height: its slabs meet at z = 0. The first surface is single-sided, and passed from behind; the last is not.
+ */
+static int find_first(const three *t, const double from[3], const double way[3], double *share, int *front) {
+    int best = -1;
+    *share = 2.0;
+    for (int i = 0; i < 3; i++) {
+        const double *q = t->poses[i].quaternion;
+        const double back[4] = {-q[0], -q[1], -q[2], q[3]};
+        double off[3], own[3], own_way[3];
+        for (int axis = 0; axis < 3; axis++) {
+            off[axis] = from[axis] - t->poses[i].position[axis];
+        }
+        turn(back, off, own);
+        turn(back, way, own_way);
+        const double entered = i == 0 && own[2] < 0.0 ? 2.0 : enter_box(own, own_way, THREE_HALVES[i]);
+        if (entered < *share) {
+            *share = entered;
+            *front = i != 2 || own[2] > 0.0;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Returns which was hit, or -1. */
+static int check_ray(const three *t, const double from[3], const double to[3]) {
+    double way[3], share, along = 0.0, length = 0.0;
+    int front = 0;
+    for (int i = 0; i < 3; i++) {
+        way[i] = to[i] - from[i];
+        length += way[i] * way[i];
+    }
+    const int best = find_first(t, from, way, &share, &front);
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    assert_int_equal(knurl_scene_cast_ray(t->scene, from, to, &found), KNURL_OK);
+    if (best < 0) {
+        assert_true(found.surface == 0 && found.distance == 0.0 && found.normal[2] == 0.0);
+        return best;
+    }
+    assert_true(found.surface == t->ids[best]);
+    CHECK_CLOSE(found.distance, share * sqrt(length), 1e-6); /* meshes are of float32, and some rays graze */
+    for (int i = 0; i < 3; i++) {
+        CHECK_CLOSE(found.position[i], from[i] + share * way[i], 1e-6);
+        along += found.normal[i] * way[i];
+    }
+    assert_true(front ? along < 0.0 : along > 0.0);
+    return best;
+}
+
+TEST(a_ray_hits_the_first_of_three_surfaces) {
+    uint64_t seed = 9;
+    int hits[4] = {0};
+    shape box = shape_box(THREE_HALVES[1], 0);
+    shape sheet = shape_sheet(1, 1, THREE_HALVES[2], flat);
+    surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
+    parts[2].desc.double_sided = 1;
+    for (int round = 0; round < 40; round++) {
+        three t = place_three(parts, &seed);
+        for (int k = 0; k < 100; k++) {
+            double from[3], to[3];
+            for (int i = 0; i < 3; i++) {
+                from[i] = random_between(&seed, -1.0, 1.0);
+                to[i] = from[i] + 1.5 * (t.poses[k % 3].position[i] + random_between(&seed, -0.04, 0.04) - from[i]);
+            }
+            hits[1 + check_ray(&t, from, to)]++;
+        }
+        knurl_scene_destroy(t.scene);
+    }
+    assert_true(hits[0] > 100 && hits[1] > 100 && hits[2] > 100 && hits[3] > 100);
+    shape_free(&box);
+    shape_free(&sheet);
+}
+
+TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
+    static const double unturned[4] = {0.0, 0.0, 0.0, 1.0}, above[3] = {0.0, 0.0, 0.3}, on[3] = {0.0, 0.0, 0.0};
+    static const double below[3] = {0.0, 0.0, -0.01}, raised[3] = {0.0, 0.0, 0.1};
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    assert_int_equal(knurl_scene_cast_ray(scene, above, on, &found), KNURL_OK);
+    assert_true(found.surface == 0);
+    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
+    assert_true(found.surface == id);
+    CHECK_CLOSE(found.distance, 0.3, 1e-15);
+    assert_int_equal(knurl_scene_set_transform(scene, id, raised, unturned, 0.1), KNURL_OK);
+    for (int tick = 0; tick < 50; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, 0.5);
+    }
+    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
+    CHECK_CLOSE(found.distance, 0.25, 1e-12);
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
+    assert_true(found.surface == 0 && found.distance == 0.0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(a_ray_is_cast_with_numbers_in_range) {
+    static const double nowhere[3] = {0.0, (double)NAN, 0.0}, beyond[3] = {0.0, 0.0, -1e31}, here[3] = {0.0, 0.0, 0.1};
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = scene_of(&parts);
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    CHECK_REFUSED(knurl_scene_cast_ray(scene, nowhere, here, &found), KNURL_ERROR_ARGUMENT, found);
+    CHECK_REFUSED(knurl_scene_cast_ray(scene, here, beyond, &found), KNURL_ERROR_ARGUMENT, found);
+    assert_string_equal(knurl_error_message(),
+                        "to: expected numbers from -1.2e+30 to 1.2e+30 (m), found [0, 0, -1e+31]");
+    assert_int_equal(knurl_scene_cast_ray(scene, here, here, &found), KNURL_OK);
+    assert_true(found.surface == 0);
     knurl_scene_destroy(scene);
 }
 

@@ -317,7 +317,7 @@ KNURL_API knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl
 typedef struct knurl_surface_point {
     uint32_t struct_size;
     uint32_t reserved;        /**< 0 */
-    knurl_surface_id surface; /**< 0: none is near enough; the rest is 0 then */
+    knurl_surface_id surface; /**< 0: none was found; the rest is 0 then */
     double distance;          /**< m */
     double position[3];       /**< scene axes, m */
     double normal[3];         /**< unit, scene axes: outward from the front of the triangle or plane */
@@ -326,11 +326,19 @@ typedef struct knurl_surface_point {
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_surface_point_init(knurl_surface_point *point, uint32_t size);
 
-/** Finds the point of all surfaces, as they stand now, that is closest to `position` (scene axes, m, finite), up to
- * `radius` (m, > 0) away. Gratings do not count. Takes longer the more surfaces there are; other editing threads wait,
- * ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
+/** Finds the point of all surfaces, as they stand now, that is closest to `position` (scene axes, m, up to 1.2e30), up
+ * to `radius` (m, > 0) away. Gratings do not count. Takes longer the more surfaces there are; other editing threads
+ * wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
                                                 knurl_surface_point *point);
+
+/** Finds the point where the straight line from `from` to `to` (scene axes, m, up to 1.2e30) first goes through a
+ * surface, as surfaces stand now: through its front or, where it is double-sided, through either side. Gratings do not
+ * count. point->distance is measured from `from`. A line that ends on a surface does not go through it. Takes longer
+ * the more surfaces there are; other editing threads wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but
+ * the haptic] */
+KNURL_API knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3], const double to[3],
+                                            knurl_surface_point *point);
 
 /** Prepares the scene for ticks: builds the broad phase over its surfaces. Call it once, after the first surfaces.
  * Errors: KNURL_ERROR_STATE (committed already), KNURL_ERROR_MEMORY. [game thread] */

@@ -1,11 +1,24 @@
-/* What a game asks about a scene: where surfaces are, what is closest to a point, all contacts of a HIP.
- * SPDX-License-Identifier: MIT */
+/* What a game asks about a scene: where surfaces are, what is closest to a point, what a ray hits, all contacts of a
+ * HIP. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"
 #include "contact/mesh_query.h"
 
 #include <string.h>
+
+/* m: as far out as a mesh's vertices may be. The square of a distance overflows far beyond it. */
+#define COORDINATE_MAX 1.2e30
+
+static knurl_result check_point(const char *name, const double p[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        if (!knurl_is_within(p[axis], -COORDINATE_MAX, COORDINATE_MAX)) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected numbers from %g to %g (m), found [%g, %g, %g]", name,
+                              -COORDINATE_MAX, COORDINATE_MAX, p[0], p[1], p[2]);
+        }
+    }
+    return KNURL_OK;
+}
 
 /* The pose of a surface's own frame now; records keep that of its shape's. */
 static void find_pose(const knurl_scene *scene, const knurl_surface_data *surface, knurl_pose *pose) {
@@ -142,9 +155,9 @@ knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double pos
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(point)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (!vec3_finite(position)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers (m), found [%g, %g, %g]",
-                          position[0], position[1], position[2]);
+    const knurl_result result = check_point("position", position);
+    if (result) {
+        return result;
     }
     if (!(radius > 0.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "radius: expected more than 0 m, found %g", radius);
@@ -157,6 +170,70 @@ knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double pos
     knurl_scene_unlock(scene);
     best.distance = best.surface ? best.distance : 0.0;
     return knurl_desc_return("knurl_surface_point", &best, sizeof best, point);
+}
+
+/* 1 where the box of a segment overlaps another box, or comes within `margin` (m) of it. */
+static int passes_box(const double from[3], const double to[3], double margin, const double low[3],
+                      const double high[3]) {
+    double least[3], most[3];
+    knurl_bvh_bound(from, to, margin, least, most);
+    for (int axis = 0; axis < 3; axis++) {
+        if (least[axis] > high[axis] || most[axis] < low[axis]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Casts at one surface. *share: of the way, up to the first hit so far, which `hit` is. */
+static void cast_at(const knurl_scene *scene, const knurl_surface_data *surface, const double from[3],
+                    const double to[3], double *share, knurl_surface_point *hit) {
+    const double now = knurl_scene_time(scene);
+    const knurl_motion *motion = &surface->record->motion;
+    knurl_cast cast = {.double_sided = surface->double_sided};
+    knurl_cast_hit found;
+    knurl_pose pose;
+    double low[3], high[3], normal[3];
+    knurl_surface_bounds(surface, motion, now, low, high);
+    if (!passes_box(from, to, surface->shape.seam + KNURL_CAST_SLACK, low, high)) {
+        return;
+    }
+    knurl_motion_at(motion, now, &pose);
+    knurl_pose_to_own(&pose, from, cast.from);
+    knurl_pose_to_own(&pose, to, cast.to);
+    if (!knurl_shape_cast(&surface->shape, &cast, &found) || found.share >= *share) {
+        return;
+    }
+    *share = found.share;
+    hit->surface = surface->id;
+    knurl_pose_to_parent(&pose, found.point, hit->position);
+    vec3_scale(found.side, found.normal, normal); /* the front's */
+    knurl_pose_vector_to_parent(&pose, normal, hit->normal);
+}
+
+knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3], const double to[3],
+                                  knurl_surface_point *point) {
+    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(from) || KNURL_IS_NULL(to) || KNURL_IS_NULL(point)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_result result = check_point("from", from);
+    result = result ? result : check_point("to", to);
+    if (result) {
+        return result;
+    }
+    knurl_surface_point hit = {0};
+    double share = 2.0;
+    knurl_scene_lock(scene);
+    for (uint32_t i = 0; i < scene->surfaces.count; i++) {
+        cast_at(scene, knurl_surfaces_at(&scene->surfaces, i), from, to, &share, &hit);
+    }
+    knurl_scene_unlock(scene);
+    if (hit.surface) {
+        double way[3];
+        vec3_sub(hit.position, from, way);
+        hit.distance = vec3_length(way);
+    }
+    return knurl_desc_return("knurl_surface_point", &hit, sizeof hit, point);
 }
 
 /* By place and generation: surfaces may have been removed and freed since the tick. */

@@ -635,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "57653a859db4a470";
+        internal const string Interface = "3227794a6825b536";
 
         internal const string Version = "0.3.0";
 
@@ -950,6 +950,10 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_find_closest(knurl_scene* scene, double* position, double radius,
+            knurl_surface_point* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_cast_ray(knurl_scene* scene, double* from, double* to,
             knurl_surface_point* point);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
