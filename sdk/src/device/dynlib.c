@@ -6,8 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-int knurl_dynlib_load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
-                      size_t function_count, char *why, size_t why_size) {
+/* What *state says of a library. */
+enum { ABSENT, LOADING, LOADED };
+
+static int load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
+                size_t function_count, char *why, size_t why_size) {
     knurl_library *library = NULL;
     why[0] = '\0';
     for (size_t i = 0; i < name_count && !library; i++) {
@@ -30,4 +33,20 @@ int knurl_dynlib_load(const char *const *names, size_t name_count, const knurl_d
         (void)knurl_system_find_function(library, functions[i].name, functions[i].function);
     }
     return library != NULL;
+}
+
+/* A state for each library, and no lock for all: one whose maker's start-up code hangs must not stop the others. */
+int knurl_dynlib_load(uint32_t *state, const char *const *names, size_t name_count,
+                      const knurl_dynlib_function *functions, size_t function_count, char *why, size_t why_size) {
+    uint32_t was = ABSENT;
+    while (!__atomic_compare_exchange_n(state, &was, (uint32_t)LOADING, 0, __ATOMIC_ACQUIRE, __ATOMIC_ACQUIRE)) {
+        if (was == LOADED) {
+            return 1;
+        }
+        was = ABSENT;
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
+    }
+    const int is_loaded = load(names, name_count, functions, function_count, why, why_size);
+    __atomic_store_n(state, is_loaded ? (uint32_t)LOADED : (uint32_t)ABSENT, __ATOMIC_RELEASE);
+    return is_loaded;
 }

@@ -13,8 +13,9 @@ typedef struct knurl_dynlib_function {
 } knurl_dynlib_function;
 
 /* Loads the first of the named libraries that is there, for the rest of the process, and finds all functions or none.
- * 0: `why` says what is missing. Again is fine, and cheap where `functions` are set already. [game thread] */
-int knurl_dynlib_load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
-                      size_t function_count, char *why, size_t why_size);
+ * Returns 1, or 0 where `why` says what is missing. *state: the library's own, 0 at first. Once it is loaded nothing is
+ * loaded or written again. While a thread loads it, others that ask for the same wait. [any thread] */
+int knurl_dynlib_load(uint32_t *state, const char *const *names, size_t name_count,
+                      const knurl_dynlib_function *functions, size_t function_count, char *why, size_t why_size);
 
 #endif

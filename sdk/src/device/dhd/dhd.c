@@ -68,8 +68,9 @@ static int load_functions(const char *path, char *why, size_t why_size) {
 #undef FUNCTION
     const char *named = path[0] ? path : getenv("KNURL_DHD_LIBRARY");
     const int is_named = named && named[0];
-    return api.count || knurl_dynlib_load(is_named ? &named : usual, is_named ? 1 : sizeof usual / sizeof *usual,
-                                          functions, sizeof functions / sizeof *functions, why, why_size);
+    static uint32_t state;
+    return knurl_dynlib_load(&state, is_named ? &named : usual, is_named ? 1 : sizeof usual / sizeof *usual, functions,
+                             sizeof functions / sizeof *functions, why, why_size);
 }
 
 #define NO_LIBRARY                                                                                                     \

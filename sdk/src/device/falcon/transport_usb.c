@@ -81,8 +81,9 @@ static int load_functions(char *why, size_t why_size) {
 #define FUNCTION(name) {"libusb_" #name, &lib.name},
     static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-    return lib.init || knurl_dynlib_load(files, sizeof files / sizeof *files, functions,
-                                         sizeof functions / sizeof *functions, why, why_size);
+    static uint32_t state;
+    return knurl_dynlib_load(&state, files, sizeof files / sizeof *files, functions,
+                             sizeof functions / sizeof *functions, why, why_size);
 }
 
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"

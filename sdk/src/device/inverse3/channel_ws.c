@@ -245,30 +245,29 @@ static int load(char *why, size_t why_size) {
     char file[32] = "websockets.dll";
     char version[16];
     const char *const files[] = {file};
-    lws_functions found;
-#define FUNCTION(name) {"lws_" #name, &found.name},
-    const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
+    static uint32_t state;
+#define FUNCTION(name) {"lws_" #name, &lib.name},
+    static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
 #if !defined(_WIN32)
     (void)snprintf(file, sizeof file, "libwebsockets.so.%d", SONAME);
 #endif
-    if (!knurl_dynlib_load(files, 1, functions, sizeof functions / sizeof *functions, why, why_size)) {
+    if (!knurl_dynlib_load(&state, files, 1, functions, sizeof functions / sizeof *functions, why, why_size)) {
         return 0;
     }
     (void)snprintf(version, sizeof version, "%d.%d.", LWS_LIBRARY_VERSION_MAJOR, LWS_LIBRARY_VERSION_MINOR);
-    if (strncmp(found.get_library_version(), version, strlen(version)) != 0) {
-        (void)snprintf(why, why_size, "expected version %sx, found %.40s", version, found.get_library_version());
+    if (strncmp(lib.get_library_version(), version, strlen(version)) != 0) {
+        (void)snprintf(why, why_size, "expected version %sx, found %.40s", version, lib.get_library_version());
         return 0;
     }
-    found.set_log_level(0, NULL); /* it writes to stderr otherwise */
-    lib = found;
+    lib.set_log_level(0, NULL); /* it writes to stderr otherwise */
     return 1;
 }
 
 const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_size) {
     static const knurl_inverse3_service service = {NULL, connect_to};
     char reason[256];
-    if (lib.service || load(reason, sizeof reason)) {
+    if (load(reason, sizeof reason)) {
         return &service;
     }
     (void)snprintf(why, why_size, "libwebsockets cannot be loaded: %s; install it (Debian 12: libwebsockets17)",

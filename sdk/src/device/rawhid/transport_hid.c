@@ -54,8 +54,9 @@ static int load_functions(char *why, size_t why_size) {
 #define FUNCTION(name) {"hid_" #name, &lib.name},
     static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-    return lib.init || knurl_dynlib_load(files, sizeof files / sizeof *files, functions,
-                                         sizeof functions / sizeof *functions, why, why_size);
+    static uint32_t state;
+    return knurl_dynlib_load(&state, files, sizeof files / sizeof *files, functions,
+                             sizeof functions / sizeof *functions, why, why_size);
 }
 
 /* hidapi's calls that are about no device share memory, and lib.exit() is for the whole process. */
