@@ -207,6 +207,31 @@ TEST(surfaces_far_off_are_never_felt) {
     knurl_scene_destroy(scene);
 }
 
+/* 50 mm deep off a rim and back onto it within the 5 ms in which that is one contact, wherever the latest query was. */
+TEST(a_hip_far_below_a_rim_is_held_again_as_if_all_were_looked_at) {
+    static const double beside[3] = {1e-4, 2e-3, 2e-2}; /* m: how far off the rim */
+    surface_parts parts = surface_plane();
+    parts.plane.half_extents[0] = 0.04;
+    for (int i = 0; i < 30; i++) {
+        const double start = 0.04 - 1e-3 * (i / 3);
+        const double way[5][2] = {
+            {start, 1e-3}, {start, -0.05}, {0.0399, -0.05}, {0.04 + beside[i % 3], -0.05}, {0.0399, -0.05}};
+        knurl_scene *reduced = many_scene(0, 1), *full = many_scene(KNURL_FULL_SEARCH, 1);
+        (void)add_surface(reduced, &parts);
+        (void)add_surface(full, &parts);
+        assert_int_equal(knurl_scene_commit(reduced), KNURL_OK);
+        assert_int_equal(knurl_scene_commit(full), KNURL_OK);
+        for (size_t k = 0; k < COUNT_OF(way); k++) {
+            const knurl_tick_output a = tick_at(reduced, way[k][0], 0.0, way[k][1]);
+            const knurl_tick_output b = tick_at(full, way[k][0], 0.0, way[k][1]);
+            check_same_output(&a, &b);
+            assert_int_equal(a.contacts, k == 1 || k == 2 || k == 4);
+        }
+        knurl_scene_destroy(reduced);
+        knurl_scene_destroy(full);
+    }
+}
+
 /* --- crowds --- */
 
 static knurl_scene *pile(uint32_t full_model, int count, double step) {

@@ -6,23 +6,28 @@
 #include <string.h>
 
 /* The sizes of a query, m, widest first. margin: how far the HIP may move before the next query; at 250 mm/s the first
- * lasts for 40 ticks. capture: how deep the HIP may be in a surface on a first tick. Where a query finds more surfaces
- * than a list holds, the next size is tried, down to what the tick itself needs. */
+ * lasts for 40 ticks. deeper: how much deeper the HIP may be pressed until then, because surfaces that it may slide
+ * onto are that far above it. capture: how deep the HIP may be in a surface on a first tick. Where a query finds more
+ * surfaces than a list holds, the next size is tried, down to what the tick itself needs. */
 static const struct {
     double margin;
+    double deeper;
     double capture;
-} views[] = {{0.01, KNURL_CAPTURE_DEPTH},
-             {0.003, KNURL_CAPTURE_DEPTH},
-             {0.001, KNURL_CAPTURE_DEPTH},
-             {0.0, KNURL_CAPTURE_DEPTH},
-             {0.0, 0.003},
-             {0.0, 0.001}};
+} views[] = {{0.01, 0.002, KNURL_CAPTURE_DEPTH},
+             {0.003, 0.001, KNURL_CAPTURE_DEPTH},
+             {0.001, 0.0005, KNURL_CAPTURE_DEPTH},
+             {0.0005, 0.0002, KNURL_CAPTURE_DEPTH},
+             {0.0, 0.0001, KNURL_CAPTURE_DEPTH},
+             {0.0, 0.0001, 0.003},
+             {0.0, 0.0001, 0.001}};
 #define VIEWS   (sizeof views / sizeof *views)
-#define NARROWS 3 /* the first without a margin */
+#define NARROWS 4 /* the first without a margin */
 
-/* m: a HIP pressed this much deeper than at the latest query needs a new one, because surfaces that it may slide onto
- * are that far above it. */
-#define DEEPER 0.002
+/* With more surfaces in a list the next size is tried, as long as it has a margin: ticks near a seam test all of them,
+ * and a long list takes longer to make. But a query also tests all dynamic surfaces, so many of them are best looked at
+ * rarely. */
+#define ENOUGH            12
+#define DYNAMIC_A_SURFACE 16 /* so many dynamic surfaces are worth one more in the list */
 
 /* m: subtracted from a clearance: the margin passed to knurl_candidate_is_near(), 1e-9, and rounding. */
 #define ROUNDING 2e-9
@@ -74,10 +79,18 @@ static uint32_t first_view(const knurl_candidates *c, const knurl_hip_path *path
     return path->is_first ? 0 : c->view > 0 && c->queries >= WIDER_AFTER ? c->view - 1 : c->view;
 }
 
-/* Where a wider size fits the list, the next query tries a still wider one. */
-static void keep_view(knurl_candidates *c, uint32_t first, uint32_t served) {
-    c->queries = served < c->view ? WIDER_AFTER : first < c->view ? 0 : c->queries + 1;
-    c->view = served;
+/* Where a wider size fits the list, the next query tries a still wider one. A first tick's query looks farther than
+ * later ones: its size says nothing about theirs. */
+static void keep_view(knurl_candidates *c, const knurl_hip_path *path, uint32_t first, uint32_t served) {
+    if (!path->is_first) {
+        c->queries = served < c->view ? WIDER_AFTER : first < c->view ? 0 : c->queries + 1;
+        c->view = served;
+    }
+}
+
+static int is_too_much(const knurl_broad_index *index, uint32_t view, uint32_t found) {
+    const uint32_t enough = ENOUGH + knurl_load_relaxed(&index->dynamic_count) / DYNAMIC_A_SURFACE;
+    return view + 1 < VIEWS && (found > KNURL_CANDIDATES_MAX || (view + 1 < NARROWS && found > enough));
 }
 
 /* Fills the list from the broad phase. */
@@ -88,8 +101,8 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
     uint32_t found;
     const uint32_t first = first_view(c, path);
     uint32_t v = first;
-    do {
-        c->depth = path->depth + (v < NARROWS ? DEEPER : 1e-4);
+    for (;; v++) {
+        c->depth = path->depth + views[v].deeper;
         const double reach = 1e-9 + knurl_max(c->depth, path->is_first ? views[v].capture : 0.0);
         double low[3];
         double high[3];
@@ -101,10 +114,12 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
         }
         const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
         found = knurl_broad_phase_find(index, &view, KNURL_CANDIDATES_MAX, places);
-        v++;
-    } while (v < VIEWS && found > KNURL_CANDIDATES_MAX);
-    keep_view(c, first, v - 1);
-    c->version = v > NARROWS ? 0 : version; /* without a margin it is valid in this tick only */
+        if (!is_too_much(index, v, found)) {
+            break;
+        }
+    }
+    keep_view(c, path, first, v);
+    c->version = v >= NARROWS ? 0 : version; /* without a margin it is valid in this tick only */
     c->overflow = found > KNURL_CANDIDATES_MAX;
     found = c->overflow ? KNURL_CANDIDATES_MAX : found;
     c->count = keep(c->list, c->count, places, found);

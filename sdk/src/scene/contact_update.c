@@ -143,12 +143,18 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
     return alone;
 }
 
+/* m: how far surfaces may be that the HIP slides onto. One that has just come off a rim may be put back onto it. */
+static double find_depth(const knurl_contacts *c, const double position[3]) {
+    return knurl_contacts_have_slipped(c) ? knurl_max(c->depth, sqrt(vec3_distance2(c->slip.proxy, position)))
+                                          : c->depth;
+}
+
 /* The HIP's path in this tick. */
 static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
     knurl_hip_path path = {.from = c->has_previous ? c->previous : position,
                            .to = position,
                            .proxy = c->pressed ? c->proxy : position,
-                           .depth = c->depth,
+                           .depth = find_depth(c, position),
                            .time = c->clock.time,
                            .is_first = !c->has_previous,
                            .everything = c->everything};
