@@ -37,6 +37,7 @@ enum {
     BENCH_FIELD,
     BENCH_MOVING_FIELD, /* a thousand of its tiles move */
     BENCH_CROWD,
+    BENCH_CORNER, /* planes at right angles, all of which hold the HIP */
     BENCH_MOVING,
     /* contact has the most to look at; only run by their names: */
     BENCH_WORST_REACH, /* a sphere whose amplitude exceeds its radius */
@@ -44,6 +45,8 @@ enum {
     BENCH_WORST_HEAP,  /* triangles that all go through one point */
     BENCH_WORST_PLANES /* a thousand moving planes in one place */
 };
+
+#define BENCH_TRIANGLES_MAX 1000000 /* in a mesh of the default run; more are built for their names only */
 
 static inline int bench_is_worst(int shape) {
     return shape >= BENCH_WORST_REACH;
@@ -54,16 +57,22 @@ enum { BENCH_TEXTURED, BENCH_SMOOTH, BENCH_FRICTIONAL };
 
 typedef struct bench_case {
     const char *name;
-    int shape;          /**< BENCH_FOAW to _MOVING */
+    int shape;          /**< BENCH_FOAW to _WORST_PLANES */
     int finish;         /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
     int32_t method;     /**< KNURL_S1, _S2, _LOCKED or _AREA */
-    uint32_t triangles; /**< BENCH_MESH: about as many */
+    uint32_t triangles; /**< BENCH_MESH: about as many; BENCH_CORNER: planes, 2 or 3 */
     uint32_t hips;      /**< HIPs that tick at once: the first is timed, the others are ticked in turn beside it */
     int pace;      /**< BENCH_WARM: as fast as they go; _PACED, _COLD: in a loop at 1 kHz, with and without dry ticks */
     int estimates; /**< 1: positions in a device's counts, from which FOAW estimates the velocity; 0: it is given */
+    int thrashes;  /**< 1: another thread writes over the caches meanwhile; paced ones only */
 } bench_case;
 
 enum { BENCH_WARM, BENCH_PACED, BENCH_COLD };
+
+/** 1: for want of time or memory it runs only where it is asked for by its name. */
+static inline int bench_is_on_request(const bench_case *c) {
+    return bench_is_worst(c->shape) || c->triangles > BENCH_TRIANGLES_MAX || c->thrashes;
+}
 
 typedef struct bench_result {
     double p50_ns, p99_ns, p999_ns, max_ns; /**< a tick, less the timer; paced: from position read to force written */
@@ -75,6 +84,7 @@ typedef struct bench_result {
     double ticks;                           /**< timed */
     double contact;                         /**< share of them in contact */
     double visit_limit;                     /**< share of them that met the limit of visits */
+    double overruns;                        /**< paced: of the loop */
 } bench_result;
 
 /* The scene that is up; kept while the next case can use it. */
@@ -134,8 +144,8 @@ void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_i
 /* --- paced.c --- */
 
 /** A case in a loop of its own at 1 kHz, on a device that is a stroke: what that device sees, from the position that it
- * gives to the force that it gets, in samples. *count: of them. Results as the library's. */
-knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count);
+ * gives to the force that it gets, in samples. *count: of them. *overruns: of the loop. Results as the library's. */
+knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count, double *overruns);
 
 /* --- timing.c --- */
 

@@ -6,8 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0}
-#define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1}
+#define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0, 0}
+#define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1, 0}
+#define HIPS(name, shape, triangles, hips) {name, shape, BENCH_TEXTURED, KNURL_S2, triangles, hips, BENCH_WARM, 0, 0}
+#define PACED(name, shape, triangles, pace, thrashes)                                                                  \
+    {name, shape, BENCH_TEXTURED, KNURL_S2, triangles, 1, pace, 0, thrashes}
 #define MESH(name, triangles)                                                                                          \
     WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_S2, triangles),                                                       \
         WARM(name "_locked", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, triangles),                                     \
@@ -32,22 +35,30 @@ const bench_case bench_cases[] = {
     MESH("mesh_100k", 100000),
     FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, 100000),
     MESH("mesh_1m", 1000000),
+    WARM("mesh_10m", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 10000000),
     WARM("surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
     WARM("moving_1k", BENCH_MOVING_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
     WARM("crowded", BENCH_CROWD, BENCH_TEXTURED, KNURL_S2, 0),
+    WARM("corner_2_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_S2, 2),
+    WARM("corner_3_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_S2, 3),
     WARM("moving", BENCH_MOVING, BENCH_TEXTURED, KNURL_S2, 0),
     WARM("worst_reach_327k", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 327000),
     WARM("worst_reach_2m", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 2000000),
     WARM("worst_crowd", BENCH_WORST_CROWD, BENCH_TEXTURED, KNURL_S1, 20000),
     WARM("worst_heap", BENCH_WORST_HEAP, BENCH_TEXTURED, KNURL_S1, 100000),
     WARM("worst_planes", BENCH_WORST_PLANES, BENCH_TEXTURED, KNURL_S1, 0),
-    {"two_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 2, BENCH_WARM, 0},
-    {"eight_hips", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 8, BENCH_WARM, 0},
-    {"paced_plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0, 1, BENCH_PACED, 0},
-    {"paced_plane_cold", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0, 1, BENCH_COLD, 0},
-    {"paced_mesh_100k", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 1, BENCH_PACED, 0},
-    {"paced_mesh_100k_cold", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 100000, 1, BENCH_COLD, 0},
-    {NULL, 0, 0, 0, 0, 0, 0, 0}};
+    HIPS("two_hips", BENCH_MESH, 100000, 2),
+    HIPS("eight_hips", BENCH_MESH, 100000, 8),
+    HIPS("moving_1k_two_hips", BENCH_MOVING_FIELD, 0, 2), /* edits per second beside a HIP that always ticks */
+    PACED("paced_plane", BENCH_PLANE, 0, BENCH_PACED, 0),
+    PACED("paced_plane_cold", BENCH_PLANE, 0, BENCH_COLD, 0),
+    PACED("paced_plane_thrashed", BENCH_PLANE, 0, BENCH_PACED, 1),
+    PACED("paced_plane_thrashed_cold", BENCH_PLANE, 0, BENCH_COLD, 1),
+    PACED("paced_mesh_100k", BENCH_MESH, 100000, BENCH_PACED, 0),
+    PACED("paced_mesh_100k_cold", BENCH_MESH, 100000, BENCH_COLD, 0),
+    PACED("paced_mesh_100k_thrashed", BENCH_MESH, 100000, BENCH_PACED, 1),
+    PACED("paced_mesh_100k_thrashed_cold", BENCH_MESH, 100000, BENCH_COLD, 1),
+    {NULL, 0, 0, 0, 0, 0, 0, 0, 0}};
 
 /* What one case ticks. */
 typedef struct subject {
@@ -237,7 +248,7 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     size_t count = 0;
     if (!failed && !*b->interrupted) {
         if (c->pace != BENCH_WARM) {
-            failed = bench_pace(b, c, ticks, &count);
+            failed = bench_pace(b, c, ticks, &count, &result->overruns);
         } else {
             count = c->hips > 1 ? time_beside_others(&s, ticks, &failed) : time_warm(&s, ticks, &failed);
         }

@@ -1,7 +1,43 @@
 /* Timing at a device's pace: a loop at 1 kHz on a device that plays a stroke. SPDX-License-Identifier: MIT */
 #include "bench.h"
 
+#include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define THRASHED (64u << 20) /* bytes: more than a processor's last cache, as a rule */
+#define LINE     64u         /* bytes of a cache's line */
+
+/* Writes over the caches until it is told to stop. */
+typedef struct thrasher {
+    unsigned char *memory;
+    pthread_t thread;
+    int stop; /* atomic */
+} thrasher;
+
+static void *thrash(void *argument) {
+    thrasher *t = argument;
+    for (uint32_t at = 0; !__atomic_load_n(&t->stop, __ATOMIC_RELAXED); at = (at + LINE) % THRASHED) {
+        t->memory[at]++;
+    }
+    return NULL;
+}
+
+static knurl_result start_thrasher(thrasher *t) {
+    t->memory = calloc(THRASHED, 1);
+    if (!t->memory || pthread_create(&t->thread, NULL, thrash, t) != 0) {
+        free(t->memory);
+        return knurl_fail(KNURL_ERROR_SYSTEM, "a second thread, or %u bytes for it to write to, were refused",
+                          THRASHED);
+    }
+    return KNURL_OK;
+}
+
+static void end_thrasher(thrasher *t) {
+    __atomic_store_n(&t->stop, 1, __ATOMIC_RELAXED);
+    (void)pthread_join(t->thread, NULL);
+    free(t->memory);
+}
 
 typedef struct stroked {
     bench *owner;
@@ -41,7 +77,8 @@ static knurl_result write_force(void *user, const double force[3]) {
     return KNURL_OK;
 }
 
-static knurl_result run(bench *b, const bench_case *c, stroked *s, knurl_device *device) {
+static knurl_result run(bench *b, const bench_case *c, stroked *s, knurl_device *device, double *overruns) {
+    knurl_loop_stats stats;
     knurl_loop_desc d;
     knurl_loop_desc_init(&d, sizeof d);
     d.device = device;
@@ -52,12 +89,16 @@ static knurl_result run(bench *b, const bench_case *c, stroked *s, knurl_device 
     knurl_result result = knurl_loop_create(&d, &s->loop);
     result = result ? result : knurl_loop_start(s->loop);
     while (!result && !knurl_loop_wait(s->loop, 1.0)) {}
+    knurl_loop_stats_init(&stats, sizeof stats);
+    if (!result && knurl_loop_get_stats(s->loop, &stats) == KNURL_OK) {
+        *overruns = (double)stats.overruns;
+    }
     knurl_loop_destroy(s->loop);
     s->loop = NULL;
     return result;
 }
 
-knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count) {
+knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *count, double *overruns) {
     stroked s;
     knurl_device *device = NULL;
     knurl_device_functions functions;
@@ -72,9 +113,17 @@ knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *cou
     functions.get_info = get_info;
     functions.read = read_stroke;
     functions.write = write_force;
-    knurl_result result = knurl_device_open_functions(&functions, &device);
-    result = result ? result : run(b, c, &s, device);
+    thrasher beside = {NULL, 0, 0};
+    knurl_result result = c->thrashes ? start_thrasher(&beside) : KNURL_OK;
+    if (result) {
+        return result;
+    }
+    result = knurl_device_open_functions(&functions, &device);
+    result = result ? result : run(b, c, &s, device, overruns);
     knurl_device_close(device);
+    if (c->thrashes) {
+        end_thrasher(&beside);
+    }
     *count = s.writes;
     return result;
 }

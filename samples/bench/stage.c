@@ -23,8 +23,8 @@ static void make_material(const bench_case *c, knurl_material_desc *m) {
     m->friction = c->finish == BENCH_FRICTIONAL ? BENCH_FRICTION : 0.0;
 }
 
-static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, const double position[3], double half_x,
-                              double half_y) {
+static knurl_result add_turned_plane(knurl_scene *scene, const knurl_material_desc *m, const double position[3],
+                                     const double rotation[4], double half_x, double half_y) {
     knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_plane_desc plane;
@@ -33,9 +33,16 @@ static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, 
     plane.half_extents[0] = half_x;
     plane.half_extents[1] = half_y;
     memcpy(d.position, position, sizeof d.position);
+    memcpy(d.rotation, rotation, sizeof d.rotation);
     d.plane = &plane;
     d.material = m;
     return knurl_scene_add_surface(scene, &d, &surface);
+}
+
+static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, const double position[3], double half_x,
+                              double half_y) {
+    static const double level[4] = {0.0, 0.0, 0.0, 1.0};
+    return add_turned_plane(scene, m, position, level, half_x, half_y);
 }
 
 static knurl_result add_mesh(knurl_scene *scene, const knurl_material_desc *m, const double position[3],
@@ -82,6 +89,18 @@ static knurl_result add_stack(knurl_scene *scene, const knurl_material_desc *m) 
     return result;
 }
 
+/* Planes through the origin that face +z, +y and +x. */
+static knurl_result add_corner(knurl_scene *scene, const knurl_material_desc *m, uint32_t planes) {
+    static const double origin[3];
+    const double quarter = sqrt(0.5);
+    const double rotations[3][4] = {{0.0, 0.0, 0.0, 1.0}, {-quarter, 0.0, 0.0, quarter}, {0.0, quarter, 0.0, quarter}};
+    knurl_result result = KNURL_OK;
+    for (uint32_t i = 0; i < planes && !result; i++) {
+        result = add_turned_plane(scene, m, origin, rotations[i], SHEET_HALF_X, SHEET_HALF_X);
+    }
+    return result;
+}
+
 static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const knurl_mesh_desc *mesh) {
     static const double origin[3];
     knurl_material_desc m;
@@ -99,6 +118,8 @@ static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const 
         return add_field(scene, &m, TILES, BENCH_TILE);
     case BENCH_CROWD:
         return add_field(scene, &m, CROWD, BENCH_CROWD_TILE);
+    case BENCH_CORNER:
+        return add_corner(scene, &m, c->triangles);
     case BENCH_MOVING:
         return add_stack(scene, &m);
     default:

@@ -8,12 +8,25 @@
 
 #define LINE 0.0027 /* m: a y that no row of vertices or seam of tiles lies on; a HIP more, a line further */
 
+/* From just outside, where crests reach, into all planes; along the edge of two, to and fro within the corner of
+ * three. */
+static void place_in_corner(const bench_case *c, double seconds, double out[3]) {
+    const double swing = sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
+    const double depth = seconds > 0.0 ? BENCH_DEPTH : -0.5 * BENCH_AMPLITUDE;
+    out[0] = c->triangles == 2 ? BENCH_REACH * swing : -depth * (1.0 + 0.5 * swing);
+    out[1] = out[2] = -depth;
+}
+
 static void place(const bench_case *c, uint32_t hip, double seconds, double out[3]) {
     const double x = BENCH_REACH * sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
     const double y = LINE * (1.0 + hip);
     double normal[3] = {0.0, 0.0, 1.0};
     if (bench_is_worst(c->shape)) {
         bench_worst_place(seconds, out);
+        return;
+    }
+    if (c->shape == BENCH_CORNER) {
+        place_in_corner(c, seconds, out);
         return;
     }
     out[0] = x;

@@ -41,7 +41,7 @@ static const bench_case *find_case(const char *name) {
 }
 
 static int unknown_case(const char *name) {
-    char known[1024] = "";
+    char known[2048] = "";
     for (const bench_case *c = bench_cases; c->name; c++) {
         (void)strncat(known, c == bench_cases ? "" : ", ", sizeof known - strlen(known) - 1);
         (void)strncat(known, c->name, sizeof known - strlen(known) - 1);
@@ -55,10 +55,11 @@ static void show_progress(const char *name) {
     }
 }
 
-/* All cases, or the one: TOOL_OK, or TOOL_FAILURE having said why. What was measured before stays in the report. */
+/* All cases but those on request, or the one: TOOL_OK, or TOOL_FAILURE having said why. What was measured before stays
+ * in the report. */
 static int measure(bench *b, const bench_case *only, report *out) {
     for (const bench_case *c = bench_cases; c->name && out->count < MAX_CASES; c++) {
-        if (only ? only != c : bench_is_worst(c->shape)) {
+        if (only ? only != c : bench_is_on_request(c)) {
             continue;
         }
         row *r = &out->rows[out->count];
@@ -101,6 +102,9 @@ static void print_result(json_writer *json, const row *r) {
     json_number(json, "contact", r->result.contact);
     if (bench_is_worst(r->timed->shape)) {
         json_number(json, "visit_limit", r->result.visit_limit);
+    }
+    if (r->timed->pace != BENCH_WARM) {
+        json_number(json, "overruns", r->result.overruns);
     }
     json_close(json, '}');
 }
@@ -155,6 +159,9 @@ static void print_table(const report *out) {
         printf("%9.2f\n", t->build_ms);
         if (bench_is_worst(r->timed->shape)) {
             printf("%-20s %.1f %% of the ticks met the limit of visits\n", "", 100.0 * t->visit_limit);
+        }
+        if (r->timed->pace != BENCH_WARM) {
+            printf("%-20s %.0f overruns\n", "", t->overruns);
         }
     }
 }

@@ -100,7 +100,8 @@ static const help_command commands[] = {
      "",
      "time ticks on this machine (about half a minute)",
      {{"--json", "", "as JSON"},
-      {"--case", "NAME", "one case only; a wrong name lists all. worst_... runs by name only"},
+      {"--case", "NAME",
+       "one case only; a wrong name lists all. worst_..., mesh_10m and ..._thrashed run by name only"},
       {"--ticks", "N", "ticks to time per case"}},
      "JSON: version, timer_ns, clock_step_ns, machine, cases [{case, batch_ns, p50_ns, p99_ns, p999_ns, max_ns, bytes,\n"
      "build_ms, ...}], skipped [{case, why}].",

@@ -32,9 +32,12 @@ static const char *const contract[] = {"empty",
                                        "mesh_1m_locked",
                                        "mesh_1m_smooth",
                                        "mesh_1m_friction",
+                                       "mesh_10m",
                                        "surfaces_10k",
                                        "moving_1k",
                                        "crowded",
+                                       "corner_2_faces",
+                                       "corner_3_faces",
                                        "moving",
                                        "worst_reach_327k",
                                        "worst_reach_2m",
@@ -43,10 +46,15 @@ static const char *const contract[] = {"empty",
                                        "worst_planes",
                                        "two_hips",
                                        "eight_hips",
+                                       "moving_1k_two_hips",
                                        "paced_plane",
                                        "paced_plane_cold",
+                                       "paced_plane_thrashed",
+                                       "paced_plane_thrashed_cold",
                                        "paced_mesh_100k",
-                                       "paced_mesh_100k_cold"};
+                                       "paced_mesh_100k_cold",
+                                       "paced_mesh_100k_thrashed",
+                                       "paced_mesh_100k_thrashed_cold"};
 
 /* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
 static const char *only_case(const char *json, const char *name) {
@@ -132,11 +140,15 @@ TEST(each_scene_is_touched_in_every_tick) {
                                         "surfaces_10k",
                                         "moving_1k",
                                         "crowded",
+                                        "corner_2_faces",
+                                        "corner_3_faces",
                                         "moving",
                                         "two_hips",
                                         "eight_hips",
+                                        "moving_1k_two_hips",
                                         "paced_plane",
                                         "paced_plane_cold",
+                                        "paced_plane_thrashed",
                                         "paced_mesh_100k",
                                         "paced_mesh_100k_cold"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
@@ -178,13 +190,13 @@ TEST(the_table_has_a_line_a_case) {
 
 TEST(an_unknown_case_is_refused_with_the_list) {
     process p = RUN_TOOL("bench", "--case", "mesh_2k");
-    char names[1024] = "";
+    char names[2048] = "";
     for (size_t i = 0; i < COUNT_OF(contract); i++) {
         (void)strncat(names, i > 0 ? ", " : "expected one of ", sizeof names - strlen(names) - 1);
         (void)strncat(names, contract[i], sizeof names - strlen(names) - 1);
     }
     assert_non_null(strstr(p.err, names)); /* all of them, no others */
-    check_refused(&p, 2, "--case|empty|paced_mesh_100k_cold|found 'mesh_2k'", "an unknown case");
+    check_refused(&p, 2, "--case|empty|paced_mesh_100k_thrashed_cold|found 'mesh_2k'", "an unknown case");
 }
 
 TEST(wrong_ticks_are_refused) {
