@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Builds the Python module's wheel as pip does, installs it into an empty environment, and runs its tests and example.
-usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER     FOLDER is kept for the next time. Exit 77: a package is missing.
+usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER KNURL     FOLDER is kept for the next time. Exit 77: a package is missing.
 SPDX-License-Identifier: MIT"""
 import glob
 import importlib.util
@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 
-SOURCE, FOLDER, CC, CXX = sys.argv[1:]
+SOURCE, FOLDER, CC, CXX, KNURL = sys.argv[1:]
 PACKAGES = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "python3-setuptools",
             "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv"}
 
@@ -63,7 +63,7 @@ def main():
     run(python, "-m", "pip", "install", "--no-index", wheel)
     print(run(python, "-B", os.path.join(SOURCE, "bindings/python/examples/stroke.py")).strip())
     run_shown(python)
-    print(run(python, "-B", os.path.join(SOURCE, "tests/python/test_knurl.py"), "-v", os.path.join(SOURCE, "assets")))
+    print(run(python, "-B", os.path.join(SOURCE, "tests/python/test_knurl.py"), "-v", KNURL, os.path.join(SOURCE, "assets")))
 
 
 main()

@@ -1,8 +1,10 @@
-"""The Python module, as it is installed. usage: test_knurl.py [-v] ASSETS
+"""The Python module, as it is installed. usage: test_knurl.py [-v] KNURL ASSETS
 SPDX-License-Identifier: MIT"""
 import gc
+import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -13,6 +15,7 @@ import numpy as np
 import knurl
 
 ASSETS = sys.argv.pop()
+TOOL = sys.argv.pop()
 STRAIGHT = {"resolution": 0.0, "workspace": ((0, 0, 0), np.eye(3), 1.0)}
 
 
@@ -128,6 +131,45 @@ class Module(unittest.TestCase):
         wide = np.zeros((10, 6), dtype=int)
         self.assertEqual(len(scene.tick(wide[:, ::2])), 10)
         self.assertEqual(len(scene.tick(np.zeros((0, 3)))), 0)
+
+    def test_metrics_are_those_that_the_tool_prints(self):
+        for method in ("T1", "T2", "T3"):
+            for period_ms in (2.5, 7.3, 10.0, 40.0):
+                printed = json.loads(subprocess.run([TOOL, "metrics", "--method", method, "--period-ms", str(period_ms),
+                                                     "--amplitude", "0.7", "--rate", "1000"], check=True, capture_output=True,
+                                                    text=True).stdout)
+                found = knurl.metrics.temporal(method, 1e-3 * period_ms, 0.7)
+                self.assertEqual(list(found), list(printed))
+                for name in printed:
+                    if name == "pcc":
+                        np.testing.assert_allclose(list(found[name].values()), list(printed[name].values()), atol=1e-12)
+                    else:
+                        np.testing.assert_allclose(found[name], printed[name], rtol=1e-9, atol=1e-12, err_msg=name)
+
+    def test_metrics_of_signals_with_a_closed_form(self):
+        square = knurl.metrics.wave("T1", 0.01, 2.0)
+        np.testing.assert_array_equal(square, [2.0] * 5 + [-2.0] * 5)
+        line = knurl.metrics.dominant(square, 1000.0) # held, it is a true square wave
+        np.testing.assert_allclose([line["hz"], line["amplitude"]], [100.0, 8.0 / np.pi])
+        t = np.arange(2000) / 1000.0
+        tone = 0.3 * np.sin(2 * np.pi * 50.0 * t)
+        line = knurl.metrics.dominant(tone, 1000.0)
+        np.testing.assert_allclose([line["hz"], line["amplitude"]], [50.0, 0.3 * np.sinc(0.05)])
+        steady = knurl.metrics.steady(tone + 0.1, 1000.0, 50.0)
+        np.testing.assert_allclose([steady["fundamental"], steady["net_50ms"]], [0.3, 0.1])
+        np.testing.assert_allclose(knurl.metrics.pcc(tone, np.cos(2 * np.pi * 50.0 * t)), 0.0, atol=1e-12)
+        np.testing.assert_allclose(knurl.metrics.pcc(square, -3.0 * square), -1.0)
+        self.assertEqual(len(knurl.metrics.wave("T3", 0.01, ticks=25)), 25)
+
+    def test_metrics_refuse_what_they_cannot_measure(self):
+        with self.assertRaisesRegex(ValueError, "expected T1, T2 or T3, found 'S1'"):
+            knurl.metrics.wave("S1", 0.01)
+        with self.assertRaisesRegex(knurl.KnurlError, "period"):
+            knurl.metrics.wave("T1", -1.0)
+        with self.assertRaisesRegex(ValueError, "finite numbers"):
+            knurl.metrics.dominant([1.0, float("nan")], 1000.0)
+        with self.assertRaisesRegex(ValueError, "50 ms"):
+            knurl.metrics.steady([1.0, 2.0], 1000.0, 50.0)
 
     def test_objects_go_in_any_order(self):
         for order in ("scene", "device", "loop"):
