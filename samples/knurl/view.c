@@ -9,8 +9,10 @@
 #include <libwebsockets.h>
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define PERIOD_MS    16
@@ -29,6 +31,7 @@ struct view {
     size_t hello_size;
     struct lws_context *context;
     lws_sorted_usec_list_t timer;
+    lws_usec_t due; /* when the timer runs out */
     pthread_t thread;
     int stop; /* atomic */
     char token[TOKEN + 1], url[96], hosts[2][32];
@@ -113,7 +116,10 @@ static int refuse(struct lws *wsi, unsigned status, const char *why) {
 static int answer(struct lws *wsi, const view *v, const char *path) {
     static const struct {
         const char *name, *type;
-    } files[] = {{"index.html", "text/html"}, {"main.js", "text/javascript"}, {"style.css", "text/css"}};
+    } files[] = {{"index.html", "text/html"},
+                 {"main.js", "text/javascript"},
+                 {"view.js", "text/javascript"},
+                 {"style.css", "text/css"}};
     const char *name = asked_for(wsi, v, path);
     char file[4096];
     if (!name) {
@@ -197,10 +203,20 @@ static int on_live(struct lws *wsi, enum lws_callback_reasons reason, void *user
     }
 }
 
+/* The last number is how much goes to the kernel at once; by default it is the third's 256 bytes. */
 static const struct lws_protocols protocols[] = {
-    {"http", on_http, 0, 0, 0, NULL, 0}, {"knurl", on_live, sizeof(viewer), 256, 0, NULL, 0}, {0}};
+    {"http", on_http, 0, 0, 0, NULL, 0},
+    {"knurl", on_live, sizeof(viewer), 256, 0, NULL, MESSAGE_ROWS * VIEW_ROW * sizeof(double)},
+    {0}};
 
 /* --- the thread --- */
+
+static void collect(lws_sorted_usec_list_t *timer);
+
+static void start_timer(view *v) {
+    v->due = lws_now_usecs() + PERIOD_MS * LWS_US_PER_MS;
+    lws_sul_schedule(v->context, 0, &v->timer, collect, PERIOD_MS * LWS_US_PER_MS);
+}
 
 static void collect(lws_sorted_usec_list_t *timer) {
     view *v = lws_container_of(timer, view, timer);
@@ -210,12 +226,23 @@ static void collect(lws_sorted_usec_list_t *timer) {
         tick_ring_drop(&v->ring);
     }
     (void)lws_callback_on_writable_all_protocol(v->context, &protocols[1]);
-    lws_sul_schedule(v->context, 0, timer, collect, PERIOD_MS * LWS_US_PER_MS);
+    start_timer(v);
+}
+
+/* lws_service() waits whole milliseconds, and for the rest of one it polls again and again. */
+static void wait_below_a_millisecond(const view *v) {
+    const lws_usec_t left = v->due - lws_now_usecs();
+    if (left > 0 && left < LWS_US_PER_MS) {
+        const struct timespec t = {0, (long)left * 1000};
+        (void)nanosleep(&t, NULL);
+    }
 }
 
 static void *serve(void *user) {
     view *v = user;
-    while (!__atomic_load_n(&v->stop, __ATOMIC_ACQUIRE) && lws_service(v->context, 0) >= 0) {}
+    while (!__atomic_load_n(&v->stop, __ATOMIC_ACQUIRE) && lws_service(v->context, 0) >= 0) {
+        wait_below_a_millisecond(v);
+    }
     return NULL;
 }
 
@@ -263,6 +290,18 @@ static int make_hello(view *v) {
     return 0;
 }
 
+/* lws_create_context() has the process ignore SIGPIPE for good, which is the caller's to decide. Its sockets do not
+ * raise it: MSG_NOSIGNAL. */
+static struct lws_context *make_context(const struct lws_context_creation_info *info) {
+    struct sigaction was;
+    const int is_known = sigaction(SIGPIPE, NULL, &was) == 0;
+    struct lws_context *made = lws_create_context(info);
+    if (is_known) {
+        (void)sigaction(SIGPIPE, &was, NULL);
+    }
+    return made;
+}
+
 static int listen_on_loopback(view *v) {
     struct lws_context_creation_info info;
     memset(&info, 0, sizeof info);
@@ -273,7 +312,7 @@ static int listen_on_loopback(view *v) {
     info.fd_limit_per_thread = CONNECTIONS;
     info.user = v;
     lws_set_log_level(0, NULL);
-    v->context = lws_create_context(&info);
+    v->context = make_context(&info);
     const int port = v->context ? lws_get_vhost_listen_port(lws_get_vhost_by_name(v->context, "default")) : 0;
     if (port <= 0 || lws_hex_random(v->context, v->token, sizeof v->token)) {
         return 1;
@@ -306,7 +345,7 @@ int view_open(const view_desc *desc, view **opened) {
         destroy(v);
         return tool_error(TOOL_FAILURE, "run: --view: cannot listen on 127.0.0.1, or no memory");
     }
-    lws_sul_schedule(v->context, 0, &v->timer, collect, PERIOD_MS * LWS_US_PER_MS);
+    start_timer(v);
     if (pthread_create(&v->thread, NULL, serve, v)) {
         destroy(v);
         return tool_error(TOOL_FAILURE, "run: --view: no thread");

@@ -9,9 +9,10 @@
 #include <libwebsockets.h>
 
 #include <arpa/inet.h>
+#include <signal.h>
 #include <sys/socket.h>
 
-#define PATIENCE_S 10.0
+#define PATIENCE_S 30.0
 
 static knurl_scene *scene;
 static view *served;
@@ -242,6 +243,35 @@ TEST_WITH(a_stalled_viewer_delays_nobody, serve, end) {
     leave(&stalled);
 }
 
+/* libwebsockets has the process ignore it. */
+TEST(what_the_process_does_at_SIGPIPE_stays_as_it_was) {
+    void (*const was)(int) = signal(SIGPIPE, SIG_DFL);
+    (void)serve(state);
+    void (*const now)(int) = signal(SIGPIPE, was);
+    (void)end(state);
+    assert_true(now == SIG_DFL);
+}
+
+static int send_count; /* atomic */
+
+/* Instead of the C library's, for libwebsockets, too. */
+__attribute__((visibility("default"))) ssize_t send(int fd, const void *bytes, size_t size, int flags) {
+    __atomic_add_fetch(&send_count, 1, __ATOMIC_RELAXED);
+    return sendto(fd, bytes, size, flags, NULL, 0);
+}
+
+/* In pieces of 256 bytes, as by default, each viewer costs 2000 system calls a second. */
+TEST_WITH(the_kernel_gets_a_message_in_one_piece, serve, end) {
+    watcher w = {0};
+    watch(&w);
+    SERVE_UNTIL(&w, w.hello[0]);
+    const int before = __atomic_load_n(&send_count, __ATOMIC_RELAXED);
+    take_ticks(0, 500); /* 92 kB */
+    SERVE_UNTIL(&w, w.rows == 500);
+    assert_in_range(__atomic_load_n(&send_count, __ATOMIC_RELAXED) - before, 1, 10);
+    leave(&w);
+}
+
 TEST(a_full_ring_drops_ticks_and_counts_them) {
     tick_ring ring;
     knurl_tick_output out;
@@ -331,6 +361,24 @@ TEST_WITH(rubbish_instead_of_http_ends_its_own_connection, serve, end) {
     (void)ask("\x16\x03\x01\xff rubbish\r\n\r\n");
     (void)ask("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n");
     CHECK_ANSWER(get_below("scene"), "200", "the scene");
+}
+
+TEST_WITH(frames_that_are_none_end_their_own_connection, serve, end) {
+    char request[512];
+    watcher w = {0};
+    watch(&w);
+    SERVE_UNTIL(&w, w.hello[0]);
+    (void)snprintf(request, sizeof request,
+                   "GET %slive HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nOrigin: http://127.0.0.1:%d\r\nUpgrade: websocket\r\n"
+                   "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+                   "Sec-WebSocket-Protocol: knurl\r\n\r\n\xff\xff\xff\xff\xff\xff\xff\xff\xff rubbish",
+                   path, port, port);
+    const double begin = now_s();
+    CHECK_ANSWER(ask(request), "101", "");
+    assert_true(now_s() - begin < 1.9); /* not until ask() gave up */
+    take_ticks(0, 10);
+    SERVE_UNTIL(&w, w.rows == 10);
+    leave(&w);
 }
 
 TEST(the_tool_says_where_to_look) {
