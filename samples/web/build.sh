@@ -7,12 +7,13 @@ work=$1 out=$2
 mkdir -p "$work/page" "$out/assets"
 cp "$here"/{package.json,package-lock.json,.npmrc} "$work/page/"
 if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # what the lock file names, held against its hashes
+    echo 'fetching three.js and esbuild'
     (cd "$work/page" && npm ci --ignore-scripts --no-progress)
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
 cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
-"$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work/page/main.js" "$work/page/worker.js" --bundle --minify \
-    --format=esm --legal-comments=eof --outdir="$out" --log-level=warning
+"$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker}.js --bundle --minify --format=esm \
+    --external:./view.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,style.css} "$work/knurl.wasm" "$out/"
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"

@@ -3,13 +3,14 @@ import { $, save, scene, setSurfaces, surface, tell } from "./page.js";
 import { Pointer } from "./pointer.js";
 import { Recording } from "./recording.js";
 import { AT, ROW, length, vector } from "./rows.js";
-import { History, drawLens, drawScope, drawSpectrum } from "./scope.js";
+import { History, drawLens, drawNeedle, drawScope, drawSpectrum } from "./scope.js";
 import { Settings, showFeel, showOutputs, shownFeel, tag } from "./settings.js";
 import { Sound } from "./sound.js";
 import { Simulation, watch } from "./sources.js";
 import { nodesWithMesh, withTag } from "./tag.js";
-import { View } from "./view.js";
 
+const PANELS_MS = 100; // between drawings of curves and numbers
+const NET_S = 0.05;
 const MOST_BYTES = 64 * 1024 * 1024;
 const linked = new URLSearchParams(location.hash.slice(1));
 const history = new History();
@@ -18,6 +19,7 @@ const ticks = { latest: null, crossed: 0, played: 0, missed: 0, cost: 0 };
 let simulation = null; // or null: what is shown is a run of the tool
 let pointer = null;
 let rate = 1000; // of the source
+let panelsDrawn = 0; // ms
 
 // --- what ticks bring ---
 
@@ -55,10 +57,16 @@ const recording = new Recording({ show: take, begin: forget, end: () => forget(r
 
 // --- files ---
 
+// three.js is most of the page: it is loaded beside WebAssembly and the model.
+const viewTried = import("./view.js").then(({ View }) => {
+  scene.view = new View($("view"));
+}).catch(() => {}); // undrawn() says so
+
 const undrawn = () => (scene.view ? "" : " with the arrow keys; there is no WebGL in this browser, so that it is not drawn");
 
 async function draw3d(bytes, name) {
   try {
+    await viewTried;
     await scene.view?.show(bytes);
     return true;
   } catch {
@@ -67,7 +75,9 @@ async function draw3d(bytes, name) {
   }
 }
 
-async function open(bytes, name) {
+// isOurs: it will load, and is drawn meanwhile
+async function open(bytes, name, isOurs = false) {
+  const drawing = isOurs ? draw3d(bytes, name) : null;
   const { error, surfaces } = await simulation.ask("load", { bytes, name });
   const nodes = nodesWithMesh(bytes);
   if (nodes.length > 0) { // a file without a tag can be given one
@@ -82,7 +92,7 @@ async function open(bytes, name) {
   pointer.lift();
   forget(rate);
   showFeel();
-  if (await draw3d(bytes, name)) {
+  if (await (drawing ?? draw3d(bytes, name))) {
     tell(`${name}: ${surfaces.length} ${surfaces.length === 1 ? "surface" : "surfaces"} to stroke${undrawn()}`);
   }
 }
@@ -90,7 +100,7 @@ async function open(bytes, name) {
 async function openDemo(name) {
   try {
     const answer = await fetch(new URL(`assets/${name}`, import.meta.url));
-    await open(await answer.arrayBuffer(), name);
+    await open(await answer.arrayBuffer(), name, true);
   } catch (problem) {
     tell(`${name} could not be fetched: ${problem.message}`, true);
   }
@@ -127,33 +137,38 @@ async function writeTag() {
 
 // --- what is drawn ---
 
-let frames = 0;
+// Without "-0.00".
+const fixed = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "");
 
 function numbers() {
   const { latest, crossed, played, missed, cost } = ticks;
-  const net = history.mean("height", 0.05);
+  const net = history.mean("height", NET_S);
   return [["force", `${(latest ? length(latest) : 0).toFixed(2)} N`],
     ["f_t", `${(latest?.[AT.frequency] ?? 0).toFixed(0)} Hz`],
     ["cycles crossed", crossed.toFixed(1)], ["played", played.toFixed(1)],
-    ["net height", `${(1000 * net).toFixed(3)} mm`],
+    ["net height", `${fixed(1000 * net, 3)} mm`],
     ...(!simulation ? [] : [["a tick", `${cost.toFixed(2)} µs`]]),
     ...(missed ? [["ticks missed", String(missed)]] : [])];
 }
 
-function draw() {
+function draw(now) {
   requestAnimationFrame(draw);
   const { latest } = ticks;
   const touches = latest && latest[AT.contact] > 0;
   const lifted = touches ? latest[AT.height] * Number($("exaggeration").value) : 0;
   scene.view?.moveCursor(touches ? vector(latest, AT.proxy) : null, lifted, latest && vector(latest, AT.normal), latest);
   scene.view?.draw();
-  if (frames++ % 6 !== 0) {
+  if (now - panelsDrawn < PANELS_MS) {
     return;
   }
+  panelsDrawn = now;
   const felt = touches ? scene.surfaces[latest[AT.surface]] : surface();
   drawScope($("scope"), history);
   drawSpectrum($("spectrum"), history);
   drawLens($("lens"), touches ? latest.subarray(AT.cycles, AT.cycles + 2) : null, felt?.feel ?? [0, 0]);
+  const net = felt ? felt.feel[3] * history.mean("height", NET_S) : 0;
+  drawNeedle($("net"), net / ((felt?.feel[3] * felt?.feel[2]) || 1));
+  $("net-force").textContent = `net ${fixed(net, 3)} N`;
   $("numbers").innerHTML = numbers().map(([key, value]) => `<div><dt>${key}</dt><dd>${value}</dd></div>`).join("");
 }
 
@@ -188,25 +203,8 @@ function listen() {
   $("controls").addEventListener("submit", (event) => event.preventDefault());
 }
 
-function begin() {
-  try {
-    scene.view = new View($("view"));
-  } catch {
-    scene.view = null; // undrawn() says so
-  }
-  listen();
-}
-
 function ready() {
   document.documentElement.dataset.ready = "1";
-  draw();
-}
-
-async function simulate() {
-  begin();
-  pointer = new Pointer(simulation);
-  await new Settings(simulation, openDemo, setRate).use(linked);
-  ready();
 }
 
 // Shows a run of the tool, of which nothing can be set here.
@@ -217,15 +215,15 @@ function show(run) {
   fetch("scene").then((answer) => answer.arrayBuffer()).then((bytes) => draw3d(bytes, run.file));
 }
 
+listen();
+requestAnimationFrame(draw);
 if (linked.has("live")) {
   document.documentElement.dataset.live = "1";
-  begin();
   showOutputs();
   watch({ hello: show, rows: arrive, ended: () => tell("The run is over, or this page is not the one it gave.", true) });
   ready();
 } else {
   simulation = new Simulation({
-    ready: simulate,
     ticks: ({ rows, samples, cost }) => {
       sound.play(samples);
       ticks.cost += 0.02 * (cost - ticks.cost); // clocks of browsers are coarse
@@ -233,4 +231,6 @@ if (linked.has("live")) {
     },
     failed: () => tell("WebAssembly could not be started in this browser: there is nothing to feel here.", true),
   });
+  pointer = new Pointer(simulation);
+  new Settings(simulation, openDemo, setRate).use(linked).then(ready);
 }

@@ -48,17 +48,17 @@ export function drawScope(canvas, history) {
   const { context, colour, width, height } = prepare(canvas);
   const rows = history.latest(SPAN_S * history.rate);
   const traces = [
-    ["height", "mm", 1000, "--accent", 0.05],
-    ["force", "N", 1, "--ink", 0.1],
-    ["frequency", "Hz", 1, "--asked", 50],
+    ["height", "mm", 1000, "--accent", 0.05, 2],
+    ["force", "N", 1, "--ink", 0.1, 2],
+    ["frequency", "Hz", 1, "--asked", 50, 0],
   ];
-  traces.forEach(([key, unit, scale, name, least], index) => {
+  traces.forEach(([key, unit, scale, name, least, digits], index) => {
     const top = (index * height) / 3;
     const values = rows.map((row) => row[key] * scale);
     const most = Math.max(least, ...values.map(Math.abs));
     const low = key === "height" ? -most : 0;
     context.fillStyle = context.strokeStyle = colour(name);
-    context.fillText(`${key} ${(values.at(-1) ?? 0).toPrecision(3)} of ${most.toFixed(index === 2 ? 0 : 2)} ${unit}`, 6, top + 13);
+    context.fillText(`${key} ${(values.at(-1) ?? 0).toFixed(digits)} of ${most.toFixed(digits)} ${unit}`, 6, top + 13);
     context.beginPath();
     values.forEach((value, i) => {
       const x = width * (1 - (values.length - i) / (SPAN_S * history.rate));
@@ -68,35 +68,38 @@ export function drawScope(canvas, history) {
   });
 }
 
-// Amplitudes at multiples of rate/512, by the definition: 200 lines of 512 samples, ten times a second.
-export function spectrum(values, rate) {
-  const n = values.length;
-  const mean = values.reduce((sum, value) => sum + value, 0) / n;
-  const lines = Math.min(Math.floor(n / 2), Math.floor((TOP_HZ * n) / rate));
+const WINDOW = 512;
+const COSINES = Float64Array.from({ length: WINDOW }, (_, i) => Math.cos((2 * Math.PI * i) / WINDOW));
+
+// Amplitudes at multiples of rate/512, by the definition: 256 lines at most, ten times a second.
+function spectrum(values, rate) {
+  const mean = values.reduce((sum, value) => sum + value, 0) / WINDOW;
+  const weighted = Float64Array.from(values, (value, i) => (value - mean) * (1 - COSINES[i]));
+  const lines = Math.min(WINDOW / 2, Math.floor((TOP_HZ * WINDOW) / rate));
   return Array.from({ length: lines }, (_, k) => {
     let re = 0;
     let im = 0;
-    for (let i = 0; i < n; i++) {
-      const weighted = (values[i] - mean) * (1 - Math.cos((2 * Math.PI * i) / n));
-      re += weighted * Math.cos((2 * Math.PI * k * i) / n);
-      im += weighted * Math.sin((2 * Math.PI * k * i) / n);
+    for (let i = 0; i < WINDOW; i++) {
+      const turn = k * i;
+      re += weighted[i] * COSINES[turn % WINDOW];
+      im += weighted[i] * COSINES[(turn + WINDOW / 4) % WINDOW];
     }
-    return (2 * Math.hypot(re, im)) / n;
+    return (2 * Math.hypot(re, im)) / WINDOW;
   });
 }
 
 export function drawSpectrum(canvas, history) {
   const { context, colour, width, height } = prepare(canvas);
-  const rows = history.latest(512);
+  const rows = history.latest(WINDOW);
   context.fillStyle = colour("--ink");
   context.fillText(`spectrum of the force, 0 to ${TOP_HZ} Hz`, 6, 13);
-  if (rows.length < 512) {
+  if (rows.length < WINDOW) {
     return;
   }
   const lines = spectrum(rows.map((row) => row.force), history.rate);
   const most = Math.max(0.02, ...lines);
   context.fillStyle = colour("--accent");
-  const wide = (width * history.rate) / 512 / TOP_HZ;
+  const wide = (width * history.rate) / WINDOW / TOP_HZ;
   lines.forEach((line, k) => {
     const tall = (line / most) * (height - 20);
     context.fillRect(k * wide, height - tall, Math.max(1, wide - 1), tall);
@@ -121,4 +124,21 @@ export function drawLens(canvas, cycles, feel) {
   context.beginPath();
   context.arc(width / 2, height / 2, 4, 0, 7);
   context.fill();
+}
+
+// What pushes, as a needle: to the right upwards, upright none, flat as much as the amplitude gives.
+export function drawNeedle(canvas, share) {
+  const { context, colour, width, height } = prepare(canvas);
+  const turn = (Math.PI / 2) * Math.max(-1, Math.min(1, share));
+  const reach = Math.max(0, Math.min(width / 2, height) - 6);
+  context.strokeStyle = colour("--line");
+  context.lineWidth = 2;
+  context.beginPath();
+  context.arc(width / 2, height - 4, reach, Math.PI, 0);
+  context.stroke();
+  context.strokeStyle = colour("--asked");
+  context.beginPath();
+  context.moveTo(width / 2, height - 4);
+  context.lineTo(width / 2 + reach * Math.sin(turn), height - 4 - reach * Math.cos(turn));
+  context.stroke();
 }

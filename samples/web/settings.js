@@ -92,8 +92,7 @@ export class Settings {
   async use(settings) {
     const these = (ids) => ids.filter((id) => settings.has(id)).forEach((id) => set(id, settings.get(id)));
     these(["model", "depth", "exaggeration", "rate", "resolution"]);
-    await this.setDevice();
-    await this.openDemo($("model").value);
+    await Promise.all([this.setDevice(), this.openDemo($("model").value)]);
     these(["surface"]);
     showFeel();
     these(FEEL);

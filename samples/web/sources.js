@@ -2,21 +2,30 @@
 // SPDX-License-Identifier: MIT
 import { AT, ROW } from "./rows.js";
 
+// Beside the worker's start, which takes as long.
+async function compile(url) {
+  try {
+    return await WebAssembly.compileStreaming(fetch(url));
+  } catch { // servers that do not know .wasm
+    return WebAssembly.compile(await (await fetch(url)).arrayBuffer());
+  }
+}
+
 export class Simulation {
-  // Calls ready() once WebAssembly is there, and ticks({rows, samples, cost}) some 80 times a second.
-  constructor({ ready, ticks, failed }) {
+  // Calls ticks({rows, samples, cost}) some 80 times a second.
+  constructor({ ticks, failed }) {
     this.waiting = new Map();
     this.asked = 0;
     this.worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
     this.worker.onerror = failed;
+    compile(new URL("knurl.wasm", import.meta.url))
+      .then((compiled) => this.worker.postMessage({ kind: "begin", compiled }), failed);
     this.worker.onmessage = ({ data }) => {
       if (data.kind === "ticks") {
         ticks(data);
-      } else if (data.kind === "answer") {
+      } else {
         this.waiting.get(data.id)?.(data);
         this.waiting.delete(data.id);
-      } else {
-        ready();
       }
     };
   }

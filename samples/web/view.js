@@ -4,7 +4,12 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-const CURSOR = 0.012; // of the model's size
+const CURSOR = 0.018; // of the model's size
+
+// Without what metals would mirror: they would be black, and each of its shaders takes a software renderer 0.1 s.
+function matt({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest }) {
+  return new THREE.MeshLambertMaterial({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest });
+}
 
 export class View {
   constructor(canvas) {
@@ -19,10 +24,11 @@ export class View {
     const sun = new THREE.DirectionalLight(0xffffff, 2);
     sun.position.set(0.4, 1, 0.6);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x667788, 1.6), sun);
-    this.cursor = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshStandardMaterial({ color: 0xd9662b }));
+    this.cursor = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshLambertMaterial({ color: 0xd9662b }));
     this.needle = new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 1, 0xd9662b);
     this.cursor.visible = this.needle.visible = false;
     this.scene.add(this.cursor, this.needle);
+    this.renderer.compile(this.scene, this.camera); // shaders: the first touch would wait for them
     this.ray = new THREE.Raycaster();
     this.model = null;
     this.changed = true; // since it was drawn
@@ -37,6 +43,11 @@ export class View {
       this.scene.remove(this.model);
     }
     this.model = gltf.scene;
+    this.model.traverse((part) => {
+      if (part.isMesh) {
+        part.material = matt(part.material);
+      }
+    });
     this.scene.add(this.model);
     this.model.updateWorldMatrix(true, true);
     const sphere = new THREE.Box3().setFromObject(this.model).getBoundingSphere(new THREE.Sphere());
@@ -101,7 +112,7 @@ export class View {
 
   draw() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (width === 0 || height === 0) {
+    if (width === 0 || height === 0 || !this.model) {
       return;
     }
     const ratio = Math.min(2, window.devicePixelRatio);

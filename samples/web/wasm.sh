@@ -6,11 +6,12 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1/objects/include"
 objects=$(realpath "$1/objects")
 export NODE_PATH=/usr/share/nodejs # Debian's emcc looks for acorn there
+! command -v ccache >/dev/null || export EM_COMPILER_WRAPPER=${EM_COMPILER_WRAPPER-ccache}
 for header in nlohmann glm tiny_gltf.h; do # these alone: the rest of /usr/include is not for this machine
     ln -sfn "/usr/include/$header" "$objects/include/$header"
 done
 
-# usage: compile FILE OBJECTS: unless its object is newer than the file and every header
+# usage: compile FILE OBJECTS COUNT: unless its object is newer than the file and every header
 compile() {
     local object=$2/${1//\//_}.o
     local flags=(-O2 -DNDEBUG -DKNURL_STATIC -D_GNU_SOURCE -Isdk/include -Isdk/src -ffp-contract=off -fno-math-errno
@@ -20,6 +21,7 @@ compile() {
     *.cpp) em++ -std=c++17 "${flags[@]}" -c "$1" -o "$object" ;;
     *) emcc -std=gnu99 "${flags[@]}" -c "$1" -o "$object" ;;
     esac
+    echo "compiled $(find "$2" -name '*.o' | wc -l) of $3 files"
 }
 export -f compile
 
@@ -29,7 +31,9 @@ touch -d "@$newest" "$objects/newest"
 sources=(sdk/src/{vibration,grating,motion,contact,scene,audio}/*.c sdk/src/gltf/*.cpp sdk/src/base/{error,heap}.c
     sdk/src/base/{regular_file,system}_posix.c samples/web/web.c)
 # shellcheck disable=SC2016 # the other shell expands it
-printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2"' compile {} "$objects"
+printf '%s\n' "${sources[@]}" |
+    xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2" "$3"' compile {} "$objects" "${#sources[@]}"
+echo 'linking'
 em++ -O2 -fexceptions "$objects"/*.o -o "${objects%/objects}/knurl.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
     -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=1GB -sEXPORTED_FUNCTIONS=_malloc,_free \
     -sEXPORTED_RUNTIME_METHODS=UTF8ToString

@@ -9,7 +9,17 @@ const GIVE_UP_MS = 100; // a tab that was in the background does not make up for
 const SMOOTH_S = 0.012; // pointers come 60 to 120 times a second: a filter makes a motion of their steps
 const SAMPLE_RATE = 48000;
 
-const knurl = await makeKnurl();
+// The first message brings WebAssembly, compiled; what comes before all is ready is answered then.
+const early = [];
+const compiled = await new Promise((resolve) => {
+  onmessage = (event) => (event.data.kind === "begin" ? resolve(event.data.compiled) : early.push(event));
+});
+const knurl = await makeKnurl({
+  instantiateWasm: (imports, done) => {
+    WebAssembly.instantiate(compiled, imports).then(done);
+    return {};
+  },
+});
 const memory = {
   positions: knurl._malloc(MOST * 3 * 8),
   rows: knurl._malloc(MOST * ROW * 8),
@@ -60,14 +70,14 @@ function tick(positions) {
   const count = positions.length / 3;
   knurl.HEAPF64.set(positions, memory.positions / 8);
   knurl._web_tick(count, memory.positions, memory.rows);
-  return Float64Array.from(knurl.HEAPF64.subarray(memory.rows / 8, memory.rows / 8 + count * ROW));
+  return knurl.HEAPF64.slice(memory.rows / 8, memory.rows / 8 + count * ROW);
 }
 
 // The sound of as many ticks.
 function hear(count) {
   const frames = Math.round((count * SAMPLE_RATE) / state.rate);
   knurl._web_sound(memory.samples, frames);
-  return Float32Array.from(knurl.HEAPF32.subarray(memory.samples / 4, memory.samples / 4 + frames));
+  return knurl.HEAPF32.slice(memory.samples / 4, memory.samples / 4 + frames);
 }
 
 // The way of the HIP to where the pointer is: a critically damped spring.
@@ -161,5 +171,5 @@ onmessage = ({ data }) => {
     postMessage({ kind: "answer", to: data.kind, id: data.id, ...answer });
   }
 };
+early.forEach(onmessage);
 setInterval(tickOn, BATCH_MS);
-postMessage({ kind: "ready" });
