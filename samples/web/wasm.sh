@@ -21,13 +21,14 @@ compile() {
     *.cpp) em++ -std=c++17 "${flags[@]}" -c "$1" -o "$object" ;;
     *) emcc -std=gnu99 "${flags[@]}" -c "$1" -o "$object" ;;
     esac
-    echo "compiled $(find "$2" -name '*.o' | wc -l) of $3 files"
+    echo "compiled $(find "$2" -name '*.o' -newer "$2/begin" | wc -l) files of $3"
 }
 export -f compile
 
 cd "$root"
 newest=$(find sdk -name '*.h*' -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
+touch "$objects/begin"
 sources=(sdk/src/{vibration,grating,motion,contact,scene,audio}/*.c sdk/src/gltf/*.cpp sdk/src/base/{error,heap}.c
     sdk/src/base/{regular_file,system}_posix.c samples/web/web.c)
 # shellcheck disable=SC2016 # the other shell expands it

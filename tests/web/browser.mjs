@@ -1,28 +1,44 @@
-// The page that ./run web builds, in a real browser. ONLY=WORDS: the cases whose names hold them.
-// usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
+// The page that ./run web builds, in a real browser: first what is timed, then LANES cases at once, which mostly wait.
+// ONLY=WORDS: the cases whose names hold them; SHORT=1: a few of all. usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
 // SPDX-License-Identifier: MIT
-import { complaints, finish } from "./harness.mjs";
+import { complaints, finish, runCase } from "./harness.mjs";
 import { cases as equal } from "./equal.mjs";
 import { cases as hostile } from "./hostile.mjs";
 import { cases as page } from "./page.mjs";
 import { cases as pictures } from "./pictures.mjs";
+import { cases as timed } from "./timed.mjs";
 
-const cases = Object.entries({ ...page, ...pictures, ...equal, ...hostile }).filter(([name]) => name.includes(process.env.ONLY ?? ""));
+const LANES = 2;
+const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow keys stroke", "axe finds nothing, in light and dark",
+  "a file without tags can be given one, which the tool reads", "forces and sound are the native tick's",
+  "a hostile file gets a sentence, and what was there goes on"];
+const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
+const total = [page, pictures, equal, hostile, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
+let count = 0;
 let failed = 0;
-for (const [name, run] of cases) {
-  const begin = performance.now();
-  try {
-    await run();
-    console.log(`ok: ${name} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
-  } catch (problem) {
-    failed++;
-    console.log(`FAILED: ${name}: ${problem.stack}`);
+
+async function runAll(cases) {
+  for (let next = cases.shift(); next; next = cases.shift()) {
+    const [name, run] = next;
+    const begin = performance.now();
+    count++;
+    try {
+      await runCase(run);
+      console.log(`ok: ${name} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+    } catch (problem) {
+      failed++;
+      console.log(`FAILED: ${name}: ${problem.stack}`);
+    }
   }
 }
+
+await runAll(Object.entries(timed).filter(isChosen));
+const others = Object.entries({ ...page, ...pictures, ...equal, ...hostile }).filter(isChosen);
+await Promise.all(Array.from({ length: LANES }, () => runAll(others)));
 if (complaints.length > 0) {
   failed++;
   console.log(`FAILED: the console is clean: ${complaints.join("\n")}`);
 }
-console.log(`${cases.length} cases, ${failed} failed`);
+console.log(`${count} of ${total} cases, ${failed} failed`);
 await finish();
 process.exit(failed ? 1 : 0);

@@ -8,13 +8,13 @@ import { fileURLToPath } from "node:url";
 import { drop, modules, open, page, ROW, shown, status, tmp, tool } from "./harness.mjs";
 
 // A stroke in contact from 10 ms on, by the tool: its rows, and its sound as a WAV file's samples.
-function strokeNatively() {
+function strokeNatively(name) {
   const rows = Array.from({ length: 1500 }, (_, k) => [0.00012 * k - 0.05, 0.001 - Math.min(k, 20) * 1e-4, 0]);
-  writeFileSync(join(tmp, "trace.csv"), `t,x,y,z\n${rows.map((row, k) => `${k / 1000},${row.join()}`).join("\n")}\n`);
-  const summary = JSON.parse(execFileSync(tool, ["run", join(page, "assets/plate_1d.glb"), "--trace", join(tmp, "trace.csv"),
-    "--fast", "--out", join(tmp, "native.csv"), "--wav", join(tmp, "native.wav")], { stdio: ["ignore", "pipe", "inherit"] }));
-  const native = readFileSync(join(tmp, "native.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
-  const wav = readFileSync(join(tmp, "native.wav"));
+  writeFileSync(join(tmp, `${name}-trace.csv`), `t,x,y,z\n${rows.map((row, k) => `${k / 1000},${row.join()}`).join("\n")}\n`);
+  const summary = JSON.parse(execFileSync(tool, ["run", join(page, "assets/plate_1d.glb"), "--trace", join(tmp, `${name}-trace.csv`),
+    "--fast", "--out", join(tmp, `${name}.csv`), "--wav", join(tmp, `${name}.wav`)], { stdio: ["ignore", "pipe", "inherit"] }));
+  const native = readFileSync(join(tmp, `${name}.csv`), "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
+  const wav = readFileSync(join(tmp, `${name}.wav`));
   const samples = Array.from({ length: (wav.length - 44) / 2 }, (_, i) => wav.readInt16LE(44 + 2 * i) / 32767);
   return { native, samples, summary };
 }
@@ -26,15 +26,23 @@ function strokeInWorker(tab, native) {
     const next = (kind) => new Promise((resolve) => {
       worker.addEventListener("message", ({ data }) => (data.kind === kind || data.to === kind) && resolve(data));
     });
-    await next("ready");
+    worker.postMessage({ kind: "begin", compiled: await WebAssembly.compileStreaming(fetch("knurl.wasm")) });
     const bytes = await (await fetch("assets/plate_1d.glb")).arrayBuffer();
     worker.postMessage({ kind: "load", bytes, name: "plate" });
     await next("load");
+    const first = {};
     const device = { rate: 1000, resolution: 0, protections: 15 };
-    worker.postMessage({ kind: "play", positions: Float64Array.from(positions), ...device });
-    const { rows, samples, cost } = await next("play");
+    const costs = []; // the browser compiles as it goes: the last is the machine's own speed
+    for (let i = 0; i < 20; i++) {
+      worker.postMessage({ kind: "play", positions: Float64Array.from(positions), ...device });
+      const { rows, samples, cost } = await next("play");
+      costs.push(cost);
+      if (i === 0) {
+        Object.assign(first, { rows: [...rows], samples: [...samples] });
+      }
+    }
     worker.terminate();
-    return { rows: [...rows], samples: [...samples], cost };
+    return { ...first, costs };
   }, native.flatMap((cells) => cells.slice(1, 4).map(Number)));
 }
 
@@ -78,15 +86,19 @@ async function startLive() {
 
 export const cases = {
   async "forces and sound are the native tick's"() {
-    const { native, samples, summary } = strokeNatively();
+    const { native, samples, summary } = strokeNatively("native");
     const tab = await open();
     const answer = await strokeInWorker(tab, native);
     const forces = native.flatMap((cells) => cells.slice(11, 14).map(Number));
     const found = native.flatMap((_, k) => answer.rows.slice(ROW * k, ROW * k + 3));
     const apart = distance(forces, found);
     const most = Math.max(...forces.map(Math.abs));
-    console.log(`  forces to ${most.toFixed(2)} N, at most ${apart} N apart; a tick takes ${answer.cost.toFixed(2)} us, ` +
-      `natively ${(summary.tick_ns.p50 / 1000).toFixed(2)} us`);
+    const [first] = answer.costs;
+    const warm = answer.costs.sort((a, b) => a - b)[answer.costs.length / 2];
+    const native_us = summary.tick_ns.p50 / 1000;
+    console.log(`  forces to ${most.toFixed(2)} N, at most ${apart} N apart`);
+    console.log(`  a tick with its sound takes ${warm.toFixed(2)} us in WebAssembly (${first.toFixed(2)} as it is compiled); natively, ` +
+      `without its sound, ${native_us.toFixed(2)} us: ratio ${(warm / native_us).toFixed(1)}`);
     assert.ok(most > 0.1);
     assert.ok(apart < 1e-9);
     const loudest = Math.max(...samples.map(Math.abs));
@@ -102,17 +114,21 @@ export const cases = {
   },
 
   async "the tool's own rows are replayed"() {
+    strokeNatively("replayed");
     const tab = await open();
-    const csv = readFileSync(join(tmp, "native.csv"), "utf8");
+    const csv = readFileSync(join(tmp, "replayed.csv"), "utf8");
     const cycles = csv.trim().split("\n").slice(1).reduce((sum, line) => sum + Number(line.split(",")[9]) / 1000, 0);
     await drop(tab, Buffer.from(csv), "native.csv");
     await tab.waitForFunction(() => document.querySelector("#status").textContent === "native.csv: 1500 ticks are played");
     let most = 0;
-    while (await tab.getAttribute("#replay", "aria-pressed") === "true") {
-      most = Math.max(most, parseFloat(await shown(tab, "cycles crossed")));
-      await tab.waitForTimeout(30);
+    for (let round = 0; round < 10 && most < 0.9 * cycles; round++) { // a busy machine may draw nothing in the 1.5 s
+      while (await tab.getAttribute("#replay", "aria-pressed") === "true") {
+        most = Math.max(most, parseFloat(await shown(tab, "cycles crossed")));
+        await tab.waitForTimeout(30);
+      }
+      assert.match(await status(tab), /is over/);
+      await tab.click("#replay");
     }
-    assert.match(await status(tab), /is over/);
     assert.ok(most > 0.9 * cycles && most <= cycles + 0.1, `${most} of ${cycles}`);
   },
 

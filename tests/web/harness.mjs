@@ -1,4 +1,5 @@
 // A browser with the page that ./run web built, and what a hand does to it. SPDX-License-Identifier: MIT
+import { AsyncLocalStorage } from "node:async_hooks";
 import { createReadStream, existsSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
@@ -29,19 +30,33 @@ export const browser = await chromium.launch({ executablePath, args: FLAGS });
 export const complaints = []; // of the console
 
 const SMALL = { viewport: { width: 800, height: 600 } };
-let context = null; // of the case that runs
+const lane = new AsyncLocalStorage(); // {context} of the case that runs
 
-// A tab with the page, ready. before(tab): what the browser is deprived of.
-export async function open({ options = SMALL, hash = "", url = address + hash, before } = {}) {
-  await context?.close();
-  context = await browser.newContext(options);
-  context.setDefaultTimeout(15000);
+// Runs a case; its tabs are closed after it.
+export function runCase(run) {
+  return lane.run({ context: null }, async () => {
+    try {
+      await run();
+    } finally {
+      await lane.getStore().context?.close();
+    }
+  });
+}
+
+// A tab with the page, ready if it waits. before(tab): what the browser is deprived of.
+export async function open({ options = SMALL, hash = "", url = address + hash, before, waits = true } = {}) {
+  await lane.getStore().context?.close();
+  const context = await browser.newContext(options);
+  lane.getStore().context = context;
+  context.setDefaultTimeout(60000); // for busy machines
   const tab = await context.newPage();
   await before?.(tab);
   tab.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
   tab.on("pageerror", (problem) => complaints.push(String(problem)));
   await tab.goto(url);
-  await tab.waitForSelector("html[data-ready]");
+  if (waits) {
+    await tab.waitForSelector("html[data-ready]");
+  }
   return tab;
 }
 

@@ -18,6 +18,34 @@ async function greatest(tab, key) {
   return most;
 }
 
+// What a canvas shows at a place: its colour, in words that can be compared.
+function pixels(tab, id, row) {
+  return tab.evaluate(([name, share]) => {
+    const canvas = document.getElementById(name);
+    const y = Math.floor(share * (canvas.height - 1));
+    const { data } = canvas.getContext("2d").getImageData(0, y, canvas.width, 1);
+    return Array.from({ length: canvas.width }, (_, x) => data.slice(4 * x, 4 * x + 4).join());
+  }, [id, row]);
+}
+
+// A failure of the catalogue, and waits until it is stroked.
+async function choose(tab, label) {
+  await tab.selectOption("#preset", { label });
+  await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+}
+
+// A preset's stroke as the page records it: the CSV file's rows by column.
+async function recorded(tab, name) {
+  await tab.click("#record");
+  await tab.waitForTimeout(500);
+  await tab.click("#record");
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#save")]);
+  await download.saveAs(join(tmp, name));
+  const [header, ...lines] = readFileSync(join(tmp, name), "utf8").trim().split("\n");
+  const names = header.split(",");
+  return lines.map((line) => Object.fromEntries(line.split(",").map((cell, i) => [names[i], Number(cell)])));
+}
+
 export const cases = {
   async "a stroke by the pointer crosses ridges and pushes back"() {
     const tab = await open({ options: { viewport: { width: 1280, height: 860 } } });
@@ -66,6 +94,69 @@ export const cases = {
     assert.deepEqual(values, ["grid_2d.glb", "1", "700", "600"]);
   },
 
+  async "a link that is copied holds every setting"() {
+    const tab = await open();
+    const chosen = { model: "grid_2d.glb", method: "2", fsx: "350", fsy: "70", amplitude: "0.13", stiffness: "610", friction: "0.35",
+      depth: "1.7", exaggeration: "9", rate: "4000", resolution: "0.0002" };
+    for (const [id, value] of Object.entries(chosen)) {
+      const isList = await tab.evaluate((name) => document.getElementById(name).tagName === "SELECT", id);
+      await (isList ? tab.selectOption(`#${id}`, value) : tab.fill(`#${id}`, value));
+      await tab.waitForFunction(() => document.querySelector("#status").textContent.endsWith("to stroke"));
+    }
+    await tab.click("#share");
+    await tab.waitForFunction(() => /^The link is/.test(document.querySelector("#status").textContent));
+    const other = await open({ url: tab.url() });
+    const values = await other.evaluate((ids) => ids.map((id) => [id, document.getElementById(id).value]), Object.keys(chosen));
+    assert.deepEqual(Object.fromEntries(values), chosen);
+  },
+
+  async "the lens shows the ridges in true scale"() {
+    const tab = await open();
+    await choose(tab, "S1 pushes");
+    for (const [fsx, cycles] of [["500", 3], ["1000", 6]]) { // the lens is 6 mm wide
+      await tab.fill("#fsx", fsx);
+      await tab.waitForTimeout(300);
+      const row = await pixels(tab, "lens", 0.2);
+      const changes = row.filter((colour, x) => x > 0 && colour !== row[x - 1]).length;
+      assert.ok(Math.abs(changes - 2 * cycles) <= 1, `${changes} edges for ${cycles} cycles`);
+    }
+  },
+
+  async "the spectrum's highest line is at f_t"() {
+    const tab = await open();
+    await choose(tab, "area is stronger or weaker by where it began"); // 250 of 500 Hz
+    await tab.waitForTimeout(1500);
+    const highest = (await pixels(tab, "spectrum", 0.3)).map((colour, x, row) => (colour.endsWith(",0") ? -1 : x / row.length))
+      .filter((share) => share >= 0.2);
+    assert.ok(highest.length > 0 && highest.every((share) => Math.abs(share - 0.5) < 0.01), highest.join());
+  },
+
+  async "the encoder rounds positions, and ticks come at the update rate"() {
+    const tab = await open();
+    await choose(tab, "S1 pushes");
+    await tab.selectOption("#resolution", "0.0002");
+    await tab.selectOption("#rate", "4000");
+    const rows = await recorded(tab, "encoder.csv");
+    const counts = rows.map(({ x }) => x / 0.0002);
+    assert.ok(counts.every((count) => Math.abs(count - Math.round(count)) < 1e-6));
+    assert.ok(new Set(counts.map(Math.round)).size > 100);
+    rows.slice(1).forEach(({ t }, k) => assert.ok(Math.abs(t - rows[k].t - 1 / 4000) < 1e-9));
+  },
+
+  async "friction, stiffness and amplitude are felt as they are set"() {
+    const tab = await open();
+    await choose(tab, "S1 pushes");
+    for (const [id, value] of [["fsx", "0"], ["amplitude", "0"], ["stiffness", "500"], ["friction", "0.5"], ["depth", "1"]]) {
+      await tab.fill(`#${id}`, value);
+    }
+    await tab.waitForTimeout(200);
+    const rows = (await recorded(tab, "friction.csv")).filter(({ vx }) => Math.abs(vx) > 0.1).slice(50);
+    const normal = rows.map(({ fy }) => fy);
+    const along = rows.map(({ fx, fz }) => Math.hypot(fx, fz));
+    assert.ok(normal.every((force) => Math.abs(force - 0.5) < 1e-3), `500 N/m at 1 mm: ${Math.max(...normal)} N`);
+    assert.ok(Math.abs(Math.max(...along) - 0.25) < 1e-3, `friction ${Math.max(...along)} N`);
+  },
+
   async "sound can be switched on and is played"() {
     const tab = await open();
     await tab.check("#sound");
@@ -106,6 +197,8 @@ export const cases = {
     await tab.selectOption("#preset", { label: "S1 pushes" });
     await tab.waitForTimeout(300);
     const s1 = await greatest(tab, "net height");
+    const needle = Math.abs(parseFloat((await tab.textContent("#net-force")).replace("net ", "")));
+    assert.ok(Math.abs(needle - (400 * 0.0002) / 3) < 0.004, `the needle is at ${needle} N`);
     await tab.selectOption("#method", "3");
     await tab.waitForTimeout(300);
     const locked = await greatest(tab, "net height");

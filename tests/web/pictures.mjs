@@ -22,7 +22,7 @@ export const cases = {
         await tab.waitForFunction(() => /cycles crossed[3-9]\d\d/.test(document.querySelector("#numbers").textContent));
         assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it is wider than the window");
         await tab.screenshot({ path: join(tmp, `${name}${colorScheme === "dark" ? "_dark" : ""}.png`) });
-        said.page = await tab.evaluate(() => [...document.querySelectorAll("h1, p, label, button, summary, figcaption, dt")]
+        said.page = await tab.evaluate(() => [...document.querySelectorAll("h1, p, label, button, summary, #lens-size, dt")]
           .map((part) => part.textContent.trim().replace(/\s+/g, " ")));
       }
     }

@@ -1,0 +1,44 @@
+// What is timed: it is printed, and depends on what else the machine does. SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+import { open, page } from "./harness.mjs";
+
+// In the page, from before its first script: strokes without a pause, and notes when a force is first shown.
+function strokeFromTheStart() {
+  let count = 0;
+  const timer = setInterval(() => {
+    const canvas = document.getElementById("view");
+    if (/force0*[.0]*[1-9]/.test(document.getElementById("numbers")?.textContent)) {
+      globalThis.feltAt = performance.now();
+      clearInterval(timer);
+    } else if (canvas) {
+      const box = canvas.getBoundingClientRect();
+      canvas.dispatchEvent(new PointerEvent("pointermove", { isPrimary: true, buttons: 1,
+        clientX: box.left + box.width / 2 - 30 + 3 * (count++ % 20), clientY: box.top + box.height / 2 }));
+    }
+  }, 10);
+}
+
+export const cases = {
+  async "a stroke is felt soon after the page is asked for"() {
+    const times = [];
+    for (let i = 0; i < 3; i++) {
+      const tab = await open({ before: (bare) => bare.addInitScript(strokeFromTheStart) });
+      await tab.waitForFunction(() => globalThis.feltAt);
+      const { felt, painted, names } = await tab.evaluate(() => ({ felt: globalThis.feltAt,
+        painted: performance.getEntriesByName("first-contentful-paint")[0].startTime,
+        names: performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname) }));
+      times.push({ felt, painted, names: ["index.html", ...new Set([...names, "/worker.js"])] });
+    }
+    times.sort((a, b) => a.felt - b.felt);
+    const sizes = times[0].names.map((name) => readFileSync(join(page, name)))
+      .map((bytes) => [bytes.length, gzipSync(bytes, { level: 9 }).length]);
+    const sum = (i) => (sizes.reduce((total, size) => total + size[i], 0) / 1000).toFixed(0);
+    console.log(`  first paint and a stroke felt, s after navigation: ${times.map(({ painted, felt }) =>
+      `${(painted / 1000).toFixed(2)} ${(felt / 1000).toFixed(2)}`).join(", ")}`);
+    console.log(`  ${sizes.length} files, ${sum(0)} kB, ${sum(1)} kB by gzip`);
+    assert.ok(sum(1) < 1500);
+  },
+};
