@@ -2,28 +2,19 @@
 #include "out.h"
 
 #include "options.h"
+#include "os.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define TEMPORARY_ROOM 4096 /* PATH_MAX on Linux */
 #define NAME_KEPT      200  /* bytes of the file's own name in the temporary one: names end at 255 */
 
-/* Which file, whatever it is called. */
-typedef struct identity {
-    dev_t device;
-    ino_t number;
-} identity;
-
-static identity *inputs; /* for as long as the process lives */
+static os_file *inputs; /* for as long as the process lives */
 static size_t input_count;
 static int inputs_missing; /* 1: there was no memory for all of them, so that none is told apart */
 
@@ -37,78 +28,58 @@ static int fail(const char *path, const char *why) {
     return tool_error(1, "%s: %s", path, why);
 }
 
-static void protect(const struct stat *found) {
-    identity *more = realloc(inputs, (input_count + 1) * sizeof *more);
+static void protect(const os_file *found) {
+    os_file *more = realloc(inputs, (input_count + 1) * sizeof *more);
     if (!more) {
         inputs_missing = 1;
         return;
     }
     inputs = more;
-    inputs[input_count].device = found->st_dev;
-    inputs[input_count++].number = found->st_ino;
+    inputs[input_count++] = *found;
 }
 
 void out_protect(const char *path) {
-    struct stat found;
-    if (path && stat(path, &found) == 0 && S_ISREG(found.st_mode)) {
+    os_file found;
+    if (path && os_identify(path, &found) == 0 && found.is_regular) {
         protect(&found);
     }
 }
 
 void out_protect_stream(FILE *stream) {
-    struct stat found;
-    if (fstat(fileno(stream), &found) == 0 && S_ISREG(found.st_mode)) {
+    os_file found;
+    if (os_identify_stream(stream, &found) == 0 && found.is_regular) {
         protect(&found);
     }
 }
 
-static int is_input(const struct stat *found) {
+static int is_same(const os_file *a, const os_file *b) {
+    return a->device == b->device && a->number == b->number && (a->device || a->number);
+}
+
+static int is_input(const os_file *found) {
     for (size_t i = 0; i < input_count; i++) {
-        if (inputs[i].device == found->st_dev && inputs[i].number == found->st_ino) {
+        if (is_same(&inputs[i], found)) {
             return 1;
         }
     }
     return inputs_missing;
 }
 
+static int is_stdout(const char *path, const os_file *found) {
+    os_file standard;
+    return strcmp(path, "-") == 0 || (os_identify_stream(stdout, &standard) == 0 && is_same(&standard, found));
+}
+
 /* 1 for what is not a file by its own name: /dev/stdout may lead to a regular file, and is not to be renamed over. */
-static int is_special(const char *path, const struct stat *found) {
-    struct stat standard;
-    return !S_ISREG(found->st_mode) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
-           (fstat(STDOUT_FILENO, &standard) == 0 && standard.st_dev == found->st_dev &&
-            standard.st_ino == found->st_ino);
+static int is_special(const char *path, const os_file *found) {
+    return !found->is_regular || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
+           is_stdout(path, found);
 }
 
-static FILE *open_special(const char *path, const struct stat *found) {
-    struct stat standard;
-    if (fstat(STDOUT_FILENO, &standard) == 0 && standard.st_dev == found->st_dev && standard.st_ino == found->st_ino) {
-        (void)fflush(stdout);
-        const int copy = dup(STDOUT_FILENO); /* one offset for both */
-        return copy >= 0 ? fdopen(copy, "w") : NULL;
-    }
-    return fopen(path, "w");
-}
-
-static void on_signal(int number) {
+static void remove_unfinished(void) {
     for (size_t i = 0; i < sizeof unfinished / sizeof *unfinished; i++) {
         if (unfinished[i].used) {
-            (void)unlink(unfinished[i].path);
-        }
-    }
-    (void)signal(number, SIG_DFL);
-    (void)raise(number);
-}
-
-/* Only where a signal would simply end the process: who handles it, or ignores it, goes on doing so. */
-static void clean_up_on_signals(void) {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        struct sigaction action;
-        if (sigaction(numbers[i], NULL, &action) == 0 && !(action.sa_flags & SA_SIGINFO) &&
-            action.sa_handler == SIG_DFL) {
-            memset(&action, 0, sizeof action);
-            action.sa_handler = on_signal;
-            (void)sigaction(numbers[i], &action, NULL);
+            (void)os_remove(unfinished[i].path);
         }
     }
 }
@@ -135,59 +106,59 @@ static void strike(out_file *file) {
 }
 
 /* In the same folder, so that it can be renamed: PATH.RANDOM.part, created here or not at all. */
-static int create_temporary(out_file *file) {
+static FILE *create_temporary(out_file *file) {
     char name[TEMPORARY_ROOM];
-    const char *slash = strrchr(file->path, '/');
-    const char *base = slash ? slash + 1 : file->path;
+    const char *base = os_base_name(file->path);
     const size_t length = strlen(base) < NAME_KEPT ? strlen(base) : NAME_KEPT;
     for (int tries = 0; tries < 100; tries++) {
         uint64_t random = 0;
-        if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random) {
-            return -1;
+        if (os_random(&random)) {
+            return NULL;
         }
         const int written = snprintf(name, sizeof name, "%.*s%.*s.%016" PRIx64 ".part", (int)(base - file->path),
                                      file->path, (int)length, base, random);
         if (written < 0 || (size_t)written >= sizeof name) {
             errno = ENAMETOOLONG;
-            return -1;
+            return NULL;
         }
         const int slot = enlist(name);
-        const int handle = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (handle >= 0) {
+        FILE *stream = os_create(name);
+        if (stream) {
             file->slot = slot;
             file->partial = strdup(name);
-            return handle;
+            if (file->partial) {
+                return stream;
+            }
+            (void)fclose(stream);
+            (void)os_remove(name);
+            strike(file);
+            return NULL;
         }
         if (slot >= 0) {
             unfinished[slot].used = 0;
         }
         if (errno != EEXIST) {
-            return -1;
+            return NULL;
         }
     }
-    return -1;
+    return NULL;
 }
 
 static void open_stream(out_file *file) {
-    struct stat found;
-    const int exists = strcmp(file->path, "-") == 0 ? fstat(STDOUT_FILENO, &found) == 0 : stat(file->path, &found) == 0;
+    os_file found;
+    const int exists =
+        strcmp(file->path, "-") == 0 ? os_identify_stream(stdout, &found) == 0 : os_identify(file->path, &found) == 0;
     if (exists && is_special(file->path, &found)) {
-        file->stream = open_special(file->path, &found);
+        file->stream = is_stdout(file->path, &found) ? os_open_stdout() : os_open_output(file->path);
         return;
     }
-    clean_up_on_signals();
-    const int handle = create_temporary(file);
-    if (handle >= 0) {
-        file->stream = file->partial ? fdopen(handle, "w") : NULL;
-        if (!file->stream) {
-            (void)close(handle);
-        }
-    }
+    os_before_end(remove_unfinished);
+    file->stream = create_temporary(file);
 }
 
 static int refuse_input(const char *path) {
-    struct stat found;
-    return stat(path, &found) == 0 && is_input(&found)
+    os_file found;
+    return os_identify(path, &found) == 0 && is_input(&found)
                ? fail(path, "expected an output of its own, found a file that is read, or another output: it would be "
                             "replaced")
                : 0;
@@ -223,7 +194,7 @@ int out_keep(out_file *file) {
         out_discard(file);
         return 1;
     }
-    failed = failed || (file->partial && rename(file->partial, file->path) != 0);
+    failed = failed || (file->partial && os_replace(file->path, file->partial) != 0);
     if (failed) {
         (void)fail(file->path, strerror(errno));
     } else {
@@ -248,7 +219,7 @@ void out_discard(out_file *file) {
         (void)fclose(file->stream);
     }
     if (file->partial) {
-        (void)remove(file->partial);
+        (void)os_remove(file->partial);
         strike(file);
     }
     free(file->path);

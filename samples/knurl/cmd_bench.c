@@ -1,6 +1,7 @@
 /* knurl bench: times ticks on this machine. SPDX-License-Identifier: MIT */
 #include "bench.h"
 #include "machine.h"
+#include "os.h"
 #include "tool.h"
 
 #include <math.h>
@@ -166,14 +167,6 @@ static void print_table(const report *out) {
     }
 }
 
-static void obey_signals(void) {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
-}
-
 int cmd_bench(int argc, char **argv) {
     int as_json = 0;
     const char *name = NULL;
@@ -188,7 +181,7 @@ int cmd_bench(int argc, char **argv) {
     if (name && !only) {
         return unknown_case(name);
     }
-    obey_signals();
+    os_on_interrupt(on_signal);
     bench b;
     memset(&b, 0, sizeof b);
     b.interrupted = &interrupted;

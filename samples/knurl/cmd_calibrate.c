@@ -3,7 +3,6 @@
 #include "tool.h"
 #include "weigh.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -43,10 +42,13 @@ static knurl_result weigh_both(double *heavier) {
 }
 
 static int write_setting(const char *path, double gain) {
-    FILE *file = fopen(path, "w");
-    const int failed = !file || fprintf(file, "%.3f\n", gain) < 0;
-    if ((file && fclose(file)) || failed) {
-        return tool_error(TOOL_FAILURE, "calibrate: %s cannot be written: %s", path, strerror(errno));
+    out_file file;
+    if (out_open(&file, path)) {
+        return TOOL_FAILURE;
+    }
+    fprintf(file.stream, "%.3f\n", gain);
+    if (out_keep(&file)) {
+        return TOOL_FAILURE;
     }
     fprintf(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
     return TOOL_OK;

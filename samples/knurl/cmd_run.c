@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "faults.h"
 #include "machine.h"
+#include "os.h"
 #include "recorder.h"
 #include "sound.h"
 #include "stroke.h"
@@ -394,12 +395,8 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
 
 /* After the load: until then a signal simply ends the program, for no output is there yet. */
 static void catch_signals(void) {
-    struct sigaction action;
-    (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a run by the ramp */
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
+    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a run by the ramp */
+    os_on_interrupt(on_signal);
 }
 
 static int perform(run *r) {

@@ -2,6 +2,7 @@
 #include "tool.h"
 
 #include "in.h"
+#include "os.h"
 
 #include <errno.h>
 #include <math.h>
@@ -139,7 +140,7 @@ int tool_read_csv(const char *path, const char *const *names, uint32_t count, to
     memset(table, 0, sizeof *table);
     table->columns = count;
     const char *why = "";
-    FILE *stream = in_open(path, &why);
+    FILE *stream = os_open_input(path, &why);
     if (!stream) {
         return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, why);
     }
@@ -155,7 +156,7 @@ int tool_read_csv(const char *path, const char *const *names, uint32_t count, to
 
 int tool_csv_has(const char *path, const char *name) {
     const char *why = "";
-    FILE *stream = in_open(path, &why);
+    FILE *stream = os_open_input(path, &why);
     char *line = NULL;
     size_t size = 0;
     int found = 0;

@@ -1,20 +1,21 @@
 /* knurl: the command-line tool. SPDX-License-Identifier: MIT */
 #include "help.h"
 #include "machine.h"
+#include "os.h"
 #include "tool.h"
 
 #include <knurl/knurl.h>
 
 #include <errno.h>
 #include <string.h>
-#include <unistd.h>
 
 /* The studies, and what analyses signals as they do, are a program of their own: it links a Fourier transform. */
 static int run_study_program(int argc, char **argv) {
     char path[4096];
     (void)argc;
-    if (machine_program("knurl_study", path, sizeof path) == 0) {
-        (void)execv(path, argv - 1); /* as main() was called */
+    const int code = machine_program("knurl_study", path, sizeof path) ? -1 : os_run_instead(path, argv - 1);
+    if (code >= 0) {
+        return code;
     }
     return tool_error(TOOL_FAILURE, "%s: the program knurl_study, which does this, cannot be run: %s: %s", argv[0],
                       path, strerror(errno));
@@ -83,5 +84,6 @@ static int run_command(int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+    os_begin(&argc, &argv);
     return tool_end(run_command(argc, argv));
 }

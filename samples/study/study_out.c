@@ -1,10 +1,11 @@
 /* What the studies share: files, numbers, progress. SPDX-License-Identifier: MIT */
 #include "study_out.h"
 
+#include "os.h"
+
 #include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 void study_end_row(FILE *csv, const double *cells, size_t count) {
@@ -24,7 +25,7 @@ int study_open(out_file *file, const char *folder, const char *name) {
     if (length < 0 || (size_t)length >= sizeof path) {
         return tool_error(1, "%s: the path is too long", folder);
     }
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+    if (os_make_folder(folder) != 0 && errno != EEXIST) {
         return tool_error(1, "%s: the folder cannot be made: %s", folder, strerror(errno));
     }
     return out_open(file, path);

@@ -1,10 +1,9 @@
 /* Runs one loop until it ends. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
-#include <errno.h>
-#include <poll.h>
+#include "os.h"
+
 #include <string.h>
-#include <termios.h>
 #include <unistd.h>
 
 volatile sig_atomic_t exp_interrupted;
@@ -22,24 +21,6 @@ static void on_tick(uint64_t tick, const knurl_device_sample *sample, double for
         __atomic_store_n(&run->pressed, fresh & 1u ? 1u : 2u, __ATOMIC_RELEASE);
     }
     __atomic_store_n(&run->asking, 1u, __ATOMIC_RELEASE);
-}
-
-/* Waits up to 5 ms for a key: '1', '2', 0 for none of these, -1 at the end of the input. */
-static int key(void) {
-    struct pollfd in = {STDIN_FILENO, POLLIN, 0};
-    unsigned char byte = 0;
-    const int ready = poll(&in, 1, 5);
-    if (ready <= 0) {
-        return ready < 0 && errno != EINTR ? -1 : 0;
-    }
-    const ssize_t got = read(STDIN_FILENO, &byte, 1);
-    if (got < 0) {
-        return errno == EINTR ? 0 : -1;
-    }
-    if (got == 0) {
-        return -1;
-    }
-    return byte == '1' || byte == '2' ? byte : 0;
 }
 
 static uint64_t ticks_of(const knurl_loop *loop) {
@@ -60,15 +41,13 @@ static void show_cue(const exp_session *session, const exp_run *run, uint64_t ti
 /* The question stands: puts it once, then looks for the answer. Returns 1 or 2, 0 for not yet, -1 without hope. */
 static int ask(const exp_session *session, exp_run *run, int *asked) {
     if (!*asked) {
-        if (isatty(STDIN_FILENO)) {
-            (void)tcflush(STDIN_FILENO, TCIFLUSH); /* typed before the question: no answer to it */
-        }
+        os_forget_keys(); /* typed before the question: no answer to it */
         fprintf(stderr, "%s%s", isatty(STDERR_FILENO) ? "\r\033[K" : "", run->question);
         *asked = 1;
     }
     if (session->answers == EXP_KEYBOARD) {
-        const int typed = key();
-        return typed > 0 ? typed - '0' : typed;
+        const int typed = os_wait_for_key();
+        return typed == '1' || typed == '2' ? typed - '0' : typed < 0 ? -1 : 0;
     }
     return (int)__atomic_load_n(&run->pressed, __ATOMIC_ACQUIRE);
 }

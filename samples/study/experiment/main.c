@@ -1,8 +1,9 @@
 /* knurl_experiment: the paper's Experiments 1, 2 and 3 on any device. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "os.h"
+
 #include <errno.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -153,12 +154,8 @@ static int run(int argc, char **argv) {
         return tool_error(result == KNURL_ERROR_UNSUPPORTED ? TOOL_FAILURE : TOOL_USAGE, "--device: %s",
                           knurl_error_message());
     }
-    struct sigaction action;
-    (void)knurl_device_zero_on_exit(0); /* before the handlers below, which end a session by the ramp */
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
+    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a session by the ramp */
+    os_on_interrupt(on_signal);
     knurl_device_info_init(&s.info, sizeof s.info);
     code = knurl_device_get_info(s.device, &s.info) ? tool_error(TOOL_FAILURE, "%s", knurl_error_message())
                                                     : exp_run_session(&s);
@@ -186,5 +183,6 @@ static int dispatch(int argc, char **argv) {
 
 int main(int argc, char **argv) {
     tool_name = "knurl_experiment";
+    os_begin(&argc, &argv);
     return tool_end(dispatch(argc, argv));
 }

@@ -1,11 +1,12 @@
 /* Reads the CSV files of sessions and checks every cell that the analysis uses. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
-#include <errno.h>
+#include "in.h"
+#include "os.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/types.h>
 
 enum {
     EXPERIMENT,
@@ -191,14 +192,19 @@ int exp_read_records(const char *path, exp_records *records) {
     char *line = NULL;
     size_t size = 0;
     int code = TOOL_OK;
-    FILE *f = fopen(path, "r");
+    int too_long = 0;
+    const char *why = "";
+    FILE *f = os_open_input(path, &why);
     if (!f) {
-        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, strerror(errno));
+        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, why);
     }
-    while (code == TOOL_OK && getline(&line, &size, f) != -1) {
+    while (code == TOOL_OK && in_line(f, &line, &size, &too_long) != -1) {
         at.line++;
         exp_chop(line);
         code = read_line(&at, line, records);
+    }
+    if (code == TOOL_OK && too_long) {
+        code = tool_error(TOOL_FAILURE, "%s: line %lu: expected at most 65536 bytes, found more", path, at.line + 1);
     }
     if (code == TOOL_OK && (ferror(f) || at.line < 2)) {
         code = tool_error(TOOL_FAILURE, "%s: expected a header and at least one row", path);

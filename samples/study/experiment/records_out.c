@@ -1,12 +1,12 @@
 /* The CSV of a session, a row a trial. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "in.h"
+#include "os.h"
 #include "out.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/types.h>
 
 /* period: ms of the medium, in experiment 3 mm of the grating; amplitude: N, in experiment 3 mm. */
 const char exp_csv_header[] = "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,"
@@ -53,16 +53,18 @@ void exp_chop(char *line) {
 }
 
 int exp_may_replace(const char *path) {
-    struct stat existing;
+    os_file existing;
+    const char *why = "";
     char *line = NULL;
     size_t size = 0;
     unsigned long lines = 0;
     int may = 1;
-    if (stat(path, &existing) != 0 || !S_ISREG(existing.st_mode) || existing.st_size == 0) {
+    int too_long = 0;
+    if (os_identify(path, &existing) || !existing.is_regular) {
         return 1;
     }
-    FILE *f = fopen(path, "r");
-    while (f && may && getline(&line, &size, f) != -1) {
+    FILE *f = os_open_input(path, &why);
+    while (f && may && in_line(f, &line, &size, &too_long) != -1) {
         lines++;
         exp_chop(line);
         may = lines == 1 ? strcmp(line, exp_csv_header) == 0 : strstr(line, ",SIMULATED,") != NULL;
@@ -71,5 +73,5 @@ int exp_may_replace(const char *path) {
     if (f) {
         (void)fclose(f);
     }
-    return f && may;
+    return f && may && !too_long;
 }
