@@ -5,10 +5,11 @@ set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 
-# The compiler's runtime goes in: a player's machine has no libgcc, libstdc++ or libwinpthread.
-set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-set(CMAKE_SHARED_LINKER_FLAGS_INIT -static)
-set(CMAKE_MODULE_LINKER_FLAGS_INIT -static)
+# The compiler's runtime goes in: a player's machine has no libgcc, libstdc++ or libwinpthread. The same bytes whenever
+# it is linked.
+foreach(kind EXE SHARED MODULE)
+  set(CMAKE_${kind}_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
+endforeach()
 
 set(_windows ${CMAKE_CURRENT_LIST_DIR}/../build/windows)
 set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32 ${_windows}/prefix)

@@ -17,27 +17,54 @@ headers() {
     done
 }
 
-# Debian has no cmocka for MinGW: its source package, fetched with package lists of our own and checked by apt's keys.
-cmocka() {
+# What Debian has no MinGW packages of: its source packages, fetched with package lists of our own and checked by apt's
+# keys. Leaves their authors' archives in $dir/sources.
+fetch_sources() {
     local apt=$dir/apt options
-    rm -rf "$apt" "$dir/cmocka"
-    mkdir -p "$apt"/{lists/partial,cache/archives/partial,sources} "$dir/cmocka"
+    rm -rf "$apt" "$dir/sources"
+    mkdir -p "$apt"/{lists/partial,cache/archives/partial,sources} "$dir/sources"
     sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$apt/sources/debian.sources" 2>/dev/null ||
         sed -n 's/^deb /deb-src /p' /etc/apt/sources.list >"$apt/sources/debian.list"
     options=(-qq -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$apt/sources" -o Dir::State::lists="$apt/lists"
         -o Dir::Cache="$apt/cache" -o APT::Sandbox::User=root -o Acquire::Languages=none)
     apt-get "${options[@]}" update
-    (cd "$apt" && apt-get "${options[@]}" source --download-only cmocka)
-    tar -C "$dir/cmocka" --strip-components=1 -xf "$(ls "$apt"/cmocka_*.orig.tar.*z | head -n 1)"
-    cmake -G Ninja -S "$dir/cmocka" -B "$dir/cmocka/build" -DCMAKE_TOOLCHAIN_FILE="$here/../../cmake/mingw64.cmake" \
-        -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$prefix" -DWITH_STATIC_LIB=ON -DWITH_EXAMPLES=OFF
-    cmake --build "$dir/cmocka/build" --target cmocka-static
-    cp "$(find "$dir/cmocka/build" -name 'libcmocka-static.a')" "$prefix/lib/"
-    cp "$dir"/cmocka/include/cmocka*.h "$prefix/include/"
-    rm -rf "$apt" "$dir/cmocka"
+    (cd "$apt" && apt-get "${options[@]}" source --download-only "$@")
+    mv "$apt"/*.orig.tar.*z* "$dir/sources/"
+    rm -rf "$apt"
+}
+
+# cross SOURCE BUILD [OPTION...]: configures it for Windows.
+cross() {
+    cmake -G Ninja -S "$1" -B "$2" -DCMAKE_TOOLCHAIN_FILE="$here/../../cmake/mingw64.cmake" -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_INSTALL_PREFIX="$prefix" "${@:3}"
+}
+
+cmocka() {
+    local source=$dir/cmocka
+    rm -rf "$source"
+    mkdir "$source"
+    tar -C "$source" --strip-components=1 -xf "$(ls "$dir"/sources/cmocka_*.orig.tar.*z | head -n 1)"
+    cross "$source" "$source/build" -DWITH_STATIC_LIB=ON -DWITH_EXAMPLES=OFF
+    cmake --build "$source/build" --target cmocka-static
+    cp "$(find "$source/build" -name 'libcmocka-static.a')" "$prefix/lib/"
+    cp "$source"/include/cmocka*.h "$prefix/include/"
+    rm -rf "$source"
+}
+
+libraries() {
+    local build=$dir/libraries
+    rm -rf "$build"
+    cross "$here/../../cmake/windows" "$build" -DSOURCES="$dir/sources"
+    cmake --build "$build"
+    cmake --install "$build"
+    rm -rf "$build"
 }
 
 mkdir -p "$prefix/lib"
 headers
-[ -f "$prefix/lib/libcmocka-static.a" ] || cmocka
+if [ ! -f "$prefix/lib/pkgconfig/kissfft-float.pc" ]; then # the last that is put there
+    fetch_sources cmocka libusb-1.0 hidapi kissfft
+    cmocka
+    libraries
+fi
 [ -f "$dir/wine/system.reg" ] || "$here/wine.sh" wineboot -i

@@ -86,15 +86,23 @@ static int load_functions(char *why, size_t why_size) {
                              sizeof functions / sizeof *functions, why, why_size);
 }
 
+#if defined(_WIN32)
+#define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; put libusb-1.0.dll into the program's folder"
+
+static const char permission[] = "it may not be opened: is it in use by another program, or by this one?";
+#else
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
 
 static const char permission[] =
     "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
     "--reload' and 'udevadm trigger', and plug it in again";
+#endif
 
 static const char in_use[] =
     "it is in use: by another program, by this one, or by the kernel's ftdi_sio; close the one "
     "or unload the other";
+
+static const char no_driver[] = "its driver is not WinUSB, the one that libusb works with; install that with Zadig";
 
 typedef struct usb {
     libusb_context *context;
@@ -148,7 +156,7 @@ static void wait_for_events(usb *u, int64_t deadline) {
     const int64_t left = deadline - knurl_system_now_ns();
     struct timeval time = {0, 0};
     if (left > 0) {
-        time.tv_sec = (time_t)(left / 1000000000);
+        time.tv_sec = (long)(left / 1000000000);
         time.tv_usec = (long)(left % 1000000000 / 1000);
     }
     (void)lib.handle_events_timeout_completed(u->context, &time, NULL);
@@ -252,6 +260,9 @@ static knurl_result refused(const char *doing, int code) {
     if (code == LIBUSB_ERROR_BUSY) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", in_use);
     }
+    if (code == LIBUSB_ERROR_NOT_SUPPORTED) { /* on Windows alone */
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", no_driver);
+    }
     if (code == LIBUSB_ERROR_NO_DEVICE) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'falcon': it was unplugged while it was opened");
     }
@@ -291,10 +302,11 @@ static int visit_to_list(libusb_device *device, void *user) {
         }
         lib.close(handle);
     }
-    const char *why = code == LIBUSB_ERROR_ACCESS ? permission
-                      : code == LIBUSB_ERROR_BUSY ? in_use
-                      : code                      ? lib.strerror((enum libusb_error)code)
-                                                  : "";
+    const char *why = code == LIBUSB_ERROR_ACCESS          ? permission
+                      : code == LIBUSB_ERROR_BUSY          ? in_use
+                      : code == LIBUSB_ERROR_NOT_SUPPORTED ? no_driver
+                      : code                               ? lib.strerror((enum libusb_error)code)
+                                                           : "";
     knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", why);
     return 0; /* the first one is the one that is opened */
 }

@@ -45,6 +45,12 @@ static struct {
 #undef FIELD
 } lib;
 
+#if defined(_WIN32)
+#define INSTALL "put hidapi.dll into the program's folder"
+#else
+#define INSTALL "install it (Debian: libhidapi-hidraw0)"
+#endif
+
 static int load_functions(char *why, size_t why_size) {
 #if defined(_WIN32)
     static const char *const files[] = {"hidapi.dll"};
@@ -166,7 +172,7 @@ typedef struct port {
 } port;
 
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
-    return lib.write(((port *)self)->device, bytes, size) == (int)size;
+    return lib.write(((port *)self)->device, bytes, size) >= (int)size; /* Windows pads it to the longest report */
 }
 
 static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
@@ -238,7 +244,7 @@ static int hid_share(void *user, const knurl_rawhid_found *found) {
 const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
     char reason[384];
     if (!load_functions(reason, sizeof reason)) {
-        (void)snprintf(why, why_size, "hidapi cannot be loaded: %s; install it (Debian: libhidapi-hidraw0)", reason);
+        (void)snprintf(why, why_size, "hidapi cannot be loaded: %s; " INSTALL, reason);
         return NULL;
     }
     static const knurl_rawhid_bus bus = {NULL, hid_look, hid_bus_open, hid_share};
