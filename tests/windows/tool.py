@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+"""knurl.exe under wine beside this machine's own knurl: the same bytes, in a folder whose name is in no one code page.
+usage: tool.py KNURL_EXE LIBRARIES KNURL ASSETS WINE_PREFIX
+KNURL_EXE: beside it knurl_study.exe and the DLLs. LIBRARIES: a folder of those that drivers load.
+Exit code 77: there is no KNURL to compare with. SPDX-License-Identifier: MIT"""
+import json
+import math
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+EXE, LIBRARIES, NATIVE, ASSETS, PREFIX = (pathlib.Path(argument).resolve() for argument in sys.argv[1:6])
+ODD = "Größe-触"
+FEEL = ["plate_1d", "grid_2d", "knurled_handle"]
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+ENVIRONMENT.update(WINEPREFIX=str(PREFIX), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml,winedbg.exe=", LC_ALL="C.UTF-8")
+INTERRUPTED = 130
+
+
+class Run:
+    """A program's output, by way of files: wine's own processes, which stay a while, would hold pipes open."""
+
+    def __init__(self, folder, arguments):
+        self.files = [tempfile.TemporaryFile(), tempfile.TemporaryFile()]
+        self.process = subprocess.Popen([str(argument) for argument in arguments], cwd=folder, env=ENVIRONMENT,
+                                        stdin=subprocess.DEVNULL, stdout=self.files[0], stderr=self.files[1])
+
+    def end(self):
+        self.code = self.process.wait(60)
+        self.out, self.err = (self.read(file) for file in self.files)
+        return self
+
+    @staticmethod
+    def read(file):
+        file.seek(0)
+        with file:
+            return file.read()
+
+
+class Tool(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.home = pathlib.Path(cls.temporary.name) / ODD
+        cls.home.mkdir()
+        cls.exe = cls.home / "knurl.exe"
+        for file in [*EXE.parent.glob("knurl*.exe"), *EXE.parent.glob("knurl*.dll"), *LIBRARIES.glob("*.dll")]:
+            shutil.copy(file, cls.home)
+        for name in FEEL:
+            shutil.copy(ASSETS / f"{name}.glb", cls.home)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def windows(self, *arguments):
+        return Run(self.home, ["wine", self.exe, *arguments]).end()
+
+    def native(self, *arguments):
+        return Run(self.home, [NATIVE, *arguments]).end()
+
+    def read(self, name):
+        return (self.home / name).read_bytes()
+
+    def refused(self, code, words, *arguments):
+        """One line on standard error, nothing on standard output."""
+        done = self.windows(*arguments)
+        self.assertEqual((done.code, done.out, done.err.count(b"\n")), (code, b"", 1), done.err)
+        self.assertTrue(done.err.startswith(b"knurl: ") and b"\r" not in done.err, done.err)
+        self.assertIn(words, done.err.decode())
+
+    def test_a_run_writes_the_same_bytes(self):
+        for name in FEEL:
+            arguments = ["run", f"{name}.glb", "--fast", "--seconds", "2", "--out"]
+            there = self.windows(*arguments, "windows.csv")
+            here = self.native(*arguments, "linux.csv")
+            self.assertEqual((there.code, there.err), (here.code, here.err))
+            self.assertEqual(self.read("windows.csv"), self.read("linux.csv"), name)
+            there, here = json.loads(there.out), json.loads(here.out)
+            for summary in there, here:  # the machine's times
+                del summary["tick_ns"], summary["jitter_us"]
+            self.assertTrue(math.isclose(there.pop("heat"), here.pop("heat"), rel_tol=1e-12))  # by each libm's own expm1()
+            self.assertEqual(there, here)
+
+    def test_other_commands_print_the_same_bytes(self):
+        wave = ["--period-ms", "3.3", "--amplitude", "0.5", "--rate", "1000"]
+        (self.home / "way.csv").write_text("x,y\r\n" + "".join(f"{i * 1e-4},0\r\n" for i in range(500)))
+        for arguments in (["inspect", "grid_2d.glb"], ["signal", "--method", "T2", *wave, "--ticks", "999"],
+                          ["metrics", "--method", "T1", *wave], ["--version"], ["run", "--help"],
+                          ["scan", "--method", "locked", "--fs", "1000,0", "--amplitude", "1", "--rate", "1000", "--in", "way.csv"],
+                          ["run", "plate_1d.glb", "--fast", "--seconds", "1", "--out", "-"]):
+            there, here = self.windows(*arguments), self.native(*arguments)
+            self.assertEqual((there.code, there.out), (here.code, here.out), arguments)
+
+    def test_paths_are_utf8(self):
+        shutil.copy(self.home / "plate_1d.glb", self.home / f"{ODD}.glb")
+        (self.home / f"{ODD}.trace.csv").write_text("t,x,y,z\n0,0,0.001,0\n1,0.01,-0.001,0\n")
+        arguments = ["run", f"{ODD}.glb", "--trace", f"{ODD}.trace.csv", "--fast", "--out"]
+        self.assertEqual(self.windows(*arguments, f"{ODD}.csv").code, self.native(*arguments, "linux.csv").code)
+        self.assertEqual(self.read(f"{ODD}.csv"), self.read("linux.csv"))
+        self.assertEqual(self.windows("study", "signals", "--out", f"{ODD}-study").code, 0)
+        self.assertEqual(self.native("study", "signals", "--out", "linux-study").code, 0)
+        self.assertEqual(self.read(f"{ODD}-study/signals.csv"), self.read("linux-study/signals.csv"))
+        self.refused(1, f"{ODD}-none.glb: no such file", "inspect", f"{ODD}-none.glb")
+
+    def test_what_is_wrong_is_said_in_one_line(self):
+        self.refused(2, "expected a command", "fly")
+        (self.home / "folder.glb").mkdir()
+        self.refused(1, "expected a regular file, found a directory", "inspect", "folder.glb")
+        self.refused(1, "found a directory", "scan", "--method", "S1", "--fs", "1,0", "--amplitude", "1", "--rate", "1000",
+                     "--in", "folder.glb")
+        self.refused(1, "built without libwebsockets, as all are for Windows", "run", "plate_1d.glb", "--view")
+        self.refused(1, "No such file or directory", "run", "plate_1d.glb", "--fast", "--out", "none/felt.csv")
+
+    def test_no_output_replaces_what_is_read(self):
+        before = self.read("plate_1d.glb")
+        self.refused(1, "it would be replaced", "run", "plate_1d.glb", "--fast", "--out", "PLATE_1D.GLB")
+        self.assertEqual(self.read("plate_1d.glb"), before)
+
+    def test_the_drivers_load_libusb_and_hidapi(self):
+        reasons = {device["uri"]: device["unusable"] for device in json.loads(self.windows("devices", "--json").out)}
+        self.assertIn("0403:cb48 is not among", reasons["falcon"])
+        self.assertIn("none is connected", reasons["rawhid"])
+        self.assertEqual(reasons["fake"], "")
+
+    def test_ctrl_c_ends_a_run_and_takes_its_file_away(self):
+        going = Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--seconds", "40", "--out", "felt.csv"])
+        deadline = time.monotonic() + 20
+        while not list(self.home.glob("felt.csv.*.part")) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(0.2)
+        going.process.send_signal(signal.SIGINT)  # wine makes Ctrl-C of it
+        done = going.end()
+        self.assertEqual(done.code, INTERRUPTED, done.err)
+        self.assertIn(b"run: interrupted after", done.err)
+        self.assertIn(b'"ticks"', done.out)
+        self.assertEqual(list(self.home.glob("felt.csv*")), [])
+
+    def test_the_bench_runs(self):
+        done = self.windows("bench", "--json", "--case", "plane", "--ticks", "1000")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual([case["case"] for case in json.loads(done.out)["cases"]], ["plane"])
+
+
+if __name__ == "__main__":
+    if not NATIVE.exists():
+        print(f"skipped: no {NATIVE} to compare with")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])
