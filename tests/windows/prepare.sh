@@ -68,3 +68,6 @@ if [ ! -f "$prefix/lib/pkgconfig/kissfft-float.pc" ]; then # the last that is pu
     libraries
 fi
 [ -f "$dir/wine/system.reg" ] || "$here/wine.sh" wineboot -i
+# Raw HID devices are wine's through the kernel's own nodes; SDL would take them for game controllers or leave them out.
+grep -q '^"Enable SDL"=dword:00000000' "$dir/wine/system.reg" || "$here/wine.sh" reg add \
+    'HKLM\System\CurrentControlSet\Services\winebus' /v 'Enable SDL' /t REG_DWORD /d 0 /f
