@@ -37,5 +37,5 @@ for library in "$@"; do
 done
 mkdir -p "$(dirname "$out")"
 rm -f "$out"
-(cd "$stage" && cmake -E tar cf "$out" --format=zip addons)
+"$here/../../cmake/zip.py" "$out" "$stage/addons"
 echo "package: $out holds $(cd "$stage/addons/knurl/bin" && echo *)"
