@@ -30,6 +30,16 @@
 #define KNURL_PRINTF(format_index, first)
 #endif
 
+/** Marks a function that another one has replaced: compilers warn where it is called, with `text` (a string: what to
+ * call in its place). Before KNURL_API. */
+#if defined(__GNUC__)
+#define KNURL_DEPRECATED(text) __attribute__((deprecated(text)))
+#elif defined(_MSC_VER)
+#define KNURL_DEPRECATED(text) __declspec(deprecated(text))
+#else
+#define KNURL_DEPRECATED(text)
+#endif
+
 /** Marks functions that may be called in a tick: no heap, lock, wait or message. Clang 20 and later check it for all
  * that such a function calls (-Wfunction-effects); other compilers ignore it. */
 #if defined(__has_attribute)
@@ -101,11 +111,13 @@ KNURL_API const char *knurl_version_string(void);
 /** The same as a number: 10000 major + 100 minor + patch, for example 300 for 0.3.0. [any thread] */
 KNURL_API uint32_t knurl_version_number(void);
 
-/** A caller's memory functions, used for all memory of a scene; never called in a tick. */
+/** A caller's memory functions, used for all memory of a scene; loops, devices and the glTF loader's own work use
+ * malloc. Both are called on the thread that calls a function of the scene: the one that creates or destroys it, and
+ * every thread that edits it, one at a time. Never in a tick. */
 typedef struct knurl_allocator {
-    /** `size` bytes (> 0) aligned to `alignment` (a power of two), or null. [game thread] */
+    /** `size` bytes (> 0) aligned to `alignment` (a power of two), or null. */
     void *(*allocate)(size_t size, size_t alignment, void *user);
-    /** Frees what `allocate` returned; `size` is the same. [game thread] */
+    /** Frees what `allocate` returned; `size` is the same. */
     void (*release)(void *memory, size_t size, void *user);
     void *user; /**< passed to both */
 } knurl_allocator;
