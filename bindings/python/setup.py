@@ -43,7 +43,7 @@ class Build(build_py):
         folder = os.path.abspath(os.path.join("build", "libraries"))
         subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
                         "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
-                        RUNTIME], check=True)
+                        "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME], check=True)
         subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "knurl", "knurl_gltf"], check=True)
         subprocess.run(["cmake", "--install", folder, "--component", "runtime", "--strip", "--prefix",
                         os.path.join(folder, "installed")], check=True)

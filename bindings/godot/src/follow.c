@@ -90,8 +90,8 @@ void follow_remove(device *d, surface *s) {
     }
 }
 
-/* Where the node stands: 1; 0 where the surface has to be put there anew, because its scale has changed or there is
- * none. Most moves keep the basis, and with it rotation and scale: splitting it is a third of what a move costs. */
+/* Finds where the node stands. Returns 0 where the surface has to be put there anew: its scale has changed, or there is
+ * none. Most moves keep the basis, and with it rotation and scale: splitting it would be a third of a move's cost. */
 static int follow_node(surface_placement *placement, const gd_transform *transform, double position[3]) {
     knurl_session_pose at;
     int is_same = 1;
