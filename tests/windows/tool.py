@@ -134,14 +134,23 @@ class Tool(Home):
         self.assertIn("none is connected", reasons["rawhid"])
         self.assertEqual(reasons["fake"], "")
 
-    def test_ctrl_c_ends_a_run_and_takes_its_file_away(self):
-        going = Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--seconds", "40", "--out", "felt.csv"])
+    def interrupted(self, arguments, parts):
+        """Ctrl-C once there is a file that is not complete."""
+        going = Run(self.home, ["wine", *arguments])
         deadline = time.monotonic() + 20
-        while not list(self.home.glob("felt.csv.*.part")) and time.monotonic() < deadline:
+        while not list(self.home.glob(parts)) and time.monotonic() < deadline:
             time.sleep(0.05)
         time.sleep(0.2)
         going.process.send_signal(signal.SIGINT)  # wine makes Ctrl-C of it
-        done = going.end()
+        self.assertNotEqual(list(self.home.glob(parts)), [])
+        return going.end()
+
+    def test_ctrl_c_ends_a_study_and_takes_its_files_away(self):
+        self.interrupted([self.home / "knurl_study.exe", "study", "area", "--out", "cut"], "cut/*.part")
+        self.assertEqual(list(self.home.glob("cut/*")), [])
+
+    def test_ctrl_c_ends_a_run_and_takes_its_file_away(self):
+        done = self.interrupted([self.exe, "run", "plate_1d.glb", "--seconds", "40", "--out", "felt.csv"], "felt.csv.*.part")
         self.assertEqual(done.code, INTERRUPTED, done.err)
         self.assertIn(b"run: interrupted after", done.err)
         self.assertIn(b'"ticks"', done.out)
