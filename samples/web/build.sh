@@ -8,7 +8,7 @@ mkdir -p "$work/page" "$out/assets"
 cp "$here"/{package.json,package-lock.json,.npmrc} "$work/page/"
 if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # what the lock file names, held against its hashes
     echo 'fetching three.js and esbuild'
-    (cd "$work/page" && npm ci --ignore-scripts --no-progress)
+    (cd "$work/page" && npm ci --ignore-scripts --no-progress) || exit 3 # as ./run has it: what is missing cannot be had
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
