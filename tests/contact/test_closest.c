@@ -38,10 +38,10 @@ static void compare(shape *s, const char *name, double size, int64_t queries, ui
         knurl_contact found;
         random_point(&copy, size, &seed, at);
         const double expected = oracle_distance(&o, at);
-        assert_true(knurl_mesh_closest(p.mesh, at, 10.0, NULL, &found));
+        assert_true(knurl_mesh_closest(p.mesh, at, 10.0, NULL, NULL, &found));
         worst = fmax(worst, fabs(distance3(found.proxy, at) - expected));
         assert_false(k % 8 == 0 && expected > 1e-9 &&
-                     knurl_mesh_closest(p.mesh, at, expected * (1.0 - 1e-9) - TOLERANCE, NULL, &found));
+                     knurl_mesh_closest(p.mesh, at, expected * (1.0 - 1e-9) - TOLERANCE, NULL, NULL, &found));
     }
     printf("closest point: %-14s %7u triangles, %7lld queries, worst deviation %.2g m\n", name,
            (unsigned)p.mesh->triangle_count, (long long)queries, worst);

@@ -164,7 +164,7 @@ static void compare_closest(shape *s, uint64_t seed, int points) {
         random_direction(&seed, direction);
         add3(at, k % 5 ? random_between(&seed, 0.0, k % 5 == 1 ? 1.5 : 0.1) : 0.0, direction, at);
         const double expected = shape_distance(&copy, at);
-        assert_true(knurl_mesh_closest(p.mesh, at, expected + 1e-9, NULL, &found));
+        assert_true(knurl_mesh_closest(p.mesh, at, expected + 1e-9, NULL, NULL, &found));
         CHECK_CLOSE(distance3(found.proxy, at), expected, 1e-9);
         knurl_triangle triangle;
         double again[3] = {0.0, 0.0, 0.0};
@@ -174,7 +174,7 @@ static void compare_closest(shape *s, uint64_t seed, int points) {
         }
         CHECK_CLOSE(distance3(again, found.proxy), 0.0, 1e-12);
         CHECK_CLOSE(found.weights[0] + found.weights[1] + found.weights[2], 1.0, 1e-12);
-        assert_false(expected > 1e-6 && knurl_mesh_closest(p.mesh, at, expected - 1e-9, NULL, &found));
+        assert_false(expected > 1e-6 && knurl_mesh_closest(p.mesh, at, expected - 1e-9, NULL, NULL, &found));
     }
     shape_free(&copy);
     probe_free(&p);
@@ -232,7 +232,7 @@ static void compare_cross(uint64_t seed, uint32_t triangles, double size, double
         if (!first_crossing(&copy, a, b, k % 2, &expected)) {
             continue;
         }
-        assert_int_equal(knurl_mesh_cross(p.mesh, a, b, k % 2, NULL, &found), expected.side);
+        assert_int_equal(knurl_mesh_cross(p.mesh, a, b, k % 2, NULL, NULL, &found), expected.side);
         if (expected.side != 0) {
             knurl_triangle triangle;
             crossing c = {0.0, 0.0, 0};
@@ -269,9 +269,9 @@ TEST(no_stroke_slips_between_neighbours) {
             add3(to, -1.0, from, to);
             add3(from, 0.25 * k, to, from);
             add3(middle, 1.001, from, from);
-            assert_int_equal(knurl_mesh_cross(p.mesh, from, middle, 0, NULL, &found), 1);
-            assert_int_equal(knurl_mesh_cross(p.mesh, middle, from, 0, NULL, &found), 0);
-            assert_int_equal(knurl_mesh_cross(p.mesh, middle, from, 1, NULL, &found), -1);
+            assert_int_equal(knurl_mesh_cross(p.mesh, from, middle, 0, NULL, NULL, &found), 1);
+            assert_int_equal(knurl_mesh_cross(p.mesh, middle, from, 0, NULL, NULL, &found), 0);
+            assert_int_equal(knurl_mesh_cross(p.mesh, middle, from, 1, NULL, NULL, &found), -1);
         }
     }
     shape_free(&copy);
@@ -298,7 +298,7 @@ TEST(triangles_without_area_are_dropped_and_counted) {
     assert_int_equal(mesh->dropped, 4);
     assert_int_equal(mesh->reversed_twins, 0);
     check_hierarchy(mesh);
-    assert_true(knurl_mesh_closest(mesh, inside, 0.01, NULL, &found));
+    assert_true(knurl_mesh_closest(mesh, inside, 0.01, NULL, NULL, &found));
     CHECK_CLOSE(found.proxy[2], 0.0, 1e-12);
     knurl_mesh_destroy(&heap, mesh);
     assert_int_equal(heap.bytes, 0);

@@ -72,7 +72,7 @@ static void compare(const knurl_mesh *mesh, const double p[3]) {
         knurl_mesh_corners(mesh, i, corners);
         square = fmin(square, square_to_triangle(p, corners));
     }
-    EXPECT(knurl_mesh_closest(mesh, p, 1e6, NULL, &found));
+    EXPECT(knurl_mesh_closest(mesh, p, 1e6, NULL, NULL, &found));
     for (int i = 0; i < 3; i++) {
         there += (found.proxy[i] - p[i]) * (found.proxy[i] - p[i]);
     }

@@ -8,7 +8,7 @@
 #include "support/scenes.h"
 
 #define ROOM_PI      3.14159265358979323846
-#define ROOM_SOLIDS  10
+#define ROOM_SOLIDS  72
 #define SOLID_FACES  6
 #define FACE_CORNERS 4
 
@@ -18,6 +18,7 @@ typedef struct face {
     double normal[3]; /**< unit, outwards */
     double offset;    /**< normal * x <= offset: inside */
     int count;        /**< of corners */
+    int hidden;       /**< 1: between two solids; the library is not given it */
 } face;
 
 /** A convex solid. */
@@ -213,6 +214,63 @@ static inline room random_room(uint64_t *seed) {
     return r;
 }
 
+/** Cells of a terrain, each way, and their size, m. */
+#define TERRAIN_CELLS 6
+#define TERRAIN_CELL  0.012
+
+/** The ground below one triangle of a terrain: only its top is a surface. */
+static inline void add_column(room *r, const double top[3][3]) {
+    static const int sides[5][4] = {{3, 4, 5, -1}, {0, 2, 1, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+    solid *s = &r->solids[r->count++];
+    assert_true(r->count <= ROOM_SOLIDS);
+    s->count = 5;
+    s->moves = 0;
+    for (int f = 0; f < 5; f++) {
+        s->faces[f].count = sides[f][3] < 0 ? 3 : 4;
+        s->faces[f].hidden = f > 0;
+        for (int k = 0; k < s->faces[f].count; k++) {
+            const int c = sides[f][k];
+            memcpy(s->faces[f].corners[k], top[c % 3], sizeof top[0]);
+            s->faces[f].corners[k][2] = c < 3 ? -0.03 : top[c % 3][2];
+        }
+        face_finish(&s->faces[f]);
+    }
+}
+
+/** A field of heights: slopes of up to 0.6. */
+static inline room random_terrain(uint64_t *seed) {
+    double points[TERRAIN_CELLS + 1][TERRAIN_CELLS + 1][3];
+    room r;
+    memset(&r, 0, sizeof r);
+    const double half = 0.5 * TERRAIN_CELLS * TERRAIN_CELL, high = random_between(seed, 0.0005, 0.007);
+    for (int i = 0; i <= TERRAIN_CELLS; i++) {
+        for (int k = 0; k <= TERRAIN_CELLS; k++) {
+            points[i][k][0] = (double)(float)(TERRAIN_CELL * i - half);
+            points[i][k][1] = (double)(float)(TERRAIN_CELL * k - half);
+            points[i][k][2] = (double)(float)random_between(seed, 0.0, high);
+        }
+    }
+    for (int i = 0; i < TERRAIN_CELLS; i++) {
+        for (int k = 0; k < TERRAIN_CELLS; k++) {
+            const double *a = points[i][k], *b = points[i + 1][k], *c = points[i + 1][k + 1], *d = points[i][k + 1];
+            double top[2][3][3];
+            memcpy(top[0][0], a, sizeof top[0][0]);
+            memcpy(top[0][1], b, sizeof top[0][1]);
+            memcpy(top[0][2], c, sizeof top[0][2]);
+            memcpy(top[1][0], a, sizeof top[1][0]);
+            memcpy(top[1][1], c, sizeof top[1][1]);
+            memcpy(top[1][2], d, sizeof top[1][2]);
+            add_column(&r, (const double (*)[3])top[0]);
+            add_column(&r, (const double (*)[3])top[1]);
+        }
+    }
+    for (int i = 0; i < 3; i++) { /* a hand stays away from the terrain's edge */
+        r.low[i] = i < 2 ? 0.011 - half : -0.007;
+        r.high[i] = i < 2 ? half - 0.011 : high + 0.01;
+    }
+    return r;
+}
+
 /* --- as the library is given it --- */
 
 /** A triangle list that grows. */
@@ -339,6 +397,9 @@ static inline void put_room(laid *l, knurl_scene *scene, uint64_t *seed, const r
         const int own = any == ROOM_ONE_MESH && s->moves != r->solids[0].moves ? ROOM_MESHES : any;
         triangles t = new_triangles(1);
         for (int f = 0; f < s->count; f++) {
+            if (s->faces[f].hidden) {
+                continue;
+            }
             if (own == ROOM_PLANES) {
                 put_plane(l, scene, seed, &s->faces[f], material, s->moves);
             } else {

@@ -12,11 +12,14 @@
 
 /* What came of the presses. */
 typedef struct tally {
-    long presses, squeezed, ticks, lost, inside, unbounded;
+    long presses, squeezed, ticks, limited, lost, inside, unbounded;
     double deepest; /* m: a proxy in a solid */
     double ratio;   /* of a force to its bound */
     long corners[KNURL_CONTACTS_MAX + 1];
 } tally;
+
+/* Rooms whose ground is a field of heights: one mesh, or a mesh a triangle. */
+enum { TERRAIN = ROOM_FORMS, TERRAIN_PIECES };
 
 /* What moves in a room. */
 enum { NOTHING, EVERYTHING, ONE_SOLID };
@@ -99,6 +102,7 @@ static int tick_and_check(visit *v, knurl_tick_output *out) {
         return 0;
     }
     t->ticks++;
+    t->limited += (out->flags & KNURL_TICK_VISIT_LIMIT) != 0;
     t->corners[out->contacts]++;
     t->deepest = inside ? fmax(t->deepest, proxy) : t->deepest;
     t->ratio = bound > 0.0 ? fmax(t->ratio, force / bound) : t->ratio;
@@ -181,10 +185,11 @@ static void press(visit *v) {
 
 static void visit_room(uint64_t seed, int form, int moving, int presses, tally *sum) {
     uint64_t random = seed;
-    room place = random_room(&random);
+    room place = form == TERRAIN || form == TERRAIN_PIECES ? random_terrain(&random) : random_room(&random);
     for (int i = 0; i < place.count; i++) {
         place.solids[i].moves = moving == EVERYTHING || (moving == ONE_SOLID && i == place.count - 1);
     }
+    const int library_form = form == TERRAIN ? ROOM_ONE_MESH : form == TERRAIN_PIECES ? ROOM_MESHES : form;
     visit v;
     memset(&v, 0, sizeof v);
     v.place = &place;
@@ -200,7 +205,7 @@ static void visit_room(uint64_t seed, int form, int moving, int presses, tally *
     }
     v.scene = empty_scene(1);
     configure_plainly(v.scene, 0);
-    put_room(&v.surfaces, v.scene, &random, &place, form, &parts.material);
+    put_room(&v.surfaces, v.scene, &random, &place, library_form, &parts.material);
     assert_int_equal(knurl_scene_commit(v.scene), KNURL_OK);
     for (int i = 0; i < presses; i++) {
         press(&v);
@@ -210,10 +215,10 @@ static void visit_room(uint64_t seed, int form, int moving, int presses, tally *
 
 static void tell(const tally *t, const char *what) {
     (void)printf(
-        "%s: %ld presses (%ld ended squeezed), %ld ticks (%ld, %ld, %ld, %ld with 1 to 4 contacts); %ld lost, %ld proxies inside by up "
+        "%s: %ld presses (%ld ended squeezed), %ld ticks (%ld, %ld, %ld, %ld with 1 to 4 contacts, %ld at the limit of visits); %ld lost, %ld proxies inside by up "
         "to %g m, %ld forces beyond their bound, of which the greatest share was %.6f\n",
-        what, t->presses, t->squeezed, t->ticks, t->corners[1], t->corners[2], t->corners[3], t->corners[4], t->lost,
-        t->inside, t->deepest, t->unbounded, t->ratio);
+        what, t->presses, t->squeezed, t->ticks, t->corners[1], t->corners[2], t->corners[3], t->corners[4], t->limited,
+        t->lost, t->inside, t->deepest, t->unbounded, t->ratio);
 }
 
 static tally check_rooms(int form, int moving, const char *what) {
@@ -252,6 +257,13 @@ TEST(rooms_of_planes_hold) {
 
 TEST(rooms_of_planes_and_meshes_hold) {
     (void)check_rooms(ROOM_MIXED, NOTHING, "planes and meshes");
+}
+
+TEST(terrains_hold) {
+    (void)check_rooms(TERRAIN, NOTHING, "terrains");
+    (void)check_rooms(TERRAIN_PIECES, NOTHING, "terrains in pieces");
+    check_rooms_that_move(TERRAIN, "terrains that move");
+    check_rooms_that_move(TERRAIN_PIECES, "terrains in pieces that move");
 }
 
 TEST(rooms_that_move_hold) {

@@ -175,6 +175,26 @@ TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
     shape_free(&s);
 }
 
+/* The crests of six planes are in reach, of which a tick has room for four; the top one, which comes last, is pressed.
+ */
+TEST(a_surface_that_holds_has_room_before_crests) {
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = empty_scene(1);
+    set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0005);
+    for (int i = 0; i < 6; i++) {
+        parts.desc.position[2] = -5e-5 * (5 - i);
+        (void)add_surface(scene, &parts);
+    }
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)tick_at(scene, 0.001, 0.001, 0.002);
+    (void)tick_at(scene, 0.001, 0.001, 0.0001);
+    const knurl_tick_output out = tick_at(scene, 0.001, 0.001, -0.001);
+    CHECK_CLOSE(out.depth, 0.001, 1e-6);
+    assert_true((out.flags & KNURL_TICK_CONTACTS_FULL) != 0);
+    knurl_scene_destroy(scene);
+}
+
 static uint32_t exceeded_by(const shape *s, double amplitude) {
     knurl_surface_check check;
     surface_parts parts = surface_shape(s, amplitude);

@@ -73,9 +73,8 @@ enum {
  * gradually. */
 #define KNURL_ENTRY_SPEED_MAX 0.5
 
-/** Visits of a tick by default: about 20 us. In random rooms one tick in 100,000 needs 1,120, one in a million 1,310.
- */
-#define KNURL_VISITS_MAX 1200
+/** Visits of a tick by default: 10 to 20 us. In random rooms one tick in 10,000 needs more. */
+#define KNURL_VISITS_MAX 600
 
 /** One haptic interaction point (HIP): its update rate, its workspace in the scene, its device's limits. */
 typedef struct knurl_hip_desc {
@@ -446,8 +445,8 @@ KNURL_API knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint3
  * amount; cracks are crossed within 5 ms, and those of up to 0.1 um do not exist. With more than 32 surfaces near one
  * point, some may be missed (KNURL_TICK_CONTACTS_FULL).
  *
- * Bounded time: contact looks at no more than knurl_hip_desc.max_visits triangles, planes and nodes (a quarter more
- * where a contact begins), the search for nearby surfaces at those that moved lately and few others (all with
+ * Bounded time: contact looks at no more than knurl_hip_desc.max_visits triangles, planes and nodes (half as many
+ * more where a contact begins), the search for nearby surfaces at those that moved lately and few others (all with
  * KNURL_FULL_SEARCH). No heap, lock, system call, clock, log or file, whatever other threads edit. `output` is always
  * filled in, with zero force where the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed, or a loop has
  * the HIP), KNURL_ERROR_ARGUMENT (hip, null or an invalid handle). [haptic thread, one per HIP] */

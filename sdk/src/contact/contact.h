@@ -23,6 +23,14 @@ typedef struct knurl_contact_state {
     uint32_t triangle; /* where the proxy was */
 } knurl_contact_state;
 
+/* Where in a mesh's hierarchy searches of a small box begin: nothing outside of the node meets the box. Zero: nothing
+ * is known. */
+typedef struct knurl_part {
+    double low[3]; /* shape's frame, m */
+    double high[3];
+    uint32_t node;
+} knurl_part;
+
 /* What is kept of the triangle that a proxy is on (facet.h). Zero: nothing. */
 typedef struct knurl_facet knurl_facet;
 
@@ -34,8 +42,12 @@ typedef struct knurl_contact_query {
     int32_t has_previous; /* 0: a first tick; KNURL_CAPTURE_DEPTH applies */
     int32_t double_sided;
     knurl_facet *facet;   /* this contact's, zero when it begins; or null: none is kept */
+    knurl_part *part;     /* this contact's, zero for a shape that is looked at anew; or null: none is kept */
     knurl_visits *visits; /* what it may look at; null: no limit */
 } knurl_contact_query;
+
+/* The mesh has parts that go through or touch each other. */
+#define KNURL_UNSURE_PARTS 2
 
 typedef struct knurl_contact {
     double proxy[3];
@@ -44,8 +56,8 @@ typedef struct knurl_contact {
     double weights[3];  /* mesh: barycentric coordinates of the proxy */
     uint32_t triangle;  /* mesh: which */
     knurl_facet *facet; /* mesh: that triangle's; null where none is kept */
-    int32_t unsure; /* set without contact, too. 1: the HIP may have passed a face of this shape, by its rim, a seam or
-                       another part; whether it has, a cast tells */
+    int32_t unsure; /* set without contact, too. Not 0: the HIP may have passed a face of this shape, by its rim, a seam
+                       or another part; whether it has, a cast tells */
 } knurl_contact;
 
 /* What is asked of a cast: where a straight way first goes through a face, from its front. */
@@ -53,6 +65,7 @@ typedef struct knurl_cast {
     double from[3];
     double to[3];
     int32_t double_sided;
+    knurl_part *part;     /* as in a query */
     knurl_visits *visits; /* what it may look at; null: no limit */
 } knurl_cast;
 

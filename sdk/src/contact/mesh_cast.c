@@ -5,6 +5,7 @@
 #include "contact/mesh_cast.h"
 
 #include "contact/closest_point.h"
+#include "contact/mesh_query.h"
 
 /* 1 where a point of the triangle's plane is no farther than `seam` beyond any edge, nor beyond the triangle's box: at
  * a sliver's tips the edges alone would let it reach far. inside: as knurl_closest_on_edges(), of b and c. */
@@ -29,10 +30,14 @@ static int is_near_triangle(const double corners[3][3], const double p[3], const
     return 1;
 }
 
-/* 1 where a way goes through a triangle before `hit`, which is replaced. */
-static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, knurl_cast_hit *hit) {
+/* 1 where a way goes through a triangle before `hit`, which is replaced. low, high: the way's box. */
+static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, const double low[3],
+                   const double high[3], knurl_cast_hit *hit) {
     double corners[3][3], ab[3], ac[3], normal[3], from[3], way[3], across[3], point[3];
     knurl_mesh_corners(mesh, triangle, corners);
+    if (!knurl_corners_meet((const double (*)[3])corners, low, high) || !knurl_visits_take(cast->visits, 1)) {
+        return 0;
+    }
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
     vec3_cross(ab, ac, normal);
@@ -74,7 +79,7 @@ int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_h
     double low[3], high[3];
     knurl_bvh_bound(cast->from, cast->to, mesh->seam + KNURL_CAST_SLACK, low, high);
     hit->share = 1.5;
-    stack[top++] = 0;
+    stack[top++] = knurl_mesh_find_part(mesh, low, high, cast->visits, cast->part);
     while (top > 0) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
@@ -85,7 +90,7 @@ int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_h
             return 0;
         }
         for (uint32_t i = 0; i < node->count; i++) {
-            (void)cast_at(mesh, node->first + i, cast, hit);
+            (void)cast_at(mesh, node->first + i, cast, low, high, hit);
         }
         if (node->count == 0) {
             stack[top++] = node->first;

@@ -17,6 +17,11 @@
 /* Parts of a mesh that one way of a HIP is followed through in a tick, at most. */
 #define MAX_PARTS 4
 
+/* What a contact with the mesh is unsure of wherever it is. */
+static int32_t has_parts(const knurl_mesh *mesh) {
+    return mesh->touching > 0 ? KNURL_UNSURE_PARTS : 0;
+}
+
 /* How far a HIP is off the boundary that its closest point is on, along the surface. */
 static double off_boundary(const knurl_closest_point *closest, double along[3]) {
     vec3_madd(closest->offset, -vec3_dot(closest->offset, closest->normal) / closest->area2, closest->normal, along);
@@ -61,7 +66,7 @@ static int contact_nearest(const knurl_mesh *mesh, const knurl_contact_query *qu
                            knurl_contact *c) {
     knurl_contact nearest;
     knurl_closest_point closest;
-    if (!knurl_mesh_closest(mesh, query->hip, radius, query->visits, &nearest)) {
+    if (!knurl_mesh_closest(mesh, query->hip, radius, query->part, query->visits, &nearest)) {
         return 0;
     }
     knurl_closest_on_triangle(mesh, nearest.triangle, query->hip, &closest);
@@ -79,7 +84,8 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
         knurl_closest_point closest;
         double from[3];
         knurl_offset_towards(part.proxy, query->hip, from);
-        const int32_t met = knurl_mesh_cross(mesh, from, query->hip, query->double_sided, query->visits, &triangle);
+        const int32_t met =
+            knurl_mesh_cross(mesh, from, query->hip, query->double_sided, query->part, query->visits, &triangle);
         if (met == 0) {
             break;
         }
@@ -123,7 +129,7 @@ static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_q
     const double off = off_boundary(boundary, at);
     c->unsure = 1;
     vec3_madd(boundary->point, 1.0, at, at);
-    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), query->visits, &other)) {
+    if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), NULL, query->visits, &other)) {
         knurl_closest_on_triangle(mesh, other.triangle, query->hip, &closest);
         if (vec3_dot(closest.normal, boundary->normal) > 0.0) {
             (void)knurl_mesh_walk(mesh, query->hip, *side, query->visits, &closest);
@@ -158,7 +164,7 @@ static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query
         found = closest->distance2 <= radius * radius;
         radius = found ? sqrt(closest->distance2) * (1.0 - 1e-9) : radius;
     }
-    if (knurl_mesh_closest(mesh, hip, radius, &half, &nearest)) {
+    if (knurl_mesh_closest(mesh, hip, radius, query->part, &half, &nearest)) {
         knurl_closest_on_triangle(mesh, nearest.triangle, hip, closest);
         found = 1;
     }
@@ -173,7 +179,7 @@ static int32_t cross_nearest(const knurl_mesh *mesh, const knurl_contact_query *
     knurl_contact nearest;
     knurl_triangle t;
     vec3_sub(query->hip, query->previous, way);
-    if (!knurl_mesh_closest(mesh, query->hip, vec3_length(way), query->visits, &nearest)) {
+    if (!knurl_mesh_closest(mesh, query->hip, vec3_length(way), query->part, query->visits, &nearest)) {
         return 0;
     }
     knurl_mesh_triangle(mesh, nearest.triangle, &t);
@@ -190,7 +196,8 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
     uint32_t triangle;
     knurl_closest_point closest;
     knurl_visits half = knurl_visits_halve(query->visits);
-    int32_t side = knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, &half, &triangle);
+    int32_t side =
+        knurl_mesh_cross(mesh, query->previous, query->hip, query->double_sided, query->part, &half, &triangle);
     knurl_visits_settle(query->visits, &half);
     if (side == 0 && half.exhausted) {
         side = cross_nearest(mesh, query, &triangle);
@@ -202,7 +209,7 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
         return 0;
     }
     knurl_closest_on_triangle(mesh, triangle, query->hip, &closest);
-    c->unsure |= knurl_mesh_walk(mesh, query->hip, side, query->visits, &closest) | (mesh->touching > 0);
+    c->unsure |= knurl_mesh_walk(mesh, query->hip, side, query->visits, &closest) | has_parts(mesh);
     if (!contact_at(mesh, query, reach, &closest, &side, c)) {
         c->unsure = 1;
         return 0;
@@ -288,12 +295,12 @@ int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query,
     const int held = was_inside ? hold_contact(mesh, query, reach, state, contact)
                                 : begin_contact(mesh, query, reach, state, contact);
     if (!held || contact->z > reach) {
-        contact->unsure |= was_inside & (!held | (mesh->touching > 0));
+        contact->unsure |= was_inside ? (held ? 0 : 1) | has_parts(mesh) : 0;
         memset(state, 0, sizeof *state);
         return 0;
     }
     state->inside = contact->z <= KNURL_ON_SURFACE;
-    contact->unsure |= (was_inside | state->inside) & (mesh->touching > 0);
+    contact->unsure |= (was_inside | state->inside) ? has_parts(mesh) : 0;
     state->triangle = contact->triangle;
     return 1;
 }

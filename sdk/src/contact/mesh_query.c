@@ -6,6 +6,44 @@
 
 #include <string.h>
 
+/* m: a larger search begins at the root, and a part for smaller ones is kept. */
+#define PART_SIZE_MAX 0.005
+
+static int is_within(const knurl_part *part, const double low[3], const double high[3]) {
+    int within = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        within &= part->low[axis] <= low[axis] && part->high[axis] >= high[axis];
+    }
+    return within;
+}
+
+uint32_t knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3], knurl_visits *visits,
+                              knurl_part *part) {
+    const double margin = knurl_max(high[0] - low[0], knurl_max(high[1] - low[1], high[2] - low[2]));
+    uint32_t index = 0;
+    if (!part || margin > PART_SIZE_MAX) {
+        return 0;
+    }
+    if (is_within(part, low, high)) {
+        return part->node;
+    }
+    for (int axis = 0; axis < 3; axis++) { /* the next searches of this tick and of the next are near */
+        part->low[axis] = low[axis] - margin;
+        part->high[axis] = high[axis] + margin;
+    }
+    while (mesh->nodes[index].count == 0 && knurl_visits_take(visits, 1)) {
+        const uint32_t children[2] = {index + 1, mesh->nodes[index].first};
+        const int meets[2] = {knurl_bvh_meets(&mesh->nodes[children[0]], part->low, part->high),
+                              knurl_bvh_meets(&mesh->nodes[children[1]], part->low, part->high)};
+        if (meets[0] == meets[1]) {
+            break;
+        }
+        index = children[meets[1]];
+    }
+    part->node = index;
+    return index;
+}
+
 /* 1 where the triangle's plane is farther from p than the square root of `best2`. Rounding (the two terms added) never
  * makes it 1 where the triangle is as near. */
 static int is_plane_beyond(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2) {
@@ -36,7 +74,7 @@ static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, con
     return closest.distance2;
 }
 
-int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_visits *visits,
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_part *part, knurl_visits *visits,
                        knurl_contact *nearest) {
     struct {
         double distance2;
@@ -45,8 +83,10 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
     uint32_t top = 1;
     const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
     double best2 = limit2;
-    stack[0].index = 0;
-    stack[0].distance2 = knurl_bvh_distance2(mesh->nodes, p);
+    double low[3], high[3];
+    knurl_bvh_bound(p, p, sqrt(limit2), low, high);
+    stack[0].index = knurl_mesh_find_part(mesh, low, high, visits, part);
+    stack[0].distance2 = knurl_bvh_distance2(&mesh->nodes[stack[0].index], p);
     while (top > 0) {
         const uint32_t index = stack[--top].index;
         const knurl_bvh_node *node = &mesh->nodes[index];
@@ -118,7 +158,7 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
     return s;
 }
 
-int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
+int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided, knurl_part *part,
                      knurl_visits *visits, uint32_t *triangle) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
@@ -128,7 +168,7 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
     vec3_sub(b, a, direction);
     double low[3], high[3];
     knurl_bvh_bound(a, b, 1e-7 * vec3_length(direction) + 1e-9, low, high);
-    stack[top++] = 0;
+    stack[top++] = knurl_mesh_find_part(mesh, low, high, visits, part);
     while (top > 0) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
@@ -141,6 +181,9 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
         for (uint32_t i = 0; i < node->count; i++) {
             double corners[3][3];
             knurl_mesh_corners(mesh, node->first + i, corners);
+            if (!knurl_corners_meet((const double (*)[3])corners, low, high) || !knurl_visits_take(visits, 1)) {
+                continue;
+            }
             const double s = hit_triangle((const double (*)[3])corners, a, direction, best, double_sided, &side);
             if (s < best) {
                 best = s;
@@ -170,10 +213,10 @@ static int exceeds_visits_at(const knurl_mesh *mesh, const double p[3], const do
     uint32_t triangle;
     double front[3], behind[3];
     vec3_madd(p, reach, normal, front);
-    (void)knurl_mesh_closest(mesh, front, reach, &nearest, &found);
+    (void)knurl_mesh_closest(mesh, front, reach, NULL, &nearest, &found);
     vec3_madd(p, 0.5 * SAMPLE_STEP, normal, front);
     vec3_madd(p, -0.5 * SAMPLE_STEP, normal, behind);
-    (void)knurl_mesh_cross(mesh, front, behind, 0, &crossing, &triangle);
+    (void)knurl_mesh_cross(mesh, front, behind, 0, NULL, &crossing, &triangle);
     return nearest.exhausted || crossing.exhausted;
 }
 
@@ -213,7 +256,7 @@ static void find_front_face(const knurl_mesh *mesh, const double rotation[9], kn
         mat3_mul_transposed(rotation, from[i], direction);
         vec3_madd(centre, size, direction, outside);
         vec3_madd(centre, -size, direction, opposite);
-        if (knurl_mesh_cross(mesh, outside, opposite, 0, NULL, &anchor->triangle)) {
+        if (knurl_mesh_cross(mesh, outside, opposite, 0, NULL, NULL, &anchor->triangle)) {
             knurl_mesh_triangle(mesh, anchor->triangle, &t);
             double offset[3];
             vec3_sub(t.corners[0], outside, offset);
@@ -222,7 +265,7 @@ static void find_front_face(const knurl_mesh *mesh, const double rotation[9], kn
             return;
         }
     }
-    (void)knurl_mesh_closest(mesh, centre, 2.0 * size, NULL, anchor);
+    (void)knurl_mesh_closest(mesh, centre, 2.0 * size, NULL, NULL, anchor);
 }
 
 void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
@@ -230,7 +273,7 @@ void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_c
     memset(anchor, 0, sizeof *anchor);
     find_front_face(mesh, rotation, anchor);
     /* once more as a nearest point, for its weights and its face's normal */
-    (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), NULL, anchor);
+    (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), NULL, NULL, anchor);
     knurl_mesh_triangle(mesh, anchor->triangle, &t);
     vec3_copy(t.normal, anchor->normal);
 }

@@ -6,16 +6,21 @@
 #include "contact/contact.h"
 #include "contact/mesh.h"
 
-/* visits: null: no limit.
+/* The node at which a search of a box may begin: the part's, which is found anew where the box is not in it. part:
+ * null: the root. visits: null: no limit. */
+uint32_t knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3], knurl_visits *visits,
+                              knurl_part *part) KNURL_NONBLOCKING;
+
+/* part: null: none is kept. visits: null: no limit.
  *
  * The nearest point of the mesh within `radius` of p; 0 where there is none. Fills in proxy, weights and triangle. Cut
  * short, it is the nearest of those looked at. */
-int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_visits *visits,
+int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_part *part, knurl_visits *visits,
                        knurl_contact *nearest) KNURL_NONBLOCKING;
 
 /* Where the segment from a to b first goes through a triangle: from the front, or from either side. Returns the side
  * (+1, -1) or 0 for none. Cut short, it is the first of those looked at. */
-int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided,
+int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided, knurl_part *part,
                      knurl_visits *visits, uint32_t *triangle) KNURL_NONBLOCKING;
 
 /* 1 where contact with the mesh, whose crests reach `reach` (m), meets a tick's limit of visits somewhere: looked for

@@ -270,7 +270,7 @@ static int is_walled_off(const walk *w, const knurl_closest_point *closest) {
     double from[3];
     uint32_t triangle;
     knurl_offset_towards(closest->point, w->p, from);
-    return knurl_mesh_cross(w->mesh, from, w->p, w->side < 0, w->visits, &triangle) == w->side;
+    return knurl_mesh_cross(w->mesh, from, w->p, w->side < 0, NULL, w->visits, &triangle) == w->side;
 }
 
 /* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
@@ -281,7 +281,7 @@ static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     knurl_contact nearest;
     knurl_closest_point other;
     int boundary;
-    if (!knurl_mesh_closest(w->mesh, w->p, sqrt(closest->distance2) * (1.0 - 1e-9), w->visits, &nearest)) {
+    if (!knurl_mesh_closest(w->mesh, w->p, sqrt(closest->distance2) * (1.0 - 1e-9), NULL, w->visits, &nearest)) {
         return;
     }
     knurl_closest_on_triangle(w->mesh, nearest.triangle, w->p, &other);

@@ -15,6 +15,7 @@ typedef struct knurl_candidate {
     uint32_t generation;
     uint32_t in_contact;
     uint32_t has_previous; /* 1: it was looked at in the last tick, so that `previous` and `jumps` hold */
+    uint32_t is_late;      /* 1: its search was cut short since, and `previous` is where the HIP was before */
     uint64_t jumps;        /* the motion's, at the last tick */
     double previous[3];    /* the HIP at the last tick, shape's frame */
     knurl_contact_state contact;
@@ -29,6 +30,7 @@ typedef struct knurl_candidate {
     uint64_t swept_tick; /* the tick at which `swept` was looked at last */
     double anchor[3];    /* friction: where the HIP sticks, shape's frame */
     knurl_facet facet;
+    knurl_part part;             /* holds while has_previous and `jumps` do */
     const knurl_motion *settled; /* what stood still, when it had begun, and from which tick on; or null */
     double settled_start;
     uint64_t settled_tick;

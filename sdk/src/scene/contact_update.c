@@ -17,6 +17,7 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
     query.reach = a->record->reach;
     query.double_sided = a->surface->double_sided;
     query.facet = &a->candidate->facet;
+    query.part = &a->candidate->part;
     query.visits = &c->visits;
     return knurl_shape_contact(shape, &query, state, &a->contact);
 }
@@ -205,6 +206,7 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
                          const double position[3], int clear, uint32_t *flags) {
     double margin = -1.0;
     c->visits.left = c->max_visits;
+    c->cut_short = c->visits.exhausted ? c->cut_short + (c->cut_short < 5) : 0;
     c->visits.exhausted = 0;
     c->asked_of = NULL;
     knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;

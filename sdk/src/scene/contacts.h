@@ -55,6 +55,7 @@ typedef struct knurl_contacts {
     knurl_active_contact active[KNURL_CONTACTS_MAX]; /* in this tick; what they point to is gone after it */
     uint32_t active_count;
     knurl_touched asked;             /* in this tick: what the shape of */
+    uint32_t cut_short;              /* so many latest ticks used all of their visits; at most 5 */
     const knurl_candidate *asked_of; /* this one said when it was asked alone; null: none was */
     uint32_t max_visits;             /* a tick's */
     knurl_visits visits;             /* this tick's */

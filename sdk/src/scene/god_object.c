@@ -60,10 +60,12 @@ static int leave_crack(knurl_god_object *g, const knurl_active_face *face) {
     return 0;
 }
 
-/* One look at what is in the way. Returns 1 where it has got on. */
+/* One look at what is in the way. Returns 1 where it has got on. Where the visits are used up before a face is met, the
+ * faces of the last look hold the object on. */
 static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const double hip[3]) {
     double goal[3];
     const double start[3] = {g->at[0], g->at[1], g->at[2]};
+    const uint32_t last_count = g->faces.count;
     g->faces.count = 0;
     for (int i = 0; i < MEETS; i++) {
         knurl_cast_hit hit;
@@ -74,6 +76,7 @@ static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const dou
         const knurl_segment way = {g->at, goal, 0, KNURL_NO_OBSTACLE};
         const uint32_t obstacle = knurl_obstacles_cast(obstacles, &way, &hit);
         if (knurl_obstacles_are_unknown(obstacles)) {
+            g->faces.count = g->faces.count > 0 ? g->faces.count : last_count;
             return 0;
         }
         if (obstacle == KNURL_NO_OBSTACLE) {

@@ -21,6 +21,7 @@ typedef struct joint_search {
     knurl_touched touched[KNURL_CANDIDATES_MAX];
     int jumped;      /* 1: a surface in contact has jumped */
     uint32_t asked;  /* so many of the first obstacles were asked for their contact with the HIP: `touched` */
+    uint64_t late;   /* bits of obstacles whose search was cut short, so that the HIP may have crossed them */
     int unknown;     /* 1: the visits were used up before the contacts were found */
     double margin;   /* m: obstacles were collected this far around the path; a proxy may move no farther */
     double proxy[3]; /* results, with `touched`: */
@@ -69,11 +70,15 @@ static void query_shape(const joint_search *m, const knurl_obstacle *o, const do
     query.reach = o->record->reach;
     query.double_sided = o->surface->double_sided;
     query.facet = &o->candidate->facet;
+    query.part = &o->candidate->part;
     query.visits = &m->contacts->visits;
     knurl_pose_to_own(o->pose, hip, query.hip);
     vec3_copy(query.hip, query.previous);
     if (previous && !touched->state.inside) { /* a HIP inside is tested at its position alone */
         knurl_pose_to_own(o->before, previous, query.previous);
+        if (o->candidate->is_late && o->candidate->has_previous && previous == m->contacts->previous) {
+            vec3_copy(o->candidate->previous, query.previous);
+        }
     }
     touched->held = knurl_shape_contact(&o->surface->shape, &query, &touched->state, &touched->contact);
 }
@@ -306,6 +311,37 @@ static int has_holder(const joint_search *m) {
     return has;
 }
 
+/* 1 where parts of the mesh go through or touch each other: then a god-object's face counts for more. */
+static int has_parts(const knurl_touched *touched) {
+    return (touched->contact.unsure & KNURL_UNSURE_PARTS) != 0;
+}
+
+/* 1 where the surface that holds the HIP is the only one near, and its own contact is known. */
+static int goes_on_alone(const joint_search *m) {
+    return m->contacts->pressed == 1 && m->near.count == 1 && m->asked == 1 && is_inside(&m->touched[0]);
+}
+
+/* m: how far a proxy goes in a tick after one whose visits were used up; half as far after two, and so on. Short ways
+ * are cheap, so that it catches up. */
+#define SHORT_WAY 0.0005
+
+/* Moves the god-object as near to the HIP as can be. */
+static void follow(const joint_search *m, knurl_god_object *g) {
+    double way[3];
+    vec3_sub(m->hip, g->at, way);
+    const double length = vec3_length(way);
+    const double longest = ldexp(2.0 * SHORT_WAY, -(int)m->contacts->cut_short);
+    if (m->contacts->cut_short > 0 && length > longest) {
+        double target[3];
+        vec3_madd(g->at, longest / length, way, target);
+        knurl_god_object_follow(g, &m->near, target);
+        if (g->faces.count > 0) {
+            return;
+        }
+    }
+    knurl_god_object_follow(g, &m->near, m->hip);
+}
+
 /* Finds contact with all faces nearby at once, by a god-object. */
 static void search_all_faces(joint_search *m, uint32_t *flags) {
     knurl_contacts *c = m->contacts;
@@ -315,8 +351,9 @@ static void search_all_faces(joint_search *m, uint32_t *flags) {
     vec3_copy(c->pressed ? c->proxy : c->previous, g.at);
     collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* the god-object only comes nearer to the HIP */
     knurl_god_object_push(&g, &m->near);
-    knurl_god_object_follow(&g, &m->near, m->hip);
-    m->unknown = g.faces.count == 0 && knurl_obstacles_are_unknown(&m->near);
+    follow(m, &g);
+    m->unknown = knurl_obstacles_are_unknown(&m->near) &&
+                 (g.faces.count == 0 || (goes_on_alone(m) && !has_parts(&m->touched[0])));
     if (m->unknown) {
         return;
     }
@@ -398,7 +435,7 @@ static void keep_contact(const joint_search *m, const knurl_obstacle *o, knurl_t
  * the last tick's contact; none begins. */
 static void keep_contacts(joint_search *m) {
     set_free(m);
-    if (m->asked == 1 && is_inside(&m->touched[0])) {
+    if (goes_on_alone(m)) {
         set_proxy(m, 0);
         return;
     }
@@ -413,11 +450,11 @@ static void keep_contacts(joint_search *m) {
     }
 }
 
-/* The visits are used up and the HIP was free: tests each shape alone. Together they may use max_visits once more; a
- * pole where 100 triangles meet needs some 300. */
+/* The visits are used up and the HIP was free: tests each shape alone. Together they may use half of max_visits more.
+ * One that this is not enough for is asked again in the next tick, about all of the way since. */
 static void begin_alone(joint_search *m) {
     knurl_contacts *c = m->contacts;
-    const uint32_t share = 1 + c->max_visits / (m->near.count + 1);
+    const uint32_t share = 1 + c->max_visits / 2 / (m->near.count > 0 ? m->near.count : 1);
     double deepest = 1.0;
     uint32_t pressed = 0;
     set_free(m);
@@ -430,6 +467,7 @@ static void begin_alone(joint_search *m) {
         }
         if (c->visits.left == 0 && !is_inside(touched)) {
             keep_contact(m, &m->near.list[i], touched);
+            m->late |= (uint64_t)!touched->held << i;
         }
         if (is_inside(touched)) {
             pressed++;
@@ -455,9 +493,32 @@ static void update_contacts(joint_search *m, uint64_t which, uint32_t *flags) {
         } else if (!knurl_contacts_add(m->contacts, candidate, o->surface, o->record, o->pose, &m->touched[i])) {
             *flags |= KNURL_TICK_CONTACTS_FULL;
         }
+        candidate->is_late = (m->late >> i & 1) != 0 && candidate->has_previous;
         candidate->has_previous = 1;
         candidate->jumps = o->record->motion.jumps;
-        knurl_pose_to_own(o->pose, m->hip, candidate->previous);
+        if (!candidate->is_late) {
+            knurl_pose_to_own(o->pose, m->hip, candidate->previous);
+        }
+    }
+}
+
+/* Where more contacts are found than there is room for, those that hold the HIP come before crests, and among these,
+ * those of the last tick. held: the bits of the last tick's. */
+static void make_room(joint_search *m, uint64_t held, uint32_t *flags) {
+    uint32_t room = KNURL_CONTACTS_MAX;
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        room -= room > 0 && is_inside(&m->touched[i]);
+    }
+    for (uint64_t is_new = 0; is_new < 2; is_new++) {
+        for (uint32_t i = 0; i < m->near.count; i++) {
+            knurl_touched *touched = &m->touched[i];
+            if ((held >> i & 1) == is_new || !touched->held || touched->state.inside) {
+                continue;
+            }
+            touched->held = room > 0;
+            *flags |= room > 0 ? 0 : KNURL_TICK_CONTACTS_FULL;
+            room -= room > 0;
+        }
     }
 }
 
@@ -471,6 +532,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.near.visits = &c->visits;
     m.unknown = 0;
     m.asked = 0;
+    m.late = 0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
     collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
@@ -489,6 +551,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     for (uint32_t i = 0; i < m.near.count; i++) {
         held |= (uint64_t)(m.near.list[i].candidate->in_contact != 0) << i;
     }
+    make_room(&m, held, flags);
     update_contacts(&m, held, flags); /* first, so that they keep their places */
     if (m.near.count > 1 || held == 0) {
         update_contacts(&m, ~held, flags);

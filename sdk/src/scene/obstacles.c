@@ -1,11 +1,16 @@
 /* Casts among surfaces, each in its own frame. SPDX-License-Identifier: MIT */
 #include "scene/obstacles.h"
 
+#include <string.h>
+
 void knurl_obstacle_set(knurl_obstacle *o, knurl_candidate *candidate, const knurl_surface_data *surface,
                         const knurl_record *record, const knurl_hip_clock *clock) {
     o->candidate = candidate;
     o->surface = surface;
     o->record = record;
+    if (!candidate->has_previous || candidate->jumps != record->motion.jumps) { /* it may be another shape */
+        memset(&candidate->part, 0, sizeof candidate->part);
+    }
     knurl_candidate_place(candidate, &record->motion, clock, &o->pose, &o->before);
 }
 
@@ -38,12 +43,29 @@ static int is_beside(const knurl_obstacle *o, const double from[3], const double
     return 0;
 }
 
+/* m: how high a point is above a plane in a pose. */
+static double height_over(const knurl_pose *pose, const double p[3]) {
+    const double *r = pose->rotation;
+    double to[3];
+    vec3_sub(p, pose->position, to);
+    return pose->is_rotated ? r[2] * to[0] + r[5] * to[1] + r[8] * to[2] : to[2];
+}
+
+/* 1 where a segment stays on one side of a plane, by more than rounding and what a cast allows for. */
+static int stays_on_one_side(const knurl_obstacle *o, const knurl_segment *segment) {
+    const double from = height_over(segment->moving ? o->before : o->pose, segment->from);
+    const double to = height_over(o->pose, segment->to);
+    return knurl_min(from, to) > 2.0 * KNURL_CAST_SLACK || knurl_max(from, to) < -2.0 * KNURL_CAST_SLACK;
+}
+
 static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_visits *visits, knurl_cast_hit *hit) {
     knurl_cast cast;
-    if (is_beside(o, segment->from, segment->to) || !knurl_visits_take(visits, 1)) {
+    if (is_beside(o, segment->from, segment->to) || !knurl_visits_take(visits, 1) ||
+        (o->surface->shape.plane && stays_on_one_side(o, segment))) {
         return 0;
     }
     cast.visits = visits;
+    cast.part = &o->candidate->part;
     knurl_pose_to_own(segment->moving ? o->before : o->pose, segment->from, cast.from);
     knurl_pose_to_own(o->pose, segment->to, cast.to);
     cast.double_sided = o->surface->double_sided;

@@ -113,7 +113,7 @@ static int find_closest(const knurl_shape *shape, const double p[3], double radi
     }
     knurl_contact found;
     knurl_triangle triangle;
-    if (!knurl_mesh_closest(shape->geometry, p, radius, NULL, &found)) {
+    if (!knurl_mesh_closest(shape->geometry, p, radius, NULL, NULL, &found)) {
         return 0;
     }
     knurl_mesh_triangle(shape->geometry, found.triangle, &triangle);
