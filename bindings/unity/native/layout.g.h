@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "c7bdee1b9a1e6a1a"
+#define KNURL_UNITY_INTERFACE "3227794a6825b536"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
