@@ -63,7 +63,8 @@ typedef struct knurl_surface_desc {
 /** The protections of a HIP, all on by default. Studies switch single ones off. */
 enum {
     KNURL_PROTECT_ENTRY = 1,     /**< entry ramp: the depth in Eq. 9 grows at most at KNURL_ENTRY_SPEED_MAX */
-    KNURL_PROTECT_SLEW = 2,      /**< the force grows at most at slew_rate, except for the texture's own steps */
+    KNURL_PROTECT_SLEW = 2,      /**< the force grows at most at slew_rate, except for the texture's own steps; after
+                                      KNURL_TICK_SQUEEZED it also falls at most so fast */
     KNURL_PROTECT_HEAT = 4,      /**< the force is reduced towards continuous_force as the motors warm up */
     KNURL_PROTECT_PASSIVITY = 8, /**< a wall that makes the hand oscillate is softened */
     KNURL_PROTECT_ALL = 15
@@ -99,8 +100,8 @@ typedef struct knurl_hip_desc {
                                   loop's device says, without one 1 */
     double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
                                   device says, without one the Touch's */
-    double slew_rate;        /**< N/s: the fastest change of the force, except where it falls and for the texture's own
-                                  steps; 0 (default): max_force within 5 ms */
+    double slew_rate;        /**< N/s: the fastest change of the force, except for the texture's own steps and where it
+                                  falls (unless after KNURL_TICK_SQUEEZED); 0 (default): max_force within 5 ms */
     uint32_t protections;    /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
     uint32_t clamp;          /**< 1: stiffness and amplitude are clamped to the limits of knurl_scene_check_surface();
                                   default 0: rendered as asked for */
@@ -190,7 +191,8 @@ enum {
     KNURL_TICK_PASSIVITY = 256,    /**< the wall was softened because it made the HIP oscillate */
     KNURL_TICK_ABSENT = 512,       /**< the input said `absent` */
     KNURL_TICK_SQUEEZED = 1024,    /**< the proxy was caught between two surfaces, one of which moved over it: the
-                                        moving surface no longer holds the HIP */
+                                        moving surface no longer holds the HIP, and the force falls at slew_rate. Where
+                                        two close at less than 11 degrees the proxy is caught, else pushed out */
     KNURL_TICK_VISIT_LIMIT = 2048  /**< contact met the tick's limit of visits (knurl_hip_desc.max_visits): a surface
                                         that holds the HIP goes on as the plane through its latest contact; a contact
                                         may begin late, or at a point that is not the nearest */

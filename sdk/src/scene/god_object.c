@@ -139,8 +139,26 @@ void knurl_god_object_follow(knurl_god_object *g, const knurl_obstacles *obstacl
     (void)pass(g, obstacles, hip);
 }
 
+/* A surface pushes the object at most so many times as far as it moves itself. Two that close at a smaller angle, 11
+ * degrees, hold what is between them rather than push it out (a friction of 0.1 is enough for that). */
+#define PUSH_RATIO 5.0
+
+/* m: how far the object may be pushed in the tick. */
+static double longest_push(const knurl_god_object *g, const knurl_obstacles *obstacles) {
+    double longest = 0.0;
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        const knurl_obstacle *o = &obstacles->list[i];
+        double moved[3];
+        knurl_pose_to_own(o->before, g->at, moved);
+        knurl_pose_to_parent(o->pose, moved, moved);
+        longest = knurl_max(longest, vec3_distance2(g->at, moved));
+    }
+    return 1e-6 + PUSH_RATIO * sqrt(longest);
+}
+
 /* In front of each face that has moved over it, as near as can be to where it was. */
 static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacles) {
+    const double longest = longest_push(g, obstacles);
     double goal[3];
     g->faces.count = 0;
     vec3_copy(g->at, goal);
@@ -158,7 +176,7 @@ static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacl
         }
         set_face(obstacles, obstacle, &hit, &face);
         knurl_active_faces_add(&g->faces, &face);
-        if (!knurl_active_faces_project(&g->faces, g->at, goal)) {
+        if (!knurl_active_faces_project(&g->faces, g->at, goal) || vec3_distance2(g->at, goal) > longest * longest) {
             return 0;
         }
     }

@@ -37,15 +37,17 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
 }
 
 /* Falling force is not limited: the change is measured from the nearest point between no force and the latest one.
- * most: N that the force may change by. */
-static void limit_slew(const knurl_guard *guard, double most, double force[3], uint32_t *flags) {
+ * After a release it is, from the latest one. most: N that the force may change by. */
+static void limit_slew(knurl_guard *guard, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
     const double latest2 = vec3_dot(guard->force, guard->force);
     const double along = vec3_dot(force, guard->force);
-    vec3_scale(along <= 0.0 ? 0.0 : along < latest2 ? along / latest2 : 1.0, guard->force, from);
+    const int from_latest = guard->release || along >= latest2;
+    vec3_scale(from_latest ? 1.0 : along <= 0.0 ? 0.0 : along / latest2, guard->force, from);
     vec3_sub(force, from, change);
     const double change2 = vec3_dot(change, change);
+    guard->release &= change2 > most * most;
     if (change2 > most * most) {
         vec3_madd(from, most / sqrt(change2), change, force);
         *flags |= KNURL_TICK_SLEW;
@@ -59,8 +61,9 @@ static void attenuate(const knurl_guard *guard, double force[3]) {
     vec3_scale(length > most ? guard->gain * (most / length) : guard->gain, force, force);
 }
 
-void knurl_guard_limit_change(const knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
+void knurl_guard_limit_change(knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
     const double free = guard->slew + guard->gain * steps;
+    guard->release |= (*flags & KNURL_TICK_SQUEEZED) != 0;
     if (guard->gain < 1.0) {
         attenuate(guard, force);
     }
@@ -76,5 +79,6 @@ void knurl_guard_note_sent(knurl_guard *guard, const double force[3]) {
 
 void knurl_guard_reset(knurl_guard *guard) {
     guard->force[0] = guard->force[1] = guard->force[2] = 0.0;
+    guard->release = 0;
     knurl_heat_add(&guard->heat, 0.0);
 }

@@ -16,6 +16,7 @@ typedef struct knurl_guard {
     double slew;     /* N that the force may change in a tick, except where it falls */
     double gain;     /* on the force of this tick, 0 to 1 */
     int32_t clamp;   /* 1: within bounds */
+    int32_t release; /* 1: after a squeeze, until the force is down: its fall is limited too */
     knurl_passivity passivity;
     knurl_heat heat;
     knurl_bounds bounds;
@@ -53,8 +54,7 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
     wall->contact->depth = knurl_max(-wall->z, 0.0);
 }
 
-/* Before a contact's force: limits its wall. Stiffness and amplitude are clamped where that was asked for, the depth
- * follows the entry ramp, and the wall is softened after the passivity controller's alarm. */
+/* Before a contact's force: clamps its wall, limits its depth, and softens it after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     if (guard->clamp) {
         knurl_wall limited = *wall; /* a copy, so that `wall` itself can stay in registers */
@@ -80,13 +80,11 @@ static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wal
     return wall->stiffness * step;
 }
 
-/* Attenuates a force and limits its change, both rare: called by knurl_guard_limit(). */
-void knurl_guard_limit_change(const knurl_guard *guard, double steps, double force[3],
-                              uint32_t *flags) KNURL_NONBLOCKING;
+/* Attenuates a force and limits its change, both rare. */
+void knurl_guard_limit_change(knurl_guard *guard, double steps, double force[3], uint32_t *flags) KNURL_NONBLOCKING;
 
-/* Limits the sum of all forces, in place: attenuation first, then the slew limit (the textures' own steps, N, and
- * falling forces are exempt), then what the motors can do now. Returns its length, N; NaN or infinite where the force
- * was. */
+/* Limits the sum of all forces, in place: attenuation, then the slew limit (not of the textures' own steps, N, nor of
+ * falling forces, unless after a squeeze), then the motors' limit. Returns its length, N; NaN where the force is. */
 static inline double knurl_guard_limit(knurl_guard *guard, double steps, double force[3], uint32_t *flags) {
     double change[3];
     const double free = guard->slew + steps;
@@ -96,6 +94,8 @@ static inline double knurl_guard_limit(knurl_guard *guard, double steps, double 
         vec3_copy(force, limited);
         knurl_guard_limit_change(guard, steps, limited, flags);
         vec3_copy(limited, force);
+    } else {
+        guard->release = 0;
     }
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
