@@ -1,0 +1,57 @@
+# Part of ./run: ./run lint, and what ./run test looks at first: formatting and clang-tidy.
+
+lint() {
+    need_packages "${BUILD_PACKAGES[@]}" git
+    need_python lint-venv tests/lint-requirements.txt
+    configure release
+    local sources
+    mapfile -t sources < <(git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!*third_party*')
+    check_sources "${sources[@]}"
+    echo "run: lint: ${#sources[@]} files clean"
+}
+
+# The cheapest check first: what was changed, its format and clang-tidy. Nothing was changed: nothing is set up.
+lint_changed() {
+    local sources
+    mapfile -t sources < <(changed_sources)
+    [ ${#sources[@]} -gt 0 ] || return 0
+    if ! (need_python lint-venv tests/lint-requirements.txt); then
+        echo 'run: SKIPPED: format and lint of what was changed: the tools cannot be had, see above' >&2
+        return 0
+    fi
+    configure release
+    check_sources "${sources[@]}"
+    echo "run: lint: ${#sources[@]} changed files clean"
+}
+
+# The C and C++ files that were changed against BASE (default: where this branch left main), committed or not.
+changed_sources() {
+    local base
+    command -v git >/dev/null || return 0
+    base=$(git merge-base HEAD "${KNURL_BASE:-$(git rev-parse --verify -q origin/main || echo main)}" 2>/dev/null) || return 0
+    { git diff --name-only --diff-filter=d "$base" && git ls-files --others --exclude-standard; } | sort -u |
+        grep -E '\.(c|h|cpp|hpp)$' | grep -v third_party || true
+}
+
+check_sources() {
+    local windows='(_windows\.c|^tests/windows/.*)$' units
+    build/lint-venv/bin/clang-format --dry-run --Werror "$@"
+    # No part of this build: fuzz targets, what is for browsers, what is built against an installed Knurl or by other
+    # compilers, and what stands in for libwebsockets where it is missing.
+    local elsewhere='^tests/(fuzz|package/consumer|package/versions)/|^tests/abi/deprecated\.c$|^samples/web/|^tests/fidelity/hashes\.c$|/view_none\.c$'
+    units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
+    [ -z "$units" ] || tidy release <<<"$units"
+    units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -E "$windows" || true)
+    if [ -z "$units" ]; then
+        return 0
+    elif [ -f build/mingw/compile_commands.json ]; then
+        tidy mingw <<<"$units"
+    else
+        echo "run: SKIPPED: what is for Windows alone is only looked at after ./run test windows" >&2
+    fi
+}
+
+# clang-tidy on the files named in stdin, as a preset compiles them.
+tidy() {
+    /usr/bin/python3 -B tests/tidy.py build/lint-venv/bin/clang-tidy "build/$1" build/lint-cache || exit 1
+}

@@ -1,0 +1,113 @@
+# Part of ./run: ./run demo, figures, bench, web, docs and mirror: what is made to be looked at.
+
+DEMO=(run assets/plate_1d.glb --stroke sweep --seconds 5)
+
+# Builds the tool alone, with few packages; what is configured already with tests stays so.
+demo() {
+    need_packages "${DEMO_PACKAGES[@]}"
+    mkdir -p build/demo
+    if [ ! -f build/release/CMakeCache.txt ]; then
+        cmake --preset release -DBUILD_TESTING=OFF >build/release.log 2>&1 ||
+            { cat build/release.log >&2; exit 1; }
+    fi
+    echo 'run: building the tool'
+    with_progress 'building the tool' build/release.log cmake --build --preset release --target knurl_tool feel_scene \
+        touch_grating || { tail -n 60 build/release.log >&2; exit 1; }
+    echo "run: build/release/knurl ${DEMO[*]} --out build/demo/sweep.csv"
+    build/release/knurl "${DEMO[@]}" --out build/demo/sweep.csv --pretty >build/demo/sweep.json
+    /usr/bin/python3 samples/draw_run.py build/demo/sweep.csv build/demo/sweep.svg
+    echo 'run: see build/demo/sweep.svg; the ticks are in build/demo/sweep.csv, a summary in build/demo/sweep.json'
+}
+
+# usage: figures [--check]. assets/pictures/NAME.data says what NAME.png was drawn from; --check draws nothing and says
+# which data have changed since. bench.png and the times in tradeoff.png are left out: they are this machine's, today's.
+figures() {
+    local name stale=0
+    case ${1:-} in
+    '' | --check | --update) ;;
+    *) echo "run: figures: expected --check, --update or nothing, found '$1'" >&2; exit 2 ;;
+    esac
+    need_packages "${BUILD_PACKAGES[@]}" "${PLOT_PACKAGES[@]}" valgrind
+    build release knurl_tool knurl_study_tool knurl_tick_row
+    mkdir -p build/study build/figures
+    # usage: picture NAME PLOTTER PLOTTED MORE...: draws it and writes its data, or checks them
+    picture() {
+        local drawn=(/usr/bin/python3 -B samples/study/drawn.py)
+        if [ "$how" = --check ]; then
+            "${drawn[@]}" --check "assets/pictures/$1.data" "${@:3}" || stale=1
+        else
+            /usr/bin/python3 "samples/study/$2" "$3" --out "$out/$1.png" ${title:+--title "$title"}
+            "${drawn[@]}" "$out/$1.data" "${@:3}"
+        fi
+    }
+    local how=${1:-} out=build/figures title='locked, a simulated hand: to 240 mm/s over 1 mm'
+    [ "$how" != --update ] || out=assets/pictures
+    echo "run: knurl ${DEMO[*]} --fast"
+    build/release/knurl "${DEMO[@]}" --fast --out build/study/sweep.csv --wav build/study/sweep.wav >build/study/sweep.json
+    picture sweep plot.py build/study/sweep.csv
+    title=
+    picture sound sound.py build/study/sweep.{csv,wav}
+    for name in signals coverage temporal device gratings preferences tradeoff velocity locked area transitions stability failures; do
+        echo "run: study $name"
+        build/release/knurl study "$name" --out build/study
+        picture "$name" figures.py "build/study/$name".{json,csv}
+    done
+    picture speed_accuracy figures.py build/study/speed_accuracy.json build/study/tradeoff.csv # the tradeoff's
+    for name in stability_methods stability_amplitudes; do # the same study's
+        picture "$name" figures.py "build/study/$name".{json,csv}
+    done
+    if [ "$how" = --check ]; then
+        [ $stale -eq 0 ] || { echo 'run: some pictures are out of date, see above' >&2; return 1; }
+        echo 'run: the pictures show what the code does'
+        return 0
+    fi
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy}.png # those of README.md and docs/
+    [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
+    echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
+}
+
+bench() {
+    need_packages "${BUILD_PACKAGES[@]}" "${PLOT_PACKAGES[@]}"
+    build release knurl_tool knurl_study_tool
+    mkdir -p build/study
+    echo "run: build/release/knurl bench --json"
+    build/release/knurl bench --json >build/study/bench.json.part
+    mv build/study/bench.json.part build/study/bench.json
+    /usr/bin/python3 samples/study/figures.py build/study/bench.json --out assets/pictures/bench.png
+    /usr/bin/python3 samples/study/dark.py assets/pictures/bench.png
+    /usr/bin/python3 samples/study/figures.py samples/bench/results/bench_history.json --out assets/pictures/bench_history.png
+    echo "run: study half_cycles"
+    build/release/knurl study half_cycles --out build/study
+    echo "run: the numbers are in build/study, the picture is assets/pictures/bench.png"
+}
+
+# The page, with what it is made from.
+web() {
+    local begin=$SECONDS code=0
+    need_packages "${WEB_PACKAGES[@]}"
+    command -v npm >/dev/null || need_packages npm
+    mkdir -p build
+    with_progress 'building the page' build/web.log samples/web/build.sh "$PWD/build/web-work" "$PWD/build/web" || code=$?
+    if [ $code -ne 0 ]; then
+        tail -n 20 build/web.log >&2
+        echo 'run: web: the page could not be built, see above' >&2
+        exit $code
+    fi
+    echo "run: the page is in build/web, after $((SECONDS - begin)) s; to see it: python3 -m http.server --directory build/web 8000"
+}
+
+docs() {
+    need_packages doxygen python3
+    /usr/bin/python3 -B tests/docs/check.py
+    rm -rf build/docs
+    mkdir -p build/docs
+    doxygen docs/Doxyfile
+    /usr/bin/python3 -B tests/docs/site.py build/docs/html
+    echo 'run: the site is build/docs/html/index.html'
+}
+
+mirror() {
+    need_packages "${BUILD_PACKAGES[@]}"
+    need_python mirror-venv bindings/unity/native/requirements.txt
+    build/mirror-venv/bin/python bindings/unity/native/mirror.py
+}

@@ -1,0 +1,177 @@
+# Part of ./run: ./run godot-demo, package-* and release.
+
+GODOT_ENGINE=${KNURL_GODOT_ROOT:-$PWD/build/godot-engine}
+GODOT_LIBRARY=godot/libknurl_godot.linux.x86_64.so # below a preset's folder
+
+# The real engine, once; where it cannot be had, says why.
+fetch_godot() {
+    bindings/godot/engine/fetch.sh "$GODOT_ENGINE"
+}
+
+godot_demo() {
+    need_packages "${BUILD_PACKAGES[@]}"
+    fetch_godot
+    build release knurl_godot
+    local project=$PWD/build/godot-demo
+    bindings/godot/demo.sh "build/release/$GODOT_LIBRARY" "$project"
+    echo "run: the demo project is in build/godot-demo; open it with Godot 4.3 or later"
+    (cd "$project" && timeout 120 "$OLDPWD/bindings/godot/engine/run.sh" "$GODOT_ENGINE" xvfb-do godot --path . \
+        --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720 -- --stroke --shot "$project/shot.png")
+    echo "run: what was felt is drawn in build/godot-demo/shot.png"
+}
+
+package_godot() {
+    case ${1:-} in
+    '' | linux) ;;
+    *) echo "run: package-godot: expected linux or nothing, found '$1'" >&2; exit 2 ;;
+    esac
+    need_packages "${BUILD_PACKAGES[@]}"
+    build release knurl_godot knurl_tool
+    local libraries=("build/release/$GODOT_LIBRARY") version
+    if [ "${1:-}" = linux ]; then
+        echo 'run: the package is for Linux alone, as asked for'
+    elif prepare_windows; then
+        build mingw knurl_godot
+        libraries+=(build/mingw/godot/libknurl_godot.windows.x86_64.dll)
+    else
+        echo "run: SKIPPED: the Windows library (see above): the package is for Linux alone" >&2
+    fi
+    version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
+    local package=$PWD/build/knurl-godot-$version.zip
+    bindings/godot/package.sh "$package" "${libraries[@]}"
+    bindings/godot/demo.sh "build/release/$GODOT_LIBRARY" "$PWD/build/knurl-godot-demo"
+    cmake/zip.py "build/knurl-godot-demo-$version.zip" build/knurl-godot-demo
+    echo "run: the demo project is in build/knurl-godot-demo-$version.zip"
+    if fetch_godot; then
+        KNURL_GODOT_PACKAGE=$package ctest --preset release -R '^addon_package$' --no-tests=error
+    else
+        echo "run: SKIPPED: trying the package in Godot: it could not be fetched, see above" >&2
+    fi
+}
+
+# Debian 11's C library and compiler, so that what is shipped runs on older Linux; where they cannot be had, says so.
+prepare_debian11() {
+    mkdir -p build
+    if ! with_progress 'preparing for older Linux' build/debian11.log cmake/debian11.sh build/debian11; then
+        tail -n 3 build/debian11.log >&2
+        return 1
+    fi
+}
+
+package_unity() {
+    need_packages "${BUILD_PACKAGES[@]}"
+    build release knurl_tool
+    local libraries=(build/debian11/unity/libknurl_unity.so) any=()
+    if prepare_debian11; then
+        build debian11 knurl_unity
+    else
+        echo "run: SKIPPED: the Linux library for glibc 2.31 (see above): it is built for this machine's" >&2
+        build release knurl_unity
+        libraries=(build/release/unity/libknurl_unity.so) any=(--any-glibc)
+    fi
+    if prepare_windows; then
+        build mingw knurl_unity
+        libraries+=(build/mingw/unity/knurl_unity.dll)
+    else
+        echo "run: SKIPPED: the Windows library (see above): the package is for Linux alone" >&2
+    fi
+    bindings/unity/package.sh "${any[@]}" "$PWD/build" "${libraries[@]}"
+    if prepare_unity; then
+        echo "run: trying what was packed"
+        KNURL_UNITY_PACKAGE=$PWD/build/com.knurl.haptics tests/unity/run.sh \
+            build/com.knurl.haptics/Plugins/Linux/x86_64 build/release/knurl build/unity-package
+    else
+        echo "run: SKIPPED: trying the package: mono could not be had, see above" >&2
+    fi
+    [ -z "${1:-}" ] || bindings/unity/branch.sh build/com.knurl.haptics "$1"
+}
+
+# One zip of what Windows needs, both engines' packages as they were built included, tried in a folder of its own.
+package_windows() {
+    local version name tried
+    version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
+    name=knurl-$version-windows-x86_64
+    rm -f "build/$name.zip"
+    if ! prepare_windows; then
+        echo "run: SKIPPED: the package for Windows, see above" >&2
+        return 0
+    fi
+    build release knurl_tool knurl_study_tool
+    build mingw-dll knurl_gltf knurl_tool knurl_study_tool
+    cmake/windows/package.sh "build/$name.zip" build/mingw-dll "build/knurl-godot-$version.zip" \
+        "build/com.knurl.haptics-$version.tgz"
+    echo 'run: trying what was packed'
+    tried=$(mktemp -d)
+    /usr/bin/python3 -m zipfile -e "build/$name.zip" "$tried"
+    x86_64-w64-mingw32-gcc-posix -std=c99 -I"$tried/$name/include" samples/hello_grating.c -L"$tried/$name/lib" -lknurl \
+        -o "$tried/$name/bin/hello_grating.exe"
+    tests/windows/wine.sh "$tried/$name/bin/hello_grating.exe" >/dev/null
+    tests/windows/tool.py "$tried/$name/bin/knurl.exe" "$tried/$name/bin" build/release/knurl "$tried/$name/assets" \
+        build/windows/wine
+    rm -rf "$tried"
+}
+
+# The latest commit's time, for what is packed: the same sources give the same bytes.
+date_sources() {
+    need_packages git
+    SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+    export SOURCE_DATE_EPOCH
+}
+
+# usage: release [check]
+release() {
+    case ${1:-} in
+    '' | check) ;;
+    *) echo "run: release: expected check or nothing, found '$1'" >&2; exit 2 ;;
+    esac
+    need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" dpkg-dev
+    local version out log=build/package.log tried
+    version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
+    out=$PWD/build/release-$version
+    date_sources
+    rm -rf "$out"
+    mkdir -p "$out"
+    cmake -G Ninja -S . -B build/package -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF \
+        -DKNURL_VIEW=OFF -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+    echo 'run: building what is packed'
+    with_progress 'building what is packed' "$log" cmake --build build/package &&
+        with_progress packing "$log" cpack --config build/package/CPackConfig.cmake -B "$out" &&
+        with_progress 'building the wheel' "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
+            --no-index --wheel-dir "$out" ./bindings/python || { tail -n 20 "$log" >&2; exit 1; }
+    rm -rf "$out/_CPack_Packages"
+    tried=$(mktemp -d)
+    tar -C "$tried" --strip-components=1 -xf "$out"/knurl-*.tar.gz
+    "$tried/bin/knurl" run assets/plate_1d.glb --fast --seconds 1 >/dev/null
+    rm -rf "$tried"
+    package_godot
+    package_unity
+    package_windows
+    mv "build/knurl-godot-$version.zip" "build/knurl-godot-demo-$version.zip" build/com.knurl.haptics-"$version".tgz "$out/"
+    [ ! -f "build/knurl-$version-windows-x86_64.zip" ] || mv "build/knurl-$version-windows-x86_64.zip" "$out/"
+    (cd "$out" && sha256sum -- * >SHA256SUMS)
+    echo "run: in $out:"
+    ls "$out"
+    [ "${1:-}" != check ] || check_release "$out"
+}
+
+# The archives in an empty Debian, and those of a second build: of a clone, in another folder, past all caches of compilers.
+# usage: check_release RELEASE
+check_release() {
+    local again=$PWD/build/again
+    need_packages debootstrap
+    echo 'run: trying each archive in an empty Debian'
+    tests/package/empty_debian.sh "$1" build/empty-debian
+    echo 'run: building all of it again'
+    rm -rf "$again"
+    git clone -q . "$again"
+    mkdir -p "$again/build/debian11" # what was fetched need not be fetched again
+    ln -s "$PWD/build/windows" "$PWD/build/mirror-venv" "$again/build/"
+    ln -s "$PWD/build/debian11/root" "$again/build/debian11/root"
+    KNURL_GODOT_ROOT=$GODOT_ENGINE CCACHE_DISABLE=1 "$again/run" release
+    if ! diff "$1/SHA256SUMS" "$again/build/${1##*/}/SHA256SUMS"; then
+        echo 'run: the second build gave other bytes, see above (was all committed?)' >&2
+        exit 1
+    fi
+    rm -rf "$again"
+    echo 'run: the second build gave the same bytes'
+}

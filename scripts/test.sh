@@ -1,0 +1,216 @@
+# Part of ./run: ./run test, soak and fuzz.
+
+LABELS='base vibration grating motion contact scene audio loop device gltf tool bindings fidelity stability realtime clock threads'
+LABELS+=' windows godot unity abi package python web'
+
+run_tests() {
+    local all='' label labels=() excluded='' narrow=()
+    [ "${1:-}" != all ] || { all=1; shift; }
+    for label in "$@"; do
+        case " $LABELS " in
+        *" $label "*) labels+=("$label") ;;
+        *) echo "run: unknown label '$label'; known: all $LABELS" >&2; exit 2 ;;
+        esac
+    done
+    need_packages "${BUILD_PACKAGES[@]}"
+    [ "${labels[*]}" != windows ] || { test_windows; return; }
+    if [ ${#labels[@]} -gt 0 ]; then
+        narrow=(-L "$(IFS='|'; echo "^(${labels[*]})\$")")
+    elif [ -z "$all" ]; then
+        excluded=extended
+    fi
+    [ -n "$all" ] || lint_changed
+    wanted() { [[ " ${labels[*]:-${all:+$1}} " == *" $1 "* ]]; }
+    ! wanted godot || fetch_godot || echo "run: SKIPPED: tests in the real Godot: it could not be fetched, see above" >&2
+    ! wanted unity || prepare_unity || echo "run: SKIPPED: tests of the Unity package's C#: see above" >&2
+    ! wanted python || (need_packages "${PYTHON_PACKAGES[@]}") ||
+        echo "run: SKIPPED: tests of the Python module: see above" >&2
+    ! wanted web || prepare_web "${labels[@]}" || echo "run: SKIPPED: the page in a browser: see above" >&2
+    build release
+    run_ctest release "$excluded" "${narrow[@]}"
+    if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load what needs a sanitizer's runtime first
+        build asan-ubsan
+        run_ctest asan-ubsan "" "${narrow[@]}"
+    fi
+    ! wanted device || cat build/release/tests/device/faults/faults.md # what each fault comes to
+    [ -z "$all" ] || ! wanted threads || test_threads
+    [ -z "$all" ] || [ ${#labels[@]} -gt 0 ] || fuzz_in_tests
+    ! wanted windows || test_windows
+}
+
+# Runs the tests of a built preset: first what only computes, as many at once as there are CPUs; then what waits on threads
+# of its own, which is mostly asleep, several at once, and what failed once more by itself; last what measures real time,
+# one by one. usage: run_ctest PRESET EXCLUDED [OPTION...]: EXCLUDED is a pattern of labels, or nothing
+run_ctest() {
+    local preset=$1 excluded=${2:+|$2} failed=0 some=0 part select
+    shift 2
+    for part in computes waits measures; do
+        case $part in
+        computes) select=(-LE "^(clock|realtime$excluded)\$" -j "$(nproc)") ;;
+        waits) select=(-L '^clock$' -LE "^(realtime$excluded)\$" -j "$((2 * $(nproc)))") ;;
+        measures) select=(-L '^realtime$' -LE "^(none$excluded)\$" -j 1) ;;
+        esac
+        [ "$(ctest --preset "$preset" "${select[@]}" "$@" -N 2>/dev/null | grep -c 'Test *#')" -gt 0 ] || continue
+        some=1
+        if ! ctest --preset "$preset" "${select[@]}" "$@"; then
+            if [ $part != waits ]; then
+                failed=1
+            else
+                echo 'run: what failed beside others is run by itself: that decides'
+                ctest --preset "$preset" -j 1 --rerun-failed || failed=1
+            fi
+        fi
+        grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # why; those in one
+    done
+    if [ $some -eq 0 ]; then
+        echo "run: $preset has no test with these labels" >&2
+        return 1
+    fi
+    return $failed
+}
+
+# The programs that have threads, under ThreadSanitizer; where that cannot start, says so and goes on.
+test_threads() {
+    local probe=build/tsan-probe runner=()
+    mkdir -p build
+    if ! echo 'int main(void) { return 0; }' | cc -fsanitize=thread -x c - -o "$probe" 2>/dev/null; then
+        echo "run: SKIPPED: ThreadSanitizer: this compiler cannot build with it" >&2
+        return 0
+    fi
+    if ! "$probe" 2>/dev/null; then # it wants addresses that some kernels' ASLR takes
+        runner=(setarch -R)
+        if ! "${runner[@]}" "$probe" 2>/dev/null; then
+            echo "run: SKIPPED: ThreadSanitizer cannot start on this machine, with or without ASLR" >&2
+            return 0
+        fi
+    fi
+    build tsan threads_tests
+    if [ ${#runner[@]} -eq 0 ]; then
+        run_ctest tsan '' -L '^threads$'
+    else
+        export -f run_ctest
+        "${runner[@]}" bash -euo pipefail -c 'run_ctest tsan "" -L "^threads\$"'
+    fi
+}
+
+# What builds for Windows, cross-built with MinGW-w64 and run under wine; where these cannot be had, says so and goes on.
+test_windows() {
+    local preset
+    if ! prepare_windows; then
+        echo "run: SKIPPED: Windows: nothing was tested for it" >&2
+        return 0
+    fi
+    build release knurl_tool knurl_study_tool emulate_rawhid # to compare the Windows ones with, and a device for them
+    for preset in mingw mingw-dll; do
+        build "$preset"
+        run_ctest "$preset" ""
+    done
+}
+
+# mono and NUnit for the Unity package's C#, and the parser that its view of the headers is made with.
+prepare_unity() {
+    (need_packages "${UNITY_PACKAGES[@]}" && need_python mirror-venv bindings/unity/native/requirements.txt)
+}
+
+# The page for its tests in a browser. Asked for by its label, what is missing is installed and every case is run; else a
+# few cases are, where all is installed. usage: prepare_web [LABEL...]
+prepare_web() {
+    local code=0
+    if [ $# -gt 0 ]; then
+        export KNURL_WEB_ALL=1
+        (need_packages chromium && web) || code=$?
+    elif command -v emcc >/dev/null && command -v npm >/dev/null && command -v chromium >/dev/null; then
+        (web) || code=$?
+    else
+        echo 'run: Emscripten, npm and Chromium are not all installed; ./run test web installs them' >&2
+        return $EXIT_SETUP
+    fi
+    [ $code -eq 0 ] || [ $code -eq $EXIT_SETUP ] || exit $code
+    return $code
+}
+
+# The cross compiler, wine, and what is linked for Windows; where these cannot be had, says so.
+prepare_windows() {
+    if ! (need_packages "${WINDOWS_PACKAGES[@]}"); then
+        echo "run: MinGW-w64 and wine cannot be had here" >&2
+        return 1
+    fi
+    mkdir -p build
+    if ! with_progress 'preparing for Windows' build/windows.log tests/windows/prepare.sh; then
+        tail -n 5 build/windows.log >&2
+        echo "run: cmocka or wine could not be set up for Windows (build/windows.log)" >&2
+        return 1
+    fi
+}
+
+# Hashes of what builds by other compilers and for other machines compute: they must be the same.
+same_numbers() {
+    (need_packages "${NUMBERS_PACKAGES[@]}") || echo 'run: some compilers cannot be had, see above; they are left out' >&2
+    mkdir -p build
+    /usr/bin/python3 -B tests/fidelity/same_numbers.py "$PWD" "$PWD/build/same_numbers" cc
+}
+
+# The tests that the others are short forms of: each for a minute, or some ten times as far. They run without ctest,
+# which would end them after two minutes.
+soak() {
+    need_packages "${BUILD_PACKAGES[@]}"
+    build release
+    export KNURL_STRESS_SECONDS=60 KNURL_DEVICE_SECONDS=60 KNURL_LONG=10 KNURL_FUZZ=10 KNURL_FUZZ_FRAMES=20000000
+    local name failed=()
+    for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks fidelity_locked \
+        stability_protections rooms; do
+        echo "run: soak: $name"
+        if ! with_progress "running $name" "build/soak-$name.log" "build/release/tests/test_$name"; then
+            grep -E 'ERROR|LINE|FAILED' "build/soak-$name.log" >&2 || true
+            failed+=("$name")
+        fi
+    done
+    same_numbers || failed+=(same_numbers)
+    figures --check || failed+=("figures --check")
+    [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }
+    echo 'run: soak: all is well'
+}
+
+# One target of libFuzzer, for so many seconds; a line of what it came to. usage: fuzz_target NAME SECONDS
+fuzz_target() {
+    local name=$1 seconds=$2 dir=build/fuzz log=build/fuzz/$1.log seeds=() options=()
+    mkdir -p "$dir/corpus/$name" "$dir/findings"
+    [ ! -d "tests/fuzz/seeds/$name" ] || seeds=("tests/fuzz/seeds/$name")
+    [ "$name" != gltf ] || seeds+=(assets)
+    [ ! -f "tests/fuzz/$name.dict" ] || options=("-dict=tests/fuzz/$name.dict")
+    local failed=0
+    nice "$dir/fuzzers/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=16384 \
+        -print_final_stats=1 -artifact_prefix="$dir/findings/$name-" "${options[@]}" "$dir/corpus/$name" "${seeds[@]}" \
+        >"$log" 2>&1 || failed=1
+    awk -v name="$name" -v failed=$failed '
+        /inline 8-bit counters/ { gsub(/[^0-9 ]/, " "); edges = $2 }
+        /cov: / { sub(/.*cov: /, ""); covered = $1 }
+        /stat::average_exec_per_sec/ { rate = $2 }
+        /stat::number_of_executed_units/ { runs = $2 }
+        END { printf "run: fuzz: %-10s %9d runs, %6d/s, %5d of %5d edges%s\n", name, runs, rate, covered, edges,
+              failed ? ": A FINDING, see build/fuzz/findings" : "" }' "$log"
+    [ $failed -eq 0 ] || { tail -n 30 "$log" >&2; return 1; }
+}
+
+# usage: fuzz [MINUTES]: of CPU, shared by all targets, as many at once as there are CPUs
+fuzz() {
+    local minutes=${1:-10} names
+    [[ $minutes =~ ^[0-9]+$ && $minutes -ge 1 ]] || { echo "run: fuzz: expected minutes, found '$minutes'" >&2; exit 2; }
+    need_packages "${BUILD_PACKAGES[@]}" "${FUZZ_PACKAGES[@]}"
+    build fuzz fuzzers
+    names=$(sed -n 's/^knurl_fuzzer(\([a-z_]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
+    local seconds=$((minutes * 60 / $(wc -w <<<"$names")))
+    echo "run: fuzz: each target for $seconds s"
+    export -f fuzz_target
+    # shellcheck disable=SC2016 # the other shell expands it
+    xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'fuzz_target "$1" "$2"' fuzz {} "$seconds" <<<"$names"
+}
+
+# Five minutes of fuzzing, where Clang can be had.
+fuzz_in_tests() {
+    if ! (need_packages "${FUZZ_PACKAGES[@]}"); then
+        echo "run: SKIPPED: fuzzing: Clang cannot be had, see above" >&2
+        return 0
+    fi
+    fuzz 5
+}
