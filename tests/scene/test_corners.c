@@ -341,6 +341,51 @@ TEST(an_uneven_sheet_with_a_t_junction_holds) {
 
 /* --- slivers --- */
 
+/* Two triangles, each a surface of its own, flat and so a plane with an outline, share an edge. The HIP comes straight
+ * down onto a point of that edge, where rounding puts the crossing beside either outline. Returns 1 where it is held.
+ */
+static int press_shared_edge(uint64_t *seed) {
+    double corners[4][3]; /* the edge runs from the first to the third */
+    surface_parts parts[2];
+    shape shapes[2];
+    for (int i = 0; i < 4; i++) {
+        corners[i][0] = (double)(float)(i == 1 || i == 2 ? 0.024 : 0.012);
+        corners[i][1] = (double)(float)(i >= 2 ? 0.024 : 0.012);
+        corners[i][2] = (double)(float)random_between(seed, -0.003, 0.003);
+    }
+    for (int i = 0; i < 2; i++) {
+        patch p = patch_new(1);
+        add_triangle(&p, corners[0], corners[i + 1], corners[i + 2]);
+        shapes[i] = p.s;
+        parts[i] = surface_shape(&shapes[i]);
+    }
+    knurl_scene *scene = scene_with(parts, 2, 0);
+    double at[3];
+    const double share = random_between(seed, 0.1, 0.9);
+    for (int i = 0; i < 3; i++) {
+        at[i] = corners[0][i] + share * (corners[2][i] - corners[0][i]);
+    }
+    at[1] = at[0]; /* the edge runs where x = y */
+    const double speed = random_between(seed, 1e-4, 1e-3);
+    knurl_tick_output out;
+    for (int k = 3; k >= -1; k--) {
+        out = tick_at(scene, at[0], at[1], at[2] + (k + 0.5) * speed);
+    }
+    knurl_scene_destroy(scene);
+    shape_free(&shapes[0]);
+    shape_free(&shapes[1]);
+    return out.contacts > 0 && out.force[2] > 0.0;
+}
+
+TEST(a_press_onto_the_edge_that_two_flat_meshes_share_holds) {
+    uint64_t seed = 14190;
+    int held = 0;
+    for (int i = 0; i < 200; i++) {
+        held += press_shared_edge(&seed);
+    }
+    assert_int_equal(held, 200);
+}
+
 /* The same sheet with the split vertex lifted by a hair, and a sliver that fills what opens. */
 TEST(a_sliver_in_an_uneven_sheet_loses_no_stroke) {
     const double hairs[4] = {1e-9, 1e-8, 1e-7, 1e-6};

@@ -78,8 +78,16 @@ static double off_edge(const knurl_edge *edge, const double p[2], double off[2])
     return off[0] * off[0] + off[1] * off[1];
 }
 
-/* 1 where an edge of the outline is no farther than the seam. */
-static int is_near_outline(const knurl_plane *plane, const double p[2]) {
+/* 1 within the outline, and where an edge of it is no farther than the seam. */
+static int is_within_seam(const knurl_plane *plane, const double p[2]) {
+    for (int i = 0; i < 2; i++) {
+        if (!(fabs(p[i]) <= plane->half_extents[i] + plane->seam)) {
+            return 0;
+        }
+    }
+    if (!plane->outline || within_outline(plane, p)) {
+        return 1;
+    }
     for (uint32_t i = 0; i < plane->edge_count; i++) {
         double off[2];
         if (off_edge(&plane->outline[i], p, off) <= plane->seam * plane->seam) {
@@ -123,14 +131,11 @@ int knurl_plane_cast(const knurl_plane *plane, const knurl_cast *cast, knurl_cas
     for (int i = 0; i < 2; i++) {
         hit->point[i] = cast->from[i] + hit->share * (cast->to[i] - cast->from[i]);
         hit->normal[i] = 0.0;
-        if (!(fabs(hit->point[i]) <= plane->half_extents[i] + plane->seam)) {
-            return 0;
-        }
     }
     hit->point[2] = 0.0;
     hit->normal[2] = hit->side = side;
     hit->triangle = 0;
-    return !plane->outline || within_outline(plane, hit->point) || is_near_outline(plane, hit->point);
+    return is_within_seam(plane, hit->point);
 }
 
 void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
@@ -143,8 +148,10 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
     contact->proxy[2] = 0.0;
 }
 
-/* The side that the HIP comes from, or 0: through the plane between two ticks, or within reach of it. */
-static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside) {
+/* The side that the HIP comes from, or 0: through the plane between two ticks, or within reach of it. *unsure: set
+ * where the HIP went through the seam beside the outline, which another surface may continue. */
+static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside,
+                      int32_t *unsure) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
     if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
@@ -157,6 +164,7 @@ static int begin_side(const knurl_plane *plane, const knurl_contact_query *query
             *inside = 1;
             return side;
         }
+        *unsure = (side > 0 || behind_allowed) && is_within_seam(plane, crossing);
     }
     *inside = 0;
     if (z >= 0.0 && z <= reach) {
@@ -179,11 +187,11 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     contact->unsure = 0;
     if (!state->inside) { /* a HIP in front may go through at any tick */
-        state->side = begin_side(plane, query, reach, &state->inside);
+        state->side = begin_side(plane, query, reach, &state->inside, &contact->unsure);
     }
     const double z = hip[2] * state->side;
     if (state->side == 0 || z > reach || !covers(plane, hip)) {
-        contact->unsure = state->inside; /* through it, and beyond its rim */
+        contact->unsure |= state->inside; /* through it, and beyond its rim */
         memset(state, 0, sizeof *state);
         return 0;
     }
