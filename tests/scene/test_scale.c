@@ -324,6 +324,31 @@ TEST(surfaces_that_went_by_are_no_longer_near) {
     knurl_scene_destroy(scene);
 }
 
+TEST(each_of_many_moved_surfaces_is_felt_where_it_went_next) {
+    knurl_surface_id movers[40];
+    surface_parts parts = surface_plane();
+    knurl_scene *scene = many_scene(0, 1);
+    parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
+    for (int i = 0; i < 40; i++) {
+        const pose start = {{0.03 * i, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+        place(&parts, &start);
+        movers[i] = add_surface(scene, &parts);
+    }
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    for (int i = 0; i < 40; i++) {
+        const pose first = {{0.03 * i, -1.1, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+        move_to(scene, movers[i], &first, 0.0);
+    }
+    for (int i = 0; i < 40; i++) {
+        const pose next = {{-0.5, 0.05 * i, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+        move_to(scene, movers[i], &next, 0.0);
+        (void)tick_at(scene, -0.5, 0.05 * i, 0.0005);
+        const knurl_tick_output out = tick_at(scene, -0.5, 0.05 * i, -0.0005);
+        assert_int_equal(out.surface, movers[i]);
+    }
+    knurl_scene_destroy(scene);
+}
+
 /* One tick across the whole scene comes by thousands; the next ones are ordinary again, and miss nothing. */
 TEST(after_a_leap_across_everything_all_is_felt_again) {
     for (int full = 0; full < 2; full++) {

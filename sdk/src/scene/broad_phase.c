@@ -1,10 +1,10 @@
 /* The broad phase. A hierarchy holds the surfaces that were at rest when it was built. Surfaces that moved or were
- * added since are dynamic: a list beside the hierarchy, until it is long enough for a rebuild. Boxes of dynamic
- * surfaces have a margin, so that most moves change nothing that a tick has looked up.
+ * added since are dynamic: a list beside the hierarchy, with a box around every few of them, until it is long enough
+ * for a rebuild. Boxes of dynamic surfaces have a margin, so that most moves change nothing that a tick has looked up.
  *
  * Ticks read while an edit writes. The order of writes keeps that safe: a box only grows during a move, and shrinks
- * when the move is published; a surface is added to the list before anything relies on it; the scene's version is
- * incremented last, so that a tick that read a half-finished state looks again.
+ * when the move is published, and so does its group's; a surface is added to the list before anything relies on it; the
+ * scene's version is incremented last, so that a tick that read a half-finished state looks again.
  * SPDX-License-Identifier: MIT */
 #include "scene/broad_phase.h"
 
@@ -45,7 +45,8 @@ static void release(knurl_heap *heap, knurl_retired *retired) {
         knurl_heap_free(heap, index->dynamic);
         knurl_heap_free(heap, index->order);
         knurl_heap_free(heap, index->nodes);
-        knurl_heap_free(heap, index->is_dynamic);
+        knurl_heap_free(heap, index->groups);
+        knurl_heap_free(heap, index->rank);
         knurl_heap_free(heap, index);
     }
 }
@@ -61,8 +62,9 @@ static knurl_broad_index *create(knurl_heap *heap, uint32_t capacity) {
     index->boxes = knurl_heap_alloc(heap, capacity, sizeof *index->boxes);
     index->dynamic = knurl_heap_alloc(heap, capacity, sizeof *index->dynamic);
     index->order = knurl_heap_alloc(heap, capacity, sizeof *index->order);
-    index->is_dynamic = knurl_heap_alloc(heap, capacity, sizeof *index->is_dynamic);
-    if (!index->items || !index->boxes || !index->dynamic || !index->order || !index->is_dynamic) {
+    index->groups = knurl_heap_alloc(heap, (uint64_t)capacity / KNURL_DYNAMIC_GROUP + 1, sizeof *index->groups);
+    index->rank = knurl_heap_alloc(heap, capacity, sizeof *index->rank);
+    if (!index->items || !index->boxes || !index->dynamic || !index->order || !index->groups || !index->rank) {
         release(heap, &index->retired);
         return NULL;
     }
@@ -92,11 +94,32 @@ static double margin_of(const knurl_motion *motion) {
     return fmin(ROOM + way, ROOM_MAX);
 }
 
+/* Sets the box of the group that holds this rank, from the boxes of its surfaces. count: of all dynamic surfaces. */
+static void bound_group(knurl_broad_index *index, uint32_t rank, uint32_t count) {
+    const uint32_t group = (rank - 1) / KNURL_DYNAMIC_GROUP;
+    const uint32_t first = group * KNURL_DYNAMIC_GROUP;
+    float box[6];
+    memcpy(box, index->boxes[index->dynamic[first]], sizeof box);
+    for (uint32_t i = first + 1; i < count && i < first + KNURL_DYNAMIC_GROUP; i++) {
+        add_box(index->boxes[index->dynamic[i]], box);
+    }
+    store_box(index->groups[group], box);
+}
+
+static void set_box(knurl_broad_index *index, uint32_t place, const float box[6]) {
+    store_box(index->boxes[place], box);
+    if (index->rank[place]) {
+        bound_group(index, index->rank[place], index->dynamic_count);
+    }
+}
+
 static void make_dynamic(knurl_broad_index *index, uint32_t place) {
-    if (!index->is_dynamic[place]) {
-        knurl_store_relaxed(&index->is_dynamic[place], (uint8_t)1);
-        index->dynamic[index->dynamic_count] = place;
-        knurl_store_release(&index->dynamic_count, index->dynamic_count + 1);
+    const uint32_t rank = index->dynamic_count + 1;
+    if (!index->rank[place]) {
+        knurl_store_relaxed(&index->rank[place], rank);
+        index->dynamic[rank - 1] = place;
+        bound_group(index, rank, rank);
+        knurl_store_release(&index->dynamic_count, rank);
     }
 }
 
@@ -170,7 +193,7 @@ knurl_result knurl_broad_phase_add(knurl_broad_phase *phase, knurl_surface_data 
         const uint32_t larger = surfaces->count + surfaces->count / 2 + DYNAMIC_MIN;
         return knurl_broad_phase_rebuild(phase, larger > surfaces->capacity ? larger : surfaces->capacity, time);
     }
-    store_box(index->boxes[surface->place], surface->record->arrived);
+    set_box(index, surface->place, surface->record->arrived);
     make_dynamic(index, surface->place);
     __atomic_store_n(&index->items[surface->place], surface, __ATOMIC_SEQ_CST);
     new_version(phase);
@@ -199,13 +222,13 @@ void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *sur
         float both[6];
         memcpy(both, swept, sizeof both);
         add_box(index->boxes[surface->place], both);
-        store_box(index->boxes[surface->place], both);
+        set_box(index, surface->place, both);
         make_dynamic(index, surface->place);
         new_version(phase);
     }
     knurl_record *old = __atomic_exchange_n(&surface->record, record, __ATOMIC_SEQ_CST);
     if (!stays && index) { /* lists that were made meanwhile hold more than they need */
-        store_box(index->boxes[surface->place], swept);
+        set_box(index, surface->place, swept);
         new_version(phase);
     }
     knurl_epoch_retire(phase->epoch, &old->retired);
@@ -220,11 +243,11 @@ void knurl_broad_phase_replace(knurl_broad_phase *phase, knurl_surface_data *old
         float both[6];
         memcpy(both, index->boxes[made->place], sizeof both);
         add_box(made->record->arrived, both);
-        store_box(index->boxes[made->place], both);
+        set_box(index, made->place, both);
         make_dynamic(index, made->place);
         new_version(phase);
         __atomic_store_n(&index->items[made->place], made, __ATOMIC_SEQ_CST);
-        store_box(index->boxes[made->place], made->record->arrived);
+        set_box(index, made->place, made->record->arrived);
         new_version(phase);
     }
     knurl_epoch_retire(phase->epoch, &old->retired);
@@ -254,7 +277,7 @@ static inline int meets(const float *box, const knurl_view *view) {
 /* A stored box holds all of a way; what has arrived, or is asked for exactly, is in less of it. */
 static int is_there_now(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
     const knurl_surface_data *surface = __atomic_load_n(&index->items[place], __ATOMIC_SEQ_CST);
-    if (!surface || !knurl_load_relaxed(&index->is_dynamic[place])) {
+    if (!surface || !knurl_load_relaxed(&index->rank[place])) {
         return surface != NULL; /* what stands still fills its box */
     }
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
@@ -279,7 +302,7 @@ static uint32_t note(uint32_t place, uint32_t limit, uint32_t count, uint32_t *p
 static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t limit, uint32_t count,
                     const uint32_t *places) {
     int noted = 0;
-    for (uint32_t i = 0; knurl_load_relaxed(&index->is_dynamic[place]) && i < count && i < limit; i++) {
+    for (uint32_t i = 0; knurl_load_relaxed(&index->rank[place]) && i < count && i < limit; i++) {
         noted |= places[i] == place;
     }
     return noted;
@@ -334,9 +357,13 @@ uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view
         return count;
     }
     const uint32_t dynamic = knurl_load_acquire(&index->dynamic_count);
-    for (uint32_t i = 0; i < dynamic && count <= limit; i++) {
-        if (is_there(index, index->dynamic[i], view)) {
-            count = note(index->dynamic[i], limit, count, places);
+    for (uint32_t first = 0; first < dynamic && count <= limit; first += KNURL_DYNAMIC_GROUP) {
+        const uint32_t end = dynamic - first < KNURL_DYNAMIC_GROUP ? dynamic : first + KNURL_DYNAMIC_GROUP;
+        const int is_near = meets(index->groups[first / KNURL_DYNAMIC_GROUP], view);
+        for (uint32_t i = first; is_near && i < end && count <= limit; i++) {
+            if (is_there(index, index->dynamic[i], view)) {
+                count = note(index->dynamic[i], limit, count, places);
+            }
         }
     }
     return find_still(index, view, limit, count, places);

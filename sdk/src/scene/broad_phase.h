@@ -7,6 +7,9 @@
 
 /* What ticks look into: a hierarchy over the surfaces that stood still when it was built, and a list of the dynamic
  * ones: those that were moved, or added, since. */
+/* So many dynamic surfaces are tested by one box first. */
+#define KNURL_DYNAMIC_GROUP 16
+
 typedef struct knurl_broad_index {
     knurl_retired retired;
     knurl_surface_data **items; /* by place; atomic; null: nothing there */
@@ -17,7 +20,8 @@ typedef struct knurl_broad_index {
     uint32_t node_count;    /* 0: nothing stands still */
     uint32_t capacity;      /* places */
     uint32_t dynamic_count; /* atomic */
-    uint8_t *is_dynamic;    /* by place; atomic: 0: it has stood still since the index was built */
+    float (*groups)[6];     /* of every KNURL_DYNAMIC_GROUP of `dynamic`: a box around their boxes; atomics */
+    uint32_t *rank;         /* by place; atomic: where it is in `dynamic`, from 1; 0: still since the index was built */
 } knurl_broad_index;
 
 typedef struct knurl_broad_phase {
