@@ -55,6 +55,7 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, con
     json_number(json, "triangles", info->triangle_count);
     json_number(json, "dropped_triangles", info->dropped_triangles);
     json_number(json, "reversed_twins", info->reversed_twins);
+    json_number(json, "turned_triangles", info->turned_triangles);
     json_number(json, "bytes", (double)info->bytes);
     json_string(json, "why", info->why);
     json_number(json, "model_error", info->model_error);

@@ -41,8 +41,8 @@ static const help_command commands[] = {
       FULL,
       BUDGET,
       {"--check", "", "exit with 3 where a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
-     "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, bytes, why, model_error, seam,\n"
-     "touching_pairs, in_reach, double_sided, material, stretch, stretch_y}], skipped, bytes, hint.",
+     "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, turned_triangles, bytes, why,\n"
+     "model_error, seam, touching_pairs, in_reach, double_sided, material, stretch, stretch_y}], skipped, bytes, hint.",
      NULL},
     {"run",
      "FILE",

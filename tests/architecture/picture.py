@@ -49,7 +49,7 @@ BOXES = {
                     "contact/sheet", "contact/sheet_coordinates"]),
     "make_mesh": (462, 644, 160, "mesh_build", "weld, adjacency",
                   ["contact/mesh_build", "contact/mesh_adjacency", "contact/weld", "contact/seeded_hash",
-                   "contact/mesh_touch"]),
+                   "contact/mesh_touch", "contact/mesh_winding"]),
     "mesh_contact": (654, 644, 160, "mesh_contact", "the proxy on a mesh", ["contact/mesh_contact"]),
     "plane": (270, 702, 160, "plane", "z = 0 in an outline", ["contact/plane", "contact/plane_hold"]),
     "mesh_frame": (462, 702, 160, "mesh_frame", "x, y, coordinates", ["contact/mesh_frame"]),

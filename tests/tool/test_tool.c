@@ -185,7 +185,8 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
                                        "model_error",
                                        "in_reach",
                                        "double_sided",
-                                       "reversed_twins"};
+                                       "reversed_twins",
+                                       "turned_triangles"};
     process p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "3227794a6825b536"
+#define KNURL_UNITY_INTERFACE "30536dc55bd5381c"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -140,7 +140,7 @@
     FIELD(knurl_surface_info, why, "why", 224, 8) \
     FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
     FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
-    FIELD(knurl_surface_info, reserved, "reserved", 244, 4) \
+    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 244, 4) \
     FIELD(knurl_surface_info, axis, "axis", 248, 24) \
     FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
     FIELD(knurl_surface_info, seam, "seam", 296, 8) \

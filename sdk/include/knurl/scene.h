@@ -133,7 +133,9 @@ typedef struct knurl_surface_info {
     uint32_t struct_size;
     uint32_t triangle_count;    /**< 0 for a plane */
     uint32_t dropped_triangles; /**< left out: without area, or duplicates */
-    uint32_t double_sided;      /**< 1: as it was given, or because triangles came in reversed pairs */
+    uint32_t double_sided;      /**< 1: as it was given, or because triangles came in reversed pairs, or
+                                     because mixed winding left it without a front (halves of the same area, a Moebius
+                                     strip) */
     const char *name;           /**< the scene's, valid while the surface is */
     const char *shape;          /**< "plane" or "mesh": what was given; static */
     const char *model;          /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
@@ -152,7 +154,8 @@ typedef struct knurl_surface_info {
     const char *why;            /**< why this model, in a sentence; static */
     double model_error;         /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
-    uint32_t reserved;          /**< 0 */
+    uint32_t turned_triangles;  /**< mixed winding: triangles turned over to face as the larger part, by area, of those
+                                     that they hang together with by shared edges */
     double axis[3];             /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];        /**< as stretch, along y */
     double seam;                /**< m: edges closer than this count as connected; from the mesh's size and float32's
@@ -407,10 +410,11 @@ enum {
     KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
     KNURL_LIMIT_FAR = 64, /**< farther than KNURL_FAR from the scene's origin: float32 positions are centimetres apart
                                there */
-    KNURL_LIMIT_VISITS = 128, /**< a mesh on which contact meets a tick's limit of visits somewhere (max_visits of the
-                                   HIP's description): looked for at 65 places */
-    KNURL_LIMIT_STRETCH = 32  /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
-                                   material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
+    KNURL_LIMIT_VISITS = 128,  /**< a mesh on which contact meets a tick's limit of visits somewhere (max_visits of the
+                                    HIP's description): looked for at 65 places */
+    KNURL_LIMIT_WINDING = 256, /**< mixed winding: knurl_surface_info.turned_triangles */
+    KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
+                                    material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 
 /** m: beyond this distance from the origin, the float32 coordinates of meshes and engines are 6 cm apart or more. */

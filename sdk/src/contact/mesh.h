@@ -43,7 +43,8 @@ typedef struct knurl_mesh {
     uint32_t non_manifold_count;
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
-    int32_t double_sided;    /* 1: there were reversed twins */
+    uint32_t turned;         /* triangles turned over to face as those that they hang together with */
+    int32_t double_sided;    /* 1: there were reversed twins, or no front was found */
     double seam;             /* m: edges that run side by side within this touch */
     uint32_t touching;       /* pairs of triangles that touch other than along an edge that they share */
     int32_t has_axis;        /* 1: x runs along this axis, not by tangents or uvs */

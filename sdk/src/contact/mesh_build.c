@@ -8,6 +8,7 @@
 #include "contact/mesh_adjacency.h"
 #include "contact/mesh_frame.h"
 #include "contact/mesh_touch.h"
+#include "contact/mesh_winding.h"
 #include "contact/seeded_hash.h"
 #include "contact/weld.h"
 
@@ -241,6 +242,7 @@ static knurl_result build_mesh(draft *d) {
     result = result ? result : number_corners(d);
     result = result ? result : copy_vertices(d);
     result = result ? result : knurl_mesh_link(d->heap, d->mesh, d->welded, d->welded_count);
+    result = result ? result : knurl_mesh_unify_winding(d->heap, d->mesh);
     if (!result) {
         d->mesh->seam = seam_of(d->mesh);
         d->mesh->touching = knurl_mesh_count_touching(d->mesh);

@@ -131,6 +131,20 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
     }
 }
 
+/* Triangles that share an edge and face opposite ways. */
+static void check_winding(const inspection *on, const knurl_surface_data *surface) {
+    knurl_shape_facts facts;
+    knurl_shape_get_facts(&surface->shape, &facts);
+    if (facts.turned > 0) {
+        char sentence[256];
+        (void)snprintf(
+            sentence, sizeof sentence,
+            "%u of its %u triangles faced another way than those they share edges with, and were turned over",
+            (unsigned)facts.turned, (unsigned)facts.triangle_count);
+        say(on, KNURL_LIMIT_WINDING, sentence, "recalculate the normals in the editor");
+    }
+}
+
 static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     knurl_workspace workspace;
@@ -151,6 +165,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     check_wall(&on);
     check_place(&on, surface);
     check_visits(&on, surface, hip->contacts.max_visits);
+    check_winding(&on, surface);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);

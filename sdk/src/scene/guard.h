@@ -54,7 +54,7 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
     wall->contact->depth = knurl_max(-wall->z, 0.0);
 }
 
-/* Before a contact's force: clamps its wall, limits its depth, and softens it after the passivity controller's alarm. */
+/* Before a contact's force: clamps its wall, limits its depth, softens it after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     if (guard->clamp) {
         knurl_wall limited = *wall; /* a copy, so that `wall` itself can stay in registers */

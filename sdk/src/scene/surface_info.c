@@ -51,6 +51,7 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->triangle_count = facts.triangle_count;
     info->dropped_triangles = facts.dropped;
     info->reversed_twins = facts.reversed_twins;
+    info->turned_triangles = facts.turned;
     info->model_error = facts.error;
     info->seam = facts.seam;
     info->touching_pairs = facts.touching;

@@ -208,7 +208,7 @@ namespace Knurl
         public byte* why;
         public double model_error;
         public uint reversed_twins;
-        public uint reserved;
+        public uint turned_triangles;
         public fixed double axis[3];
         public fixed double stretch_y[3];
         public double seam;
@@ -635,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "3227794a6825b536";
+        internal const string Interface = "30536dc55bd5381c";
 
         internal const string Version = "0.3.0";
 
@@ -766,6 +766,7 @@ namespace Knurl
         internal const int KNURL_LIMIT_PERIOD = 16;
         internal const int KNURL_LIMIT_FAR = 64;
         internal const int KNURL_LIMIT_VISITS = 128;
+        internal const int KNURL_LIMIT_WINDING = 256;
         internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_FAULT_LOST = 1;
         internal const int KNURL_FAULT_SILENT = 2;
