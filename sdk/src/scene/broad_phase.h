@@ -5,11 +5,11 @@
 #include "contact/bvh.h"
 #include "scene/surfaces.h"
 
-/* What ticks look into: a hierarchy over the surfaces that stood still when it was built, and a list of the dynamic
- * ones: those that were moved, or added, since. */
 /* So many dynamic surfaces are tested by one box first. */
 #define KNURL_DYNAMIC_GROUP 16
 
+/* What ticks look into: a hierarchy over the surfaces that stood still when it was built, and a list of the dynamic
+ * ones: those that were moved, or added, since. */
 typedef struct knurl_broad_index {
     knurl_retired retired;
     knurl_surface_data **items; /* by place; atomic; null: nothing there */
