@@ -37,7 +37,7 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
 }
 
 /* Falling force is not limited: the change is measured from the nearest point between no force and the latest one.
- * After a release it is, from the latest one. most: N that the force may change by. */
+ * After a squeeze it is, from the latest one, as long as it falls. most: N that the force may change by. */
 static void limit_slew(knurl_guard *guard, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
@@ -47,7 +47,7 @@ static void limit_slew(knurl_guard *guard, double most, double force[3], uint32_
     vec3_scale(from_latest ? 1.0 : along <= 0.0 ? 0.0 : along / latest2, guard->force, from);
     vec3_sub(force, from, change);
     const double change2 = vec3_dot(change, change);
-    guard->release &= change2 > most * most;
+    guard->release &= change2 > most * most && (along < latest2 || (*flags & KNURL_TICK_SQUEEZED));
     if (change2 > most * most) {
         vec3_madd(from, most / sqrt(change2), change, force);
         *flags |= KNURL_TICK_SLEW;
@@ -69,6 +69,8 @@ void knurl_guard_limit_change(knurl_guard *guard, double steps, double force[3],
     }
     if (!(vec3_distance2(force, guard->force) <= free * free)) {
         limit_slew(guard, free, force, flags);
+    } else {
+        guard->release = 0;
     }
 }
 
