@@ -1,6 +1,6 @@
 # Linux (x86-64) with Debian 11's C library: what cmake/debian11.sh has put into build/debian11.
-set(_root ${CMAKE_CURRENT_LIST_DIR}/../build/debian11/root)
-cmake_path(NORMAL_PATH _root)
+# As the compiler names it in assertions: without links.
+file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../build/debian11/root _root)
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_SYSROOT ${_root})
