@@ -155,7 +155,8 @@ typedef struct knurl_surface_info {
     double model_error;         /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
     uint32_t turned_triangles;  /**< mixed winding: triangles turned over to face as the larger part, by area, of those
-                                     that they hang together with by shared edges */
+                                     that they hang together with by shared edges; 0 where touching_pairs is not 0, or
+                                     more than two triangles share an edge */
     double axis[3];             /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];        /**< as stretch, along y */
     double seam;                /**< m: edges closer than this count as connected; from the mesh's size and float32's

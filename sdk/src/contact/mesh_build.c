@@ -242,10 +242,10 @@ static knurl_result build_mesh(draft *d) {
     result = result ? result : number_corners(d);
     result = result ? result : copy_vertices(d);
     result = result ? result : knurl_mesh_link(d->heap, d->mesh, d->welded, d->welded_count);
-    result = result ? result : knurl_mesh_unify_winding(d->heap, d->mesh);
     if (!result) {
         d->mesh->seam = seam_of(d->mesh);
         d->mesh->touching = knurl_mesh_count_touching(d->mesh);
+        result = knurl_mesh_unify_winding(d->heap, d->mesh);
         knurl_mesh_measure_uvs(d->mesh);
     }
     knurl_heap_free(d->heap, d->welds);

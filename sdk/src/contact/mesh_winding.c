@@ -8,13 +8,19 @@
 /* Of each triangle. */
 enum { NOT_SEEN, SAME, OTHER, TURNED };
 
+/* 1 where neighbours face opposite ways, and it can only be their winding: solids that lie against one another in one
+ * mesh have such neighbours, too, but also triangles that touch without sharing an edge, or share one with two others.
+ */
 static int is_mixed(const knurl_mesh *mesh) {
+    int mixed = 0;
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
-        if (mesh->opposite[i] & KNURL_FLIPPED) {
-            return 1;
+        const uint32_t opposite = mesh->opposite[i];
+        if ((opposite & KNURL_CORNER_MASK) == KNURL_NON_MANIFOLD_EDGE) {
+            return 0;
         }
+        mixed |= (opposite & KNURL_FLIPPED) != 0;
     }
-    return 0;
+    return mixed && mesh->reversed_twins == 0 && mesh->touching == 0;
 }
 
 /* Triangles that hang together. */
