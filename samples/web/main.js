@@ -57,17 +57,29 @@ const recording = new Recording({ show: take, begin: forget, end: () => forget(r
 
 // --- files ---
 
-// three.js is most of the page: it is loaded beside WebAssembly and the model.
-const viewTried = import("./view.js").then(({ View }) => {
-  scene.view = new View($("view"));
-}).catch(() => {}); // undrawn() says so
+// three.js is most of the page: it is loaded while WebAssembly and the model are.
+const viewModule = import("./view.js");
+viewModule.catch(() => {}); // draw3d() tells
 
 const undrawn = () => (scene.view ? "" : " with the arrow keys; there is no WebGL in this browser, so that it is not drawn");
 
+function makeView(View) {
+  try {
+    return new View($("view"));
+  } catch {
+    return null; // undrawn() tells
+  }
+}
+
 async function draw3d(bytes, name) {
   try {
-    await viewTried;
-    await scene.view?.show(bytes);
+    const { View, read } = await viewModule;
+    const reading = read(bytes); // its images are decoded while WebGL starts
+    if (scene.view === undefined) {
+      scene.view = makeView(View);
+    }
+    const model = await reading;
+    scene.view?.show(model);
     return true;
   } catch {
     tell(`${name}: it cannot be drawn, but all else works; with the arrow keys its first surface is stroked`, true);
@@ -223,7 +235,7 @@ if (linked.has("live")) {
   watch({ hello: show, rows: arrive, ended: () => tell("The run is over, or this page is not the one it gave.", true) });
   ready();
 } else {
-  simulation = new Simulation({
+  simulation = new Simulation(globalThis.started, {
     ticks: ({ rows, samples, cost }) => {
       sound.play(samples);
       ticks.cost += 0.02 * (cost - ticks.cost); // clocks of browsers are coarse

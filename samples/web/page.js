@@ -6,8 +6,9 @@ export function tell(text, isError = false) {
   $("status").classList.toggle("error", isError);
 }
 
-// The scene: its 3D view (null without WebGL), surfaces {name, feel, ...}, and the .glb that it came from.
-export const scene = { view: null, surfaces: [], bytes: null, name: "" };
+// The scene: its 3D view (undefined before it is tried, null without WebGL), surfaces {name, feel, ...}, and the .glb that
+// it came from.
+export const scene = { view: undefined, surfaces: [], bytes: null, name: "" };
 
 export const surface = () => scene.surfaces[$("surface").value];
 

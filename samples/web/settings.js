@@ -96,7 +96,7 @@ export class Settings {
     these(["surface"]);
     showFeel();
     these(FEEL);
-    if (surface()) {
+    if (surface() && FEEL.some((id) => settings.has(id))) {
       await this.setFeel();
     }
   }

@@ -2,23 +2,27 @@
 // SPDX-License-Identifier: MIT
 import { AT, ROW } from "./rows.js";
 
-// Beside the worker's start, which takes as long.
-async function compile(url) {
+// While the worker starts, which takes as long. answer: what fetch() returned
+async function compile(answer) {
   try {
-    return await WebAssembly.compileStreaming(fetch(url));
+    return await WebAssembly.compileStreaming(answer);
   } catch { // servers that do not know .wasm
-    return WebAssembly.compile(await (await fetch(url)).arrayBuffer());
+    return WebAssembly.compile(await (await fetch((await answer).url)).arrayBuffer());
   }
 }
 
 export class Simulation {
-  // Calls ticks({rows, samples, cost}) some 80 times a second.
-  constructor({ ticks, failed }) {
+  // Takes what index.html has started: a worker, and the fetch of its WebAssembly. Calls ticks({rows, samples, cost})
+  // some 80 times a second.
+  constructor({ worker, wasm }, { ticks, failed }) {
     this.waiting = new Map();
     this.asked = 0;
-    this.worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    this.worker = worker;
     this.worker.onerror = failed;
-    compile(new URL("knurl.wasm", import.meta.url))
+    if (worker.failed) {
+      failed();
+    }
+    compile(wasm)
       .then((compiled) => this.worker.postMessage({ kind: "begin", compiled }), failed);
     this.worker.onmessage = ({ data }) => {
       if (data.kind === "ticks") {

@@ -4,11 +4,24 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
+const UP = new THREE.Vector3(0, 1, 0);
 const CURSOR = 0.018; // of the model's size
+const HEAD = 0.05; // length of the needle's head, of the model's size
 
 // Without what metals would mirror: they would be black, and each of its shaders takes a software renderer 0.1 s.
 function matt({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest }) {
   return new THREE.MeshLambertMaterial({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest });
+}
+
+// The model in a .glb.
+export async function read(bytes) {
+  const { scene } = await new GLTFLoader().parseAsync(bytes, "");
+  scene.traverse((part) => {
+    if (part.isMesh) {
+      part.material = matt(part.material);
+    }
+  });
+  return scene;
 }
 
 export class View {
@@ -24,11 +37,14 @@ export class View {
     const sun = new THREE.DirectionalLight(0xffffff, 2);
     sun.position.set(0.4, 1, 0.6);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x667788, 1.6), sun);
-    this.cursor = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), new THREE.MeshLambertMaterial({ color: 0xd9662b }));
-    this.needle = new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 1, 0xd9662b);
+    // The same kind of material as the model's: each further kind takes a software renderer 0.05 s at the first touch.
+    const orange = new THREE.MeshLambertMaterial({ color: 0xd9662b });
+    this.cursor = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), orange);
+    this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.004, 0.004, 1, 8).translate(0, 0.5, 0), orange);
+    this.head = new THREE.Mesh(new THREE.ConeGeometry(0.3 * HEAD, HEAD, 16).translate(0, -HEAD / 2, 0), orange);
+    this.needle = new THREE.Group().add(this.shaft, this.head);
     this.cursor.visible = this.needle.visible = false;
     this.scene.add(this.cursor, this.needle);
-    this.renderer.compile(this.scene, this.camera); // shaders: the first touch would wait for them
     this.ray = new THREE.Raycaster();
     this.model = null;
     this.changed = true; // since it was drawn
@@ -37,17 +53,11 @@ export class View {
     });
   }
 
-  async show(bytes) {
-    const gltf = await new GLTFLoader().parseAsync(bytes, "");
+  show(model) {
     if (this.model) {
       this.scene.remove(this.model);
     }
-    this.model = gltf.scene;
-    this.model.traverse((part) => {
-      if (part.isMesh) {
-        part.material = matt(part.material);
-      }
-    });
+    this.model = model;
     this.scene.add(this.model);
     this.model.updateWorldMatrix(true, true);
     const sphere = new THREE.Box3().setFromObject(this.model).getBoundingSphere(new THREE.Sphere());
@@ -106,8 +116,11 @@ export class View {
     const f = new THREE.Vector3(...force);
     this.needle.visible = f.length() > 0.001;
     this.needle.position.copy(this.cursor.position);
-    this.needle.setDirection(f.clone().normalize());
-    this.needle.setLength(0.02 * this.size + (f.length() * this.size) / 3, 0.05 * this.size, 0.03 * this.size);
+    const long = 0.02 + f.length() / 3;
+    this.needle.scale.setScalar(this.size);
+    this.needle.quaternion.setFromUnitVectors(UP, f.normalize());
+    this.head.position.y = long;
+    this.shaft.scale.y = Math.max(1e-3, long - HEAD);
   }
 
   draw() {
