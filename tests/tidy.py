@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -20,6 +21,14 @@ OPTIONS = ["--quiet", "--removed-arg=-fno-keep-inline-dllexport"] # which is GCC
 @functools.lru_cache(maxsize=None)
 def content(path):
     return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def split(entry):
+    """A compilation of several sources in one file (CMake's UNITY_BUILD), as one of each source."""
+    if os.path.basename(os.path.dirname(entry["file"])) != "Unity":
+        return [entry]
+    sources = re.findall(r'#include "(.*)"', pathlib.Path(entry["file"]).read_text(encoding="utf-8"))
+    return [{**entry, "file": source, "command": entry["command"].replace(entry["file"], source)} for source in sources]
 
 
 def included(entry):
@@ -49,7 +58,7 @@ def check(file, version, entries):
     mark = CACHE / (key(file, version, entries) or "none")
     if mark.exists():
         return ""
-    done = subprocess.run([TOOL, "-p", BUILD, *OPTIONS, file], capture_output=True, text=True, check=False)
+    done = subprocess.run([TOOL, "-p", CACHE, *OPTIONS, file], capture_output=True, text=True, check=False)
     if done.returncode == 0:
         if mark.name != "none":
             mark.touch()
@@ -61,8 +70,11 @@ def check(file, version, entries):
 def main():
     CACHE.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([TOOL, "--version"], capture_output=True, text=True, check=True).stdout
+    commands = [single for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8"))
+                for single in split(entry)]
+    (CACHE / "compile_commands.json").write_text(json.dumps(commands), encoding="utf-8")
     entries = {}
-    for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8")):
+    for entry in commands:
         entries.setdefault(os.path.realpath(entry["file"]), []).append(entry)
     files = sys.stdin.read().split()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -26,15 +26,21 @@ compile() {
 export -f compile
 
 cd "$root"
-newest=$(find sdk -name '*.h*' -printf '%T@\n' | sort -n | tail -n 1)
+newest=$(find sdk \( -name '*.h*' -o -name '*.cpp' \) -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
 touch "$objects/begin"
-sources=(sdk/src/{vibration,grating,motion,contact,scene,audio}/*.c sdk/src/gltf/*.cpp sdk/src/base/{error,heap}.c
+# The loader as two files, as sdk/CMakeLists.txt has it.
+loader=$objects/gltf.cpp
+find sdk/src/gltf -name '*.cpp' ! -name model.cpp | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
+cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"
+sources=(sdk/src/{vibration,grating,motion,contact,scene,audio}/*.c "$loader" sdk/src/gltf/model.cpp sdk/src/base/{error,heap}.c
     sdk/src/base/{regular_file,system}_posix.c samples/web/web.c)
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |
     xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2" "$3"' compile {} "$objects" "${#sources[@]}"
 echo 'linking'
-em++ -O2 -fexceptions "$objects"/*.o -o "${objects%/objects}/knurl.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
+compiled=("${sources[@]//\//_}")
+compiled=("${compiled[@]/%/.o}")
+em++ -O2 -fexceptions "${compiled[@]/#/$objects/}" -o "${objects%/objects}/knurl.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
     -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=1GB -sEXPORTED_FUNCTIONS=_malloc,_free \
     -sEXPORTED_RUNTIME_METHODS=UTF8ToString

@@ -261,9 +261,9 @@ TEST(json_mistakes_say_where) {
                  {"JSON: parse error"});
     assert_fails(quad_with(R"({"knurl_stiffness":1e999})").glb(), KNURL_ERROR_FORMAT, {"JSON: ", "1e999"});
     assert_fails(quad_with(R"({"knurl":{"version":1,"stiffness":1,"stiffness":2}})").glb(), KNURL_ERROR_FORMAT,
-                 {"JSON: the key 'stiffness' stands twice in materials[0].extras.knurl"});
+                 {"JSON: the key 'stiffness' appears twice in materials[0].extras.knurl"});
     assert_fails(R"({"asset":{"version":"2.0"},"asset":{}})", KNURL_ERROR_FORMAT,
-                 {"'asset' stands twice in the file's root"});
+                 {"'asset' appears twice in the file's root"});
     assert_fails("{\"asset\":\"\xC3\x28\"}", KNURL_ERROR_FORMAT, {"JSON: parse error", "UTF-8"});
     Loaded loaded;
     loaded.assert_loads("\xEF\xBB\xBF" + quad().gltf());

@@ -9,14 +9,14 @@
 namespace knurl::gltf {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 /// Builds the tree from the parser's events, so that limits are met while reading and not after it.
-class Builder : public nlohmann::json_sax<json> {
+class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(Budget &budget) : budget_(budget) {}
 
-    json take() {
+    Json take() {
         return std::move(root_);
     }
 
@@ -48,7 +48,7 @@ class Builder : public nlohmann::json_sax<json> {
         return false; // there is none in JSON
     }
     bool start_object(size_t /*size*/) override {
-        open(json::object());
+        open(Json::object());
         return true;
     }
     bool end_object() override {
@@ -56,7 +56,7 @@ class Builder : public nlohmann::json_sax<json> {
         return true;
     }
     bool start_array(size_t /*size*/) override {
-        open(json::array());
+        open(Json::array());
         return true;
     }
     bool end_array() override {
@@ -65,16 +65,16 @@ class Builder : public nlohmann::json_sax<json> {
     }
 
     bool key(string_t &name) override {
-        auto &members = open_.back()->get_ref<json::object_t &>();
+        auto &members = open_.back()->get_ref<Json::object_t &>();
         const auto [member, fresh] = members.try_emplace(name);
         if (!fresh)
-            refuse("JSON", "the key " + in_quotes(name) + " stands twice in " + path());
+            refuse("JSON", "the key " + in_quotes(name) + " appears twice in " + path());
         member_ = &member->second;
         return true;
     }
 
-    bool parse_error(size_t /*position*/, const std::string & /*token*/, const json::exception &error) override {
-        // "[json.exception.parse_error.101] parse error at line 1, column 5: ...": the bracket tells a person nothing.
+    bool parse_error(size_t /*position*/, const std::string & /*token*/, const Json::exception &error) override {
+        // "[json.exception.parse_error.101] parse error at line 1, column 5: ...": the bracket is left out.
         std::string_view text = error.what();
         const size_t bracket = text.find("] ");
         if (bracket != std::string_view::npos)
@@ -83,7 +83,7 @@ class Builder : public nlohmann::json_sax<json> {
     }
 
   private:
-    json *add(json value) {
+    Json *add(Json value) {
         if (values_ % values_a_step == 0)
             budget_.step();
         if (++values_ > json_values_max)
@@ -92,14 +92,14 @@ class Builder : public nlohmann::json_sax<json> {
             root_ = std::move(value);
             return &root_;
         }
-        json &parent = *open_.back();
+        Json &parent = *open_.back();
         if (parent.is_array())
-            return &parent.get_ref<json::array_t &>().emplace_back(std::move(value));
+            return &parent.get_ref<Json::array_t &>().emplace_back(std::move(value));
         *member_ = std::move(value);
         return member_;
     }
 
-    void open(json container) {
+    void open(Json container) {
         if (open_.size() == json_depth_max)
             refuse("JSON", "nested deeper than " + std::to_string(json_depth_max) + " in " + path());
         open_.push_back(add(std::move(container)));
@@ -109,12 +109,12 @@ class Builder : public nlohmann::json_sax<json> {
     std::string path() const {
         std::string text;
         for (size_t i = 0; i + 1 < open_.size(); ++i) {
-            const json &parent = *open_[i];
+            const Json &parent = *open_[i];
             if (parent.is_array()) {
                 text += "[" + std::to_string(parent.size() - 1) + "]";
                 continue;
             }
-            for (const auto &[name, child] : parent.get_ref<const json::object_t &>())
+            for (const auto &[name, child] : parent.get_ref<const Json::object_t &>())
                 if (&child == open_[i + 1])
                     text += (text.empty() ? "" : ".") + shortened(name);
         }
@@ -124,10 +124,10 @@ class Builder : public nlohmann::json_sax<json> {
     static constexpr size_t values_a_step = size_t{1} << 14U;
 
     Budget &budget_;
-    json root_;
+    Json root_;
     // Pointers into the tree stay good: a container grows only while none of its children is open.
-    std::vector<json *> open_;
-    json *member_ = nullptr;
+    std::vector<Json *> open_;
+    Json *member_ = nullptr;
     size_t values_ = 0;
 };
 
@@ -135,17 +135,17 @@ class Builder : public nlohmann::json_sax<json> {
 
 nlohmann::json parse_json(std::string_view text, Budget &budget) {
     Builder builder(budget);
-    json::sax_parse(text.data(), text.data() + text.size(), &builder);
+    Json::sax_parse(text.data(), text.data() + text.size(), &builder);
     return builder.take();
 }
 
 std::string described(const nlohmann::json &value) {
     switch (value.type()) {
-    case json::value_t::string:
+    case Json::value_t::string:
         return in_quotes(value.get_ref<const std::string &>());
-    case json::value_t::array:
+    case Json::value_t::array:
         return "an array of " + std::to_string(value.size());
-    case json::value_t::object:
+    case Json::value_t::object:
         return "an object";
     default:
         return value.dump();
