@@ -1,7 +1,9 @@
 """Builds the libraries into the package, and what cffi reads of their headers. Needs CMake, a C and a C++ compiler and
-what knurl_gltf is built with (tinygltf, nlohmann-json, GLM). SPDX-License-Identifier: MIT"""
+what knurl_gltf is built with (tinygltf, nlohmann-json, GLM). The environment variable CMAKE_ARGS may hold more options for
+CMake. SPDX-License-Identifier: MIT"""
 import os
 import re
+import shlex
 import shutil
 import subprocess
 
@@ -9,8 +11,7 @@ from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 HEADERS = os.path.join(ROOT, "sdk/include")
 # What every machine need not have is linked in.
 RUNTIME = "-DCMAKE_SHARED_LINKER_FLAGS=-static-libgcc -static-libstdc++"
@@ -43,7 +44,8 @@ class Build(build_py):
         folder = os.path.abspath(os.path.join("build", "libraries"))
         subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
                         "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
-                        "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME], check=True)
+                        "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME, *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
+                       check=True)
         subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "knurl", "knurl_gltf"], check=True)
         subprocess.run(["cmake", "--install", folder, "--component", "runtime", "--strip", "--prefix",
                         os.path.join(folder, "installed")], check=True)

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""Builds and installs Knurl as others do, moves the tree, and builds consumers against it: C and C++, by find_package()
-and by pkg-config; shared, static, and the core alone without a C++ compiler.
-usage: installed.py SOURCE FOLDER C_COMPILER CXX_COMPILER     FOLDER is kept for the next time.
+"""Installs Knurl as others do, moves the tree, and builds consumers against it: C and C++, by find_package() and by
+pkg-config; shared, static, and the core alone without a C++ compiler.
+usage: installed.py SOURCE BUILD FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS
+BUILD: of the static libraries; C_FLAGS, CXX_FLAGS: what it was compiled with, so that ccache has the others' objects, too;
+FOLDER: kept for the next time.
 SPDX-License-Identifier: MIT"""
 import os
 import re
@@ -9,7 +11,7 @@ import shutil
 import subprocess
 import sys
 
-SOURCE, FOLDER, CC, CXX = sys.argv[1:]
+SOURCE, BUILD, FOLDER, CC, CXX, C_FLAGS, CXX_FLAGS = sys.argv[1:]
 CONSUMER = os.path.join(SOURCE, "tests/package/consumer")
 SCENE = os.path.join(SOURCE, "assets/plate_1d.glb")
 
@@ -28,17 +30,23 @@ def check(what, good):
         sys.exit(1)
 
 
-def install(name, targets, *options):
-    """Configures, builds, installs and moves; returns where to."""
-    build, first, prefix = (os.path.join(FOLDER, name + part) for part in (".build", ".first", ""))
-    run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
-        "-DCMAKE_C_FLAGS_RELEASE=-O2", "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF",
-        "-DKNURL_UNITY=OFF", f"-DCMAKE_INSTALL_PREFIX={first}", "-DCMAKE_INSTALL_LIBDIR=lib", *options)
-    run("cmake", "--build", build, "--target", *targets)
+def build(name, targets, *options):
+    """Configures and builds; returns where."""
+    folder = os.path.join(FOLDER, name + ".build")
+    run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
+        f"-DCMAKE_C_FLAGS_RELEASE={C_FLAGS}", f"-DCMAKE_CXX_FLAGS_RELEASE={CXX_FLAGS}", "-DBUILD_TESTING=OFF",
+        "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib", *options)
+    run("cmake", "--build", folder, "--target", *targets)
+    return folder
+
+
+def install(name, folder, *components):
+    """Installs what was built in a folder, and moves it; returns where to."""
+    first, prefix = (os.path.join(FOLDER, name + part) for part in (".first", ""))
     for path in (first, prefix):
         shutil.rmtree(path, ignore_errors=True)
-    for component in ("runtime", "dev") + (("tool",) if "knurl_tool" in targets else ()):
-        run("cmake", "--install", build, "--component", component)
+    for component in ("runtime", "dev", *components):
+        run("cmake", "--install", folder, "--component", component, "--prefix", first)
     os.rename(first, prefix)
     return prefix
 
@@ -116,23 +124,24 @@ def main():
     os.makedirs(FOLDER, exist_ok=True)
     with open(os.path.join(SOURCE, "sdk/include/knurl/base.h"), encoding="utf-8") as header:
         version = ".".join(re.findall(r"#define KNURL_VERSION_[A-Z]+ (\d+)", header.read()))
-    libraries, both = ("knurl", "knurl_gltf"), ("plate", "scene")
+    both = ("plate", "scene")
     with_gltf = ("-DGLTF=ON", f"-DCMAKE_CXX_COMPILER={CXX}")
 
-    prefix = install("shared", libraries + ("knurl_tool",), "-DBUILD_SHARED_LIBS=ON", f"-DCMAKE_CXX_COMPILER={CXX}")
+    prefix = install("shared", build("shared", ("knurl", "knurl_gltf", "knurl_tool"), "-DBUILD_SHARED_LIBS=ON",
+                                     f"-DCMAKE_CXX_COMPILER={CXX}"), "tool")
     check_exports(prefix)
     check_tree(prefix, both, version, *with_gltf)
     check_shown(prefix)
     said = run(os.path.join(prefix, "bin/knurl"), "--version", env={"LD_LIBRARY_PATH": ""})
     check(f"the tool runs where it was moved to: {said.strip()}", said == f"knurl {version}\n")
 
-    prefix = install("static", libraries, f"-DCMAKE_CXX_COMPILER={CXX}")
+    prefix = install("static", BUILD)
     check_tree(prefix, both, version, *with_gltf)
     configure_consumer(prefix, f"-DWANTED={version}", "-DGLTF_FROM_C=ON", "-DCMAKE_CXX_COMPILER=/bin/false")
     run("cmake", "--build", prefix + ".consumer")
     check_programs(prefix, prefix + ".consumer", both[:1], "the loader from C alone", version)
 
-    prefix = install("core", libraries[:1], "-DKNURL_GLTF=OFF", "-DCMAKE_CXX_COMPILER=/bin/false")
+    prefix = install("core", build("core", ("knurl",), "-DKNURL_GLTF=OFF", "-DCMAKE_CXX_COMPILER=/bin/false"))
     check_tree(prefix, both[:1], version, "-DCMAKE_CXX_COMPILER=/bin/false")
     said = configure_consumer(prefix, f"-DWANTED={version}", *with_gltf, fails=True)
     check("core: the loader, which is not there, is told to be missing", "without its component gltf" in said)

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Builds the Python module's wheel as pip does, installs it into an empty environment, and runs its tests and example.
-usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER KNURL     FOLDER is kept for the next time. Exit 77: a package is missing.
+usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS KNURL
+FOLDER: kept for the next time; C_FLAGS, CXX_FLAGS: of KNURL's own build, whose objects ccache then has. Exit 77: a package
+is missing.
 SPDX-License-Identifier: MIT"""
 import glob
 import importlib.util
@@ -9,30 +11,29 @@ import shutil
 import subprocess
 import sys
 
-SOURCE, FOLDER, CC, CXX, KNURL = sys.argv[1:]
+SOURCE, FOLDER, CC, CXX, C_FLAGS, CXX_FLAGS, KNURL = sys.argv[1:]
 PACKAGES = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "python3-setuptools",
             "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv"}
 
 
 def run(*command):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
-                          env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja"})
+                          env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja", "CMAKE_ARGS":
+                               f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}'"})
     if done.returncode:
         sys.exit(f"python: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
     return done.stdout
 
 
-def mirror_tree(tree):
-    """The sources by links, but for the module: pip builds where it stands."""
-    module = os.path.join(tree, "bindings/python")
-    os.makedirs(os.path.dirname(module), exist_ok=True)
-    for folder in ("", "bindings"):
-        for name in os.listdir(os.path.join(SOURCE, folder)):
-            link = os.path.join(tree, folder, name)
-            if name not in ("bindings", "build", ".git", "python") and not os.path.lexists(link):
-                os.symlink(os.path.join(SOURCE, folder, name), link)
-    shutil.copytree(os.path.join(SOURCE, "bindings/python"), module, dirs_exist_ok=True)
-    return module
+def link_module(folder):
+    """The module by links: pip and setuptools write beside setup.py."""
+    module = os.path.join(SOURCE, "bindings/python")
+    os.makedirs(folder, exist_ok=True)
+    for name in os.listdir(module):
+        link = os.path.join(folder, name)
+        if name != "build" and not name.endswith(".egg-info") and not os.path.lexists(link):
+            os.symlink(os.path.join(module, name), link)
+    return folder
 
 
 def run_shown(python):
@@ -55,7 +56,7 @@ def main():
     for path in (wheels, environment):
         shutil.rmtree(path, ignore_errors=True)
     run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir", wheels,
-        mirror_tree(os.path.join(FOLDER, "tree")))
+        link_module(os.path.join(FOLDER, "python")))
     wheel, = glob.glob(os.path.join(wheels, "*.whl"))
     print(f"python: {os.path.basename(wheel)}, {os.path.getsize(wheel) // 1000} kB")
     run(sys.executable, "-m", "venv", "--system-site-packages", environment) # numpy and cffi are the system's
