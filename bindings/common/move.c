@@ -96,7 +96,7 @@ knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock
         const double *row = workspace->rotation + (ptrdiff_t)3 * i;
         to.origin[i] += row[0] * session->shift[0] + row[1] * session->shift[1] + row[2] * session->shift[2];
     }
-    if (session->mouse || session->is_clutched) { /* the game tells where the mouse's HIP is, at any scale */
+    if (session->mouse || session->is_clutched) { /* the game sets the mouse's HIP, at any scale */
         to.scale = session->desc.workspace.scale;
     }
     result = knurl_scene_set_workspace(session->scene, 0, &to, seconds);

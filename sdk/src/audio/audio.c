@@ -16,7 +16,7 @@
 #define FADE_S        0.005 /* from silence to full scale and back */
 #define DRIFT_MAX     0.005 /* faster or slower than the ticks, at most */
 #define DRIFT_S       2.0   /* in which a lag is caught up with */
-#define EVEN_TICKS    2.0   /* a lag of so many is no drift but how threads take turns */
+#define EVEN_TICKS    2.0   /* ticks: a lag below this is the jitter of the threads, not drift */
 #define HIGHEST_HZ    20000.0
 #define SMOOTH_S      0.004 /* time constant of the decay that spreads steps: four ticks of a Touch */
 #define SMALLEST_STEP 1e-6
@@ -115,7 +115,8 @@ static double find_step(double to, double from, double likely, double most) {
     return fabs(step) <= most ? step : 0.0; /* what is not finite too */
 }
 
-/* Spreads a step, because an encoder's counts come in some ticks and not in others. None is lost. */
+/* Spreads a step over several ticks, because an encoder's counts arrive in some ticks and not in others. The sum stays
+ * the same. */
 static double smooth(knurl_audio *a, int axis, double step) {
     const double due = a->due[axis] + step;
     const double queued = fabs(due) < SMALLEST_STEP ? due : due * a->share;
@@ -197,7 +198,7 @@ static double move(knurl_audio *a, uint64_t written, double ticks) {
     return knurl_wave_mean(from, a->place);
 }
 
-/* The loudness of the tick that plays or the next one, so that an edge is not faded in; by a fade. */
+/* The louder of the tick that plays and the next one, so that an edge is not faded in; approached by a fade. */
 static double find_level(knurl_audio *a) {
     const double most = 1.0 / (FADE_S * a->desc.sample_rate_hz);
     double wanted = 0.0;

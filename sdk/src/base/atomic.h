@@ -9,7 +9,7 @@
 #define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)
 #define knurl_store_release(p, v) __atomic_store_n((p), (v), __ATOMIC_RELEASE)
 
-/* A floating-point number that one thread writes and any may read. (Clang's __atomic_store wants a source that is not
+/* A floating-point number that one thread writes and any may read. (Clang's __atomic_store needs a source that is not
  * const; the copies compile to nothing.) */
 static inline void knurl_store_double(double *to, double value) {
     double copy = value;

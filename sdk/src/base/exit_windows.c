@@ -17,7 +17,7 @@ static void end(void) {
     actions->end();
 }
 
-/* Only for exceptions that nobody handled, so not for those that a runtime recovers from. */
+/* Only for unhandled exceptions, so not for those that a runtime recovers from. */
 static LONG WINAPI on_exception(EXCEPTION_POINTERS *what) {
     end();
     return filter_before ? filter_before(what) : EXCEPTION_CONTINUE_SEARCH;
@@ -40,7 +40,7 @@ static void on_abort(int number) {
 
 static int installed;
 
-/* Whoever sets a filter after us is asked before us, and may not hand on. */
+/* A filter that is set later is called first, and may not call ours. */
 static BOOL CALLBACK install(INIT_ONCE *once, void *parameter, void **context) {
     (void)once;
     (void)parameter;
@@ -48,7 +48,7 @@ static BOOL CALLBACK install(INIT_ONCE *once, void *parameter, void **context) {
     filter_before = SetUnhandledExceptionFilter(on_exception);
     abort_before = signal(SIGABRT, on_abort);
     installed = abort_before != SIG_ERR && SetConsoleCtrlHandler(on_console, TRUE) && atexit(end) == 0;
-    return TRUE; /* once, whatever came of it */
+    return TRUE; /* once, even if it failed */
 }
 
 /* The library is unloaded: nothing may point into it. What was installed after ours stays. */

@@ -57,7 +57,7 @@ static int open_image(void) {
     return file;
 }
 
-/* 0, or errno's number. The host's handlers, environment and open files are none of its business. */
+/* 0, or errno's number. It gets none of the host's handlers, environment or open files. */
 static int spawn(int image, int socket, int device, pid_t *child) {
     char path[64];
     char name[] = "knurl-guard";
@@ -81,7 +81,7 @@ static int spawn(int image, int socket, int device, pid_t *child) {
     return code;
 }
 
-/* Waits for it to say that it is there; 0: it does not. */
+/* Waits for its first message; 0: there was none in time. */
 static int is_there(int socket) {
     char word;
     struct pollfd guard = {socket, POLLIN, 0};

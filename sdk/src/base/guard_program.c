@@ -16,7 +16,7 @@
 
 enum { HOST = 0, DEVICE = 1, FIRST_OTHER = 2 };
 
-#define LAST_ZEROS 3 /* at the end, should one get lost */
+#define LAST_ZEROS 3 /* at the end, in case one is lost */
 #define TIMEOUT_MS 20
 
 static void zero(knurl_guard_order *order) {
@@ -62,7 +62,7 @@ static int leave_host(void) {
     return 1;
 }
 
-/* The last thing that the host said; 0: it is gone. */
+/* The host's latest message; 0: the host is gone. */
 static uint8_t listen_to_host(void) {
     uint8_t word = KNURL_GUARD_ALIVE;
     ssize_t got = recv(HOST, &word, 1, 0);

@@ -19,8 +19,8 @@ static inline void knurl_handle_clear(uint32_t *number) {
     *(volatile uint32_t *)number = 0;
 }
 
-/* The number where a caller's handle points to, 0 for null. It may have been freed: sanitizers are told to look away.
- */
+/* The number where a caller's handle points to, 0 for null. The object may have been freed: sanitizers
+ * must not report this read. */
 #if defined(__GNUC__)
 __attribute__((no_sanitize("address"), no_sanitize("thread")))
 #endif

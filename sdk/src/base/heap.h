@@ -17,7 +17,7 @@ typedef struct knurl_heap {
     uint32_t reserved;
     uint64_t bytes;    /* held now, headers and spares included */
     uint64_t locked;   /* 1: locked into RAM, what comes later too; unlocked when given back */
-    uint64_t seed;     /* of hash tables in it: whoever made what they are filled with could not know it */
+    uint64_t seed;     /* of its hash tables; random, so that a file cannot be made to collide in them */
     knurl_mutex *lock; /* null: one thread at a time. The caller's functions are called under it */
 } knurl_heap;
 

@@ -29,7 +29,7 @@ struct knurl_thread {
     HANDLE handle;
     void (*entry)(void *argument);
     void *argument;
-    HANDLE timer;     /* its own, so that no beat has to make one; null before Windows 10 1803 */
+    HANDLE timer;     /* made once, not in each cycle; null before Windows 10 1803 */
     uint32_t on_time; /* 1: real-time, its waits end on time */
 };
 
@@ -67,7 +67,7 @@ static int wait_by(HANDLE timer, int64_t ns) {
 static void wait_coarsely(int64_t ns) {
     static uint32_t asked; /* atomic */
     if (!knurl_load_relaxed(&asked)) {
-        (void)timeBeginPeriod(1); /* once and for good: it takes its time */
+        (void)timeBeginPeriod(1); /* once: the call is slow */
         knurl_store_relaxed(&asked, 1u);
     }
     Sleep((DWORD)((ns < 1000000000 ? ns : 1000000000) / 1000000 + 1));
@@ -270,7 +270,7 @@ void knurl_system_give_back_node(intptr_t node) {
     }
 }
 
-/* C:\... or \\server\...; slashes are turned, for the loader wants them so. */
+/* C:\... or \\server\...; slashes become backslashes, which the loader needs. */
 static int is_absolute(wchar_t *path) {
     for (wchar_t *c = path; *c; c++) {
         *c = *c == L'/' ? L'\\' : *c;

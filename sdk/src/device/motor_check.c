@@ -34,7 +34,7 @@
 #define LEAST_BLOCKS 2      /* for a decision */
 #define LEAST_ASIDE  4      /* for "it goes aside": hands also move aside */
 #define MOST_BLOCKS  12     /* then the limit is doubled */
-#define TRAVEL       0.0005 /* m: a handle that stands still, as one at its stop does, tells nothing */
+#define TRAVEL       0.0005 /* m: a handle that moves less, for example at its stop, gives no result */
 #define ASIDE        2.0    /* tangent of the angle to the force from which on the handle goes aside */
 
 /* sum of weight * position = (acceleration with force - without), m/s^2 for steps of 1 ms. The least-squares fit of a

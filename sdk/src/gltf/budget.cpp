@@ -72,7 +72,7 @@ void Budget::step(double done) {
         throw Failure(KNURL_ERROR_FULL, "budget.max_seconds: expected at most " + std::to_string(seconds_) +
                                             " s, found more (see knurl_gltf_budget)");
     if (progress_ != nullptr && progress_(user_, done_) != 0)
-        throw Failure(KNURL_ERROR_CANCELLED, "the load was stopped by whoever asked for it");
+        throw Failure(KNURL_ERROR_CANCELLED, "the load was cancelled");
 }
 
 } // namespace knurl::gltf

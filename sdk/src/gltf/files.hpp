@@ -12,7 +12,7 @@
 
 namespace knurl::gltf {
 
-/** Bytes that somebody else owns. */
+/** Bytes that another object owns. */
 struct Bytes {
     const unsigned char *data = nullptr;
     size_t size = 0;
@@ -21,7 +21,7 @@ struct Bytes {
 /** A whole regular file, links to it followed. */
 std::vector<unsigned char> read_file(const std::filesystem::path &path, Budget &budget);
 
-/** Whoever wants to know which files were read. */
+/** Receives the names of the files that were read. */
 struct Listener {
     void (*file_read)(void *user, const char *path) = nullptr;
     void *user = nullptr;

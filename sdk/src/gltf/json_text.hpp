@@ -18,8 +18,8 @@ constexpr size_t json_depth_max = 32;
 /** Values in a file: a tree takes some 100 bytes for each, however short its text. */
 constexpr size_t json_values_max = size_t{1} << 23U;
 
-/** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that stands twice in one
- * object (of which readers would keep different ones). */
+/** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that appears twice in one
+ * object: parsers differ in which one they keep. */
 nlohmann::json parse_json(std::string_view text, Budget &budget);
 
 /** What a value is, for "found ...". */

@@ -25,7 +25,7 @@ class Names {
     std::string unique(const std::string &name);
 
   private:
-    /// A tree: no names make it slow, whoever chose them.
+    /// A tree, not a hash table: a hostile file cannot choose names that make it slow.
     std::map<std::string, uint32_t> taken_; ///< and the highest number that was tried
 };
 

@@ -4,17 +4,17 @@
 
 #include "grating/locked.h"
 
-/* m in one tick, where there is no position but a velocity. */
+/* The largest step that a velocity makes in one tick, m. */
 #define FARTHEST 1e6
 
-/* On a grid, how much faster cycles must go by along the other axis for it to take over. */
+/* On a grid: the other axis takes over when its frequency is this many times higher. */
 #define TAKE_OVER 1.1
 
-/* Positions a quantum apart are so to within rounding. */
+/* Two positions one quantum apart differ by a quantum times at most this. */
 #define ROUNDED 1.000001
 
-/* On a grid: cycles are Eq. 12's, those of the axis along which the most go by. The phase goes on where the other axis
- * takes over, counted along its coordinate from there. */
+/* On a grid: counts cycles along the axis with the higher frequency (Eq. 12). When the other axis takes over, the phase
+ * continues and is counted along its coordinate from there. */
 static int choose_axis(const knurl_grating *g, knurl_grating_state *s, const double velocity[2]) {
     const double *fs = g->spatial_frequency;
     int along = s->axis;
@@ -35,8 +35,8 @@ static int choose_axis(const knurl_grating *g, knurl_grating_state *s, const dou
     return along;
 }
 
-/* Goes on along an axis and returns the way, m, >= 0. A position that comes back by no more than a quantum has not
- * moved. Sets *turned where it goes back. */
+/* Moves to a new position along an axis and returns the distance, m, >= 0. A position that comes back by at most a
+ * quantum has not moved. Sets *turned when the direction changes. */
 static double follow(knurl_grating_state *s, double place, double quantum, int *turned) {
     const double ahead = s->direction * (place - s->held);
     if (ahead > 0.0) {
@@ -52,7 +52,7 @@ static double follow(knurl_grating_state *s, double place, double quantum, int *
     return 0.0;
 }
 
-/* The way along an axis by the velocity, m. What is no number is none, so that the sum stays one. */
+/* The distance that the velocity makes in one tick along an axis, m; 0 where it is not finite. */
 static double coast(const knurl_grating *g, double velocity) {
     const double way = velocity / g->update_rate_hz;
     return fabs(way) < FARTHEST ? way : 0.0;
@@ -93,7 +93,7 @@ static way move(const knurl_grating *g, knurl_grating_state *s, const double pos
     return (way){from, to, length};
 }
 
-/* A way of a cycle or more is none that a tick could play: the height is 0. */
+/* One tick cannot render a distance of a cycle or more: the height is 0. */
 double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                            const double velocity[2], double frequency, knurl_grating_output *output) {
     const double rate = grating->update_rate_hz;
@@ -102,7 +102,7 @@ double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *st
     const double lowest = (state->moving ? KNURL_AREA_EVENTS_UNTIL : KNURL_AREA_EVENTS_FROM) * rate;
     double height;
     output->saturated |= !(w.length < 1.0);
-    /* events begin where the way is as fast as the velocity says: an estimate is far off for a while after a jump */
+    /* only where distance and velocity agree: after a jump the estimated velocity is wrong for some ticks */
     if (((w.length > 0.5 * KNURL_AREA_EVENTS_UNTIL && w.length < 1.0) || state->moving || state->playing) &&
         knurl_locked_play(grating, state, before, before - frequency / rate, frequency, lowest, &height)) {
         return height;

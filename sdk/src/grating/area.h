@@ -12,14 +12,14 @@
 #include <math.h>
 
 /* Cycles a tick from which on LOCKED's events play, and below which they end: near f_h/2 the level of the means varies
- * with their phase. Up to 0.45 the level of steady scans is even (knurl study area: it wavers by 0.01 at 0.45, 0.02 at
- * 0.46, 0.12 at 0.47); the gap is over ten times what FOAW's velocity flickers by on a Touch. */
+ * with their phase. Up to 0.45 the level of steady scans is constant (`knurl study area`: it varies by 0.01 at 0.45,
+ * 0.02 at 0.46, 0.12 at 0.47). The gap is over ten times the noise of FOAW's velocity on a Touch. */
 #define KNURL_AREA_EVENTS_FROM  0.46
 #define KNURL_AREA_EVENTS_UNTIL 0.44
 
 /* way * sinc(d), with sinc(d) = sin(pi d)/(pi d) for |d| <= 1/2 to 2e-11: the polynomial in d^2 through Chebyshev's
  * points of [0, 1/4], as the product of its zero (near 1, where sinc has one) and two pairs of complex ones. Three
- * short products are ready earlier, and take fewer steps, than a sum of six terms. */
+ * short products have less latency and fewer operations than a sum of six terms. */
 static inline double knurl_area_droop(double way, double d) {
     const double x = d * d;
     const double u = x - 3.365848657123835;
@@ -28,8 +28,8 @@ static inline double knurl_area_droop(double way, double d) {
     return way * 0.0022372048506589257 * (0.9998810763148457 - x) * pairs;
 }
 
-/* The integral of the square wave from the begin of a cycle, a triangle up to 1/2: how far the phase is from a whole
- * number. Exact to 2^51 cycles, as knurl_whole_cycles(). */
+/* The integral of the square wave from the start of a cycle, a triangle of height 1/2: how far the phase is from a
+ * whole number. Exact to 2^51 cycles, as knurl_whole_cycles(). */
 static inline double knurl_area_integral(double phase) {
     return fabs(phase - ((phase + KNURL_WHOLE) - KNURL_WHOLE));
 }

@@ -1,5 +1,5 @@
-/* The method LOCKED: balanced events whose lengths keep step with the surface above a crossover frequency, the height
- * that the position asks for below it. Phases count cycles in the direction of motion; a cycle begins at a ridge's
+/* The method LOCKED: above a crossover frequency, balanced events whose lengths follow the ridges of the surface; below
+ * it, the height at the position. Phases count cycles in the direction of motion; a cycle begins at a ridge's
  * rising edge (Eq. 11's, one quarter before a crest of its cosine). SPDX-License-Identifier: MIT */
 #include "grating/locked.h"
 
@@ -11,14 +11,14 @@
 /* The haptic Weber fraction for frequencies that the paper uses (figure 3). */
 #define JND 0.38
 
-/* Positions a quantum apart are so to within rounding. */
+/* Two positions one quantum apart differ by a quantum times at most this. */
 #define ROUNDED 1.000001
 
 /* Per tick. Larger or NaN increments are dropped; the phase stays finite. */
 #define MOST_CYCLES 1e6
 
-/* Follows the position on a grating with ridges one way: it has moved when it has gone on, or come back by more than a
- * quantum (so an encoder that flickers on a ridge's edge does not toggle the height). */
+/* Follows the position on a grating with ridges along one axis. It has moved when it went forwards, or back by more
+ * than a quantum: an encoder that toggles between two counts on a ridge's edge does not toggle the height. */
 static double follow(const knurl_grating *g, knurl_grating_state *s, double place, double velocity) {
     if (s->direction == 0) {
         s->direction = velocity < 0.0 ? -1 : 1;
@@ -39,7 +39,7 @@ static double find_phase(const knurl_grating *g, knurl_grating_state *s, const d
                          const double velocity[2], double frequency) {
     const double *fs = g->spatial_frequency;
     const int along = fs[0] > 0.0 ? 0 : 1;
-    if (fs[1 - along] > 0.0 || !position) { /* Eq. 12's cycles are a matter of the way, not of the place */
+    if (fs[1 - along] > 0.0 || !position) { /* Eq. 12 counts cycles along the path, not by position */
         const double cycles = frequency / g->update_rate_hz;
         s->direction = 1;
         return s->phase + (cycles < MOST_CYCLES ? cycles : 0.0);
@@ -49,8 +49,8 @@ static double find_phase(const knurl_grating *g, knurl_grating_state *s, const d
     return s->direction * cycles + 0.25;
 }
 
-/* The length of the next event, which begins at phase `late` of its cycle: what brings the end of the event to the end
- * of the cycle, as far as the hand does not notice; or the whole numbers either side of the period. */
+/* The length of the next event, ticks, which begins at phase `late` of its cycle. It ends with the cycle if the length
+ * that this takes is within the JND of the period; else it comes as near to that as the JND allows. */
 static int32_t choose_length(double period, double late) {
     const double least = period / (1.0 + JND);
     const double most = period * (1.0 + JND);
@@ -65,16 +65,16 @@ static int32_t choose_length(double period, double late) {
     return length;
 }
 
-/* An event follows another, whose end it was to be at. Whole cycles that were missed, or never were, are not made up
- * for; where f_t is above f_h/2, no more than half of one. */
-static void go_on(const knurl_grating *g, knurl_grating_state *s, double phase, double frequency) {
+/* An event follows another one. If the events are a cycle or more ahead of the phase or behind it, drops whole cycles
+ * until they are within half a cycle; where f_t is above f_h/2, always. */
+static void drop_cycles(const knurl_grating *g, knurl_grating_state *s, double phase, double frequency) {
     const double debt = phase - s->played;
     if (frequency > 0.5 * g->update_rate_hz || !(fabs(debt) < 1.0)) {
         s->played += knurl_whole_cycles(debt + 0.5);
     }
 }
 
-/* Whether a cycle begins at this tick, so that events may; then s->played is where. */
+/* 1 if a cycle begins at this tick, so that an event may begin. Sets s->played to the phase of its start. */
 static int is_boundary(knurl_grating_state *s, double phase, double before, double half_tick) {
     const double whole = knurl_whole_cycles(phase);
     const double into = phase - whole;
@@ -82,13 +82,13 @@ static int is_boundary(knurl_grating_state *s, double phase, double before, doub
     return into > 1.0 - half_tick || into <= half_tick || (before < whole && into < 0.5);
 }
 
-/* Whether an event begins at this tick. */
+/* 1 if an event begins at this tick. */
 static int event_begins(const knurl_grating *g, knurl_grating_state *s, double phase, double before, double frequency,
                         double lowest) {
     if (!(frequency >= lowest)) {
         s->moving = 0;
     } else if (s->moving) {
-        go_on(g, s, phase, frequency);
+        drop_cycles(g, s, phase, frequency);
     } else {
         s->moving = is_boundary(s, phase, before, 0.5 * frequency / g->update_rate_hz);
     }
@@ -124,7 +124,7 @@ double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *stat
     double before = state->phase;
     double height;
     state->phase = find_phase(grating, state, position, velocity, frequency);
-    if (state->direction != direction) { /* back over the same ridges: the count begins anew, from here */
+    if (state->direction != direction) { /* back over the same ridges: counts from here */
         before = state->phase;
         state->moving = 0;
     }

@@ -4,8 +4,7 @@
 
 #include <knurl/grating.h>
 
-/* The height of this tick. frequency: Hz, of this motion. position: null where there is none to go by. Sets
- * output->event. */
+/* The height of this tick. frequency: Hz, of this motion. position: null if unknown. Sets output->event. */
 double knurl_locked_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                          const double velocity[2], double frequency, knurl_grating_output *output) KNURL_NONBLOCKING;
 

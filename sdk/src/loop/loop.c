@@ -58,7 +58,7 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     }
 }
 
-/* A device that owns the servo thread and has stopped calling is lost; nobody would notice in a tick. */
+/* A device that owns the servo thread and has stopped calling is lost. No tick can detect that: none is called. */
 static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     knurl_device *device = loop->desc.device;
     const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
@@ -69,7 +69,7 @@ static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     }
     k->idle = 0.0;
     if (!is_running(loop) || knurl_port_is_lost(device)) {
-        return; /* its last call came just now */
+        return; /* its last call came meanwhile */
     }
     knurl_device_halt(device);
     knurl_loop_publish_zero_force(loop);
@@ -84,22 +84,21 @@ static void look_for_device(knurl_loop *loop, watchdog *k, int64_t now) {
         return;
     }
     if (knurl_loop_at_end(loop) && knurl_port_owns_thread(loop->desc.device)) {
-        /* nobody calls the tick of a device that is away; but it may be in its last call, and use the loop */
+        /* a lost device makes no more calls; but its last one may still run and use the loop */
         if (!knurl_load_acquire(&loop->is_served) && now - k->seen_at > LAST_CALL_NS) {
             knurl_loop_end(loop, KNURL_LOOP_DONE);
         }
     } else if (now - k->tried_at > RECONNECT_NS) {
         (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = k->seen_at = knurl_system_now_ns(); /* nobody could have cycled meanwhile */
+        k->tried_at = k->seen_at = knurl_system_now_ns(); /* reopening took time in which no cycle could run */
     }
 }
 
 static void watchdog_thread(void *argument) {
     knurl_loop *loop = argument;
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
-    const int64_t nap = limit > 80000000 || limit == 0 ? 20000000
-                        : limit < 400000               ? 100000
-                                                       : limit / 4; /* nobody waits long for it */
+    /* at most 20 ms, because knurl_loop_destroy() waits for this thread */
+    const int64_t nap = limit > 80000000 || limit == 0 ? 20000000 : limit < 400000 ? 100000 : limit / 4;
     knurl_store_release(&loop->watchdog_thread, knurl_system_thread_id());
     watchdog k = {0, knurl_system_now_ns(), 0, 0, 0.0};
     while (is_running(loop)) {
@@ -169,7 +168,7 @@ void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, stats, size);
 }
 
-/* What the device is. A driver that tells no heat_time tells nothing of friction and heat at all. */
+/* Reads what the scene needs to know of the device. A driver without heat_time knows neither friction nor heat. */
 static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
@@ -188,7 +187,7 @@ static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     return result || !d->scene ? result : knurl_scene_adopt_device(d->scene, d->hip, facts);
 }
 
-/* Device and HIP are this loop's alone. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */
+/* Claims device and HIP for this loop alone. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */
 static knurl_result claim(const knurl_loop_desc *d) {
     knurl_result result = knurl_device_claim(d->device);
     if (!result && d->scene) {
@@ -284,7 +283,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     }
     const int needs_watchdog =
         loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
-    if (needs_watchdog && !loop->desc.clock) { /* with a clock of the caller's, real time says nothing */
+    if (needs_watchdog && !loop->desc.clock) { /* with the caller's clock, real time has no meaning */
         loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
         if (!loop->watchdog) {
             knurl_loop_stop(loop);
@@ -294,7 +293,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     return KNURL_OK;
 }
 
-/* The ramp at the end, here and now. */
+/* Runs the ramp at the end on this thread. */
 static void finish_stepping(knurl_loop *loop) {
     knurl_store_relaxed(&loop->stepping, 1u);
     knurl_loop_request_stop(loop);
@@ -302,7 +301,7 @@ static void finish_stepping(knurl_loop *loop) {
     knurl_loop_end(loop, KNURL_LOOP_DONE);
 }
 
-/* 1: on this thread, below this call, the loop runs: it calls back, or looks for its device. */
+/* 1 if called from inside the loop: from a callback of its haptic thread, or from its watchdog thread. */
 static int is_inside(const knurl_loop *loop) {
     const uintptr_t here = knurl_system_thread_id();
     const int runs = is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
@@ -399,7 +398,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
     if (!loop || KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    if (is_inside(loop)) { /* it cannot wait for its own end, nor be freed under itself */
+    if (is_inside(loop)) { /* its own thread can neither wait for its end nor free it */
         knurl_loop_request_stop(loop);
         return;
     }
@@ -421,7 +420,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
 }
 
 static knurl_percentiles percentiles_of(const knurl_histogram *histogram) {
-    const double max = (double)knurl_load_relaxed(&histogram->max); /* a bucket's middle may lie above it */
+    const double max = (double)knurl_load_relaxed(&histogram->max); /* the middle of its bucket may be larger */
     const knurl_percentiles made = {fmin(max, knurl_histogram_percentile(histogram, 0.5)),
                                     fmin(max, knurl_histogram_percentile(histogram, 0.99)), max};
     return made;

@@ -12,7 +12,7 @@
 #define DHD_CALL
 #endif
 
-/* What dhdGetSystemType() tells. */
+/* Results of dhdGetSystemType(). */
 enum {
     DHD_OMEGA = 32,
     DHD_OMEGA3 = 33,
@@ -32,7 +32,7 @@ enum {
 /* Places in what dhdGetStatus() fills in. */
 enum { DHD_STATUS_CONNECTED = 1, DHD_STATUS_RESET = 3, DHD_STATUS_ROOM = 64 /* 16 in 3.7, more in later ones */ };
 
-/* What dhdErrorGetLast() tells when the device is gone. */
+/* Result of dhdErrorGetLast() when the device is gone. */
 enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 };
 
 /* Every function that is needed: field, what it returns, symbol, what it takes. All or none is loaded. Below 0 is an

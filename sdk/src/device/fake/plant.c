@@ -42,7 +42,7 @@ static void make_motion(const knurl_plant_config *c, double step, knurl_plant_mo
     double f[2][2] = {{1.0, 0.0}, {0.0, 1.0}}; /* the sums of the two series */
     double p[2] = {0.0, 0.0};
     double term[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
-    for (int n = 1; n <= 12; n++) { /* 0.25^12/12! is below what a double tells apart */
+    for (int n = 1; n <= 12; n++) { /* 0.25^12/12! is below the precision of a double */
         for (int row = 0; row < 2; row++) {
             p[row] += h / n * term[row][1];
             const double first = term[row][0];

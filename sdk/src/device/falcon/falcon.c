@@ -43,7 +43,7 @@ typedef struct falcon {
     knurl_falcon_transport transport;
     char firmware[KNURL_URI_ROOM]; /* "": none is known */
     double gain;
-    uint32_t is_gain_set; /* 1: by whoever opened it */
+    uint32_t is_gain_set; /* 1: by the URI, or by knurl weigh */
     uint32_t wants_guard;
     uint32_t motors_known;
     knurl_link link;

@@ -197,7 +197,7 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
     if (outcome != KNURL_FALCON_DONE) {
         return outcome;
     }
-    const int had_failed = u->has_failed; /* told one write late: nobody waits for the end of this one */
+    const int had_failed = u->has_failed; /* of the previous write: this one is not waited for */
     memcpy(u->out_bytes, bytes, count);
     libusb_fill_bulk_transfer(u->out, u->handle, END_OUT, u->out_bytes, (int)count, on_out, u, 0);
     const int code = lib.submit_transfer(u->out);

@@ -67,7 +67,7 @@ typedef struct lws_functions {
 
 static lws_functions lib; /* null until it is loaded */
 
-/* --- what libwebsockets tells --- */
+/* --- callbacks of libwebsockets --- */
 
 static void take_part(websocket *w, const char *part, size_t size, int is_last) {
     const int at = w->coming;
@@ -175,7 +175,8 @@ static int receive(void *self, int milliseconds, knurl_inverse3_message *message
     return count;
 }
 
-/* It has the process ignore SIGPIPE for good, which is the host's to decide. Its sockets need it not: MSG_NOSIGNAL. */
+/* libwebsockets makes the process ignore SIGPIPE, which is the host's decision. It is not needed: sockets use
+ * MSG_NOSIGNAL. */
 static struct lws_context *make_context(const struct lws_context_creation_info *info) {
 #if defined(_WIN32)
     return lib.create_context(info);

@@ -153,7 +153,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
         return KNURL_LINK_LOST;
     }
     if (!send_currents(r, force)) {
-        knurl_rawhid_in ignored; /* only reading tells a device that is gone from one that is busy */
+        knurl_rawhid_in ignored; /* only a read distinguishes a device that is gone from one that is busy */
         return take_report(r, 0, &ignored) == GONE ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
     }
     const int outcome = await_report(r, ANSWER_NS, &in);

@@ -142,7 +142,7 @@ static void port_close(void *self) {
     free(p);
 }
 
-/* The first line tells whose firmware it is: 1, or 0 and why it is another's. */
+/* Checks the first line, which names the firmware: 1, or 0 and why it is another one. */
 static int say_hello(serial_port *p, char *why, size_t why_size) {
     static const char zero[] = "[0,0,0]\n";
     uint8_t report[REPORT_BYTES];

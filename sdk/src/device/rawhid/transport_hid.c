@@ -104,7 +104,7 @@ static void narrow(const wchar_t *wide, char *text, size_t size) {
 }
 
 #ifdef __linux__
-/* The kernel's own copy, for hidapi tells no sizes. */
+/* The kernel's own copy: hidapi has no function for its size. */
 static void ask_sizes(const char *path, knurl_rawhid_sizes *sizes) {
     char where[512];
     uint8_t descriptor[4096]; /* HID_MAX_DESCRIPTOR_SIZE */

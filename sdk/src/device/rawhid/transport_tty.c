@@ -87,7 +87,7 @@ static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char 
     return 1;
 }
 
-/* Linux tells a port's USB device in /sys. */
+/* Linux names a port's USB device in /sys. */
 static int tty_find(void *user, char *path, size_t size) {
     (void)user;
     for (int i = 0; i < PORTS; i++) {

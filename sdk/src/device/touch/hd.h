@@ -52,7 +52,7 @@ enum {
     HD_MAX_DAMPING = 0x2609,       /* N s/mm */
     HD_FORCE = 0x2700,             /* 3 doubles, N */
     HD_FORCE_OUTPUT = 0x4000,      /* a capability */
-    HD_CALIBRATED = 0x5000,        /* what hdCheckCalibration() tells: this and the next two */
+    HD_CALIBRATED = 0x5000,        /* results of hdCheckCalibration(): this and the next two */
     HD_CALIBRATION_STALE = 0x5001, /* hdUpdateCalibration() mends it */
     HD_CALIBRATION_MANUAL = 0x5002 /* a person has to help */
 };

@@ -229,7 +229,7 @@ static uint32_t touch_leave(knurl_device *device) {
            touch_detach(t);
 }
 
-/* One look at the default device, where nobody in this process has one. */
+/* Looks for the default device, unless this process has one open. */
 static void list_default(knurl_listings *listings) {
     touch t;
     memset(&t, 0, sizeof t);

@@ -13,10 +13,10 @@ typedef struct touch touch;
 typedef struct touch_slot {
     touch *owner; /* null: free; under the lock of touch.c */
     /* atomics */
-    touch *device;      /* whom the scheduler's next call serves; null: nobody */
+    touch *device;      /* which the scheduler's next call serves; or null */
     uint32_t inside;    /* 1: a call is under way */
     uint32_t scheduled; /* 1: HD has it on its list */
-    uint32_t key;       /* whose errors these are: its handle + 1; 0: nobody's */
+    uint32_t key;       /* the device of these errors: its handle + 1; 0: none */
     uint32_t loss;      /* the error by which it got lost, 0: it is there */
     uint32_t refusal;   /* the latest error by which it did not play a force, 0: none */
     uint64_t others;    /* errors of other kinds */
@@ -45,7 +45,7 @@ struct touch {
     uint32_t uncalibrated;      /* 1: it does not know where it is, and that was reported */
     uint32_t told_loss;         /* 1: read has said that it is lost */
     /* atomics */
-    uintptr_t frame_thread; /* who may read and write now; 0: nobody */
+    uintptr_t frame_thread; /* the thread that may read and write now; 0: none */
 };
 
 /* Frames between two looks at the calibration. */

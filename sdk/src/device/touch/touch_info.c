@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* One positive number times `unit`, or what else is known where HD tells nothing believable. */
+/* One positive number from HD times `unit`, or a known value where HD has none that is plausible. */
 static double ask(touch *t, hd_enum what, double unit, double most, double otherwise) {
     double value = NAN;
     t->hd->get_doubles(what, &value);

@@ -45,7 +45,7 @@ uint32_t touch_take_errors(const hd_api *hd, touch_slot *own) {
     return oldest;
 }
 
-/* Not in a frame. HD takes over a new reference, such as the inkwell's, when it is told to. */
+/* Not in a frame. HD takes over a new reference, such as the inkwell's, only when it is asked to. */
 static void keep_calibration(touch *t) {
     if (t->until_check > 0) {
         t->until_check--;
