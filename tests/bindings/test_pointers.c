@@ -264,17 +264,23 @@ typedef struct tally {
     int crashing_functions;
 } tally;
 
-/* One call in a process of its own. Returns 1 where it crashed. */
-static int try_one(const function *on, int at, int kind, int is_destroyed, tally *sum) {
-    const char *what = is_destroyed ? "destroyed" : kind ? "another kind" : "null";
+enum { BAD_NULL, BAD_KIND, BAD_DESTROYED };
+
+static const char *const bad_names[] = {"null", "a handle of another kind", "a destroyed handle"};
+
+/* One call with a bad pointer in a process of its own. Returns 1 where it crashed. */
+static int try_one(const function *on, int at, int bad, tally *sum) {
+    const int kind = on->pointers[at].kind;
     const pid_t child = begin_child();
     if (child == 0) {
         static fixture f;
         make(&f);
-        const void *bad = is_destroyed ? f.destroyed[kind] : kind ? handle_of(&f, kind) : NULL;
-        const char *wrong = call_with(on, at, bad, &f);
+        const void *pointer = bad == BAD_NULL   ? NULL
+                              : bad == BAD_KIND ? handle_of(&f, kind % KINDS + 1)
+                                                : f.destroyed[kind];
+        const char *wrong = call_with(on, at, pointer, &f);
         if (wrong) {
-            print_error("%s: %s %s: %s\n", on->name, on->pointers[at].name, what, wrong);
+            print_error("%s: %s is %s: %s\n", on->name, on->pointers[at].name, bad_names[bad], wrong);
         }
         _exit(wrong ? 2 : 0);
     }
@@ -282,7 +288,7 @@ static int try_one(const function *on, int at, int kind, int is_destroyed, tally
     assert_int_equal(waitpid(child, &status, 0), child);
     const int crashed = !WIFEXITED(status) || (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 2);
     if (crashed) {
-        print_error("%s: %s %s: it crashes\n", on->name, on->pointers[at].name, what);
+        print_error("%s: %s is %s: it crashes\n", on->name, on->pointers[at].name, bad_names[bad]);
     }
     sum->calls++;
     sum->crashes += crashed;
@@ -290,53 +296,34 @@ static int try_one(const function *on, int at, int kind, int is_destroyed, tally
     return crashed;
 }
 
-static void check_none(const char *what, const tally *sum) {
-    print_message("%d calls with %s: %d crashed (%d functions), %d went wrong\n", sum->calls, what, sum->crashes,
-                  sum->crashing_functions, sum->complaints);
-    assert_true(sum->calls > 0);
-    assert_int_equal(sum->crashes + sum->complaints, 0);
+/* Each pointer of each function once; only handles can be of another kind or destroyed. */
+static void try_all(int bad) {
+    tally sum = {0, 0, 0, 0};
+    for (size_t i = 0; i < COUNT_OF(functions); i++) {
+        int crashes = 0;
+        for (int at = 0; at < functions[i].pointer_count; at++) {
+            if (bad == BAD_NULL || functions[i].pointers[at].kind) {
+                crashes += try_one(&functions[i], at, bad, &sum);
+            }
+        }
+        sum.crashing_functions += crashes > 0;
+    }
+    print_message("%d calls with %s: %d crashed (%d functions), %d went wrong\n", sum.calls, bad_names[bad],
+                  sum.crashes, sum.crashing_functions, sum.complaints);
+    assert_true(sum.calls > 0);
+    assert_int_equal(sum.crashes + sum.complaints, 0);
 }
 
 TEST(null_for_any_pointer_is_an_error_that_names_it) {
-    tally sum = {0, 0, 0, 0};
-    for (size_t i = 0; i < COUNT_OF(functions); i++) {
-        int crashes = 0;
-        for (int at = 0; at < functions[i].pointer_count; at++) {
-            crashes += try_one(&functions[i], at, 0, 0, &sum);
-        }
-        sum.crashing_functions += crashes > 0;
-    }
-    check_none("null", &sum);
+    try_all(BAD_NULL);
 }
 
 TEST(a_handle_of_another_kind_is_an_error_that_names_it) {
-    tally sum = {0, 0, 0, 0};
-    for (size_t i = 0; i < COUNT_OF(functions); i++) {
-        int crashes = 0;
-        for (int at = 0; at < functions[i].pointer_count; at++) {
-            const int kind = functions[i].pointers[at].kind;
-            if (kind) {
-                crashes += try_one(&functions[i], at, kind % KINDS + 1, 0, &sum);
-            }
-        }
-        sum.crashing_functions += crashes > 0;
-    }
-    check_none("a handle of another kind", &sum);
+    try_all(BAD_KIND);
 }
 
 TEST(a_handle_that_was_destroyed_is_an_error_that_names_it) {
-    tally sum = {0, 0, 0, 0};
-    for (size_t i = 0; i < COUNT_OF(functions); i++) {
-        int crashes = 0;
-        for (int at = 0; at < functions[i].pointer_count; at++) {
-            const int kind = functions[i].pointers[at].kind;
-            if (kind) {
-                crashes += try_one(&functions[i], at, kind, 1, &sum);
-            }
-        }
-        sum.crashing_functions += crashes > 0;
-    }
-    check_none("a destroyed handle", &sum);
+    try_all(BAD_DESTROYED);
 }
 
 /* Else the calls above might be refused for another reason. */

@@ -130,29 +130,28 @@ TEST_WITH(a_clock_that_was_set_back_cools_nothing, NULL, end_bench) {
     CHECK_CLOSE(heat(), warm * exp(-0.001 / 60.0), 1e-9);
 }
 
-/* A thread that does not run for a minute has rested for a minute. */
-TEST_WITH(periods_that_a_thread_missed_cool_as_well, NULL, end_bench) {
-    const double warm = warm_up();
-    b.late = INT64_C(60000000000);
+/* 100 ticks on a thread, the 50th of which comes `gap` seconds late. */
+static void run_with_gap(double gap) {
+    b.late = (int64_t)(1e9 * gap);
     b.late_for = 50;
     b.desc.tick_limit = 100;
     b.desc.ramp_s = 0.0;
     bench_create(&b);
     assert_int_equal(knurl_loop_start(b.loop), KNURL_OK);
     assert_int_equal(knurl_loop_wait(b.loop, 10.0), 1);
+}
+
+/* A thread that does not run for a minute has rested for a minute. */
+TEST_WITH(periods_that_a_thread_missed_cool_as_well, NULL, end_bench) {
+    const double warm = warm_up();
+    run_with_gap(60.0);
     CHECK_CLOSE(heat(), warm * exp(-60.1 / 60.0), 2e-5);
 }
 
 /* Nobody zeroed the force meanwhile: a clock of the caller's has no watchdog. */
 TEST_WITH(periods_that_a_thread_missed_while_it_pressed_warm, NULL, end_bench) {
     bench_open(&b, 0.005); /* 2 N */
-    b.late = INT64_C(5000000000);
-    b.late_for = 50;
-    b.desc.tick_limit = 100;
-    b.desc.ramp_s = 0.0;
-    bench_create(&b);
-    assert_int_equal(knurl_loop_start(b.loop), KNURL_OK);
-    assert_int_equal(knurl_loop_wait(b.loop, 10.0), 1);
+    run_with_gap(5.0);
     CHECK_CLOSE(heat(), 2.0 * 2.0 / (0.88 * 0.88) * (1.0 - exp(-5.1 / 60.0)), 0.005);
 }
 

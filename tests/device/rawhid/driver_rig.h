@@ -13,6 +13,7 @@
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/rawhid.h"
 #include "device/rawhid/rawhid_double.h"
+#include "device/rawhid/ticking.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,10 +21,6 @@
 
 static fake_hid hid;
 static knurl_device *device;
-
-static inline void sleep_s(double s) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(s * 1e9));
-}
 
 static inline void open_device(const char *options) {
     const knurl_result result = knurl_rawhid_open(options, &hid.bus, &device);
@@ -90,17 +87,8 @@ static inline void check_open_refused(const char *options, knurl_result code, co
     assert_int_equal(hid.opened, hid.closed);
 }
 
-/* Ticks as a loop does, 1 kHz or slower, writing `force`, until `result` comes. */
 static inline int tick_until(knurl_result result, const double force[3], double seconds, knurl_device_sample *sample) {
-    const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
-    do {
-        if (knurl_device_read(device, sample) == result) {
-            return 1;
-        }
-        (void)knurl_device_write(device, force);
-        sleep_s(0.001);
-    } while (knurl_system_now_ns() < until);
-    return 0;
+    return tick_device_until(device, result, force, seconds, sample);
 }
 
 static const double none[3] = {0.0, 0.0, 0.0};

@@ -6,6 +6,7 @@
 #include "device/drivers.h"
 #include "device/port.h"
 #include "device/rawhid/emulated_hid.h"
+#include "device/rawhid/ticking.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,10 +19,6 @@
 static emulated_hid hid;
 
 static const double none[3] = {0.0, 0.0, 0.0};
-
-static void sleep_s(double s) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(s * 1e9));
-}
 
 static int set_up(void **state) {
     (void)state;
@@ -47,19 +44,6 @@ static knurl_device *open_device(void) {
     }
     assert_int_equal(result, KNURL_OK);
     return device;
-}
-
-static int tick_until(knurl_device *device, knurl_result result, const double force[3], double seconds,
-                      knurl_device_sample *sample) {
-    const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
-    do {
-        if (knurl_device_read(device, sample) == result) {
-            return 1;
-        }
-        (void)knurl_device_write(device, force);
-        sleep_s(0.001);
-    } while (knurl_system_now_ns() < until);
-    return 0;
 }
 
 /* Ticks as a loop does that always comes back from a halt: a machine under load brings some about. */
@@ -121,7 +105,7 @@ TEST_WITH(it_is_listed_opened_and_closed_again_and_again, set_up, tear_down) {
     for (int i = 0; i < 5; i++) {
         knurl_device_sample sample;
         knurl_device *device = open_device();
-        assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+        assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
         assert_true(vec3_length(sample.position) < 0.0003);
         knurl_device_close(device);
     }
@@ -133,7 +117,7 @@ TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down)
     knurl_device_status status;
     plug(0xffab, 64);
     knurl_device *device = open_device();
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     const int64_t start = knurl_system_now_ns();
     knurl_device_status_init(&status, sizeof status);
     assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
@@ -158,7 +142,7 @@ TEST_WITH(reports_of_14_bytes_work_as_well, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 14);
     knurl_device *device = open_device();
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
 }
 
@@ -210,18 +194,18 @@ TEST_WITH(muted_it_is_halted_and_comes_back, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 64);
     knurl_device *device = open_device();
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
-    (void)tick_until(device, 1, force, 0.1, &sample);
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    (void)tick_device_until(device, 1, force, 0.1, &sample);
     knurl_system_mutex_lock(&hid.mutex);
     hid.is_mute = 1;
     knurl_system_mutex_unlock(&hid.mutex);
-    assert_true(tick_until(device, KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
     sleep_s(0.05);
     assert_true(limp_since() >= 0.0);
     knurl_system_mutex_lock(&hid.mutex);
     hid.is_mute = 0;
     knurl_system_mutex_unlock(&hid.mutex);
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
 }
 
@@ -229,15 +213,15 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
     knurl_device_sample sample;
     plug(0xffab, 64);
     knurl_device *device = open_device();
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     const int64_t pulled = knurl_system_now_ns();
     emulated_hid_unplug(&hid);
-    assert_true(tick_until(device, KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
     assert_true(knurl_system_now_ns() - pulled < 500000000); /* told by the system, not by a second's silence */
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     plug(0xffab, 64);
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
 }
 
@@ -289,7 +273,7 @@ TEST_WITH(a_second_opening_in_this_program_is_refused_in_a_sentence, set_up, tea
     plug(0xffab, 64);
     knurl_device *device = open_device();
     check_refused(KNURL_ERROR_SYSTEM, "/dev/hidraw0 could not be opened: it is in use");
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample)); /* the first goes on */
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample)); /* the first goes on */
     knurl_device_close(device);
     knurl_device_close(open_device());
 }
@@ -315,7 +299,7 @@ TEST_WITH(a_device_that_another_program_has_is_refused_in_a_sentence, set_up, te
     plug(0xffab, 64);
     knurl_device *device = open_device();
     assert_int_equal(open_in_another_program(), 0);
-    assert_true(tick_until(device, KNURL_OK, none, 5.0, &sample));
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     knurl_device_close(device);
 }
 
