@@ -74,8 +74,8 @@ enum {
  * gradually. */
 #define KNURL_ENTRY_SPEED_MAX 0.5
 
-/** Visits of a tick by default. Ticks that use them all were measured at 26 to 40 us (99th percentile) and 32 to 63 us
- * (99.9th). With 600 visits, 3 of 70,000 presses into rooms of one moving mesh were lost. */
+/** Visits of a tick by default. The worst scenes known, which use them all, were measured at 16 to 40 us a tick (99th
+ * percentile) and 22 to 63 us (99.9th). Tuned: with 600, 3 of 70,000 presses into moving meshes were lost. */
 #define KNURL_VISITS_MAX 1200
 
 /** One haptic interaction point (HIP): its update rate, its workspace in the scene, its device's limits. */
@@ -154,9 +154,9 @@ typedef struct knurl_surface_info {
     const char *why;            /**< why this model, in a sentence; static */
     double model_error;         /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
-    uint32_t turned_triangles;  /**< mixed winding: triangles turned over to face as the larger part, by area, of those
-                                     that they hang together with by shared edges; 0 where touching_pairs is not 0, or
-                                     more than two triangles share an edge */
+    uint32_t turned_triangles;  /**< mixed winding: triangles turned over to face as most of their connected
+                                     component does, by area; 0 where touching_pairs is not 0, or where more than two
+                                     triangles share an edge */
     double axis[3];             /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];        /**< as stretch, along y */
     double seam;                /**< m: edges closer than this count as connected; from the mesh's size and float32's

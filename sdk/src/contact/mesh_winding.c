@@ -23,7 +23,7 @@ static int is_mixed(const knurl_mesh *mesh) {
     return mixed && mesh->reversed_twins == 0 && mesh->touching == 0;
 }
 
-/* Triangles that hang together. */
+/* A connected component: triangles that are reached from one another over shared edges. */
 typedef struct component {
     uint32_t *found; /* room for all of the mesh */
     uint32_t count;
@@ -31,7 +31,7 @@ typedef struct component {
     int one_sided;   /* 1: it has one side only, as a Moebius strip */
 } component;
 
-/* Marks all that hang together with `first`. */
+/* Finds and marks the component of `first`. */
 static void find_component(const knurl_mesh *mesh, uint32_t first, uint8_t *marks, component *c) {
     c->count = 1;
     c->found[0] = first;

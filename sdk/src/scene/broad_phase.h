@@ -5,7 +5,7 @@
 #include "contact/bvh.h"
 #include "scene/surfaces.h"
 
-/* So many dynamic surfaces are tested by one box first. */
+/* Dynamic surfaces are searched in groups of this size: a group whose box is far away is skipped. */
 #define KNURL_DYNAMIC_GROUP 16
 
 /* What ticks look into: a hierarchy over the surfaces that stood still when it was built, and a list of the dynamic

@@ -139,9 +139,13 @@ void knurl_god_object_follow(knurl_god_object *g, const knurl_obstacles *obstacl
     (void)pass(g, obstacles, hip);
 }
 
-/* A surface pushes the object at most so many times as far as it moves itself. Two that close at a smaller angle, 11
- * degrees, hold what is between them rather than push it out (a friction of 0.1 is enough for that). */
+/* A surface may push the object at most this many times its own movement. Two surfaces that close at an angle a push it
+ * by 1 / tan(a) times that, so the limit is at 11 degrees; a real wedge of 11 degrees does not push out what is in it
+ * either, from a friction coefficient of tan(11 degrees / 2) = 0.1 on. */
 #define PUSH_RATIO 5.0
+
+/* m: a push by rounding, where nothing moves. */
+#define PUSH_ROUNDING 1e-6
 
 /* m: how far the object may be pushed in the tick. */
 static double longest_push(const knurl_god_object *g, const knurl_obstacles *obstacles) {
@@ -153,7 +157,7 @@ static double longest_push(const knurl_god_object *g, const knurl_obstacles *obs
         knurl_pose_to_parent(o->pose, moved, moved);
         longest = knurl_max(longest, vec3_distance2(g->at, moved));
     }
-    return 1e-6 + PUSH_RATIO * sqrt(longest);
+    return PUSH_ROUNDING + PUSH_RATIO * sqrt(longest);
 }
 
 /* In front of each face that has moved over it, as near as can be to where it was. */
