@@ -54,7 +54,7 @@ BOXES = {
     "plane": (270, 702, 160, "plane", "z = 0 in an outline", ["contact/plane", "contact/plane_hold"]),
     "mesh_frame": (462, 702, 160, "mesh_frame", "x, y, coordinates", ["contact/mesh_frame"]),
     "mesh_walk": (654, 702, 160, "mesh_walk", "downhill to the nearest", ["contact/mesh_walk"]),
-    "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast"]),
+    "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast", "contact/mesh_search"]),
     "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact", "contact/visits"]),
     "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh"]),
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),

@@ -23,13 +23,25 @@ typedef struct knurl_contact_state {
     uint32_t triangle; /* where the proxy was */
 } knurl_contact_state;
 
-/* Where in a mesh's hierarchy searches of a small box begin: nothing outside of the node meets the box. Zero: nothing
- * is known. */
+/* The most triangles that are listed in a part of a mesh. */
+#define KNURL_PART_TRIANGLES 32
+
+/* What searches of a mesh within a small box look at, so that not every one of a tick begins at the root. An empty box:
+ * nothing is known. */
 typedef struct knurl_part {
     double low[3]; /* shape's frame, m */
     double high[3];
-    uint32_t node;
+    uint32_t node;  /* of the hierarchy: nothing outside of it meets the box */
+    uint32_t count; /* the triangles that meet the box; more than KNURL_PART_TRIANGLES: they are not listed */
+    uint32_t triangles[KNURL_PART_TRIANGLES]; /* in ascending order */
 } knurl_part;
+
+/* Empties its box. */
+static inline void knurl_part_clear(knurl_part *part) {
+    for (int axis = 0; axis < 3; axis++) {
+        part->low[axis] = part->high[axis] = 0.0;
+    }
+}
 
 /* What is kept of the triangle that a proxy is on (facet.h). Zero: nothing. */
 typedef struct knurl_facet knurl_facet;

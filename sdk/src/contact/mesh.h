@@ -81,17 +81,6 @@ static inline void knurl_mesh_corners(const knurl_mesh *mesh, uint32_t triangle,
     }
 }
 
-/* Whether the box of three corners overlaps another. */
-static inline int knurl_corners_meet(const double corners[3][3], const double low[3], const double high[3]) {
-    for (int axis = 0; axis < 3; axis++) {
-        const double a = corners[0][axis], b = corners[1][axis], c = corners[2][axis];
-        if ((a < low[axis] && b < low[axis] && c < low[axis]) || (a > high[axis] && b > high[axis] && c > high[axis])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triangle *out) KNURL_NONBLOCKING;
 
 #endif

@@ -5,7 +5,7 @@
 #include "contact/mesh_cast.h"
 
 #include "contact/closest_point.h"
-#include "contact/mesh_query.h"
+#include "contact/mesh_search.h"
 
 /* 1 where a point of the triangle's plane is no farther than `seam` beyond any edge, nor beyond the triangle's box: at
  * a sliver's tips the edges alone would let it reach far. inside: as knurl_closest_on_edges(), of b and c. */
@@ -30,19 +30,20 @@ static int is_near_triangle(const double corners[3][3], const double p[3], const
     return 1;
 }
 
-/* 1 where a way goes through a triangle before `hit`, which is replaced. low, high: the way's box. */
-static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, const double low[3],
-                   const double high[3], knurl_cast_hit *hit) {
-    double corners[3][3], ab[3], ac[3], normal[3], from[3], way[3], across[3], point[3];
+/* The box of a cast's way up to a place on it. */
+static void bound(const knurl_mesh *mesh, const knurl_cast *cast, const double to[3], double low[3], double high[3]) {
+    knurl_bvh_bound(cast->from, to, mesh->seam + KNURL_CAST_SLACK, low, high);
+}
+
+/* 1 where a way goes through a triangle before `hit`, which is replaced. */
+static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, const double way[3],
+                   knurl_cast_hit *hit) {
+    double corners[3][3], ab[3], ac[3], normal[3], from[3], across[3], point[3];
     knurl_mesh_corners(mesh, triangle, corners);
-    if (!knurl_corners_meet((const double (*)[3])corners, low, high) || !knurl_visits_take(cast->visits, 1)) {
-        return 0;
-    }
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
     vec3_cross(ab, ac, normal);
     vec3_sub(cast->from, corners[0], from);
-    vec3_sub(cast->to, cast->from, way);
     const double before = vec3_dot(from, normal);
     const double rise = vec3_dot(way, normal);
     const int side = rise < 0.0 ? 1 : -1;
@@ -74,27 +75,19 @@ static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *
 }
 
 int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_hit *hit) {
-    uint32_t stack[KNURL_BVH_DEPTH_MAX];
-    uint32_t top = 0;
-    double low[3], high[3];
-    knurl_bvh_bound(cast->from, cast->to, mesh->seam + KNURL_CAST_SLACK, low, high);
+    knurl_mesh_search search;
+    knurl_search_box box;
+    double way[3], low[3], high[3];
+    uint32_t triangle;
+    vec3_sub(cast->to, cast->from, way);
+    bound(mesh, cast, cast->to, low, high);
+    knurl_search_box_set(low, high, &box);
     hit->share = 1.5;
-    stack[top++] = knurl_mesh_find_part(mesh, low, high, cast->visits, cast->part);
-    while (top > 0) {
-        const uint32_t index = stack[--top];
-        const knurl_bvh_node *node = &mesh->nodes[index];
-        if (!knurl_bvh_meets(node, low, high)) {
-            continue;
-        }
-        if (!knurl_visits_take(cast->visits, 1 + node->count)) {
-            return 0;
-        }
-        for (uint32_t i = 0; i < node->count; i++) {
-            (void)cast_at(mesh, node->first + i, cast, low, high, hit);
-        }
-        if (node->count == 0) {
-            stack[top++] = node->first;
-            stack[top++] = index + 1;
+    knurl_mesh_search_begin(&search, mesh, low, high, cast->visits, cast->part);
+    while (knurl_mesh_search_next(&search, &box, &triangle) && knurl_visits_take(cast->visits, 1)) {
+        if (cast_at(mesh, triangle, cast, way, hit)) { /* from here on only what is before it */
+            bound(mesh, cast, hit->point, low, high);
+            knurl_search_box_set(low, high, &box);
         }
     }
     return hit->share < 1.5;

@@ -3,46 +3,9 @@
 #include "contact/mesh_query.h"
 
 #include "contact/closest_point.h"
+#include "contact/mesh_search.h"
 
 #include <string.h>
-
-/* m: a larger search begins at the root, and a part for smaller ones is kept. */
-#define PART_SIZE_MAX 0.005
-
-static int is_within(const knurl_part *part, const double low[3], const double high[3]) {
-    int within = 1;
-    for (int axis = 0; axis < 3; axis++) {
-        within &= part->low[axis] <= low[axis] && part->high[axis] >= high[axis];
-    }
-    return within;
-}
-
-uint32_t knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3], knurl_visits *visits,
-                              knurl_part *part) {
-    const double margin = knurl_max(high[0] - low[0], knurl_max(high[1] - low[1], high[2] - low[2]));
-    uint32_t index = 0;
-    if (!part || margin > PART_SIZE_MAX) {
-        return 0;
-    }
-    if (is_within(part, low, high)) {
-        return part->node;
-    }
-    for (int axis = 0; axis < 3; axis++) { /* the next searches of this tick and of the next are near */
-        part->low[axis] = low[axis] - margin;
-        part->high[axis] = high[axis] + margin;
-    }
-    while (mesh->nodes[index].count == 0 && knurl_visits_take(visits, 1)) {
-        const uint32_t children[2] = {index + 1, mesh->nodes[index].first};
-        const int meets[2] = {knurl_bvh_meets(&mesh->nodes[children[0]], part->low, part->high),
-                              knurl_bvh_meets(&mesh->nodes[children[1]], part->low, part->high)};
-        if (meets[0] == meets[1]) {
-            break;
-        }
-        index = children[meets[1]];
-    }
-    part->node = index;
-    return index;
-}
 
 /* 1 where the triangle's plane is farther from p than the square root of `best2`. Rounding (the two terms added) never
  * makes it 1 where the triangle is as near. */
@@ -85,7 +48,7 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
     double best2 = limit2;
     double low[3], high[3];
     knurl_bvh_bound(p, p, sqrt(limit2), low, high);
-    stack[0].index = knurl_mesh_find_part(mesh, low, high, visits, part);
+    stack[0].index = knurl_mesh_find_part(mesh, low, high, visits, part)->node;
     stack[0].distance2 = knurl_bvh_distance2(&mesh->nodes[stack[0].index], p);
     while (top > 0) {
         const uint32_t index = stack[--top].index;
@@ -160,39 +123,23 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
 
 int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3], int double_sided, knurl_part *part,
                      knurl_visits *visits, uint32_t *triangle) {
-    uint32_t stack[KNURL_BVH_DEPTH_MAX];
-    uint32_t top = 0;
-    double direction[3];
+    knurl_mesh_search search;
+    knurl_search_box box;
+    double direction[3], low[3], high[3];
     double best = 1.5;
     int side = 0;
+    uint32_t at;
     vec3_sub(b, a, direction);
-    double low[3], high[3];
     knurl_bvh_bound(a, b, 1e-7 * vec3_length(direction) + 1e-9, low, high);
-    stack[top++] = knurl_mesh_find_part(mesh, low, high, visits, part);
-    while (top > 0) {
-        const uint32_t index = stack[--top];
-        const knurl_bvh_node *node = &mesh->nodes[index];
-        if (!knurl_bvh_meets(node, low, high)) {
-            continue;
-        }
-        if (!knurl_visits_take(visits, 1 + node->count)) {
-            break;
-        }
-        for (uint32_t i = 0; i < node->count; i++) {
-            double corners[3][3];
-            knurl_mesh_corners(mesh, node->first + i, corners);
-            if (!knurl_corners_meet((const double (*)[3])corners, low, high) || !knurl_visits_take(visits, 1)) {
-                continue;
-            }
-            const double s = hit_triangle((const double (*)[3])corners, a, direction, best, double_sided, &side);
-            if (s < best) {
-                best = s;
-                *triangle = node->first + i;
-            }
-        }
-        if (node->count == 0) {
-            stack[top++] = node->first;
-            stack[top++] = index + 1;
+    knurl_search_box_set(low, high, &box);
+    knurl_mesh_search_begin(&search, mesh, low, high, visits, part);
+    while (knurl_mesh_search_next(&search, &box, &at) && knurl_visits_take(visits, 1)) {
+        double corners[3][3];
+        knurl_mesh_corners(mesh, at, corners);
+        const double s = hit_triangle((const double (*)[3])corners, a, direction, best, double_sided, &side);
+        if (s < best) {
+            best = s;
+            *triangle = at;
         }
     }
     return best < 1.5 ? side : 0;

@@ -6,11 +6,6 @@
 #include "contact/contact.h"
 #include "contact/mesh.h"
 
-/* The node at which a search of a box may begin: the part's, which is found anew where the box is not in it. part:
- * null: the root. visits: null: no limit. */
-uint32_t knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3], knurl_visits *visits,
-                              knurl_part *part) KNURL_NONBLOCKING;
-
 /* part: null: none is kept. visits: null: no limit.
  *
  * The nearest point of the mesh within `radius` of p; 0 where there is none. Fills in proxy, weights and triangle. Cut

@@ -9,7 +9,7 @@ void knurl_obstacle_set(knurl_obstacle *o, knurl_candidate *candidate, const knu
     o->surface = surface;
     o->record = record;
     if (!candidate->has_previous || candidate->jumps != record->motion.jumps) { /* it may be another shape */
-        memset(&candidate->part, 0, sizeof candidate->part);
+        knurl_part_clear(&candidate->part);
     }
     knurl_candidate_place(candidate, &record->motion, clock, &o->pose, &o->before);
 }

@@ -635,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "30536dc55bd5381c";
+        internal const string Interface = "6225821655fb4324";
 
         internal const string Version = "0.3.0";
 
@@ -704,7 +704,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
-        internal const int KNURL_VISITS_MAX = 1200;
+        internal const int KNURL_VISITS_MAX = 800;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_PATH_ROWS_MAX = 65536;

@@ -1,0 +1,120 @@
+/* Which triangles of a mesh meet a box. In a search most nodes and triangles do not, and telling so takes most of its
+ * time: boxes are compared in single precision, four numbers at a time. Everything here may run in a tick.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_MESH_SEARCH_H
+#define KNURL_SRC_MESH_SEARCH_H
+
+#include "base/vec3.h"
+#include "contact/contact.h"
+#include "contact/mesh.h"
+
+#include <string.h>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+/* Vectors of GCC and Clang: x, y, z and one number that is not used. */
+typedef float knurl_float4 __attribute__((vector_size(16)));
+typedef int32_t knurl_mask4 __attribute__((vector_size(16)));
+
+/* A box, rounded outwards. */
+typedef struct knurl_search_box {
+    knurl_float4 low, high;
+} knurl_search_box;
+
+/* More than two roundings to a float: a share of its size, and where it is subnormal. */
+#define KNURL_FLOAT_ROUNDING 1.2e-7f
+#define KNURL_FLOAT_TINY     1e-37f
+
+static inline void knurl_search_box_set(const double low[3], const double high[3], knurl_search_box *box) {
+    for (int axis = 0; axis < 3; axis++) {
+        const float least = (float)low[axis], most = (float)high[axis];
+        box->low[axis] = least - (fabsf(least) * KNURL_FLOAT_ROUNDING + KNURL_FLOAT_TINY);
+        box->high[axis] = most + (fabsf(most) * KNURL_FLOAT_ROUNDING + KNURL_FLOAT_TINY);
+    }
+    box->low[3] = box->high[3] = 0.0f;
+}
+
+/* 1 where a comparison holds in x, y or z. */
+static inline int knurl_mask4_any(knurl_mask4 mask) {
+#if defined(__SSE2__)
+    return (_mm_movemask_ps((__m128)mask) & 7) != 0;
+#else
+    return (mask[0] | mask[1] | mask[2]) != 0;
+#endif
+}
+
+static inline int knurl_search_box_meets_node(const knurl_search_box *box, const knurl_bvh_node *node) {
+    knurl_float4 min, max; /* the fourth numbers are the node's integers */
+    memcpy(&min, node, sizeof min);
+    memcpy(&max, (const char *)node + sizeof min, sizeof max);
+    return !knurl_mask4_any((box->low > max) | (box->high < min));
+}
+
+static inline knurl_float4 knurl_float4_vertex(const knurl_mesh *mesh, uint32_t vertex) {
+    const float *p = &mesh->positions[3 * (size_t)vertex];
+    return (knurl_float4){p[0], p[1], p[2], 0.0f};
+}
+
+static inline int knurl_search_box_meets_triangle(const knurl_search_box *box, const knurl_mesh *mesh,
+                                                  uint32_t triangle) {
+    const uint32_t *vertices = &mesh->triangles[3 * (size_t)triangle];
+    const knurl_float4 a = knurl_float4_vertex(mesh, vertices[0]);
+    const knurl_float4 b = knurl_float4_vertex(mesh, vertices[1]);
+    const knurl_float4 c = knurl_float4_vertex(mesh, vertices[2]);
+    return !knurl_mask4_any(((a < box->low) & (b < box->low) & (c < box->low)) |
+                            ((a > box->high) & (b > box->high) & (c > box->high)));
+}
+
+/* A search for the triangles that meet a box. The box may get smaller on the way. */
+typedef struct knurl_mesh_search {
+    const knurl_mesh *mesh;
+    knurl_visits *visits;   /* null: no limit */
+    const uint32_t *listed; /* triangles from `next` to `end` are listed here; null: they are these numbers */
+    uint32_t next, end;
+    uint32_t count; /* nodes that are still to be looked at */
+    uint32_t nodes[KNURL_BVH_DEPTH_MAX];
+} knurl_mesh_search;
+
+/* The part of a mesh that a search of a box looks at: `part`, which is found anew where the box is not in it. Where the
+ * box is too large for that, and where part is null, all of the mesh. visits: null: no limit. */
+const knurl_part *knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3],
+                                       knurl_visits *visits, knurl_part *part) KNURL_NONBLOCKING;
+
+/* Begins a search of the box from low to high. part, visits: as above. */
+void knurl_mesh_search_begin(knurl_mesh_search *search, const knurl_mesh *mesh, const double low[3],
+                             const double high[3], knurl_visits *visits, knurl_part *part) KNURL_NONBLOCKING;
+
+/* The next triangle that meets the box, in ascending order. 0: there is none, or the visits are used up. */
+static inline int knurl_mesh_search_next(knurl_mesh_search *s, const knurl_search_box *box, uint32_t *triangle) {
+    for (;;) {
+        while (s->next < s->end) {
+            *triangle = s->listed ? s->listed[s->next] : s->next;
+            s->next++;
+            if (knurl_search_box_meets_triangle(box, s->mesh, *triangle)) {
+                return 1;
+            }
+        }
+        if (s->count == 0) {
+            return 0;
+        }
+        const uint32_t index = s->nodes[--s->count];
+        const knurl_bvh_node *node = &s->mesh->nodes[index];
+        if (!knurl_search_box_meets_node(box, node)) {
+            continue;
+        }
+        if (!knurl_visits_take(s->visits, 1 + node->count)) {
+            return 0;
+        }
+        if (node->count == 0) {
+            s->nodes[s->count++] = node->first;
+            s->nodes[s->count++] = index + 1;
+        } else {
+            s->next = node->first;
+            s->end = node->first + node->count;
+        }
+    }
+}
+
+#endif
