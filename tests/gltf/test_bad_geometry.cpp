@@ -191,6 +191,14 @@ constexpr Scene scenes[] = {
      below_20um, &plate, 171},
     {"boxes, a face reversed each", [] { return Parts{left_box().turn_over(2, 99), right_box().turn_over(3, 99)}; },
      below, &plate, 1},
+    {"a face reversed, a T-junction", [] { return Parts{sheet(20e-6).turn_over(238, 512).split_edges(272, 512, 0.0)}; },
+     below_20um, &plate, 1},
+    {"a face reversed at a T-junction",
+     [] { return Parts{sheet(20e-6).turn_over(272, 512).split_edges(272, 512, 0.0)}; }, below_20um, &plate, 2},
+    {"each third reversed, T-junctions off by 5 um",
+     [] { return Parts{sheet(20e-6).turn_over(0, 3).split_edges(0, 7, 5e-6)}; }, below_20um, &plate, 171 + 25},
+    {"boxes that intersect, one mesh, a face reversed each",
+     [] { return Parts{left_box().turn_over(2, 99).append(right_box().turn_over(3, 99))}; }, below, &plate, 2},
     {"a mesh twice", [] { return Parts{sheet(20e-6), sheet(20e-6)}; }, below_20um, &plate},
     {"a plane five times", [] { return Parts(5, sheet(0.0, 1)); }, below, &plate},
     {"a mesh and its reverse", [] { return Parts{sheet(20e-6), sheet(20e-6).turn_over(0, 1)}; }, below_20um, &plate},
@@ -333,17 +341,44 @@ TEST(bad_geometry_in_descriptions_is_held_or_refused) {
     }
 }
 
+knurl_surface_check check_first(const builder::Loaded &loaded) {
+    knurl_surface_check check;
+    knurl_surface_check_init(&check, sizeof check);
+    assert_int_equal(knurl_scene_check_surface(loaded.scene, 0, knurl_scene_get_surface(loaded.scene, 0), &check),
+                     KNURL_OK);
+    return check;
+}
+
 // Turned triangles are warned of; a front that was not found makes the surface double-sided.
 TEST(mixed_winding_is_warned_of) {
     for (const size_t every : {512, 3, 2}) {
         builder::Loaded loaded(file_of({sheet(20e-6).turn_over(0, every)}));
-        knurl_surface_check check;
-        knurl_surface_check_init(&check, sizeof check);
-        assert_int_equal(knurl_scene_check_surface(loaded.scene, 0, knurl_scene_get_surface(loaded.scene, 0), &check),
-                         KNURL_OK);
+        const knurl_surface_check check = check_first(loaded);
         assert_int_equal(check.exceeded, KNURL_LIMIT_WINDING);
         assert_non_null(std::strstr(check.message, every == 512 ? "1 of its 512 triangles" : " of its 512 triangles"));
         assert_int_equal(loaded.info().double_sided, every == 2);
+    }
+}
+
+// Where a mesh touches itself, halves of the same area stay as they are. Only where both sides are felt this is no
+// fault.
+TEST(mixed_winding_that_stays_is_warned_of) {
+    Part halves = sheet(20e-6).turn_over(0, 2).split_edges(272, 512, 0.0);
+    for (const bool double_sided : {false, true}) {
+        halves.double_sided = double_sided;
+        builder::Loaded loaded(file_of({halves}));
+        const knurl_surface_check check = check_first(loaded);
+        assert_int_equal(check.exceeded, double_sided ? 0 : KNURL_LIMIT_WINDING);
+        assert_int_equal(std::strstr(check.message, "may let the HIP through") != nullptr, !double_sided);
+        assert_int_equal(loaded.info().turned_triangles, 0);
+    }
+}
+
+// Parts that touch and T-junctions are no mixed winding.
+TEST(parts_that_touch_are_not_warned_of) {
+    for (const Part &part : {left_box().append(right_box()), groove(), sheet(20e-6).split_edges(0, 7, 5e-6)}) {
+        builder::Loaded loaded(file_of({part}));
+        assert_int_equal(check_first(loaded).exceeded, 0);
     }
 }
 

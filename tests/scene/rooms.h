@@ -43,6 +43,8 @@ typedef struct laid {
     pose poses[LAID_MAX];
     int moves[LAID_MAX]; /**< 1: with the solids that move */
     uint32_t count;
+    uint32_t
+        reversed; /**< 1 and more: of each mesh, one triangle faces the other way, which is chosen by this number */
 } laid;
 
 /** m: signed, of a convex solid: its distance inside, no more than that outside. */
@@ -326,6 +328,12 @@ static inline void lay(laid *l, knurl_scene *scene, surface_parts *parts, int mo
 
 static inline void put_mesh(laid *l, knurl_scene *scene, triangles *t, const knurl_material_desc *material, int moves) {
     t->s.index_count = t->s.vertex_count = t->used;
+    if (l->reversed) {
+        uint32_t *corners = &t->s.indices[l->reversed % (t->used / 3) * 3];
+        const uint32_t second = corners[1];
+        corners[1] = corners[2];
+        corners[2] = second;
+    }
     surface_parts parts = surface_mesh(&t->s);
     parts.desc.axis[0] = 0.6;
     parts.desc.axis[1] = 0.64;

@@ -156,8 +156,8 @@ typedef struct knurl_surface_info {
     double model_error;         /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
     uint32_t turned_triangles;  /**< mixed winding: triangles turned over to face as most of their connected
-                                     component does, by area; 0 where touching_pairs is not 0, or where more than two
-                                     triangles share an edge */
+                                     component does, by area. Where other triangles touch too closely to tell, they stay
+                                     as they are: knurl_scene_check_surface() warns of them */
     double axis[3];             /**< unit, the surface's frame: the axis that was given; 0 without one */
     double stretch_y[3];        /**< as stretch, along y */
     double seam;                /**< m: edges closer than this count as connected; from the mesh's size and float32's
@@ -414,7 +414,7 @@ enum {
                                there */
     KNURL_LIMIT_VISITS = 128,  /**< a mesh on which contact meets a tick's limit of visits somewhere (max_visits of the
                                     HIP's description): looked for at 65 places */
-    KNURL_LIMIT_WINDING = 256, /**< mixed winding: knurl_surface_info.turned_triangles */
+    KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not */
     KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
                                     material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };

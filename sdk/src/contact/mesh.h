@@ -44,6 +44,7 @@ typedef struct knurl_mesh {
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
     uint32_t turned;         /* triangles turned over to face as those that they hang together with */
+    uint32_t mixed;          /* triangles that still face another way than those that they hang together with */
     int32_t double_sided;    /* 1: there were reversed twins, or no front was found */
     double seam;             /* m: edges that run side by side within this touch */
     uint32_t touching;       /* pairs of triangles that touch other than along an edge that they share */

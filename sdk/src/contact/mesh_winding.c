@@ -1,68 +1,144 @@
-/* A search from triangle to triangle over shared edges finds which of them face the same way.
- * SPDX-License-Identifier: MIT */
+/* Joins triangles into sets over the edges between them (union-find; each link tells whether two face opposite ways),
+ * and turns over the smaller part of each set. SPDX-License-Identifier: MIT */
 #include "contact/mesh_winding.h"
 
 #include "base/vec3.h"
 #include "contact/corner.h"
 
 /* Of each triangle. */
-enum { NOT_SEEN, SAME, OTHER, TURNED };
+enum { CONTRADICTS = 1, TURNED = 2 };
 
-/* 1 where neighbours face opposite ways, and it can only be their winding: solids that lie against one another in one
- * mesh have such neighbours, too, but also triangles that touch without sharing an edge, or share one with two others.
- */
-static int is_mixed(const knurl_mesh *mesh) {
-    int mixed = 0;
-    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
-        const uint32_t opposite = mesh->opposite[i];
-        if ((opposite & KNURL_CORNER_MASK) == KNURL_NON_MANIFOLD_EDGE) {
-            return 0;
-        }
-        mixed |= (opposite & KNURL_FLIPPED) != 0;
+/* Of a set: the triangles that face as its root does, and the others. */
+typedef struct set_parts {
+    double areas[2]; /* m^2, twice */
+    uint32_t counts[2];
+} set_parts;
+
+/* Sets of triangles. */
+typedef struct winding {
+    const knurl_mesh *mesh;
+    uint32_t *links; /* of each triangle another one of its set, times 2, plus 1 where the two face opposite ways */
+    uint8_t *marks;
+    set_parts *parts; /* at the set's root */
+    uint64_t steps;   /* that find_beside() may still take */
+    int is_clean;     /* 1: no triangles touch but at edges that two of them share */
+} winding;
+
+/* The triangle that stands for the set of t, times 2, plus 1 where t faces the other way. */
+static uint32_t root_of(const winding *w, uint32_t t) {
+    uint32_t opposite = 0;
+    while (w->links[t] >> 1 != t) {
+        const uint32_t link = w->links[t];
+        w->links[t] = w->links[link >> 1] ^ (link & 1);
+        opposite ^= w->links[t] & 1;
+        t = w->links[t] >> 1;
     }
-    return mixed && mesh->reversed_twins == 0 && mesh->touching == 0;
+    return t << 1 | opposite;
 }
 
-/* A connected component: triangles that are reached from one another over shared edges. */
-typedef struct component {
-    uint32_t *found; /* room for all of the mesh */
-    uint32_t count;
-    double areas[2]; /* m^2, twice: of those that face as the first does, and of the others */
-    int one_sided;   /* 1: it has one side only, as a Moebius strip */
-} component;
+/* opposite: 1 where the two face opposite ways. */
+static void join(const winding *w, uint32_t t, uint32_t other, uint32_t opposite) {
+    const uint32_t root = root_of(w, t), other_root = root_of(w, other);
+    opposite ^= (root ^ other_root) & 1;
+    if (root >> 1 != other_root >> 1) {
+        w->links[root >> 1] = (other_root & ~1u) | opposite;
+    } else if (opposite) {
+        w->marks[t] |= CONTRADICTS;
+    }
+}
 
-/* Finds and marks the component of `first`. */
-static void find_component(const knurl_mesh *mesh, uint32_t first, uint8_t *marks, component *c) {
-    c->count = 1;
-    c->found[0] = first;
-    c->areas[0] = c->areas[1] = 0.0;
-    c->one_sided = 0;
-    marks[first] = SAME;
-    for (uint32_t i = 0; i < c->count; i++) {
-        const uint32_t t = c->found[i];
-        knurl_triangle triangle;
-        knurl_mesh_triangle(mesh, t, &triangle);
-        c->areas[marks[t] == OTHER] += triangle.area2;
-        for (size_t k = 0; k < 3; k++) {
-            const uint32_t opposite = mesh->opposite[3 * (size_t)t + k];
-            const uint32_t next = (opposite & KNURL_CORNER_MASK) >> 2;
-            const uint8_t mark = opposite & KNURL_FLIPPED ? (uint8_t)(SAME + OTHER - marks[t]) : marks[t];
-            if ((opposite & 3) == 3) {
-                continue;
-            }
-            if (marks[next] == NOT_SEEN) {
-                marks[next] = mark;
-                c->found[c->count++] = next;
-            }
-            c->one_sided |= marks[next] != mark;
+#define NO_TRIANGLE UINT32_MAX
+
+/* Nodes and triangles that find_beside() looks at in each of two passes: for each triangle of the mesh, and for small
+ * ones. Where a mesh needs more, the rest of it stays as it is. */
+#define STEPS_A_TRIANGLE 96
+#define STEPS_MORE       500000
+
+/* Of an edge's length and of its triangle's height: the nearest that a third triangle may be. */
+#define BESIDE_SHARE 0.01
+
+/* The least cosine between edges that run side by side. */
+#define ALONG 0.99
+
+/* Whether an edge of a triangle runs by a point in some direction: 1; in the opposite direction: -1. */
+static int runs_by(const double corners[3][3], const double at[3], const double direction[3], double radius) {
+    for (int k = 0; k < 3; k++) {
+        double edge[3], off[3];
+        vec3_sub(corners[(k + 1) % 3], corners[k], edge);
+        vec3_sub(at, corners[k], off);
+        const double length2 = vec3_dot(edge, edge), along = vec3_dot(edge, direction);
+        const double share = vec3_dot(off, edge) / length2;
+        vec3_madd(off, -fmin(fmax(share, 0.0), 1.0), edge, off);
+        if (vec3_dot(off, off) <= radius * radius &&
+            along * along > ALONG * ALONG * length2 * vec3_dot(direction, direction)) {
+            return along > 0.0 ? 1 : -1;
         }
+    }
+    return 0;
+}
+
+/* The triangle beside the middle of the edge that `corner` is opposite, times 2, plus 1 where it faces the other way.
+ * NO_TRIANGLE where there is none, or more than one: where solids lie against one another, their triangles may seem to
+ * face opposite ways. */
+static uint32_t find_beside(winding *w, uint32_t corner) {
+    const knurl_mesh *mesh = w->mesh;
+    knurl_triangle t;
+    double edge[3], middle[3];
+    uint32_t stack[KNURL_BVH_DEPTH_MAX] = {0};
+    uint32_t top = 1, found = 0, beside = NO_TRIANGLE;
+    knurl_mesh_triangle(mesh, corner >> 2, &t);
+    const double *from = t.corners[corner_next(corner) & 3];
+    vec3_sub(t.corners[corner_last(corner) & 3], from, edge);
+    vec3_madd(from, 0.5, edge, middle);
+    const double length = vec3_length(edge);
+    const double radius = fmax(mesh->seam, BESIDE_SHARE * fmin(length, t.area2 / length));
+    while (top > 0 && found < 2) {
+        const uint32_t index = stack[--top];
+        const knurl_bvh_node *node = &mesh->nodes[index];
+        if (w->steps <= node->count) {
+            return NO_TRIANGLE;
+        }
+        w->steps -= 1 + node->count;
+        if (knurl_bvh_distance2(node, middle) > radius * radius) {
+            continue;
+        }
+        for (uint32_t i = node->first; i < node->first + node->count; i++) {
+            double corners[3][3];
+            knurl_mesh_corners(mesh, i, corners);
+            const int way = i == corner >> 2 ? 0 : runs_by((const double (*)[3])corners, middle, edge, radius);
+            beside = way ? i << 1 | (way > 0) : beside;
+            found += way != 0;
+        }
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            stack[top++] = index + 1;
+        }
+    }
+    return found == 1 ? beside : NO_TRIANGLE;
+}
+
+/* Joins a corner's triangle with the one beyond the opposite edge, which shares the edge or has a longer one there (a
+ * T-junction). An edge that two share is looked at once. */
+static void join_beyond(winding *w, uint32_t corner) {
+    const uint32_t opposite = w->mesh->opposite[corner_slot(corner)];
+    const uint32_t apex = opposite & KNURL_CORNER_MASK;
+    if (apex == KNURL_NON_MANIFOLD_EDGE || ((apex & 3) != 3 && apex < corner)) {
+        return;
+    }
+    if (!w->is_clean) {
+        const uint32_t beside = find_beside(w, corner);
+        if (beside != NO_TRIANGLE) {
+            join(w, corner >> 2, beside >> 1, beside & 1);
+        }
+    } else if (apex != KNURL_BOUNDARY) {
+        join(w, corner >> 2, apex >> 2, (opposite & KNURL_FLIPPED) != 0);
     }
 }
 
 /* The corner in the place of an old one. */
 static uint32_t moved_corner(const uint8_t *marks, uint32_t corner) {
     const uint32_t k = corner & 3;
-    return marks[corner >> 2] == TURNED && k != 0 ? corner - k + 3 - k : corner;
+    return (marks[corner >> 2] & TURNED) && k != 0 ? corner - k + 3 - k : corner;
 }
 
 static void swap(uint32_t *numbers, size_t triangle) {
@@ -75,7 +151,7 @@ static void swap(uint32_t *numbers, size_t triangle) {
 static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
     uint32_t listed = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (marks[t] == TURNED) {
+        if (marks[t] & TURNED) {
             swap(mesh->triangles, t);
             swap(mesh->opposite, t);
             if (mesh->attributes) {
@@ -88,7 +164,7 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
         const uint32_t corner = opposite & KNURL_CORNER_MASK;
         listed += (opposite & KNURL_NON_MANIFOLD) != 0;
         if ((corner & 3) != 3) {
-            const int differ = (marks[i / 3] == TURNED) != (marks[corner >> 2] == TURNED);
+            const int differ = (marks[i / 3] & TURNED) != (marks[corner >> 2] & TURNED);
             mesh->opposite[i] =
                 ((opposite & ~KNURL_CORNER_MASK) ^ (differ ? KNURL_FLIPPED : 0)) | moved_corner(marks, corner);
         }
@@ -101,37 +177,87 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
 /* Of two areas that differ by less than this share neither is the front. */
 #define UNDECIDED 0.01
 
-/* Which of a component's triangles are to be turned over. */
-static void choose_front(knurl_mesh *mesh, const component *c, uint8_t *marks) {
-    const double most = fmax(c->areas[0], c->areas[1]);
-    const uint8_t other = c->areas[0] < c->areas[1] ? SAME : OTHER;
-    mesh->double_sided |= c->one_sided || fabs(c->areas[0] - c->areas[1]) < UNDECIDED * most;
-    for (uint32_t i = 0; i < c->count; i++) {
-        if (marks[c->found[i]] == other) {
-            marks[c->found[i]] = TURNED;
+/* The same in a mesh that is not clean, and how many triangles decide: sets may be pieces of what belongs together. */
+#define UNDECIDED_PIECE 0.25
+#define PIECE_MIN       8
+
+static int has_front(const winding *w, uint32_t root) {
+    const double *areas = w->parts[root].areas;
+    const uint32_t *counts = w->parts[root].counts;
+    const double share = fabs(areas[0] - areas[1]) / fmax(areas[0], areas[1]);
+    if (w->marks[root] & CONTRADICTS) {
+        return 0;
+    }
+    return w->is_clean ? share >= UNDECIDED
+                       : share >= UNDECIDED_PIECE && counts[0] + counts[1] >= PIECE_MIN &&
+                             (areas[0] > areas[1]) == (counts[0] > counts[1]);
+}
+
+/* Which triangles of each set are to be turned over. Where there is no front, both sides become the front; but not of a
+ * mesh that touches itself, whose solids would be hollow. */
+static void choose_fronts(const winding *w, knurl_mesh *mesh) {
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t root = root_of(w, t);
+        knurl_triangle triangle;
+        knurl_mesh_triangle(mesh, t, &triangle);
+        w->parts[root >> 1].areas[root & 1] += triangle.area2;
+        w->parts[root >> 1].counts[root & 1]++;
+        w->marks[root >> 1] |= w->marks[t] & CONTRADICTS;
+    }
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t root = root_of(w, t);
+        const double *areas = w->parts[root >> 1].areas;
+        const int is_smaller = (root & 1) == (areas[0] >= areas[1]);
+        const int decided = has_front(w, root >> 1);
+        mesh->double_sided |= w->is_clean && !decided;
+        if (is_smaller && (decided || w->is_clean)) {
+            w->marks[t] |= TURNED;
             mesh->turned++;
+        } else {
+            mesh->mixed += is_smaller ? 1 : 0;
         }
     }
 }
 
-knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
-    component c;
-    if (!is_mixed(mesh)) {
-        return KNURL_OK;
-    }
-    uint8_t *marks = knurl_heap_alloc(heap, mesh->triangle_count, sizeof *marks);
-    c.found = knurl_heap_alloc(heap, mesh->triangle_count, sizeof *c.found);
-    const knurl_result result = marks && c.found ? KNURL_OK : KNURL_ERROR_MEMORY;
-    for (uint32_t t = 0; !result && t < mesh->triangle_count; t++) {
-        if (marks[t] == NOT_SEEN) {
-            find_component(mesh, t, marks, &c);
-            choose_front(mesh, &c, marks);
+/* 1 where two triangles face opposite ways at an edge that they share or, where a mesh touches itself, at a T-junction.
+ */
+static int is_mixed(winding *w) {
+    int mixed = 0;
+    for (uint32_t i = 0; i < 3 * w->mesh->triangle_count && !mixed; i++) {
+        const uint32_t opposite = w->mesh->opposite[i];
+        mixed = (opposite & KNURL_FLIPPED) != 0;
+        if (w->mesh->touching > 0 && (opposite & KNURL_CORNER_MASK) == KNURL_BOUNDARY) {
+            const uint32_t beside = find_beside(w, 4 * (i / 3) + i % 3);
+            mixed |= beside != NO_TRIANGLE && (beside & 1);
         }
     }
-    if (!result && mesh->turned > 0) {
-        turn_over(mesh, marks);
+    return mixed;
+}
+
+knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
+    const uint32_t count = mesh->triangle_count;
+    winding w = {mesh, NULL, NULL, NULL, 0, mesh->touching == 0 && mesh->non_manifold_count == 0};
+    w.steps = STEPS_MORE + (uint64_t)STEPS_A_TRIANGLE * count;
+    if (mesh->double_sided || !is_mixed(&w)) { /* so far of reversed twins */
+        return KNURL_OK;
     }
-    knurl_heap_free(heap, marks);
-    knurl_heap_free(heap, c.found);
+    w.links = knurl_heap_alloc(heap, count, sizeof *w.links);
+    w.marks = knurl_heap_alloc(heap, count, sizeof *w.marks);
+    w.parts = knurl_heap_alloc(heap, count, sizeof *w.parts);
+    const knurl_result result = w.links && w.marks && w.parts ? KNURL_OK : KNURL_ERROR_MEMORY;
+    if (!result) {
+        w.steps = STEPS_MORE + (uint64_t)STEPS_A_TRIANGLE * count;
+        for (uint32_t t = 0; t < count; t++) {
+            w.links[t] = t << 1;
+        }
+        for (uint32_t i = 0; i < 3 * count; i++) {
+            join_beyond(&w, 4 * (i / 3) + i % 3);
+        }
+        choose_fronts(&w, mesh);
+        turn_over(mesh, w.marks);
+    }
+    knurl_heap_free(heap, w.links);
+    knurl_heap_free(heap, w.marks);
+    knurl_heap_free(heap, w.parts);
     return result;
 }

@@ -4,11 +4,12 @@
 
 #include "contact/mesh.h"
 
-/* Part of knurl_mesh_create(), after knurl_mesh_link() and knurl_mesh_count_touching(): in each
- * component (triangles connected by edges that two of them share), those that face another way than the larger area
- * are turned over; mesh->turned counts them. Where neither area is larger, or there is one side only (a Moebius strip),
- * the mesh becomes double-sided. A mesh in which triangles touch otherwise than at a shared edge or vertex stays as it
- * is. Errors: KNURL_ERROR_MEMORY. */
+/* Part of knurl_mesh_create(), after knurl_mesh_link() and knurl_mesh_count_touching(). Triangles hang together at
+ * edges that two of them share; where a mesh touches itself, at edges beside which there is one other triangle,
+ * T-junctions included. Of what hangs together, those that face another way than the larger area are turned over;
+ * mesh->turned counts them. Where neither area is larger, or there is one side only (a Moebius strip), the mesh becomes
+ * double-sided. One that touches itself does not: mesh->mixed counts the triangles that stay reversed. Errors:
+ * KNURL_ERROR_MEMORY. */
 knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh);
 
 #endif

@@ -118,6 +118,7 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .dropped = mesh->dropped,
                               .reversed_twins = mesh->reversed_twins,
                               .turned = mesh->turned,
+                              .mixed = mesh->mixed,
                               .seam = mesh->seam,
                               .touching = mesh->touching,
                               .error = 0.0}; /* meshes are given as floats, and kept as they are given */

@@ -133,15 +133,24 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
 
 /* Triangles that share an edge and face opposite ways. */
 static void check_winding(const inspection *on, const knurl_surface_data *surface) {
+    char sentence[256];
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
     if (facts.turned > 0) {
-        char sentence[256];
         (void)snprintf(
             sentence, sizeof sentence,
             "%u of its %u triangles faced another way than those they share edges with, and were turned over",
             (unsigned)facts.turned, (unsigned)facts.triangle_count);
         say(on, KNURL_LIMIT_WINDING, sentence, "recalculate the normals in the editor");
+    }
+    if (facts.mixed > 0 && !surface->double_sided) {
+        (void)snprintf(
+            sentence, sizeof sentence,
+            "%u of its %u triangles face another way than those beside them, and may let the HIP through: too "
+            "many triangles touch there to tell which is right",
+            (unsigned)facts.mixed, (unsigned)facts.triangle_count);
+        say(on, KNURL_LIMIT_WINDING, sentence,
+            "recalculate the normals in the editor, or make each part a mesh of its own");
     }
 }
 
