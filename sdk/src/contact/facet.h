@@ -7,17 +7,20 @@
 #include "contact/closest_point.h"
 #include "contact/contact.h"
 
+#include <string.h>
+
 struct knurl_facet {
     uint32_t triangle;
     int32_t side; /* that the HIP came from, +1 or -1; 0: none is kept */
-    double corner[3], ab[3], ac[3];
+    double corners[3][3], ab[3], ac[3];
     double normal[3]; /* times twice the area */
     double area2;     /* twice the area, squared */
     double inverse;   /* 1 / area2 */
     double unit[3];   /* the normal towards `side` */
     /* what mesh_frame.c has found out */
-    int32_t has_frame; /* 1: x and y hold, */
-    int32_t has_uvs;   /* 1: and what the uvs are, with an area */
+    int32_t has_frame;    /* 1: x and y hold, */
+    int32_t has_uvs;      /* 1: and what the uvs are, with an area, */
+    int32_t has_steepest; /* 1: and `steepest` */
     double x[3], y[3];
     double u0, v0;         /* at the first corner */
     double u1, v1, u2, v2; /* further at the others */
@@ -25,28 +28,35 @@ struct knurl_facet {
     double steepest;       /* of the coordinates, in a metre along the triangle */
 };
 
-/* A closest point within the triangle: what there is to keep. */
-static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t side, knurl_facet *f) {
+/* A closest point within the triangle: what there is to keep. unit: its normal, unit, towards `side`. */
+static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t side, const double unit[3],
+                                    knurl_facet *f) {
     f->triangle = closest->triangle;
     f->side = side;
     f->has_frame = 0;
-    vec3_copy(closest->corners[0], f->corner);
+    memcpy(f->corners, closest->corners, sizeof f->corners);
     vec3_sub(closest->corners[1], closest->corners[0], f->ab);
     vec3_sub(closest->corners[2], closest->corners[0], f->ac);
     vec3_copy(closest->normal, f->normal);
     f->area2 = closest->area2;
     f->inverse = 1.0 / closest->area2;
-    vec3_scale(side / sqrt(closest->area2), closest->normal, f->unit);
+    vec3_copy(unit, f->unit);
 }
 
-/* The contact of a HIP whose closest point on the triangle is within it: the same numbers as by
- * knurl_closest_on_triangle(). 0 where it is not within. */
-static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3], knurl_contact *c) {
+/* The contact of a HIP whose closest point on the triangle is within it, and 1; else 0 and the closest point on its
+ * edges. The same numbers as by knurl_closest_on_triangle(). */
+static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3], knurl_contact *c,
+                                      knurl_closest_point *closest) {
     double ap[3], across[3], offset[3];
-    vec3_sub(hip, f->corner, ap);
+    vec3_sub(hip, f->corners[0], ap);
     vec3_cross(f->normal, ap, across);
     const double inside[2] = {vec3_dot(across, f->ac), -vec3_dot(across, f->ab)};
     if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < f->area2)) {
+        closest->triangle = f->triangle;
+        closest->area2 = f->area2;
+        vec3_copy(f->normal, closest->normal);
+        memcpy(closest->corners, f->corners, sizeof closest->corners);
+        knurl_closest_on_edges(hip, inside, closest);
         return 0;
     }
     vec3_scale(vec3_dot(ap, f->normal) * f->inverse, f->normal, offset);

@@ -262,27 +262,45 @@ static void move_to_nearest(const knurl_mesh *mesh, const knurl_contact_query *q
     }
 }
 
-/* A HIP inside: the proxy walks after it. A triangle that it stays on is kept. */
+/* The closest point to a HIP inside, by a walk from the last one. 0 where a kept facet gives the contact. */
+static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *query, const knurl_contact_state *state,
+                           knurl_closest_point *closest, knurl_contact *c) {
+    knurl_facet *facet = query->facet;
+    const int is_kept = facet && facet->triangle == state->triangle && facet->side == state->side;
+    if (is_kept && knurl_facet_contact(facet, query->hip, c, closest)) {
+        if (c->z <= 0.0) {
+            c->facet = facet;
+            return 0;
+        }
+        knurl_closest_on_triangle(mesh, state->triangle, query->hip, closest);
+    } else if (!is_kept) {
+        knurl_closest_on_triangle(mesh, state->triangle, query->hip, closest);
+    }
+    if (closest->feature != 7) {
+        c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, query->visits, closest);
+    }
+    return 1;
+}
+
+/* A HIP inside: the proxy walks after it. A triangle that it is on is kept: it often stays there for some ticks. */
 static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                         knurl_contact_state *state, knurl_contact *c) {
-    knurl_facet *facet = query->facet;
     knurl_closest_point closest;
-    if (facet && facet->triangle == state->triangle && facet->side == state->side &&
-        knurl_facet_contact(facet, query->hip, c) && c->z <= 0.0) {
-        c->facet = facet;
+    if (!walk_to_closest(mesh, query, state, &closest, c)) {
         return 1;
     }
-    knurl_closest_on_triangle(mesh, state->triangle, query->hip, &closest);
-    if (closest.feature != 7) {
-        c->unsure |= knurl_mesh_walk(mesh, query->hip, state->side, query->visits, &closest);
+    const int is_set = set_contact(mesh, query->visits, state->side, &closest, c);
+    if (is_set && c->z <= 0.0) {
+        if (query->facet && closest.feature == 7) {
+            knurl_facet_keep(&closest, state->side, c->normal, query->facet);
+            c->facet = query->facet;
+        }
+        return 1;
     }
-    const int held = contact_at(mesh, query, reach, &closest, &state->side, c);
+    const int held = is_set ? is_contact(mesh, query, reach, &state->side, c)
+                            : contact_beyond_boundary(mesh, query, reach, &closest, &state->side, c);
     if (held && c->z > KNURL_ON_SURFACE && mesh->touching > 0) {
         move_to_nearest(mesh, query, state->side, c);
-    }
-    if (facet && held && closest.feature == 7 && c->triangle == closest.triangle && c->triangle == state->triangle) {
-        knurl_facet_keep(&closest, state->side, facet);
-        c->facet = facet;
     }
     return held;
 }

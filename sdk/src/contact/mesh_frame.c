@@ -19,17 +19,10 @@ static const uint32_t *attributes_of(const knurl_mesh *mesh, uint32_t triangle) 
     return &(mesh->attributes ? mesh->attributes : mesh->triangles)[3 * (size_t)triangle];
 }
 
-/* 0 where the uvs have no area, or there are none. */
-static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
-    double corners[3][3];
-    if (!mesh->uvs) {
-        return 0;
-    }
+/* Of a mesh with uvs: all but the edges. 0 where the uvs have no area. */
+static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     const uint32_t *at = attributes_of(mesh, triangle);
     const float *uv[3] = {&mesh->uvs[2 * (size_t)at[0]], &mesh->uvs[2 * (size_t)at[1]], &mesh->uvs[2 * (size_t)at[2]]};
-    knurl_mesh_corners(mesh, triangle, corners);
-    vec3_sub(corners[1], corners[0], e->edge1);
-    vec3_sub(corners[2], corners[0], e->edge2);
     e->u0 = (double)uv[0][0];
     e->v0 = (double)uv[0][1];
     e->u1 = (double)uv[1][0] - e->u0;
@@ -40,6 +33,18 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     const double largest =
         fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* the uvs are floats: below that they lie on a line */
     return fabs(e->det) > 1e-9 * largest * largest;
+}
+
+/* 0 where the uvs have no area, or there are none. */
+static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
+    double corners[3][3];
+    if (!mesh->uvs) {
+        return 0;
+    }
+    knurl_mesh_corners(mesh, triangle, corners);
+    vec3_sub(corners[1], corners[0], e->edge1);
+    vec3_sub(corners[2], corners[0], e->edge2);
+    return find_uvs(mesh, triangle, e);
 }
 
 /* dP/du and dP/dv of one triangle; 0 where its uvs have no area, or there are none. */
@@ -97,11 +102,19 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
 }
 
 /* The square of a gradient's length times twice the area: of what grows by c1 and c2 along the edges. */
-static double steepness2(double c1, double c2, const uv_edges *e) {
+static double steepness2(double c1, double c2, const double edge1[3], const double edge2[3]) {
     double along[3];
-    vec3_scale(c1, e->edge2, along);
-    vec3_madd(along, -c2, e->edge1, along);
+    vec3_scale(c1, edge2, along);
+    vec3_madd(along, -c2, edge1, along);
     return vec3_dot(along, along);
+}
+
+/* The direction in which u grows, of any length: of dP/du only the direction is asked for, so nothing is divided. */
+static void find_u_direction(const uv_edges *e, double x[3]) {
+    const double along = e->det < 0.0 ? -1.0 : 1.0;
+    for (int axis = 0; axis < 3; axis++) {
+        x[axis] = along * (e->v2 * e->edge1[axis] - e->v1 * e->edge2[axis]);
+    }
 }
 
 void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
@@ -146,14 +159,13 @@ static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, co
     const double facing = vec3_dot(across, contact->normal) * e.det;
     rates[0] = (a * e.u1 + b * e.u2) * mesh->uv_scale[0];
     rates[1] = (a * e.v1 + b * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
-    const double u = steepness2(e.u1, e.u2, &e) * mesh->uv_scale[0] * mesh->uv_scale[0];
-    const double v = steepness2(e.v1, e.v2, &e) * mesh->uv_scale[1] * mesh->uv_scale[1];
+    const double u = steepness2(e.u1, e.u2, e.edge1, e.edge2) * mesh->uv_scale[0] * mesh->uv_scale[0];
+    const double v = steepness2(e.v1, e.v2, e.edge1, e.edge2) * mesh->uv_scale[1] * mesh->uv_scale[1];
     *steepest = sqrt((u > v ? u : v) / area2);
     return 1;
 }
 
-/* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. Of dP/du and
- * dP/dv only the directions are asked for, so nothing is divided. */
+/* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. */
 static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
     uv_edges e;
     x[0] = x[1] = x[2] = coordinates[0] = coordinates[1] = 0.0;
@@ -165,10 +177,7 @@ static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, d
         const double facing = vec3_dot(across, contact->normal) * e.det;
         coordinates[0] = (e.u0 + w[1] * e.u1 + w[2] * e.u2) * mesh->uv_scale[0];
         coordinates[1] = (e.v0 + w[1] * e.v1 + w[2] * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
-        const double along = e.det < 0.0 ? -1.0 : 1.0;
-        for (int axis = 0; axis < 3; axis++) {
-            x[axis] = along * (e.v2 * e.edge1[axis] - e.v1 * e.edge2[axis]);
-        }
+        find_u_direction(&e, x);
     }
     if (mesh->tangents) {
         const uint32_t *at = attributes_of(mesh, contact->triangle);
@@ -180,7 +189,19 @@ static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, d
     }
 }
 
-/* x is made tangent to the contact's normal, which is no face's at edges. */
+/* x is `along` made tangent to the normal, which is no face's at edges; unit. y = n x x. */
+static void frame_along(const double normal[3], const double along[3], double x[3], double y[3]) {
+    vec3_copy(along, x);
+    vec3_make_tangent(normal, x);
+    const double length2 = vec3_dot(x, x);
+    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* like a post on the surface: any direction is as good */
+        vec3_any_tangent(normal, x);
+    } else {
+        vec3_scale(1.0 / sqrt(length2), x, x);
+    }
+    vec3_cross(normal, x, y);
+}
+
 static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
                        double coordinates[2]) {
     double along[3];
@@ -189,56 +210,49 @@ static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, dou
     } else {
         frame_by_uvs(mesh, contact, along, coordinates);
     }
-    vec3_copy(along, x);
-    vec3_make_tangent(contact->normal, x);
-    const double length2 = vec3_dot(x, x);
-    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* like a post on the surface: any direction is as good */
-        vec3_any_tangent(contact->normal, x);
-    } else {
-        vec3_scale(1.0 / sqrt(length2), x, x);
-    }
-    vec3_cross(contact->normal, x, y);
+    frame_along(contact->normal, along, x, y);
     if (mesh->has_axis) {
         coordinates[0] = vec3_dot(contact->proxy, mesh->axis);
         coordinates[1] = vec3_dot(contact->proxy, y);
     }
 }
 
-/* What the uvs are on a kept facet: each number as frame_by_uvs() and rates_by_uvs() come to it. */
-static void keep_uvs(const knurl_mesh *mesh, knurl_facet *f) {
+/* The frame of a kept facet, and what the uvs are on it: each number as find_frame() comes to it. */
+static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     uv_edges e;
-    f->has_uvs = find_uv_edges(mesh, f->triangle, &e);
-    if (!f->has_uvs) {
-        return;
+    vec3_copy(f->ab, e.edge1);
+    vec3_copy(f->ac, e.edge2);
+    double x[3] = {0.0, 0.0, 0.0};
+    f->has_uvs = mesh->uvs && find_uvs(mesh, f->triangle, &e);
+    if (f->has_uvs) {
+        find_u_direction(&e, x);
+        f->u0 = e.u0;
+        f->v0 = e.v0;
+        f->u1 = e.u1;
+        f->v1 = e.v1;
+        f->u2 = e.u2;
+        f->v2 = e.v2;
+        f->scale[0] = mesh->uv_scale[0];
+        f->scale[1] = vec3_dot(f->normal, f->unit) * e.det < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1];
     }
-    f->u0 = e.u0;
-    f->v0 = e.v0;
-    f->u1 = e.u1;
-    f->v1 = e.v1;
-    f->u2 = e.u2;
-    f->v2 = e.v2;
-    f->scale[0] = mesh->uv_scale[0];
-    f->scale[1] = vec3_dot(f->normal, f->unit) * e.det < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1];
-    const double u = steepness2(e.u1, e.u2, &e) * mesh->uv_scale[0] * mesh->uv_scale[0];
-    const double v = steepness2(e.v1, e.v2, &e) * mesh->uv_scale[1] * mesh->uv_scale[1];
-    f->steepest = sqrt((u > v ? u : v) / f->area2);
+    frame_along(f->unit, x, f->x, f->y);
+    f->has_frame = 1;
+    f->has_steepest = 0;
 }
 
 void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
                            double coordinates[2]) {
-    knurl_facet *f = contact->facet;
-    find_frame(mesh, contact, x, y, coordinates);
-    if (f && !mesh->tangents && !mesh->has_axis) {
-        vec3_copy(x, f->x);
-        vec3_copy(y, f->y);
-        keep_uvs(mesh, f);
-        f->has_frame = 1;
+    if (contact->facet && !mesh->tangents && !mesh->has_axis) {
+        keep_frame(mesh, contact->facet);
         knurl_mesh_frame(mesh, contact, x, y, coordinates);
+    } else {
+        find_frame(mesh, contact, x, y, coordinates);
     }
 }
 
 /* rates_by_uvs() on a kept facet. */
-static int rates_on_facet(const knurl_facet *f, const double velocity[3], double rates[2], double *steepest) {
+static int rates_on_facet(const knurl_mesh *mesh, knurl_facet *f, const double velocity[3], double rates[2],
+                          double *steepest) {
     double turned[3];
     if (!f->has_uvs) {
         return 0;
@@ -249,6 +263,12 @@ static int rates_on_facet(const knurl_facet *f, const double velocity[3], double
     const double b = vec3_dot(turned, f->normal) / f->area2;
     rates[0] = (a * f->u1 + b * f->u2) * f->scale[0];
     rates[1] = (a * f->v1 + b * f->v2) * f->scale[1];
+    if (!f->has_steepest) {
+        const double u = steepness2(f->u1, f->u2, f->ab, f->ac) * mesh->uv_scale[0] * mesh->uv_scale[0];
+        const double v = steepness2(f->v1, f->v2, f->ab, f->ac) * mesh->uv_scale[1] * mesh->uv_scale[1];
+        f->steepest = sqrt((u > v ? u : v) / f->area2);
+        f->has_steepest = 1;
+    }
     *steepest = f->steepest;
     return 1;
 }
@@ -257,7 +277,7 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
                      double *steepest) {
     double x[3], y[3], coordinates[2];
     if (!mesh->has_axis) {
-        return contact->facet && contact->facet->has_frame ? rates_on_facet(contact->facet, velocity, rates, steepest)
+        return contact->facet && contact->facet->has_frame ? rates_on_facet(mesh, contact->facet, velocity, rates, steepest)
                                                            : rates_by_uvs(mesh, contact, velocity, rates, steepest);
     }
     knurl_mesh_frame(mesh, contact, x, y, coordinates);
