@@ -6,14 +6,16 @@
 #include <string.h>
 
 /* The sizes of a query, m, widest first. margin: how far the HIP may move before the next query; at 250 mm/s the first
- * lasts for 40 ticks. deeper: how much deeper the HIP may be pressed until then, because surfaces that it may slide
- * onto are that far above it. capture: how deep the HIP may be in a surface on a first tick. Where a query finds more
- * surfaces than a list holds, the next size is tried, down to what the tick itself needs. */
+ * lasts for 120 ticks, so that fewer than one tick in a hundred makes one. deeper: how much deeper the HIP may be
+ * pressed until then, because surfaces that it may slide onto are that far above it. capture: how deep the HIP may be
+ * in a surface on a first tick. Where a query finds more surfaces than a list holds, the next size is tried, down to
+ * what the tick itself needs. */
 static const struct {
     double margin;
     double deeper;
     double capture;
-} views[] = {{0.01, 0.002, KNURL_CAPTURE_DEPTH},
+} views[] = {{0.03, 0.002, KNURL_CAPTURE_DEPTH},
+             {0.01, 0.002, KNURL_CAPTURE_DEPTH},
              {0.003, 0.001, KNURL_CAPTURE_DEPTH},
              {0.001, 0.0005, KNURL_CAPTURE_DEPTH},
              {0.0005, 0.0002, KNURL_CAPTURE_DEPTH},
@@ -21,7 +23,7 @@ static const struct {
              {0.0, 0.0001, 0.003},
              {0.0, 0.0001, 0.001}};
 #define VIEWS   (sizeof views / sizeof *views)
-#define NARROWS 4 /* the first without a margin */
+#define NARROWS 5 /* the first without a margin */
 
 /* With more surfaces in a list the next size is tried, as long as it has a margin: ticks near a seam test all of them,
  * and a long list takes longer to make. But a query also tests all dynamic surfaces, so many of them are best looked at
