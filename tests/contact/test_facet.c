@@ -88,7 +88,7 @@ TEST(a_surface_in_anothers_place_is_not_felt_by_the_others_facet) {
     const knurl_surface_id first = add_surface(scene, &parts);
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    const knurl_facet *facet = &scene->hips[0].contacts.candidates.list[0].facet;
+    const knurl_facet *facet = &knurl_candidates_at(&scene->hips[0].contacts.candidates, 0)->facet;
     for (int i = 0; i < 5; i++) {
         assert_int_equal(tick_at(scene, 0.004, 0.003, -0.001 + hills(0.004, 0.003)).contacts, 1);
     }

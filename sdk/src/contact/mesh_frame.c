@@ -277,8 +277,9 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
                      double *steepest) {
     double x[3], y[3], coordinates[2];
     if (!mesh->has_axis) {
-        return contact->facet && contact->facet->has_frame ? rates_on_facet(mesh, contact->facet, velocity, rates, steepest)
-                                                           : rates_by_uvs(mesh, contact, velocity, rates, steepest);
+        return contact->facet && contact->facet->has_frame
+                   ? rates_on_facet(mesh, contact->facet, velocity, rates, steepest)
+                   : rates_by_uvs(mesh, contact, velocity, rates, steepest);
     }
     knurl_mesh_frame(mesh, contact, x, y, coordinates);
     rates[0] = vec3_dot(velocity, mesh->axis);

@@ -15,11 +15,11 @@ typedef struct knurl_candidate {
     uint32_t place;
     uint32_t generation;
     uint32_t in_contact;
-    uint32_t has_previous; /* 1: it was looked at in the last tick, so that `previous` and `jumps` hold */
-    uint32_t is_late;      /* 1: its search was cut short since, and `previous` is where the HIP was before */
-    uint32_t latest;       /* which of `poses` was placed last */
-    uint64_t jumps;        /* the motion's, at the last tick */
-    double previous[3];    /* the HIP at the last tick, shape's frame */
+    uint32_t has_previous;         /* 1: it was looked at in the last tick, so that `previous` and `jumps` hold */
+    uint32_t is_late;              /* 1: its search was cut short since, and `previous` is where the HIP was before */
+    uint32_t latest;               /* which of `poses` was placed last */
+    uint64_t jumps;                /* the motion's, at the last tick */
+    double previous[3];            /* the HIP at the last tick, shape's frame */
     uint64_t placed, placed_jumps; /* the tick at which it was seen last (0: none), and the motion's jumps then */
     const knurl_motion *settled;   /* what stood still, when it had begun, and from which tick on; or null */
     double settled_start;
@@ -29,9 +29,9 @@ typedef struct knurl_candidate {
     knurl_wall_state guard;
     double proxy[3]; /* of the latest contact, scene axes */
     double normal[3];
-    double anchor[3]; /* friction: where the HIP sticks, shape's frame */
-    float box[6];     /* scene axes; outside it there is no contact */
-    float swept[6];   /* scene axes: what the motion of this record sweeps, with its crests; no margin */
+    double anchor[3];             /* friction: where the HIP sticks, shape's frame */
+    float box[6];                 /* scene axes; outside it there is no contact */
+    float swept[6];               /* scene axes: what the motion of this record sweeps, with its crests; no margin */
     const knurl_record *swept_of; /* or null; its motion's start and its reach, for a record in freed memory: */
     double swept_start, swept_reach;
     uint64_t swept_tick; /* the tick at which `swept` was looked at last */

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/candidates.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* The sizes of a query, m, widest first. margin: how far the HIP may move before the next query; at 250 mm/s the first
@@ -34,38 +35,67 @@ static const struct {
 /* m: subtracted from a clearance: the margin passed to knurl_candidate_is_near(), 1e-9, and rounding. */
 #define ROUNDING 2e-9
 
-/* Removes the surfaces that are no longer near, except those in contact. The others keep their state. */
-static uint32_t keep(knurl_candidate *list, uint32_t count, const uint32_t *places, uint32_t found) {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        int stays = list[i].in_contact != 0;
-        for (uint32_t k = 0; k < found && !stays; k++) {
-            stays = places[k] == list[i].place;
+static void sort_places(uint32_t *places, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        const uint32_t place = places[i];
+        uint32_t at = i;
+        for (; at > 0 && places[at - 1] > place; at--) {
+            places[at] = places[at - 1];
         }
-        if (stays && kept++ != i) {
-            list[kept - 1] = list[i];
+        places[at] = place;
+    }
+}
+
+/* Removes the surfaces that are no longer near, except those in contact. The others keep their state. */
+static void remove_others(knurl_candidates *c, const uint32_t *places, uint32_t found) {
+    uint32_t kept = 0, k = 0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        const knurl_candidate *candidate = knurl_candidates_at(c, i);
+        while (k < found && places[k] < candidate->place) {
+            k++;
+        }
+        if (candidate->in_contact || (k < found && places[k] == candidate->place)) {
+            c->order[kept++] = c->order[i];
+        } else {
+            c->used &= ~(1u << c->order[i]);
         }
     }
-    return kept;
+    c->count = kept;
+}
+
+/* A free slot, cleared but for what `has_previous` and `facet.side` say that it does not hold. */
+static uint8_t take_slot(knurl_candidates *c, uint32_t place) {
+    const uint8_t slot = (uint8_t)__builtin_ctz(~c->used);
+    knurl_candidate *candidate = &c->slots[slot];
+    c->used |= 1u << slot;
+    memset(candidate, 0, offsetof(knurl_candidate, poses));
+    memset(&candidate->part, 0, sizeof candidate->part);
+    candidate->facet.side = 0;
+    candidate->place = place;
+    return slot;
 }
 
 /* Inserts in order of places, so that sums of forces do not depend on the list's history. */
-static void insert(knurl_candidates *c, uint32_t place) {
-    uint32_t at = 0;
-    while (at < c->count && c->list[at].place < place) {
-        at++;
+static void insert_new(knurl_candidates *c, const uint32_t *places, uint32_t found) {
+    uint8_t order[KNURL_CANDIDATES_MAX];
+    uint32_t count = 0, i = 0;
+    for (uint32_t k = 0; k < found; k++) {
+        while (i < c->count && knurl_candidates_at(c, i)->place < places[k]) {
+            order[count++] = c->order[i++];
+        }
+        if (i < c->count && knurl_candidates_at(c, i)->place == places[k]) {
+            order[count++] = c->order[i++];
+        } else if (count + (c->count - i) < KNURL_CANDIDATES_MAX) {
+            order[count++] = take_slot(c, places[k]);
+        } else {
+            c->overflow = 1;
+        }
     }
-    if (at < c->count && c->list[at].place == place) {
-        return;
+    while (i < c->count) {
+        order[count++] = c->order[i++];
     }
-    if (c->count == KNURL_CANDIDATES_MAX) {
-        c->overflow = 1;
-        return;
-    }
-    memmove(&c->list[at + 1], &c->list[at], (c->count - at) * sizeof c->list[0]);
-    memset(&c->list[at], 0, sizeof c->list[0]);
-    c->list[at].place = place;
-    c->count++;
+    memcpy(c->order, order, count);
+    c->count = count;
 }
 
 static void load_box(const knurl_broad_index *index, knurl_candidate *candidate) {
@@ -90,9 +120,10 @@ static void keep_view(knurl_candidates *c, const knurl_hip_path *path, uint32_t 
     }
 }
 
-static int is_too_much(const knurl_broad_index *index, uint32_t view, uint32_t found) {
+/* The most surfaces that a query of one size may find. */
+static uint32_t find_limit(const knurl_broad_index *index, uint32_t view) {
     const uint32_t enough = ENOUGH + knurl_load_relaxed(&index->dynamic_count) / DYNAMIC_A_SURFACE;
-    return view + 1 < VIEWS && (found > KNURL_CANDIDATES_MAX || (view + 1 < NARROWS && found > enough));
+    return view + 1 < NARROWS && enough < KNURL_CANDIDATES_MAX ? enough : KNURL_CANDIDATES_MAX;
 }
 
 /* Fills the list from the broad phase. */
@@ -115,8 +146,9 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
             high[i] = c->high[i] + reach;
         }
         const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
-        found = knurl_broad_phase_find(index, &view, KNURL_CANDIDATES_MAX, places);
-        if (!is_too_much(index, v, found)) {
+        const uint32_t limit = find_limit(index, v);
+        found = knurl_broad_phase_find(index, &view, limit, places);
+        if (found <= limit || v + 1 == VIEWS) {
             break;
         }
     }
@@ -124,20 +156,20 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
     c->version = v >= NARROWS ? 0 : version; /* without a margin it is valid in this tick only */
     c->overflow = found > KNURL_CANDIDATES_MAX;
     found = c->overflow ? KNURL_CANDIDATES_MAX : found;
-    c->count = keep(c->list, c->count, places, found);
-    for (uint32_t i = 0; i < found; i++) {
-        insert(c, places[i]);
-    }
+    sort_places(places, found);
+    remove_others(c, places, found);
+    insert_new(c, places, found);
     for (uint32_t i = 0; i < c->count; i++) {
-        if (c->list[i].place < index->capacity) {
-            load_box(index, &c->list[i]);
+        knurl_candidate *candidate = knurl_candidates_at(c, i);
+        if (candidate->place < index->capacity) {
+            load_box(index, candidate);
         }
-        c->list[i].swept_tick = 0; /* another surface may be in its place */
+        candidate->swept_tick = 0; /* another surface may be in its place */
     }
 }
 
 void knurl_candidates_reset(knurl_candidates *c) {
-    c->count = c->view = c->queries = 0;
+    c->count = c->view = c->queries = c->used = 0;
     c->clearance.distance = -1.0;
 }
 
@@ -171,8 +203,9 @@ void knurl_candidates_measure(knurl_candidates *c, const double position[3], con
         distance = knurl_min(distance, knurl_min(position[i] - c->low[i], c->high[i] - position[i]));
     }
     for (uint32_t i = 0; i < c->count && distance > 0.0; i++) { /* below 0 it makes no difference how far */
-        if (!c->list[i].in_contact) {
-            distance = knurl_min(distance, knurl_min(gap(&c->list[i], position), gap(&c->list[i], proxy)));
+        const knurl_candidate *candidate = knurl_candidates_at(c, i);
+        if (!candidate->in_contact) {
+            distance = knurl_min(distance, knurl_min(gap(candidate, position), gap(candidate, proxy)));
         }
     }
     c->clearance.distance = distance - ROUNDING;

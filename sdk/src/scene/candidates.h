@@ -29,8 +29,15 @@ typedef struct knurl_candidates {
     uint32_t view;     /* the latest query's size; 0: the widest */
     uint32_t queries;  /* since a wider size was tried */
     knurl_clearance clearance;
-    knurl_candidate list[KNURL_CANDIDATES_MAX];
+    uint32_t used;                               /* a bit for each of `slots` that holds a surface */
+    uint8_t order[KNURL_CANDIDATES_MAX];         /* the list: `count` slots, in order of their surfaces' places */
+    knurl_candidate slots[KNURL_CANDIDATES_MAX]; /* a surface stays in its slot for as long as it is in the list */
 } knurl_candidates;
+
+/* The list's candidate number i. */
+static inline knurl_candidate *knurl_candidates_at(knurl_candidates *c, uint32_t i) {
+    return &c->slots[c->order[i]];
+}
 
 /* Empties the list. */
 void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;

@@ -134,7 +134,7 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
         return NULL;
     }
     for (uint32_t i = 0; i < c->candidates.count; i++) {
-        knurl_candidate *candidate = &c->candidates.list[i];
+        knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
         if (candidate->in_contact && !alone) {
             alone = candidate;
         } else if (candidate->in_contact || comes_near(c, index, candidate, path, margin)) {
@@ -176,7 +176,8 @@ __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contac
 /* Measures the clearance of a HIP that is in contact with `alone` only. */
 static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
     for (uint32_t i = 0; i < c->candidates.count; i++) {
-        c->candidates.list[i].has_previous &= &c->candidates.list[i] == alone;
+        knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
+        candidate->has_previous &= candidate == alone;
     }
     knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
 }
@@ -188,7 +189,7 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
     for (uint32_t i = 0; i < c->candidates.count && c->pressed; i++) {
-        const knurl_candidate *candidate = &c->candidates.list[i];
+        const knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
         c->ramped_depth = candidate->in_contact && candidate->guard.depth > c->ramped_depth ? candidate->guard.depth
                                                                                             : c->ramped_depth;
     }

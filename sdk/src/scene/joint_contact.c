@@ -41,7 +41,7 @@ static void collect(joint_search *m, const knurl_hip_path *path, double margin) 
     m->near.count = 0;
     m->near.moving = m->jumped = 0;
     for (uint32_t i = 0; i < c->candidates.count; i++) {
-        knurl_candidate *candidate = &c->candidates.list[i];
+        knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
         knurl_obstacle *o = &m->near.list[m->near.count];
         const knurl_surface_data *surface = NULL;
         if (candidate->in_contact || knurl_candidate_is_near(candidate, path, margin)) {

@@ -313,8 +313,10 @@ static void fetch_hip(knurl_hip *hip) {
     fetch(v->held, sizeof *v - offsetof(knurl_velocity_state, held));
     fetch(&hip->guard, offsetof(knurl_hip, given) - offsetof(knurl_hip, guard));
     fetch(&hip->move, offsetof(knurl_workspace_move, motion));
-    fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, list) +
-                              hip->contacts.candidates.count * sizeof(knurl_candidate));
+    fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, slots));
+    for (uint32_t i = 0; i < hip->contacts.candidates.count; i++) {
+        fetch(knurl_candidates_at(&hip->contacts.candidates, i), sizeof(knurl_candidate));
+    }
 }
 
 void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch) {
