@@ -69,7 +69,7 @@ static uint8_t take_slot(knurl_candidates *c, uint32_t place) {
     knurl_candidate *candidate = &c->slots[slot];
     c->used |= 1u << slot;
     memset(candidate, 0, offsetof(knurl_candidate, poses));
-    memset(&candidate->part, 0, sizeof candidate->part);
+    knurl_part_clear(&candidate->part);
     candidate->facet.side = 0;
     candidate->place = place;
     return slot;
