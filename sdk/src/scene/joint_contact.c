@@ -342,14 +342,18 @@ static void follow(const joint_search *m, knurl_god_object *g) {
     knurl_god_object_follow(g, &m->near, m->hip);
 }
 
-/* Finds contact with all faces nearby at once, by a god-object. */
+/* Collects the obstacles that a god-object may meet: it only comes nearer to the HIP. */
+static void collect_for_god_object(joint_search *m) {
+    collect(m, m->path, ROUNDING + proxy_distance(m->path));
+}
+
+/* Finds contact with all faces nearby at once, by a god-object. The obstacles have been collected for it. */
 static void search_all_faces(joint_search *m, uint32_t *flags) {
     knurl_contacts *c = m->contacts;
     knurl_god_object g;
     memset(&g, 0, sizeof g);
     m->pressed = 0;
     vec3_copy(c->pressed ? c->proxy : c->previous, g.at);
-    collect(m, m->path, ROUNDING + proxy_distance(m->path)); /* the god-object only comes nearer to the HIP */
     knurl_god_object_push(&g, &m->near);
     follow(m, &g);
     m->unknown = knurl_obstacles_are_unknown(&m->near) &&
@@ -535,11 +539,19 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.late = 0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
-    collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
+    const int may_be_alone = c->pressed <= 1 && !knurl_contacts_have_slipped(c);
+    if (may_be_alone) {
+        collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
+    } else {
+        collect_for_god_object(&m);
+    }
     vec3_copy(c->normal, m.normal);
     if (!c->has_previous || m.jumped) {
         find_first(&m);
-    } else if (knurl_contacts_have_slipped(c) || !(c->pressed ? continue_contact(&m) : begin_contact(&m))) {
+    } else if (!may_be_alone) {
+        search_all_faces(&m, flags);
+    } else if (!(c->pressed ? continue_contact(&m) : begin_contact(&m))) {
+        collect_for_god_object(&m);
         search_all_faces(&m, flags);
     }
     if (m.unknown && c->pressed) {

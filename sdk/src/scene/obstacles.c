@@ -29,14 +29,13 @@ int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const 
     return 1;
 }
 
-/* The candidate's box is that of its surface, with its crests and margin; faces reach beyond it by a seam. */
-static int is_beside(const knurl_obstacle *o, const double from[3], const double to[3]) {
+/* 1 where the box from low to high is outside of the candidate's: that is its surface's, with its crests and margin;
+ * faces reach beyond it by a seam. */
+static int is_beside(const knurl_obstacle *o, const double low[3], const double high[3]) {
     const float *box = o->candidate->box;
     const double margin = o->surface->shape.seam + KNURL_CAST_SLACK;
     for (int i = 0; i < 3; i++) {
-        const double low = from[i] < to[i] ? from[i] : to[i];
-        const double high = from[i] < to[i] ? to[i] : from[i];
-        if (high < (double)box[i] - margin || low > (double)box[3 + i] + margin) {
+        if (high[i] < (double)box[i] - margin || low[i] > (double)box[3 + i] + margin) {
             return 1;
         }
     }
@@ -51,19 +50,20 @@ static double height_over(const knurl_pose *pose, const double p[3]) {
     return pose->is_rotated ? r[2] * to[0] + r[5] * to[1] + r[8] * to[2] : to[2];
 }
 
-/* 1 where a segment stays on one side of a plane, by more than rounding and what a cast allows for. */
-static int stays_on_one_side(const knurl_obstacle *o, const knurl_segment *segment) {
+/* m: more than heights are off by rounding, and than what a cast allows for. */
+#define HEIGHT_ROUNDING (2.0 * KNURL_CAST_SLACK)
+
+/* 1 where a segment, up to a share of it, does not go through a plane from a side that can be felt. */
+static int misses_plane(const knurl_obstacle *o, const knurl_segment *segment, double share) {
     const double from = height_over(segment->moving ? o->before : o->pose, segment->from);
-    const double to = height_over(o->pose, segment->to);
-    return knurl_min(from, to) > 2.0 * KNURL_CAST_SLACK || knurl_max(from, to) < -2.0 * KNURL_CAST_SLACK;
+    const double to = from + share * (height_over(o->pose, segment->to) - from);
+    const int misses_front = from < -HEIGHT_ROUNDING || to > HEIGHT_ROUNDING;
+    const int misses_back = from > HEIGHT_ROUNDING || to < -HEIGHT_ROUNDING;
+    return misses_front && (misses_back || !o->surface->double_sided);
 }
 
 static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_visits *visits, knurl_cast_hit *hit) {
     knurl_cast cast;
-    if (is_beside(o, segment->from, segment->to) || !knurl_visits_take(visits, 1) ||
-        (o->surface->shape.plane && stays_on_one_side(o, segment))) {
-        return 0;
-    }
     cast.visits = visits;
     cast.part = &o->candidate->part;
     knurl_pose_to_own(segment->moving ? o->before : o->pose, segment->from, cast.from);
@@ -74,9 +74,20 @@ static int cast_at(const knurl_obstacle *o, const knurl_segment *segment, knurl_
 
 uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segment *segment, knurl_cast_hit *hit) {
     uint32_t first = KNURL_NO_OBSTACLE;
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        low[i] = knurl_min(segment->from[i], segment->to[i]);
+        high[i] = knurl_max(segment->from[i], segment->to[i]);
+    }
     for (uint32_t i = 0; i < obstacles->count && !knurl_obstacles_are_unknown(obstacles); i++) {
+        const knurl_obstacle *o = &obstacles->list[i];
+        const double share = first == KNURL_NO_OBSTACLE ? 1.0 : hit->share; /* what is later is not looked for */
         knurl_cast_hit found;
-        if (i != segment->except && cast_at(&obstacles->list[i], segment, obstacles->visits, &found) &&
+        if (i == segment->except || is_beside(o, low, high) || !knurl_visits_take(obstacles->visits, 1) ||
+            (o->surface->shape.plane && misses_plane(o, segment, share))) {
+            continue;
+        }
+        if (cast_at(o, segment, obstacles->visits, &found) &&
             (first == KNURL_NO_OBSTACLE || found.share < hit->share)) {
             first = i;
             *hit = found;
