@@ -86,10 +86,10 @@ static int read_options(int argc, char **argv, run_options *o) {
         return tool_error(TOOL_USAGE, "run: expected --view or --fast, found both");
     }
     if (knurl_stroke_from_name(o->stroke ? o->stroke : "line", &o->stroke_id)) {
-        return tool_library_error(TOOL_USAGE, "run: --stroke");
+        return tool_library_error(TOOL_USAGE, "run");
     }
     if (o->method && knurl_method_from_name(o->method, &o->method_id)) {
-        return tool_library_error(TOOL_USAGE, "run: --method");
+        return tool_library_error(TOOL_USAGE, "run");
     }
     return TOOL_OK;
 }

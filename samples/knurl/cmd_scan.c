@@ -70,7 +70,7 @@ static int read_options(int argc, char **argv, knurl_grating *grating, const cha
         return tool_error(TOOL_USAGE, "scan: --fs: expected FSX,FSY in cycles/m, found '%s'", fs);
     }
     if (knurl_method_from_name(method, &grating->method)) {
-        return tool_library_error(TOOL_USAGE, "scan: --method");
+        return tool_library_error(TOOL_USAGE, "scan");
     }
     grating->amplitude = amplitude;
     grating->update_rate_hz = rate;

@@ -121,7 +121,8 @@ TEST(unknown_names_are_told_with_those_that_are_known) {
     static const wrong table[] = {
         {"run %P --fast --method S3 --out %T/out.csv", 2, "S3|S1|S2"},
         {"run %P --fast --method s2", 2, "s2"},
-        {"run %P --fast --stroke zigzag --out %T/out.csv", 2, "zigzag|line|sweep|circle|press|rest"},
+        {"run %P --fast --stroke zigzag --out %T/out.csv", 2,
+         "run: stroke: expected line|sweep|circle|press|rest|zigzag"},
         {"run %P --fast --device omega --out %T/out.csv", 2, "omega|fake|touch|falcon|rawhid"},
         {"run %P --fast --device fake:?weight=3 --out %T/out.csv", 2, "weight|mass"},
         {"run %P --fast --device fake:?mass=heavy --out %T/out.csv", 2, "mass|heavy"},
