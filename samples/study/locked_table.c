@@ -141,10 +141,7 @@ static void write_row(FILE *csv, const char *part, const char *method, const dou
     fputc('\n', csv);
 }
 
-static void write_csv(FILE *csv, const table *t) {
-    fputs("part,method,update_rate_hz,frequency_hz,quantum_mm,period_mm,turns,crossover_hz,phase_error_cycles,"
-          "played_per_crossed,longest_event_ms,push,net,spurious\n",
-          csv);
+static void write_speeds(FILE *csv, const table *t) {
     for (size_t i = 0; i < 3 * SPEEDS; i++) {
         const locked_found *f = &t->speeds[i / SPEEDS][i % SPEEDS];
         const double cells[] = {1000.0,
@@ -161,6 +158,9 @@ static void write_csv(FILE *csv, const table *t) {
                                 f->spurious};
         write_row(csv, "speed", knurl_method_name(methods[i / SPEEDS]), cells, 12);
     }
+}
+
+static void write_strokes(FILE *csv, const table *t) {
     for (size_t i = 0; i < 54; i++) {
         const stroke_cell *s = &t->strokes[i / 18][i / 6 % 3][i / 2 % 3][i % 2];
         const double cells[] = {1000.0,
@@ -177,6 +177,9 @@ static void write_csv(FILE *csv, const table *t) {
                                 NAN};
         write_row(csv, "stroke", knurl_method_name(methods[i / 18]), cells, 12);
     }
+}
+
+static void write_crossovers(FILE *csv, const table *t) {
     for (size_t i = 0; i < RATES * CROSSOVERS * 3; i++) {
         const crossover_cell *c = &t->crossovers[i / 3 / CROSSOVERS][i / 3 % CROSSOVERS];
         const double cells[] = {rates[i / 3 / CROSSOVERS],
@@ -193,6 +196,15 @@ static void write_csv(FILE *csv, const table *t) {
                                 c->spurious};
         write_row(csv, "crossover", "locked", cells, 12);
     }
+}
+
+static void write_csv(FILE *csv, const table *t) {
+    fputs("part,method,update_rate_hz,frequency_hz,quantum_mm,period_mm,turns,crossover_hz,phase_error_cycles,"
+          "played_per_crossed,longest_event_ms,push,net,spurious\n",
+          csv);
+    write_speeds(csv, t);
+    write_strokes(csv, t);
+    write_crossovers(csv, t);
 }
 
 static int write_all(FILE *csv, json_writer *json, void *user) {

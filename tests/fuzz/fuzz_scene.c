@@ -42,14 +42,33 @@ static void fill_surface(supply *s, game *g, knurl_surface_desc *d, knurl_plane_
     }
 }
 
-static void act(game *g, supply *s) {
-    static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
+static void add_or_replace(game *g, supply *s, int replace, knurl_surface_id *id) {
     knurl_material_desc material;
     knurl_surface_desc surface;
     knurl_plane_desc plane;
     knurl_mesh_desc mesh;
+    fill_material(s, &material);
+    fill_surface(s, g, &surface, &plane, &mesh);
+    surface.material = &material;
+    if (replace) {
+        (void)knurl_scene_replace_surface(g->scene, *id, &surface);
+    } else {
+        (void)knurl_scene_add_surface(g->scene, &surface, id);
+    }
+}
+
+static void ask(game *g, supply *s, knurl_surface_id id) {
     knurl_surface_info info;
     knurl_surface_check check;
+    knurl_surface_info_init(&info, sizeof info);
+    knurl_surface_check_init(&check, sizeof check);
+    (void)knurl_scene_get_surface_info(g->scene, id, &info);
+    (void)knurl_scene_check_surface(g->scene, take_byte(s) % 2, id, &check);
+}
+
+static void act(game *g, supply *s) {
+    static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
+    knurl_material_desc material;
     double position[3];
     const uint8_t what = take_byte(s) % 12;
     knurl_surface_id *id = &g->ids[take_byte(s) % IDS];
@@ -57,14 +76,7 @@ static void act(game *g, supply *s) {
     case 0:
     case 1:
     case 2:
-        fill_material(s, &material);
-        fill_surface(s, g, &surface, &plane, &mesh);
-        surface.material = &material;
-        if (what < 2) {
-            (void)knurl_scene_add_surface(g->scene, &surface, id);
-        } else {
-            (void)knurl_scene_replace_surface(g->scene, *id, &surface);
-        }
+        add_or_replace(g, s, what == 2, id);
         break;
     case 3:
         (void)knurl_scene_remove_surface(g->scene, *id);
@@ -86,10 +98,7 @@ static void act(game *g, supply *s) {
         knurl_scene_collect(g->scene);
         break;
     case 8:
-        knurl_surface_info_init(&info, sizeof info);
-        knurl_surface_check_init(&check, sizeof check);
-        (void)knurl_scene_get_surface_info(g->scene, *id, &info);
-        (void)knurl_scene_check_surface(g->scene, take_byte(s) % 2, *id, &check);
+        ask(g, s, *id);
         break;
     default:
         expect_good_ticks(g->scene, s, 4);

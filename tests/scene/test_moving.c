@@ -130,63 +130,77 @@ TEST(rotation_goes_the_short_way) {
     rotate_under(-0.3, whole - 0.3, -1.0);
 }
 
+/* A plane's way from one pose to another within 40 ms. */
+typedef struct way {
+    pose from;
+    double axis[3], angle, shift[3];
+} way;
+
+static pose pose_at(const way *w, double share) {
+    pose p;
+    double part[4];
+    turn_about(w->axis, w->angle * share, part);
+    turn_after(part, w->from.quaternion, p.quaternion);
+    add3(w->from.position, share, w->shift, p.position);
+    return p;
+}
+
+/* What a HIP at rest feels of the plane at a share of its way; returns 0 once the plane has left it. */
+static int check_on_the_way(knurl_scene *scene, const double *hip, const way *w, double share) {
+    const pose now = pose_at(w, share);
+    double normal[3];
+    double offset[3];
+    double lever[3]; /* p - origin, p the contact point */
+    double swept[3];
+    double relative[3];
+    double x[3];
+    double y[3];
+    turn(now.quaternion, (const double[3]){0.0, 0.0, 1.0}, normal);
+    turn(now.quaternion, (const double[3]){1.0, 0.0, 0.0}, x);
+    turn(now.quaternion, (const double[3]){0.0, 1.0, 0.0}, y);
+    add3(hip, -1.0, now.position, offset);
+    const double depth = -dot3(offset, normal);
+    const knurl_tick_output out = stand_at(scene, hip[0], hip[1], hip[2]);
+    if (depth < 1e-6) {
+        return 0;
+    }
+    CHECK_CLOSE(out.depth, depth, 1e-9L);
+    CHECK_VECTOR(out.normal, normal[0], normal[1], normal[2], 1e-9L);
+    add3(offset, depth, normal, lever);
+    cross3(w->axis, lever, swept);
+    for (int i = 0; i < 3; i++) {
+        relative[i] = -w->shift[i] / 0.04 - w->angle / 0.04 * swept[i];
+    }
+    CHECK_CLOSE(out.surface_velocity[0], dot3(relative, x), 1e-8L);
+    CHECK_CLOSE(out.surface_velocity[1], dot3(relative, y), 1e-8L);
+    return 1;
+}
+
 /* Turned about a slanting axis and moved at once: every tick has the closed form of a screw-free motion, position
  * linear, rotation at a constant angular velocity. */
 TEST(place_and_turn_on_the_way_have_their_closed_forms) {
     uint64_t seed = 12;
     for (int run = 0; run < 20; run++) {
-        double axis[3];
-        random_direction(&seed, axis);
-        const pose from = random_pose(&seed);
-        const double angle = random_between(&seed, 0.1, 0.3);
-        const double shift[3] = {random_between(&seed, -0.01, 0.01), random_between(&seed, -0.01, 0.01),
-                                 random_between(&seed, -0.01, 0.01)};
-        pose to;
-        double whole[4];
-        turn_about(axis, angle, whole);
-        turn_after(whole, from.quaternion, to.quaternion);
-        add3(from.position, 1.0, shift, to.position);
+        way w;
+        random_direction(&seed, w.axis);
+        w.from = random_pose(&seed);
+        w.angle = random_between(&seed, 0.1, 0.3);
+        for (int i = 0; i < 3; i++) {
+            w.shift[i] = random_between(&seed, -0.01, 0.01);
+        }
+        const pose to = pose_at(&w, 1.0);
         surface_parts parts = wide_plane();
-        place(&parts, &from);
+        place(&parts, &w.from);
         knurl_scene *scene = scene_of(&parts);
         double hip[3];
-        pose_point(&from, (const double[3]){0.001, -0.002, 0.02}, hip); /* first in front: comes in when it is time */
+        pose_point(&w.from, (const double[3]){0.001, -0.002, 0.02}, hip); /* first in front: comes in when it is time */
         (void)stand_at(scene, hip[0], hip[1], hip[2]);
-        pose_point(&from, (const double[3]){0.001, -0.002, -0.008}, hip);
+        pose_point(&w.from, (const double[3]){0.001, -0.002, -0.008}, hip);
         (void)stand_at(scene, hip[0], hip[1], hip[2]);
         move_to(scene, knurl_scene_get_surface(scene, 0), &to, 0.04);
-        for (int k = 1; k < 40; k++) {
-            const double share = k / 40.0;
-            pose now;
-            double part[4];
-            double normal[3];
-            double offset[3];
-            double swept[3];
-            double relative[3];
-            double x[3];
-            double y[3];
-            turn_about(axis, angle * share, part);
-            turn_after(part, from.quaternion, now.quaternion);
-            add3(from.position, share, shift, now.position);
-            turn(now.quaternion, (const double[3]){0.0, 0.0, 1.0}, normal);
-            turn(now.quaternion, (const double[3]){1.0, 0.0, 0.0}, x);
-            turn(now.quaternion, (const double[3]){0.0, 1.0, 0.0}, y);
-            add3(hip, -1.0, now.position, offset);
-            const double depth = -dot3(offset, normal);
-            const knurl_tick_output out = stand_at(scene, hip[0], hip[1], hip[2]);
-            if (depth < 1e-6) {
-                break; /* it has gone away from under the HIP */
-            }
-            CHECK_CLOSE(out.depth, depth, 1e-9L);
-            CHECK_VECTOR(out.normal, normal[0], normal[1], normal[2], 1e-9L);
-            double lever[3]; /* p - origin, p the contact point */
-            add3(offset, depth, normal, lever);
-            cross3(axis, lever, swept);
-            for (int i = 0; i < 3; i++) {
-                relative[i] = -shift[i] / 0.04 - angle / 0.04 * swept[i];
-            }
-            CHECK_CLOSE(out.surface_velocity[0], dot3(relative, x), 1e-8L);
-            CHECK_CLOSE(out.surface_velocity[1], dot3(relative, y), 1e-8L);
+        int k = 1;
+        while (k < 40 && check_on_the_way(scene, hip, &w, k / 40.0)) {
+            k++;
         }
         knurl_scene_destroy(scene);
     }

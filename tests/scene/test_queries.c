@@ -111,11 +111,40 @@ static double clamp_to_box(const double p[3], const double half[3], double close
 }
 
 /* A plane, a box of triangles, and a flat mesh, each at a random pose. */
+/* Half edges of a plane, a box and a sheet. */
+static const double half_edges[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
+
+typedef struct nearest {
+    double distance, point[3];
+    int surface, is_in_box; /* 0, 1 or 2; whether the point lies in the box, which has another rule */
+} nearest;
+
+/* The closest point of the three to p, by clamping to each one's box in its own frame. */
+static nearest find_nearest(const pose *poses, const double *p) {
+    nearest n = {10.0, {0.0}, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        const double back[4] = {-poses[i].quaternion[0], -poses[i].quaternion[1], -poses[i].quaternion[2],
+                                poses[i].quaternion[3]};
+        double off[3], own[3], closest[3];
+        for (int axis = 0; axis < 3; axis++) {
+            off[axis] = p[axis] - poses[i].position[axis];
+        }
+        turn(back, off, own);
+        const double distance = clamp_to_box(own, half_edges[i], closest);
+        n.is_in_box |= i == 1 && distance == 0.0;
+        if (distance < n.distance) {
+            n.distance = distance;
+            n.surface = i;
+            pose_point(&poses[i], closest, n.point);
+        }
+    }
+    return n;
+}
+
 TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
-    static const double half[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
     uint64_t seed = 5;
-    shape box = shape_box(half[1], 0);
-    shape sheet = shape_sheet(1, 1, half[2], flat);
+    shape box = shape_box(half_edges[1], 0);
+    shape sheet = shape_sheet(1, 1, half_edges[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     for (int round = 0; round < 40; round++) {
         knurl_scene *scene = empty_scene(1);
@@ -131,37 +160,20 @@ TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
         for (int k = 0; k < 50; k++) {
             const double p[3] = {random_between(&seed, -0.6, 0.6), random_between(&seed, -0.6, 0.6),
                                  random_between(&seed, -0.6, 0.6)};
-            double least = 10.0, expected[3] = {0.0};
-            int best = 0, is_inside = 0;
-            for (int i = 0; i < 3; i++) {
-                const double back[4] = {-poses[i].quaternion[0], -poses[i].quaternion[1], -poses[i].quaternion[2],
-                                        poses[i].quaternion[3]};
-                double off[3], own[3], closest[3];
-                for (int axis = 0; axis < 3; axis++) {
-                    off[axis] = p[axis] - poses[i].position[axis];
-                }
-                turn(back, off, own);
-                const double distance = clamp_to_box(own, half[i], closest);
-                is_inside |= i == 1 && distance == 0.0;
-                if (distance < least) {
-                    least = distance;
-                    best = i;
-                    pose_point(&poses[i], closest, expected);
-                }
-            }
+            const nearest n = find_nearest(poses, p);
             knurl_surface_point found;
             knurl_surface_point_init(&found, sizeof found);
             assert_int_equal(knurl_scene_find_closest(scene, p, 10.0, &found), KNURL_OK);
-            if (is_inside) {
+            if (n.is_in_box) {
                 continue;
             }
-            assert_true(found.surface == ids[best]);
-            CHECK_CLOSE(found.distance, least, 1e-7); /* meshes are of float32 */
-            CHECK_VECTOR(found.position, expected[0], expected[1], expected[2], 1e-7);
-            assert_int_equal(knurl_scene_find_closest(scene, p, 0.999 * least, &found), KNURL_OK);
+            assert_true(found.surface == ids[n.surface]);
+            CHECK_CLOSE(found.distance, n.distance, 1e-7); /* meshes are of float32 */
+            CHECK_VECTOR(found.position, n.point[0], n.point[1], n.point[2], 1e-7);
+            assert_int_equal(knurl_scene_find_closest(scene, p, 0.999 * n.distance, &found), KNURL_OK);
             assert_true(found.surface == 0 && found.distance == 0.0 && found.position[0] == 0.0);
-            assert_int_equal(knurl_scene_find_closest(scene, p, 1.001 * least, &found), KNURL_OK);
-            assert_true(found.surface == ids[best]);
+            assert_int_equal(knurl_scene_find_closest(scene, p, 1.001 * n.distance, &found), KNURL_OK);
+            assert_true(found.surface == ids[n.surface]);
         }
         knurl_scene_destroy(scene);
     }

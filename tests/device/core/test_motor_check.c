@@ -239,28 +239,47 @@ static double height(const trial *t, double time) {
     }
 }
 
+static knurl_plant_config plant_of(const maker *m, const hand *held) {
+    return (knurl_plant_config){.mass = m->mass + held->mass,
+                                .viscous = m->viscous,
+                                .coulomb = m->coulomb,
+                                .hand_stiffness = held->stiffness,
+                                .hand_damping = held->damping,
+                                .resolution = m->resolution,
+                                .max_force = m->max_force,
+                                .half_workspace = {0.05, 0.05, 0.05},
+                                .delay = m->delay,
+                                .exact = 1};
+}
+
+/* Where the hand wants to be, how fast, and its tremor: noise through three filters. */
+typedef struct aim {
+    double target[3], speed[3], shake[3];
+} aim;
+
+static void aim_step(aim *a, trial *t, double time) {
+    a->shake[0] += -0.02 * a->shake[0] + noise(&t->random) * (t->motion == 3 ? 9e-5 : 3e-5);
+    a->shake[1] += 0.05 * (a->shake[0] - a->shake[1]);
+    a->shake[2] += 0.05 * (a->shake[1] - a->shake[2]);
+    const double wanted[3] = {0.01 * (t->pace - 0.5) * sin(10.7 * t->pace * time), height(t, time) + a->shake[2],
+                              0.01 * (t->pace - 0.5) * sin(18.2 * time)};
+    for (int axis = 0; axis < 3; axis++) {
+        a->speed[axis] = 1000.0 * (wanted[axis] - a->target[axis]);
+        a->target[axis] = wanted[axis];
+    }
+}
+
 static verdict run(trial t) {
     const maker *m = t.device;
     const int is_free = t.held->stiffness == 0.0;
-    const knurl_plant_config config = {.mass = m->mass + t.held->mass,
-                                       .viscous = m->viscous,
-                                       .coulomb = m->coulomb,
-                                       .hand_stiffness = t.held->stiffness,
-                                       .hand_damping = t.held->damping,
-                                       .resolution = m->resolution,
-                                       .max_force = m->max_force,
-                                       .half_workspace = {0.05, 0.05, 0.05},
-                                       .delay = m->delay,
-                                       .exact = 1};
+    const knurl_plant_config config = plant_of(m, t.held);
     verdict v = {0, 0, 0.0, 0.0};
     knurl_plant plant;
     knurl_motor_check check;
-    double target[3] = {0.0, height(&t, 0.0), 0.0};
-    double speed[3] = {0.0, 0.0, 0.0};
-    double shake[3] = {0.0, 0.0, 0.0};
+    aim hand_aim = {{0.0, height(&t, 0.0), 0.0}, {0.0}, {0.0}};
     double first = -1.0;
     double began = 0.0;
-    const double start[3] = {0.0, is_free ? -0.002 * t.size : target[1], 0.0};
+    const double start[3] = {0.0, is_free ? -0.002 * t.size : hand_aim.target[1], 0.0};
     knurl_plant_init(&plant, &config, start);
     knurl_motor_check_init(&check, m->max_force);
     knurl_motor_check_start(&check, 0.001);
@@ -269,16 +288,8 @@ static verdict run(trial t) {
         double position[3];
         double force[3] = {0.0, 0.0, 0.0};
         double made[3];
-        shake[0] += -0.02 * shake[0] + noise(&t.random) * (t.motion == 3 ? 9e-5 : 3e-5);
-        shake[1] += 0.05 * (shake[0] - shake[1]);
-        shake[2] += 0.05 * (shake[1] - shake[2]);
-        const double wanted[3] = {0.01 * (t.pace - 0.5) * sin(10.7 * t.pace * time), height(&t, time) + shake[2],
-                                  0.01 * (t.pace - 0.5) * sin(18.2 * time)};
-        for (int axis = 0; axis < 3; axis++) {
-            speed[axis] = 1000.0 * (wanted[axis] - target[axis]);
-            target[axis] = wanted[axis];
-        }
-        knurl_plant_step(&plant, 0.001, target, speed);
+        aim_step(&hand_aim, &t, time);
+        knurl_plant_step(&plant, 0.001, hand_aim.target, hand_aim.speed);
         knurl_plant_measure(&plant, position);
         v.fault = knurl_motor_check_step(&check, position);
         v.after = time - first;
