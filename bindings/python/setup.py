@@ -1,6 +1,6 @@
 """Builds the libraries into the package, and what cffi reads of their headers. Needs CMake, a C and a C++ compiler and
 what knurl_gltf is built with (tinygltf, nlohmann-json, GLM). The environment variable CMAKE_ARGS may hold more options for
-CMake. SPDX-License-Identifier: MIT"""
+CMake; KNURL_BUILD_FOLDER, where they are built (default: build/libraries). SPDX-License-Identifier: MIT"""
 import os
 import re
 import shlex
@@ -41,7 +41,7 @@ class Build(build_py):
     def run(self):
         super().run()
         package = os.path.abspath(os.path.join(self.build_lib, "knurl"))
-        folder = os.path.abspath(os.path.join("build", "libraries"))
+        folder = os.path.abspath(os.environ.get("KNURL_BUILD_FOLDER", os.path.join("build", "libraries")))
         subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
                         "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
                         "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME, *shlex.split(os.environ.get("CMAKE_ARGS", ""))],

@@ -3,7 +3,8 @@
 pkg-config; shared, static, and the core alone without a C++ compiler.
 usage: installed.py SOURCE BUILD FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS
 BUILD: of the static libraries; C_FLAGS, CXX_FLAGS: what it was compiled with, so that ccache has the others' objects, too;
-FOLDER: kept for the next time.
+they are built beside it, for with CCACHE_BASEDIR ccache compares paths as seen from the folder of the build; FOLDER: kept
+for the next time.
 SPDX-License-Identifier: MIT"""
 import os
 import re
@@ -32,7 +33,7 @@ def check(what, good):
 
 def build(name, targets, *options):
     """Configures and builds; returns where."""
-    folder = os.path.join(FOLDER, name + ".build")
+    folder = f"{BUILD}-{name}"
     run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
         f"-DCMAKE_C_FLAGS_RELEASE={C_FLAGS}", f"-DCMAKE_CXX_FLAGS_RELEASE={CXX_FLAGS}", "-DBUILD_TESTING=OFF",
         "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib", *options)

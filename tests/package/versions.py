@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs programs of one version with the library of another: today's, and one that is still to come, whose structs have
 grown and which has one more function. What works goes on working; what an older library cannot do is refused by a sentence.
-usage: versions.py SOURCE FOLDER C_COMPILER C_FLAGS     FOLDER is kept for the next time.
+usage: versions.py SOURCE BUILD FOLDER C_COMPILER C_FLAGS     BUILD: beside it today's library is built (see installed.py);
+FOLDER is kept for the next time.
 SPDX-License-Identifier: MIT"""
 import os
 import re
@@ -9,7 +10,7 @@ import shutil
 import subprocess
 import sys
 
-SOURCE, FOLDER, CC, C_FLAGS = sys.argv[1:]
+SOURCE, BUILD, FOLDER, CC, C_FLAGS = sys.argv[1:]
 CLIENT = os.path.join(SOURCE, "tests/package/versions/client.c")
 
 
@@ -65,12 +66,11 @@ def make_later(folder):
                                                        " return input->reserved[0] == 0; }\n"))
 
 
-def build(source, name, flags):
+def build(source, folder, flags, *options):
     """Builds a version's shared library; returns the folders of its headers and of its library."""
-    folder = os.path.join(FOLDER, name)
     need("cmake", "-G", "Ninja", "-S", source, "-B", folder, f"-DCMAKE_C_COMPILER={CC}", "-DCMAKE_BUILD_TYPE=Release",
          f"-DCMAKE_C_FLAGS_RELEASE={flags}", "-DBUILD_SHARED_LIBS=ON", "-DBUILD_TESTING=OFF", "-DKNURL_GLTF=OFF",
-         "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DKNURL_INSTALL=OFF", "-DKNURL_WARNINGS_AS_ERRORS=OFF")
+         "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DKNURL_INSTALL=OFF", *options)
     need("cmake", "--build", folder, "--target", "knurl")
     return os.path.join(source, "sdk/include"), os.path.join(folder, "sdk")
 
@@ -84,8 +84,9 @@ def compile_client(version, name, *options):
 def main():
     os.makedirs(FOLDER, exist_ok=True)
     make_later(os.path.join(FOLDER, "later.source"))
-    today = build(SOURCE, "today", C_FLAGS)  # as other builds compile it, so that ccache has its objects
-    later = build(os.path.join(FOLDER, "later.source"), "later", "-O1")
+    today = build(SOURCE, f"{BUILD}-today", C_FLAGS)  # as other builds compile it, so that ccache has its objects
+    later = build(os.path.join(FOLDER, "later.source"), os.path.join(FOLDER, "later"), "-O1",
+                  "-DKNURL_WARNINGS_AS_ERRORS=OFF")
     client = compile_client(today, "client_of_today")
     newer = compile_client(later, "client_to_come", "-DLATER")
     newest = compile_client(later, "client_with_function", "-DLATER", "-DLATER_FUNCTION")

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Builds the Python module's wheel as pip does, installs it into an empty environment, and runs its tests and example.
-usage: run.py SOURCE FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS KNURL
-FOLDER: kept for the next time; C_FLAGS, CXX_FLAGS: of KNURL's own build, whose objects ccache then has. Exit 77: a package
-is missing.
+usage: run.py SOURCE BUILD FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS KNURL
+BUILD: KNURL's; beside it the libraries are built (see tests/package/installed.py); FOLDER: kept for the next time;
+C_FLAGS, CXX_FLAGS: of that build, whose objects ccache then has. Exit 77: a package is missing.
 SPDX-License-Identifier: MIT"""
 import glob
 import importlib.util
@@ -11,14 +11,15 @@ import shutil
 import subprocess
 import sys
 
-SOURCE, FOLDER, CC, CXX, C_FLAGS, CXX_FLAGS, KNURL = sys.argv[1:]
+SOURCE, BUILD, FOLDER, CC, CXX, C_FLAGS, CXX_FLAGS, KNURL = sys.argv[1:]
 PACKAGES = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "python3-setuptools",
             "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv"}
 
 
 def run(*command):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
-                          env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja", "CMAKE_ARGS":
+                          env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja",
+                               "KNURL_BUILD_FOLDER": f"{BUILD}-python", "CMAKE_ARGS":
                                f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}'"})
     if done.returncode:
         sys.exit(f"python: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
