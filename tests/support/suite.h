@@ -30,6 +30,14 @@ int suite_run(const char *name);
 }
 #endif
 
+/** 1 under a sanitizer. What repeats the same code with other numbers takes fewer of them there: each costs four times
+ * as much, and the plain run judges them all. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SUITE_SANITIZED 1
+#else
+#define SUITE_SANITIZED 0
+#endif
+
 /** A test of cmocka's. */
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 
