@@ -12,8 +12,8 @@ namespace Knurl
             return NativeMethods.knurl_session_split_pose(rows, pose) != 0;
         }
 
-        /// <summary>Into the scene, in the place of what is there of it, so that a finger stays in contact; or out of it,
-        /// where it cannot be felt.</summary>
+        /// <summary>Adds the surface to the scene, or replaces it there, so that contact goes on. Removes it where it
+        /// cannot be felt.</summary>
         void Put(KnurlSurface surface, Follower* f)
         {
             knurl_session_pose pose;
@@ -37,7 +37,7 @@ namespace Knurl
             Copy(pose.rest, f->rest, 9);
         }
 
-        /// <summary>False after a sentence in the console.</summary>
+        /// <summary>Returns false after an error, which goes to the console.</summary>
         bool PutMesh(KnurlSurface surface, Follower* f, knurl_session_pose* pose)
         {
             Mesh mesh;
@@ -128,8 +128,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>The plane that touches the middle of the nearest surface which a ray meets there. Where it meets none,
-        /// the plane stays as it is known, or is the first surface's. False where there is none.</summary>
+        /// <summary>Finds the tangent plane, at its anchor, of the nearest surface that a ray hits. Where it hits none, a
+        /// plane that is known stays, else the first surface's is taken. Returns whether there is one.</summary>
         internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)
         {
             knurl_surface_info info;

@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>What one session knows of each enabled surface. Main thread. A frame asks nothing of the heap, and nothing
-    /// native for what stands still.</summary>
+    /// <summary>The state of each enabled surface in one session's scene. Main thread. A frame allocates nothing, and makes
+    /// no native call for what stands still.</summary>
     internal sealed unsafe partial class Following
     {
         struct Follower
@@ -188,7 +188,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>To the last bit: Unity's == takes small ways for none.</summary>
+        /// <summary>Exact: Unity's == also holds for values that differ a little.</summary>
         static bool IsSame(Matrix4x4* a, Matrix4x4* b)
         {
             var x = (ulong*)a;

@@ -47,7 +47,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Null is told for a file's surface, but nothing for one that is gone by now.</summary>
+        /// <summary>Begins a contact. Handlers get null for a file's surface. They are not called for a surface that was
+        /// removed meanwhile.</summary>
         unsafe void Touch(ulong id)
         {
             byte* ignored;

@@ -42,7 +42,7 @@ namespace Knurl
             return isRunning;
         }
 
-        /// <summary>Null where it runs.</summary>
+        /// <summary>Starts it unless it runs. Returns why it cannot start, or null.</summary>
         KnurlException TryStart()
         {
             isNew = false;
@@ -64,7 +64,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>By itself: a failure is told once, however often it is tried again.</summary>
+        /// <summary>Starts it for autostart and retries. A failure that repeats is reported once.</summary>
         void StartByItself()
         {
             KnurlException failure = TryStart();
@@ -259,8 +259,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>What was touched is told by <see cref="LetGo"/>, not by the session: what that has left to tell is
-        /// of a run that is over.</summary>
+        /// <summary>Closes the session without reporting its last events: that the contact ended is reported by <see
+        /// cref="LetGo"/>.</summary>
         unsafe void Release()
         {
             knurl_session_event ignored;
@@ -290,7 +290,7 @@ namespace Knurl
 
         void OnEnable()
         {
-            isPaused = false; // the end of a pause may have come while nobody was told
+            isPaused = false; // a disabled component is not told when a pause ends
             isNew = true;
             hasFailed = false;
         }
@@ -307,7 +307,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>A game that stands still is a pause, however that was asked for.</summary>
+        /// <summary>Pauses for the property, for the application, or for a time scale of 0.</summary>
         void Pause()
         {
             if (session != null)
@@ -317,7 +317,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>A game that gives no frame gives no sign of life, and the force is zeroed.</summary>
+        /// <summary>knurl_unity_update() also resets the watchdog: without frames it zeroes the force.</summary>
         void LateUpdate()
         {
             if (isRunning)

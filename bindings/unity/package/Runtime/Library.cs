@@ -33,7 +33,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Somebody may have put the library where it belongs since.</summary>
+        /// <summary>Lets the next <see cref="Check"/> look again: the library may have been installed since.</summary>
         internal static void ForgetFailure()
         {
             isChecked = isChecked && wrong == null;

@@ -37,7 +37,7 @@ namespace Knurl
                 : "Of its mesh '" + mesh.name + "' only triangles are felt, not " + others + ".";
         }
 
-        /// <summary>All triangles of a mesh that <see cref="Refusal"/> has nothing against. rest: worked into it, 3 by
+        /// <summary>All triangles of a mesh for which <see cref="Refusal"/> is null. rest: worked into it, 3 by
         /// 3, row-major, scene axes.</summary>
         internal static MeshData Read(Mesh mesh, double* rest)
         {

@@ -25,8 +25,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Told at once: a frame later there may be nothing left to tell of. Handlers come last; they may do
-        /// what they like.</summary>
+        /// <summary>Contacts with the surface end at once: in the next frame it may be destroyed. Handlers are called
+        /// last, because they may add or remove devices and surfaces.</summary>
         internal static void Leave(KnurlSurface surface)
         {
             Surfaces.Remove(surface);
