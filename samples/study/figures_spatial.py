@@ -85,12 +85,12 @@ def draw_others(ax, data):
         fitted = fixture is data["fixtures"][0]
         ax.plot(fixture["period_ticks"], values(fixture["T3"]["dominant"]), color=METHODS["T3"] if fitted else GREY,
                 lw=1.4 if fitted else 1.0, ls="-" if fitted else "--")
-    for fixture, at in zip(data["fixtures"][1:], (15.5, 8, 4.8)):
-        k = int(np.argmin(np.abs(np.array(fixture["period_ticks"]) - at)))
-        ax.annotate(f"{fixture['resonance_hz']:.0f} Hz", (fixture["period_ticks"][k], fixture["T3"]["dominant"][k]),
-                    xytext=(5, 3), textcoords="offset points", fontsize=8.5, color=GREY)
+    for fixture in data["fixtures"][1:]: # named at its peak
+        k = int(np.argmax(values(fixture["T3"]["dominant"])))
+        say(ax, f"{fixture['resonance_hz']:.0f} Hz", fixture["period_ticks"][k], fixture["T3"]["dominant"][k], va="bottom", dx=-4, dy=2,
+            within="data")
     ax.axhline(4 / np.pi, color=ASKED, lw=0.9, ls=(0, (4, 3)))
-    ax.set_ylim(0, 5.2)
+    ax.set_ylim(0, 5.8)
     say(ax, "dashed: losing 0.5 N s/m instead, ringing at 75, 150, 300 Hz", 0.99, 1.0, "right", "top", 8)
     ax.set_ylabel("T3 (N)", labelpad=12)
 
@@ -198,12 +198,12 @@ def draw_line(ax, speeds):
     ax.plot(np.array(speeds["s1"]["ft"]) / 1e3, values(speeds["s1"]["dropout"]), color=METHODS["S1"], lw=1.3)
     ax.axvspan(0, 0.5, color=PALE, lw=0, zorder=-1)
     ax.set_xlim(0, 2.2)
-    ax.set_ylim(0, 1.05)
+    ax.set_ylim(0, 1.15)
     ax.yaxis.set_major_formatter(PERCENT)
     ax.set_xlabel("temporal frequency over update rate, $f_t/f_h$")
     ax.set_ylabel("half cycles never played", labelpad=2)
     for n in (1, 2):
-        say(ax, "silent", n, 0.99, "left", "center", dx=6, color=ASKED, within="data")
+        say(ax, "silent", n, 1.0, va="bottom", dy=2, color=ASKED, within="data")
     say(ax, "no loss\nbelow $f_h$/2", 0.25, 0.5, color=GREY, within="data")
 
 
@@ -267,8 +267,8 @@ def draw_gratings(data, folder):
     drift = panel(figure, 5.65, 6.1, 3.45, 2.2, "(e) S2: cycles played against Eq. 12, 1000 × 500")
     draw_map(figure, drift, table, "s2_drift", DRIFT, TwoSlopeNorm(0, -0.6, 0.18), (9.2, 6.1, 2.2), SIGNED, "")
     for ax in (lost, drift):
-        say(ax, "scans reach\n250 mm/s", 262, 3, "left", "bottom", 8, INK, within="data")
-    say(lost, "crossings above $f_h$/2", 760, 78, color=INK, within="data")
+        say(ax, "scans reach\n250 mm/s", 235, 87, "right", "top", 8, INK, within="data", halo=True)
+    say(lost, "crossings above $f_h$/2", 830, 30, color="white", within="data")
     say(drift, "$f_t$ above $f_h$/2", 830, 30, color="white", within="data")
     draw_line(panel(figure, 0.75, 3.4, 3.95, 1.85, "(f) S1, straight across"), data["speeds"])
     draw_drift(panel(figure, 5.65, 3.4, 3.95, 1.85, "(g) S2, straight across"), data["speeds"])

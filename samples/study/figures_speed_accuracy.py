@@ -5,7 +5,7 @@ SPDX-License-Identifier: MIT
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from style import INK, METHODS, read_table
+from style import HALO, INK, METHODS, read_table
 
 # What is wrong, where in the table, the size at which a hand notices it (README.md beside this file has the sources),
 # and what it is called at a line. Each is that of the worst of 40 speeds.
@@ -39,16 +39,17 @@ def draw_line(ax, method, points, colour):
     ax.plot(xs, ys, color=colour, lw=2.6, zorder=4, solid_capstyle="round")
     ax.plot(xs, ys, "o", color=colour, ms=7, zorder=5)
     for x, y, rate in zip(xs, ys, rates):
-        above = method in ("S2", "locked")
+        above = method != "S1"
         ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, 8 if above else -16),
-                    textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6)
+                    textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6,
+                    path_effects=None if method == "area" else HALO)
     noticed = [f"{name} {size:.2g}×" for size, name in found[0] if size >= 0.995]
     place = PLACES.get(method, (26, 6))
     at = (xs[0], ys[0]) if method == "S1" else (xs[-1], ys[-1])
     for text, style, below in ((method, {"fontsize": 14, "fontweight": "bold"}, 0),
                                ("\n".join(noticed), {"fontsize": 10.5, "linespacing": 1.1}, 11)):
         ax.annotate(text, at, xytext=(place[0], place[1] - below), textcoords="offset points", color=colour, zorder=6,
-                    va="top" if below else "center", **style)
+                    va="top" if below else "center", path_effects=None if method == "area" else HALO, **style)
 
 
 def draw_shape(ax, heights, colour):

@@ -11,11 +11,13 @@ import sys
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patheffects import withStroke
 
 INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
 # Each method its colour, in every figure; S1 and S2 are kin of T1 and T3.
 METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "locked": "#a03c78", "area": "#2f6fd0"}
 SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
+HALO = [withStroke(linewidth=3, foreground="white")]  # of a label that lies on lines
 STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
          "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
          "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
@@ -38,9 +40,10 @@ def open_input(path, **how):
     return file
 
 
-def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, dx=0, dy=0, within="axes fraction"):
+def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, dx=0, dy=0, within="axes fraction",
+        halo=False):
     ax.annotate(text, (x, y), xycoords=within, xytext=(dx, dy), textcoords="offset points", ha=ha, va=va, fontsize=size,
-                color=color)
+                color=color, path_effects=HALO if halo else None)
 
 
 def read_table(folder, name):
