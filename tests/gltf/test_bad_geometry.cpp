@@ -138,8 +138,8 @@ double below(const Point &p) {
 double below_20um(const Point &p) {
     return -p[2] - 20e-6;
 }
-double below_1mm(const Point &p) { // steep facets: the nearest of a face's points may be nearer
-    return 0.85 * (-p[2] - 1e-3);
+double below_1mm(const Point &p) { // no point of the sheet is lower, so what holds the HIP is as far away at least
+    return -p[2] - 1e-3;
 }
 double in_corner(const Point &p) { // outside is x > 0 and z > 0
     return std::max(-p[0], -p[2]);
