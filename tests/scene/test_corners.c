@@ -324,6 +324,50 @@ static int press_uneven(const shape *s, uint64_t seed, int presses) {
     return lost;
 }
 
+/* From above straight down, then along four legs below all of the sheet. Returns 1 where contact was lost. */
+static int stroke_below(knurl_scene *scene, double deep, uint64_t *seed) {
+    double at[3] = {random_between(seed, -0.004, 0.004), random_between(seed, -0.004, 0.004), 0.004};
+    int lost = 0;
+    configure_plainly(scene, 0);
+    (void)tick_at(scene, at[0], at[1], at[2]);
+    for (int leg = 0; leg < 5 && !lost; leg++) {
+        const double to[3] = {leg == 0 ? at[0] : random_between(seed, -0.004, 0.004),
+                              leg == 0 ? at[1] : random_between(seed, -0.004, 0.004),
+                              leg == 0 ? -deep : random_between(seed, -deep, 0.0)};
+        const double from[3] = {at[0], at[1], at[2]};
+        const int ticks = (int)(distance3(from, to) / STEP) + 1;
+        for (int k = 1; k <= ticks && !lost; k++) {
+            for (int i = 0; i < 3; i++) {
+                at[i] = from[i] + (to[i] - from[i]) * k / ticks;
+            }
+            const knurl_tick_output out = tick_at(scene, at[0], at[1], at[2]);
+            lost = at[2] < -1e-5 && !(length3(out.force) > 0.0);
+        }
+    }
+    return lost;
+}
+
+/* Heights of 2 mm on cells of 1 mm: facets turn by more than 90 degrees. A proxy in such a fold, lifted by a seam off
+ * the one facet, was behind the other. */
+TEST(a_sheet_of_sharp_folds_holds_deep_strokes) {
+    int lost = 0;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        uint64_t random = seed;
+        uneven_seed = seed;
+        unevenness = 0.002;
+        shape sheet = shape_sheet(40, 40, (const double[2]){0.02, 0.02}, uneven);
+        surface_parts parts = surface_mesh(&sheet);
+        parts.desc.axis[0] = 1.0;
+        knurl_scene *scene = scene_of(&parts);
+        for (int i = 0; i < 100; i++) {
+            lost += stroke_below(scene, 0.002, &random);
+        }
+        knurl_scene_destroy(scene);
+        shape_free(&sheet);
+    }
+    assert_int_equal(lost, 0);
+}
+
 TEST(an_uneven_sheet_with_a_t_junction_holds) {
     const double heights[3] = {20e-6, 200e-6, 1e-3};
     for (int i = 0; i < 3; i++) {

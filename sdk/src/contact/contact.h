@@ -62,7 +62,7 @@ typedef struct knurl_contact_query {
 #define KNURL_UNSURE_PARTS 2
 
 typedef struct knurl_contact {
-    double proxy[3];
+    double proxy[3];    /* on the shape; in a mesh's fold of more than 90 degrees up to two seams off it */
     double normal[3];   /* unit, towards the side that the HIP came from */
     double z;           /* m along the normal, negative inside */
     double weights[3];  /* mesh: barycentric coordinates of the proxy */

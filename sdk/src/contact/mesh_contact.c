@@ -28,6 +28,17 @@ static double off_boundary(const knurl_closest_point *closest, double along[3]) 
     return vec3_length(along);
 }
 
+/* Between the contact's normal and the mean of the faces' normals, at least: 84 degrees are a fold of 168. Less is no
+ * fold: on double-sided meshes neighbours may face opposite ways. */
+#define FOLD_COSINE_MIN 0.1
+
+/* Moves the proxy so that, a seam off the mesh along the contact's normal, it is in front of all faces round it. Where
+ * these turn by more than 90 degrees, that normal may lead behind one of them: no cast would find that face again. */
+static void rest_before_fold(double seam, int32_t side, const double mean[3], knurl_contact *c) {
+    vec3_madd(c->proxy, seam * side, mean, c->proxy);
+    vec3_madd(c->proxy, -seam, c->normal, c->proxy);
+}
+
 /* From a closest point to a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped over
  * the boundary of an open mesh. */
 static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t side, const knurl_closest_point *closest,
@@ -41,10 +52,10 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
         c->z = vec3_dot(closest->offset, c->normal);
         return 1;
     }
-    double outwards[3], offset[3];
+    double outwards[3], offset[3], mean[3];
     int boundary;
     const double distance = sqrt(closest->distance2);
-    const int inside = knurl_mesh_side(mesh, closest, visits, &boundary) * side < 0;
+    const int inside = knurl_mesh_side(mesh, closest, visits, &boundary, mean) * side < 0;
     vec3_copy(closest->offset, offset);
     if (boundary) {
         if (off_boundary(closest, outwards) > BOUNDARY_SLACK + 1e-6 * distance) {
@@ -58,6 +69,9 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
         vec3_scale((inside ? -1.0 : 1.0) / vec3_length(offset), offset, c->normal);
     }
     c->z = inside ? -distance : distance;
+    if (inside && side * vec3_dot(mean, c->normal) > FOLD_COSINE_MIN) {
+        rest_before_fold(mesh->seam, side, mean, c);
+    }
     return 1;
 }
 

@@ -184,6 +184,7 @@ typedef struct side_sums {
     int front, back; /* whether p is in front of any of them, behind any */
     int oblique;     /* whether any normal is more than 37 degrees off the offset: 0.64 is the square of the cosine */
     double weighted; /* sum of cosines, weighted by angle at a vertex, alike on an edge */
+    double mean[3];  /* sum of unit normals, weighted likewise */
 } side_sums;
 
 /* Nothing is added once the visits are used up. */
@@ -205,7 +206,9 @@ static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     sums->oblique |= along * along < 0.64 * sums->closest->distance2 * vec3_dot(normal, normal);
     if (weigh) {
         const double size = vec3_length(normal);
-        sums->weighted += along / size * (at_vertex(sums->closest) ? atan2(size, vec3_dot(next, last)) : 1.0);
+        const double weight = at_vertex(sums->closest) ? atan2(size, vec3_dot(next, last)) : 1.0;
+        sums->weighted += along / size * weight;
+        vec3_madd(sums->mean, weight / size, normal, sums->mean);
     }
 }
 
@@ -260,7 +263,7 @@ static int is_caught(const walk *w, const knurl_closest_point *closest) {
     if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * w->side > 0.0) {
         return 0;
     }
-    side_sums sums = {w->mesh, closest, w->visits, 0, 0, 0, 0.0};
+    side_sums sums = {w->mesh, closest, w->visits, 0, 0, 0, 0.0, {0.0, 0.0, 0.0}};
     (void)add_round(&sums, 0);
     return sums.oblique;
 }
@@ -280,13 +283,14 @@ static int is_walled_off(const walk *w, const knurl_closest_point *closest) {
 static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     knurl_contact nearest;
     knurl_closest_point other;
+    double mean[3];
     int boundary;
     if (!knurl_mesh_closest(w->mesh, w->p, sqrt(closest->distance2) * (1.0 - 1e-9), NULL, w->visits, &nearest)) {
         return;
     }
     knurl_closest_on_triangle(w->mesh, nearest.triangle, w->p, &other);
     if (vec3_dot(other.offset, closest->offset) > 0.0 &&
-        knurl_mesh_side(w->mesh, &other, w->visits, &boundary) * w->side < 0 && !is_walled_off(w, closest)) {
+        knurl_mesh_side(w->mesh, &other, w->visits, &boundary, mean) * w->side < 0 && !is_walled_off(w, closest)) {
         *closest = other;
     }
 }
@@ -361,16 +365,20 @@ int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knu
 /* Where the triangles round the feature do not agree, the angle-weighted normal decides: its dot product with the
  * offset has the right sign wherever on the mesh the nearest point lies (Baerentzen and Aanaes 2005); one face's has
  * not. */
-int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits, int *boundary) {
+int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits, int *boundary,
+                    double mean[3]) {
+    mean[0] = mean[1] = mean[2] = 0.0;
     if (closest->feature == 7) {
         const double along = vec3_dot(closest->offset, closest->normal);
         *boundary = 0;
         return (along > 0.0) - (along < 0.0);
     }
-    side_sums sums = {mesh, closest, visits, 0, 0, 0, 0.0};
+    side_sums sums = {mesh, closest, visits, 0, 0, 0, 0.0, {0.0, 0.0, 0.0}};
     *boundary = add_round(&sums, 0);
     if (sums.front && sums.back) {
         (void)add_round(&sums, 1);
+        vec3_copy(sums.mean, mean);
+        (void)vec3_normalise(mean);
         return sums.weighted < 0.0 ? -1 : 1;
     }
     if (!sums.front && !sums.back) { /* no visits were left: the point's own face decides */

@@ -14,8 +14,9 @@ int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knu
                     knurl_closest_point *closest) KNURL_NONBLOCKING;
 
 /* Which side of the surface p is on, seen from its closest point: +1 in front, -1 behind, 0 neither. visits: null: no
- * limit. *boundary: whether that point is on the boundary of an open mesh. */
-int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits,
-                    int *boundary) KNURL_NONBLOCKING;
+ * limit. *boundary: whether that point is on the boundary of an open mesh. mean: where p is in front of some triangles
+ * round the point and behind others, the unit mean of their normals; else 0. */
+int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits, int *boundary,
+                    double mean[3]) KNURL_NONBLOCKING;
 
 #endif
