@@ -72,5 +72,11 @@ int failure_wall_delay(const failure_sink *sink, double *number);
 int failure_wall_quantised(const failure_sink *sink, double *number);
 int failure_force_limit(const failure_sink *sink, double *number);
 int failure_heat(const failure_sink *sink, double *number);
+int failure_contact_crack(const failure_sink *sink, double *number);
+int failure_contact_winding(const failure_sink *sink, double *number);
+int failure_contact_crowd(const failure_sink *sink, double *number);
+int failure_contact_visits(const failure_sink *sink, double *number);
+int failure_contact_squeezed(const failure_sink *sink, double *number);
+int failure_contact_wedge(const failure_sink *sink, double *number);
 
 #endif

@@ -12,8 +12,8 @@ import numpy as np
 from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading, open_input
 
 COLUMNS = 3
-COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d"}
-SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay"}  # what is not held from tick to tick
+COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d", "contact": "#3d6b4f"}
+SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay", "contact_crowd", "contact_wedge"}  # what is not held from tick to tick
 
 
 def read_traces(folder, table):

@@ -152,6 +152,35 @@ TEST(heat) {
     CHECK_CLOSE(measure("heat"), -60.0 * log(1.0 - theta / asked) + 0.1, 0.15);
 }
 
+/* A rim is remembered for 5 ms: 4 whole ticks at the least, 5 at the most. */
+TEST(contact_crack) {
+    assert_between(0.2 / 0.005, 0.2 / 0.004, measure("contact_crack"));
+}
+
+/* Presses onto triangles that face down, half of all, but for those that a neighbour holds. */
+TEST(contact_winding) {
+    assert_between(25.0, 50.0, measure("contact_winding"));
+}
+
+/* More than one that is never behind, less than one that stays where it was. */
+TEST(contact_crowd) {
+    assert_between(0.5, 0.03 * 149.0, measure("contact_crowd"));
+}
+
+TEST(contact_visits) {
+    assert_between(30.0, 90.0, measure("contact_visits"));
+}
+
+TEST(contact_squeezed) {
+    CHECK_CLOSE(measure("contact_squeezed"), 400.0 * (0.004 - 0.1 * 0.001), 1e-4);
+}
+
+/* The next tenth of a degree. */
+TEST(contact_wedge) {
+    const double degrees = atan(1.0 / 5.0) * 180.0 / 3.141592653589793;
+    CHECK_CLOSE(measure("contact_wedge"), degrees, 0.1);
+}
+
 static char *read_whole(const char *path) {
     FILE *file = fopen(path, "rb");
     char *text = calloc(1, 65536);
