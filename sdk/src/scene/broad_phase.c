@@ -9,6 +9,7 @@
 #include "scene/broad_phase.h"
 
 #include "base/atomic.h"
+#include "contact/mesh_search.h"
 
 #include <string.h>
 
@@ -308,26 +309,19 @@ static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t lim
     return noted;
 }
 
-static int node_meets(const knurl_bvh_node *node, const knurl_view *view) {
-    for (int i = 0; i < 3; i++) {
-        if (view->high[i] < (double)node->min[i] || view->low[i] > (double)node->max[i]) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 static uint32_t find_still(const knurl_broad_index *index, const knurl_view *view, uint32_t limit, uint32_t count,
                            uint32_t *places) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
+    knurl_search_box box; /* rounded outwards: is_there() compares exactly */
+    knurl_search_box_set(view->low, view->high, &box);
     if (index->node_count > 0) {
         stack[top++] = 0;
     }
     while (top > 0 && count <= limit) {
         const uint32_t at = stack[--top];
         const knurl_bvh_node *node = &index->nodes[at];
-        if (!node_meets(node, view)) {
+        if (!knurl_search_box_meets_node(&box, node)) {
             continue;
         }
         for (uint32_t i = 0; i < node->count && count <= limit; i++) {
