@@ -1,4 +1,4 @@
-/* Helpers for all modules: growable structs, thread-local storage. Vectors are in vec3.h.
+/* Helpers for all modules: growable structs, thread-local storage, marks for branches. Vectors are in vec3.h.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_BASE_H
 #define KNURL_SRC_BASE_H
@@ -12,6 +12,15 @@
 #define KNURL_THREAD_LOCAL __declspec(thread)
 #else
 #define KNURL_THREAD_LOCAL __thread /* C99 has none; every other compiler that builds this has this one */
+#endif
+
+/* Which way a branch of a tick usually goes: the compiler lays that way out without jumps. */
+#if defined(__GNUC__)
+#define KNURL_LIKELY(condition)   __builtin_expect(!!(condition), 1)
+#define KNURL_UNLIKELY(condition) __builtin_expect(!!(condition), 0)
+#else
+#define KNURL_LIKELY(condition)   (condition)
+#define KNURL_UNLIKELY(condition) (condition)
 #endif
 
 /* For a call on the haptic path that fails: this thread's error message becomes `sentence`, which stays where it is (a

@@ -3,6 +3,7 @@
 #ifndef KNURL_SRC_PLANE_HOLD_H
 #define KNURL_SRC_PLANE_HOLD_H
 
+#include "base/base.h"
 #include "contact/plane.h"
 
 /* The usual tick of knurl_plane_contact(), which gives the same: the HIP was inside, and still is over a rectangle, so
@@ -11,7 +12,8 @@ static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3]
                                    knurl_contact *contact) {
     const double side = state->side;
     const double z = hip[2] * side;
-    if (!state->inside || plane->outline || !(z <= KNURL_ON_SURFACE) || !knurl_plane_spans(plane, hip)) {
+    if (KNURL_UNLIKELY(!state->inside || plane->outline || !(z <= KNURL_ON_SURFACE) ||
+                       !knurl_plane_spans(plane, hip))) {
         return 0;
     }
     knurl_plane_set_contact(hip, z, side, contact);

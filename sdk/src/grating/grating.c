@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <knurl/grating.h>
 
+#include "base/base.h"
 #include "base/handle.h"
 #include "grating/area.h"
 #include "grating/locked.h"
@@ -137,7 +138,7 @@ static int64_t count_ridges(knurl_grating_state *state, double height) {
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
-    if (!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1)) {
+    if (KNURL_UNLIKELY(!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1))) {
         return;
     }
     const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_CANDIDATE_H
 #define KNURL_SRC_CANDIDATE_H
 
+#include "base/base.h"
 #include "base/vec3.h"
 #include "contact/facet.h"
 #include "scene/hip_clock.h"
@@ -67,8 +68,8 @@ void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *
 /* 1 where a candidate stood still at the last tick, and still does: its pose is motion->end. The usual tick of
  * knurl_candidate_place(). */
 static inline int knurl_candidate_stands(knurl_candidate *c, const knurl_motion *motion, const knurl_hip_clock *clock) {
-    if (c->placed + 1 == clock->tick && c->settled == motion && c->settled_start == motion->start_time &&
-        c->settled_tick < clock->tick) {
+    if (KNURL_LIKELY(c->placed + 1 == clock->tick && c->settled == motion && c->settled_start == motion->start_time &&
+                     c->settled_tick < clock->tick)) {
         c->placed = clock->tick;
         return 1;
     }

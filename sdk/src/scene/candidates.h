@@ -5,6 +5,7 @@
 #define KNURL_SRC_CANDIDATES_H
 
 #include "base/atomic.h"
+#include "base/base.h"
 #include "scene/broad_phase.h"
 #include "scene/candidate.h"
 
@@ -51,16 +52,17 @@ void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_pha
 static inline int knurl_candidates_are_clear(const knurl_candidates *c, const knurl_broad_phase *phase,
                                              const double p[3], double depth) {
     const knurl_clearance *clear = &c->clearance;
-    return fabs(p[0] - clear->at[0]) < clear->distance && fabs(p[1] - clear->at[1]) < clear->distance &&
-           fabs(p[2] - clear->at[2]) < clear->distance && depth <= c->depth &&
-           c->version == knurl_load_acquire(&phase->version);
+    return KNURL_LIKELY(fabs(p[0] - clear->at[0]) < clear->distance && fabs(p[1] - clear->at[1]) < clear->distance &&
+                        fabs(p[2] - clear->at[2]) < clear->distance && depth <= c->depth &&
+                        c->version == knurl_load_acquire(&phase->version));
 }
 
 /* The same for a proxy at p. */
 static inline int knurl_candidates_are_clear_of(const knurl_candidates *c, const double p[3]) {
     const knurl_clearance *clear = &c->clearance;
-    return fabs(p[0] - clear->proxy[0]) < clear->distance && fabs(p[1] - clear->proxy[1]) < clear->distance &&
-           fabs(p[2] - clear->proxy[2]) < clear->distance;
+    return KNURL_LIKELY(fabs(p[0] - clear->proxy[0]) < clear->distance &&
+                        fabs(p[1] - clear->proxy[1]) < clear->distance &&
+                        fabs(p[2] - clear->proxy[2]) < clear->distance);
 }
 
 /* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick

@@ -1,6 +1,7 @@
 /* Begins, holds and ends contacts. Read knurl_contacts_find(), at the end, first. SPDX-License-Identifier: MIT */
 #include "scene/contact_update.h"
 
+#include "base/base.h"
 #include "scene/joint_contact.h"
 
 #include <string.h>
@@ -25,7 +26,7 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
 /* 1 where nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
  * margin below 0: by the clearance. */
 static inline int is_within_view(const knurl_contacts *c, double margin, const double proxy[3]) {
-    if (margin < 0.0) {
+    if (KNURL_LIKELY(margin < 0.0)) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
     }
     return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= margin * margin;
@@ -42,12 +43,12 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     double hip[3], proxy[3], normal[3];
     a->candidate = candidate;
     a->surface = knurl_contacts_surface(index, candidate);
-    if (!a->surface) {
+    if (KNURL_UNLIKELY(!a->surface)) {
         return 0;
     }
     a->record = __atomic_load_n(&a->surface->record, __ATOMIC_SEQ_CST);
     const knurl_motion *motion = &a->record->motion;
-    if (!candidate->has_previous || candidate->jumps != motion->jumps) {
+    if (KNURL_UNLIKELY(!candidate->has_previous || candidate->jumps != motion->jumps)) {
         return 0;
     }
     if (knurl_candidate_stands(candidate, motion, &c->clock)) {
@@ -62,11 +63,11 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     const int is_asked = !held;
     held = held || query_shape(c, a, hip, state);
     const int is_settled = held && !a->contact.unsure && c->visits.left > 0;
-    if (is_settled) {
+    if (KNURL_LIKELY(is_settled)) {
         knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
         knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
     }
-    if (!is_settled || (state->inside && !is_within_view(c, margin, proxy))) {
+    if (KNURL_UNLIKELY(!is_settled) || (state->inside && KNURL_UNLIKELY(!is_within_view(c, margin, proxy)))) {
         if (is_asked) {
             c->asked.held = held;
             c->asked.state = *state;
@@ -207,25 +208,25 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
                          const double position[3], int clear, uint32_t *flags) {
     double margin = -1.0;
     c->visits.left = c->max_visits;
-    c->cut_short = c->visits.exhausted ? c->cut_short + (c->cut_short < 5) : 0;
+    c->cut_short = KNURL_UNLIKELY(c->visits.exhausted) ? c->cut_short + (c->cut_short < 5) : 0;
     c->visits.exhausted = 0;
     c->asked_of = NULL;
-    knurl_candidate *alone = clear && c->active_count == 1 ? c->active[0].candidate : NULL;
-    if (!clear) {
+    knurl_candidate *alone = KNURL_LIKELY(clear && c->active_count == 1) ? c->active[0].candidate : NULL;
+    if (KNURL_UNLIKELY(!clear)) {
         alone = update_candidates(c, phase, index, position, &margin);
     }
-    if (!alone || !hold_alone(c, index, alone, position, margin)) {
+    if (KNURL_UNLIKELY(!alone || !hold_alone(c, index, alone, position, margin))) {
         find_jointly(c, index, position, flags);
     } else {
         keep_proxy(c, position);
-        if (!clear) {
+        if (KNURL_UNLIKELY(!clear)) {
             measure_alone(c, alone, position);
         }
     }
-    if (c->candidates.overflow) {
+    if (KNURL_UNLIKELY(c->candidates.overflow)) {
         *flags |= KNURL_TICK_CONTACTS_FULL;
     }
-    if (c->visits.exhausted) {
+    if (KNURL_UNLIKELY(c->visits.exhausted)) {
         *flags |= KNURL_TICK_VISIT_LIMIT;
     }
 }

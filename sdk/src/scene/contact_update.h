@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_CONTACT_UPDATE_H
 #define KNURL_SRC_CONTACT_UPDATE_H
 
+#include "base/base.h"
 #include "scene/contacts.h"
 
 /* Before the first tick. period, time: s. */
@@ -19,7 +20,8 @@ void knurl_contacts_find(knurl_contacts *contacts, const knurl_broad_phase *phas
  * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED, KNURL_TICK_VISIT_LIMIT. */
 static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase,
                                          const knurl_broad_index *index, const double position[3], uint32_t *flags) {
-    const int clear = c->has_previous && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
+    const int clear =
+        KNURL_LIKELY(c->has_previous) && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
     if (c->active_count > 0 || !clear || knurl_contacts_have_slipped(c)) {
         knurl_contacts_find(c, phase, index, position, clear, flags);
     }

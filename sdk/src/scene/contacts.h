@@ -4,6 +4,7 @@
 #define KNURL_SRC_CONTACTS_H
 
 #include "base/atomic.h"
+#include "base/base.h"
 #include "scene/obstacles.h"
 
 /* m: how much higher a surface may go on, with nothing between the two parts, and still take a HIP over. */
@@ -72,7 +73,7 @@ static inline const knurl_surface_data *knurl_contacts_surface(const knurl_broad
                                                                knurl_candidate *candidate) {
     const knurl_surface_data *surface =
         candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
-    if (!surface || candidate->generation != surface->generation) {
+    if (KNURL_UNLIKELY(!surface || candidate->generation != surface->generation)) {
         knurl_contacts_note_change(candidate, surface);
     }
     return surface;
@@ -80,7 +81,7 @@ static inline const knurl_surface_data *knurl_contacts_surface(const knurl_broad
 
 /* 1 for a while after the HIP has come off a rim. */
 static inline int knurl_contacts_have_slipped(const knurl_contacts *c) {
-    return c->clock.time - c->slip.time < KNURL_SLIP_SECONDS && c->slip.time >= 0.0;
+    return KNURL_UNLIKELY(c->clock.time - c->slip.time < KNURL_SLIP_SECONDS) && c->slip.time >= 0.0;
 }
 
 /* No contact any more. */

@@ -4,6 +4,7 @@
 #ifndef KNURL_SRC_FORCE_LAW_H
 #define KNURL_SRC_FORCE_LAW_H
 
+#include "base/base.h"
 #include "scene/contact_update.h"
 #include "scene/surface_frame.h"
 
@@ -26,7 +27,7 @@ typedef struct knurl_contact_force {
 /* The velocity of the HIP over the surface, in the shape's frame. */
 static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_active_contact *c, double local[3]) {
     const knurl_motion *motion = &c->record->motion;
-    if (!knurl_motion_is_over(motion, hip->clock->previous_time)) {
+    if (KNURL_UNLIKELY(!knurl_motion_is_over(motion, hip->clock->previous_time))) {
         double surface[3], over[3];
         knurl_motion_velocity(motion, hip->clock->time, hip->clock->period, c->candidate->proxy, surface);
         vec3_sub(hip->velocity, surface, over);
@@ -74,7 +75,7 @@ static inline double normal_force(const knurl_wall *wall, double outwards) {
         return 0.0;
     }
     const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
-    return size > 0.0 ? size : 0.0;
+    return KNURL_LIKELY(size > 0.0) ? size : 0.0;
 }
 
 /* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips

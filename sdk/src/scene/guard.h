@@ -43,11 +43,11 @@ static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
 /* The entry ramp: limits how fast the depth grows. It starts again from 0 while no force is sent. */
 static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     const double most = wall->contact->depth + guard->entry;
-    if (guard->gain == 0.0) {
+    if (KNURL_UNLIKELY(guard->gain == 0.0)) {
         wall->contact->depth = 0.0;
         return;
     }
-    if (-wall->z > most) {
+    if (KNURL_UNLIKELY(-wall->z > most)) {
         *flags |= KNURL_TICK_ENTRY;
         wall->z = -most;
     }
@@ -56,7 +56,7 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
 
 /* Before a contact's force: clamps its wall, limits its depth, softens it after the passivity controller's alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
-    if (guard->clamp) {
+    if (KNURL_UNLIKELY(guard->clamp)) {
         knurl_wall limited = *wall; /* a copy, so that `wall` itself can stay in registers */
         knurl_guard_limit_wall(&guard->bounds, &limited);
         *wall = limited;
@@ -89,7 +89,7 @@ static inline double knurl_guard_limit(knurl_guard *guard, double steps, double 
     double change[3];
     const double free = guard->slew + steps;
     vec3_sub(force, guard->force, change);
-    if (guard->gain < 1.0 || !(vec3_dot(change, change) <= free * free)) {
+    if (KNURL_UNLIKELY(guard->gain < 1.0 || !(vec3_dot(change, change) <= free * free))) {
         double limited[3]; /* a copy, so that `force` itself can stay in registers */
         vec3_copy(force, limited);
         knurl_guard_limit_change(guard, steps, limited, flags);
@@ -99,12 +99,12 @@ static inline double knurl_guard_limit(knurl_guard *guard, double steps, double 
     }
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&guard->heat);
-    if (length > most) {
+    if (KNURL_UNLIKELY(length > most)) {
         vec3_scale(most / length, force, force);
         *flags |= most < guard->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
         length = vec3_length(force);
     }
-    if (knurl_is_finite(length)) {
+    if (KNURL_LIKELY(knurl_is_finite(length))) {
         vec3_copy(force, guard->force);
         knurl_heat_add(&guard->heat, length * length);
     }

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_HEAT_H
 #define KNURL_SRC_HEAT_H
 
+#include "base/base.h"
+
 #include "scene/hip_facts.h"
 
 #include <knurl/base.h>
@@ -27,13 +29,14 @@ double knurl_heat_limit_warm(const knurl_heat *heat) KNURL_NONBLOCKING;
 
 /* N: the greatest force now: max_force while cool, falling smoothly to the continuous force as theta nears 1. */
 static inline double knurl_heat_limit(const knurl_heat *heat) {
-    return heat->theta <= KNURL_HEAT_WARM || heat->excess == 0.0 ? heat->max_force : knurl_heat_limit_warm(heat);
+    return KNURL_UNLIKELY(!(heat->theta <= KNURL_HEAT_WARM) && heat->excess != 0.0) ? knurl_heat_limit_warm(heat)
+                                                                                    : heat->max_force;
 }
 
 /* What was played for a tick, N^2. */
 static inline void knurl_heat_add(knurl_heat *heat, double force2) {
     heat->theta += heat->share * (force2 * heat->per_force - heat->theta);
-    heat->theta = heat->theta < 1.0 || heat->excess == 0.0 ? heat->theta : 1.0;
+    heat->theta = KNURL_LIKELY(heat->theta < 1.0) || heat->excess == 0.0 ? heat->theta : 1.0;
 }
 
 /* For as many ticks, >= 0: the closed form. */

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_HIP_WORKSPACE_H
 #define KNURL_SRC_HIP_WORKSPACE_H
 
+#include "base/base.h"
 #include "base/seqlock.h"
 #include "scene/pose.h"
 
@@ -29,7 +30,7 @@ typedef struct knurl_workspace_move {
 
 /* 1: the workspace moves in this tick, or was moved since the last one. */
 static inline int knurl_workspace_is_moving(const knurl_workspace_move *move) {
-    return move->is_on || knurl_load_acquire(&move->sequence) != move->seen;
+    return KNURL_UNLIKELY(move->is_on || knurl_load_acquire(&move->sequence) != move->seen);
 }
 
 /* Puts the workspace where it is at `time` (s). Returns 1 where it jumped there since the last tick. [haptic thread] */

@@ -101,7 +101,7 @@ static void follow_depth(knurl_passivity *p) {
 }
 
 void knurl_passivity_follow(knurl_passivity *p) {
-    if (p->alarmed) {
+    if (KNURL_UNLIKELY(p->alarmed)) {
         p->crossings = 0;
         p->soft += p->softening * (1.0 - p->soft);
         p->off += 1.0;

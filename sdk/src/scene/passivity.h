@@ -3,6 +3,7 @@
 #ifndef KNURL_SRC_PASSIVITY_H
 #define KNURL_SRC_PASSIVITY_H
 
+#include "base/base.h"
 #include "scene/hip_facts.h"
 #include "scene/wall.h"
 
@@ -48,7 +49,7 @@ static inline void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, u
     const double depth = -wall->z;
     p->depth = depth > p->depth ? depth : p->depth;
     p->busy = 1;
-    if (p->alarmed && depth > 0.0) {
+    if (KNURL_UNLIKELY(p->alarmed) && depth > 0.0) {
         knurl_wall softened = *wall; /* a copy, so that `wall` itself can stay in registers */
         knurl_passivity_soften(p, &softened);
         *wall = softened;

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_SNAPSHOT_H
 #define KNURL_SRC_SNAPSHOT_H
 
+#include "base/base.h"
 #include "base/seqlock.h"
 
 #include <knurl/scene.h>
@@ -22,7 +23,7 @@ void knurl_counts_add_flags(knurl_hip_counts *counts, uint32_t flags) KNURL_NONB
 static inline void knurl_counts_add(knurl_hip_counts *counts, const knurl_tick_output *output, double force) {
     counts->ticks++;
     counts->contact_ticks += (output->flags & KNURL_TICK_CONTACT) != 0;
-    if (output->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+    if (KNURL_UNLIKELY(output->flags & ~(uint32_t)KNURL_TICK_CONTACT)) {
         knurl_counts_add_flags(counts, output->flags);
     }
     counts->force_max = force > counts->force_max ? force : counts->force_max;
@@ -45,7 +46,7 @@ static inline void knurl_snapshot_publish(knurl_published *published, const knur
     knurl_seqlock_begin(&published->sequence);
     knurl_seqlock_put(published->words, output, offsetof(knurl_tick_output, reserved));
     knurl_snapshot_put(published, counts, 0, rare);
-    if (output->flags & ~(uint32_t)KNURL_TICK_CONTACT) {
+    if (KNURL_UNLIKELY(output->flags & ~(uint32_t)KNURL_TICK_CONTACT)) {
         knurl_snapshot_put(published, counts, rare, after);
     }
     knurl_snapshot_put(published, counts, after, offsetof(knurl_hip_counts, reserved));

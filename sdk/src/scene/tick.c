@@ -67,7 +67,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;
     double estimate[3];
-    if (input->absent) {
+    if (KNURL_UNLIKELY(input->absent)) {
         return 0;
     }
     if (!input->has_velocity) {
@@ -96,10 +96,10 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
 /* Reports one contact; of several the deepest. */
 static inline void report_contact(const knurl_active_contact *contact, const knurl_contact_force *share,
                                   knurl_tick_output *out) {
-    if (share->grating.saturated) {
+    if (KNURL_UNLIKELY(share->grating.saturated)) {
         out->flags |= KNURL_TICK_FREQUENCY;
     }
-    if (out->contacts++ > 0 && -contact->contact.z <= out->depth) {
+    if (KNURL_UNLIKELY(out->contacts++ > 0) && -contact->contact.z <= out->depth) {
         return;
     }
     vec3_copy(contact->candidate->proxy, out->proxy);
@@ -156,7 +156,7 @@ static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, 
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
         steps += render_contact(hip, &hip->contacts.active[i], force, out);
     }
-    if (added) {
+    if (KNURL_UNLIKELY(added != NULL)) {
         vec3_madd(force, 1.0, added->force, force);
         steps += added->step;
     }
@@ -187,7 +187,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
                      const knurl_added_force *added, knurl_tick_output *out) {
     const knurl_broad_index *index = __atomic_load_n(&scene->broad_phase.index, __ATOMIC_SEQ_CST);
     knurl_guard_begin(&hip->guard, input->attenuation);
-    if (input->paused) {
+    if (KNURL_UNLIKELY(input->paused)) {
         end_contacts(hip);
         clear_contact_output(out);
         vec3_copy(out->force, out->device_force);
@@ -200,7 +200,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     } else {
         length = sum_forces(hip, added, out);
     }
-    if (!knurl_is_finite(length)) {
+    if (KNURL_UNLIKELY(!knurl_is_finite(length))) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);
         return 0.0;
     }
@@ -234,7 +234,7 @@ static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *inp
     output->tick = hip->counts.ticks;
     knurl_epoch_pin(&scene->epoch, &hip->pinned);
     knurl_hip_clock_advance(&hip->contacts.clock);
-    if (read_hip(hip, input, output)) {
+    if (KNURL_LIKELY(read_hip(hip, input, output))) {
         force = render(scene, hip, input, added, output);
     } else {
         reset(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
