@@ -39,10 +39,11 @@ def draw_line(ax, method, points, colour):
     ax.plot(xs, ys, color=colour, lw=2.6, zorder=4, solid_capstyle="round")
     ax.plot(xs, ys, "o", color=colour, ms=7, zorder=5)
     for x, y, rate in zip(xs, ys, rates):
-        above = method != "S1"
-        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, 8 if above else -16),
-                    textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6,
-                    path_effects=None if method == "area" else HALO)
+        right = method == "S1" and rate > 2  # there other methods' lines are below
+        under = (method, rate) in (("S1", 1), ("S1", 2), ("area", 5))
+        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y),
+                    xytext=(9, 4) if right else (0, -16 if under else 8), textcoords="offset points",
+                    ha="left" if right else "center", fontsize=9.5, color=colour, zorder=6, path_effects=None if method == "area" else HALO)
     noticed = [f"{name} {size:.2g}×" for size, name in found[0] if size >= 0.995]
     place = PLACES.get(method, (26, 6))
     at = (xs[0], ys[0]) if method == "S1" else (xs[-1], ys[-1])
