@@ -7,6 +7,10 @@
 /* How much wider than the search the box of listed triangles is, as a share of its size. */
 #define LIST_MARGIN 0.5
 
+/* m: how much wider it is at least. Short searches would leave a narrow box in the next tick, and the visits of a tick
+ * do not suffice to list the triangles of 32 meshes anew. */
+#define LIST_MARGIN_MIN 0.0002
+
 /* The count of a part whose triangles are not listed. */
 #define NOT_LISTED UINT32_MAX
 
@@ -54,13 +58,15 @@ static void list_triangles(const knurl_mesh *mesh, const double low[3], const do
 /* A part that is wider than a box: the next searches of this tick and of the next are near. */
 static void find_anew(const knurl_mesh *mesh, const double low[3], const double high[3], double size,
                       knurl_visits *visits, knurl_part *part) {
+    const double margin = knurl_max(LIST_MARGIN * size, LIST_MARGIN_MIN);
+    const double wide = knurl_max(size, margin);
     uint32_t index = 0;
     double least[3], most[3];
     for (int axis = 0; axis < 3; axis++) {
-        part->low[axis] = low[axis] - size;
-        part->high[axis] = high[axis] + size;
-        least[axis] = low[axis] - LIST_MARGIN * size;
-        most[axis] = high[axis] + LIST_MARGIN * size;
+        part->low[axis] = low[axis] - wide;
+        part->high[axis] = high[axis] + wide;
+        least[axis] = low[axis] - margin;
+        most[axis] = high[axis] + margin;
     }
     while (mesh->nodes[index].count == 0 && knurl_visits_take(visits, 1)) {
         const uint32_t children[2] = {index + 1, mesh->nodes[index].first};
