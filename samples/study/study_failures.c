@@ -108,7 +108,7 @@ const failure failures[] = {
     {"contact_crowd", "contact", "lags in a crowd of meshes",
      "A tick looks at no more than max_visits triangles and nodes; in a crowd the proxy goes on in short ways.",
      "the proxy stays %.0f mm behind, 4.4 mm along 32 spheres in one place", "measured; at most the way along",
-     "fewer meshes in one place, or a higher max_visits; KNURL_TICK_VISIT_LIMIT says when it is so", "ms",
+     "fewer than 16 meshes in one place (KNURL_LIMIT_VISITS warns at load), or a higher max_visits", "ms",
      failure_contact_crowd},
     {"contact_visits", "contact", "meets the limit of visits",
      "Where crests reach as far as a mesh is wide, all of its triangles may be the nearest.",

@@ -218,3 +218,28 @@ TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     shape_free(&earth);
     shape_free(&heap);
 }
+
+/* Spheres one 10 um beside the other: the first one's check. */
+static uint32_t exceeded_by_crowd(int count) {
+    shape s = shape_sphere(RADIUS, 3);
+    surface_parts parts = surface_shape(&s, 0.0);
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface_check check;
+    knurl_surface_check_init(&check, sizeof check);
+    for (int i = 0; i < count; i++) {
+        parts.desc.position[0] = 1e-5 * i;
+        (void)add_surface(scene, &parts);
+    }
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    assert_int_equal(strstr(check.message, "16 meshes come within 1 mm") != NULL, count == 16);
+    knurl_scene_destroy(scene);
+    shape_free(&s);
+    return check.exceeded & KNURL_LIMIT_VISITS;
+}
+
+TEST(the_check_at_load_warns_of_crowds_of_meshes) {
+    assert_int_equal(exceeded_by_crowd(15), 0);
+    assert_int_equal(exceeded_by_crowd(16), KNURL_LIMIT_VISITS);
+}

@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "contact/mesh_query.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -131,6 +132,57 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
     }
 }
 
+/* So many meshes within this distance (m) of one point: over 16 spheres of 9,216 triangles a quarter of the ticks of a
+ * stroke of 100 mm/s meets the limit of visits, over 8 of them one in 80. */
+#define CROWD       16
+#define CROWD_REACH 0.001
+
+/* The most surfaces near a point that are looked at. */
+#define CROWD_MAX 64
+
+/* How many meshes come within CROWD_REACH of a point. */
+static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3]) {
+    const knurl_broad_index *index = scene->broad_phase.index;
+    const double now = knurl_scene_time(scene);
+    uint32_t places[CROWD_MAX];
+    double low[3], high[3];
+    knurl_bvh_bound(point, point, CROWD_REACH, low, high);
+    const knurl_view view = {low, high, now, 0, 1};
+    const uint32_t found = index ? knurl_broad_phase_find(index, &view, CROWD_MAX, places) : 0; /* committed? */
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < found && i < CROWD_MAX; i++) {
+        const knurl_surface_data *surface = index->items[places[i]];
+        knurl_contact nearest;
+        knurl_pose pose;
+        double own[3];
+        if (surface && !surface->shape.plane) {
+            knurl_motion_at(&surface->record->motion, now, &pose);
+            knurl_pose_to_own(&pose, point, own);
+            count += (uint32_t)knurl_mesh_closest(surface->shape.geometry, own, CROWD_REACH, NULL, NULL, &nearest);
+        }
+    }
+    return count;
+}
+
+/* Meshes that lie over one another, looked for where a hand would meet the surface first. */
+static void check_crowd(const inspection *on, const knurl_scene *scene, const knurl_surface_data *surface) {
+    knurl_contact anchor;
+    knurl_pose pose;
+    double point[3];
+    char sentence[256];
+    knurl_motion_at(&surface->record->motion, knurl_scene_time(scene), &pose);
+    knurl_shape_anchor(&surface->shape, pose.rotation, &anchor);
+    knurl_pose_to_parent(&pose, anchor.proxy, point);
+    const uint32_t count = surface->shape.plane ? 0 : count_meshes_near(scene, point);
+    if (count >= CROWD) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "%u meshes come within 1 mm of [%.4g, %.4g, %.4g], more than a tick has time for when a hand is "
+                       "fast there",
+                       (unsigned)count, point[0], point[1], point[2]);
+        say(on, KNURL_LIMIT_VISITS, sentence, "join them to one mesh, or move them apart");
+    }
+}
+
 /* Triangles that share an edge and face opposite ways. */
 static void check_winding(const inspection *on, const knurl_surface_data *surface) {
     char sentence[256];
@@ -154,7 +206,8 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
     }
 }
 
-static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knurl_surface_check *check) {
+static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_surface_data *surface,
+                    knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     knurl_workspace workspace;
     knurl_bounds bounds; /* not the guard's, which follow a scale that changes on the haptic thread */
@@ -174,6 +227,7 @@ static void inspect(const knurl_hip *hip, const knurl_surface_data *surface, knu
     check_wall(&on);
     check_place(&on, surface);
     check_visits(&on, surface, hip->contacts.max_visits);
+    check_crowd(&on, scene, surface);
     check_winding(&on, surface);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
@@ -194,7 +248,7 @@ knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, k
     knurl_scene_lock(scene);
     const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
     if (data) {
-        inspect(&scene->hips[hip], data, &made);
+        inspect(scene, &scene->hips[hip], data, &made);
     }
     knurl_scene_unlock(scene);
     const knurl_result result =
