@@ -16,8 +16,8 @@
 
 /* Which way a branch of a tick usually goes: the compiler lays that way out without jumps. */
 #if defined(__GNUC__)
-#define KNURL_LIKELY(condition)   __builtin_expect(!!(condition), 1)
-#define KNURL_UNLIKELY(condition) __builtin_expect(!!(condition), 0)
+#define KNURL_LIKELY(condition)   (__builtin_expect(!!(condition), 1) != 0)
+#define KNURL_UNLIKELY(condition) (__builtin_expect(!!(condition), 0) != 0)
 #else
 #define KNURL_LIKELY(condition)   (condition)
 #define KNURL_UNLIKELY(condition) (condition)
