@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ std::string read(const std::string &path) {
 
 template <class T>
 T *copy(const void *from, size_t count) {
+    if (count == 0)
+        throw std::length_error("an accessor without elements");
     T *to = static_cast<T *>(std::malloc(count * sizeof(T)));
     std::memcpy(to, from, count * sizeof(T));
     return to;
