@@ -194,7 +194,7 @@ static int add_spheres(knurl_scene *scene, int count, double radius, double ampl
     return failed;
 }
 
-/* 32 spheres: in by 1 mm, then along. */
+/* 32 spheres: in by 1 mm, then along at 100 mm/s. */
 int failure_contact_crowd(const failure_sink *sink, double *number) {
     knurl_scene *scene = NULL;
     knurl_tick_output out;
@@ -204,7 +204,7 @@ int failure_contact_crowd(const failure_sink *sink, double *number) {
     *number = 0.0;
     for (int k = 0; k < 160 && !failed; k++) {
         radius = fmax(RADIUS - 0.001, radius - 1e-4);
-        angle += radius > RADIUS - 0.001 ? 0.0 : 0.001;
+        angle += radius > RADIUS - 0.001 ? 0.0 : 1e-4 / RADIUS;
         failed = tick_at(scene, radius * sin(angle), 0.0, radius * cos(angle), &out);
         const double off[3] = {out.proxy[0] - out.hip[0], out.proxy[1] - out.hip[1], out.proxy[2] - out.hip[2]};
         const double behind = 1e3 * (length(off) - fmax(0.0, RADIUS - radius));

@@ -132,7 +132,7 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
     }
 }
 
-/* So many meshes within this distance (m) of one point: over 16 spheres of 9,216 triangles a quarter of the ticks of a
+/* So many meshes within this distance (m) of one point: over 16 spheres of 9,216 triangles a fifth of the ticks of a
  * stroke of 100 mm/s meets the limit of visits, over 8 of them one in 80. */
 #define CROWD       16
 #define CROWD_REACH 0.001
