@@ -164,7 +164,7 @@ typedef struct knurl_surface_info {
                                      precision */
     uint64_t touching_pairs; /**< pairs of the mesh's triangles that touch elsewhere than at a shared edge: T-junctions,
                                   seams, parts that intersect. Ticks near them take longer; 0: a clean mesh. A lower
-                                bound: counting ends after 96 tests for each triangle */
+                                bound: counting ends after 96 tests, or 4 pairs, for each triangle */
 } knurl_surface_info;
 
 /** The input of one tick. */

@@ -193,6 +193,9 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t
  * triangles all go through each other would need as many as it has triangles. */
 #define STEPS_A_TRIANGLE 96
 
+/* Pairs that are counted, a triangle: that many tell what is wrong with the mesh. */
+#define PAIRS_A_TRIANGLE 4
+
 /* The same with all leaves that come near; while *steps are left. */
 static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf, uint64_t *steps) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
@@ -234,8 +237,9 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
 
 uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh) {
     uint32_t pairs = 0;
+    const uint32_t enough = PAIRS_A_TRIANGLE * mesh->triangle_count; /* of fewer than 2^26 */
     uint64_t steps = (uint64_t)STEPS_A_TRIANGLE * mesh->triangle_count;
-    for (uint32_t i = 0; i < mesh->node_count && steps > 0; i++) {
+    for (uint32_t i = 0; i < mesh->node_count && steps > 0 && pairs < enough; i++) {
         if (mesh->nodes[i].count > 0) {
             pairs += count_of_leaf(mesh, &mesh->nodes[i], &steps);
         }

@@ -49,10 +49,10 @@ static void join(const winding *w, uint32_t t, uint32_t other, uint32_t opposite
 
 #define NO_TRIANGLE UINT32_MAX
 
-/* Nodes and triangles that find_beside() looks at in each of two passes: for each triangle of the mesh, and for small
- * ones. Where a mesh needs more, the rest of it stays as it is. */
+/* Nodes and triangles that find_beside() looks at: to tell whether a mesh is mixed, and so many for each of its
+ * triangles more to mend it. Where a mesh needs more, the rest of it stays as it is. */
+#define STEPS            500000
 #define STEPS_A_TRIANGLE 96
-#define STEPS_MORE       500000
 
 /* Of an edge's length and of its triangle's height: the nearest that a third triangle may be. */
 #define BESIDE_SHARE 0.01
@@ -237,7 +237,7 @@ static int is_mixed(winding *w) {
 knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
     const uint32_t count = mesh->triangle_count;
     winding w = {mesh, NULL, NULL, NULL, 0, mesh->touching == 0 && mesh->non_manifold_count == 0};
-    w.steps = STEPS_MORE + (uint64_t)STEPS_A_TRIANGLE * count;
+    w.steps = STEPS;
     if (mesh->double_sided || !is_mixed(&w)) { /* so far of reversed twins */
         return KNURL_OK;
     }
@@ -246,7 +246,7 @@ knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
     w.parts = knurl_heap_alloc(heap, count, sizeof *w.parts);
     const knurl_result result = w.links && w.marks && w.parts ? KNURL_OK : KNURL_ERROR_MEMORY;
     if (!result) {
-        w.steps = STEPS_MORE + (uint64_t)STEPS_A_TRIANGLE * count;
+        w.steps = STEPS + (uint64_t)STEPS_A_TRIANGLE * count;
         for (uint32_t t = 0; t < count; t++) {
             w.links[t] = t << 1;
         }
