@@ -32,7 +32,9 @@ static int add_surface(knurl_scene *scene, knurl_surface_desc *desc, double ampl
     material.spatial_frequency[0] = amplitude > 0.0 ? 500.0 : 0.0;
     desc->material = &material;
     desc->axis[0] = desc->shape_of ? 0.0 : 1.0; /* it comes with the shape */
-    return knurl_scene_add_surface(scene, desc, id);
+    const int failed = knurl_scene_add_surface(scene, desc, id) != KNURL_OK;
+    desc->material = NULL;
+    return failed;
 }
 
 /* A plane of 40 by 40 mm about a place, its front turned about y by an angle (rad) from +z. */
@@ -75,10 +77,12 @@ static int cross_crack(const failure_sink *sink, const char *series, double spee
     int failed = make_scene(KNURL_PROTECT_ALL, &scene) || add_plane(scene, -0.02 - 0.5 * CRACK, 0.0, 0.0, &id) ||
                  add_plane(scene, 0.02 + 0.5 * CRACK, 0.0, 0.0, &id) || knurl_scene_commit(scene) ||
                  tick_at(scene, -0.003, 0.0, 0.001, &out);
-    for (double x = -0.003; !failed && x < 0.003; x += speed * TICK) {
+    double x = -0.003;
+    while (!failed && x < 0.003) {
         failed = tick_at(scene, x, 0.0, -0.001, &out);
         *held = length(out.force) > 0.0;
         failure_point(sink, series, 1e3 * x, length(out.force));
+        x += speed * TICK;
     }
     knurl_scene_destroy(scene);
     return failed;
@@ -111,9 +115,9 @@ static int add_mixed_sheet(knurl_scene *scene) {
         return 1;
     }
     for (int i = 0; i < 6 * CELLS * CELLS; i++) {
-        const int cell = i / 6;
-        p[3 * i] = 0.0025f * (float)(cell / CELLS + quad[i % 6][0]) - 0.02f;
-        p[3 * i + 1] = 0.0025f * (float)(cell % CELLS + quad[i % 6][1]) - 0.02f;
+        const int column = i / 6 / CELLS + quad[i % 6][0], row = i / 6 % CELLS + quad[i % 6][1];
+        p[3 * i] = 0.0025f * (float)column - 0.02f;
+        p[3 * i + 1] = 0.0025f * (float)row - 0.02f;
         p[3 * i + 2] = 0.0f;
     }
     float *last = &p[9 * (TRIANGLES - 1)], *first = &p[18 * (CELLS * CELLS / 2 + CELLS / 2)];
@@ -137,12 +141,13 @@ int failure_contact_winding(const failure_sink *sink, double *number) {
     int lost = 0;
     int failed = make_scene(KNURL_PROTECT_ALL, &scene) || add_mixed_sheet(scene) || knurl_scene_commit(scene);
     for (int i = 0; i < PRESSES * PRESSES && !failed; i++) {
-        const double x = 0.001 * (i / PRESSES) - 0.0151, y = 0.001 * (i % PRESSES) - 0.0153;
+        const int column = i / PRESSES, row = i % PRESSES;
+        const double x = 0.001 * column - 0.0151, y = 0.001 * row - 0.0153;
         for (int k = 0; k <= TICKS && !failed; k++) {
             failed = tick_at(scene, x, y, 0.001 - 0.0001 * k, &out);
         }
         lost += !(length(out.force) > 0.0);
-        if (i / PRESSES == 1) {
+        if (column == 1) {
             failure_point(sink, "N, 1 mm deep", 1e3 * y, length(out.force));
         }
         failed = failed || tick_at(scene, x, y, 0.002, &out);
@@ -166,7 +171,8 @@ static int add_spheres(knurl_scene *scene, int count, double radius, double ampl
     knurl_surface_id id = 0;
     int failed = !p || !indices;
     for (uint32_t v = 0; !failed && v < (ROUND + 1) * (DOWN + 1); v++) {
-        const double a = 2.0 * PI * (v % (ROUND + 1) % ROUND) / ROUND, b = PI * (v / (ROUND + 1)) / DOWN;
+        const uint32_t column = v % (ROUND + 1) % ROUND, row = v / (ROUND + 1);
+        const double a = 2.0 * PI * column / ROUND, b = PI * row / DOWN;
         p[3 * v] = (float)(radius * cos(a) * sin(b));
         p[3 * v + 1] = (float)(radius * sin(a) * sin(b));
         p[3 * v + 2] = (float)(radius * cos(b));
