@@ -195,6 +195,49 @@ TEST(a_surface_that_holds_has_room_before_crests) {
     knurl_scene_destroy(scene);
 }
 
+/* Through a plane in a tick of 1 mm, for as many visits. What else the tick looks at first, another plane 1.5 mm beside
+ * the way and a sphere 0.3 mm below its end, is not touched; with few visits it is looked at a second time, but for the
+ * plane beside. Returns whether the visits were used up. */
+static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) {
+    surface_parts plane = surface_plane(), sphere = surface_shape(below, 0.0);
+    knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
+    knurl_hip_desc desc;
+    knurl_workspace workspace;
+    knurl_scene *scene = empty_scene(1);
+    plane.desc.position[0] = plane.plane.half_extents[0] + 0.0015;
+    (void)add_surface(scene, &plane);
+    plane.desc.position[0] = 0.0;
+    const knurl_surface_id touched = add_surface(scene, &plane);
+    sphere.desc.position[2] = -0.0008 - RADIUS;
+    (void)add_surface(scene, &sphere);
+    knurl_workspace_init(&workspace);
+    knurl_hip_desc_init(&desc, sizeof desc);
+    desc.workspace = &workspace;
+    desc.max_visits = max_visits;
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)tick_at(scene, 0.0, 0.0, 0.0005);
+    const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0005);
+    const uint32_t count = knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX);
+    for (uint32_t i = 0; i < count; i++) {
+        if (contacts[i].surface != touched) {
+            fail_msg("%u visits: contact with what is beside or below", (unsigned)max_visits);
+        }
+    }
+    knurl_scene_destroy(scene);
+    return (out.flags & KNURL_TICK_VISIT_LIMIT) != 0;
+}
+
+TEST(what_is_looked_at_twice_for_want_of_visits_is_not_taken_for_something_else) {
+    shape s = shape_sphere(RADIUS, 3);
+    int met = 0;
+    for (uint32_t limit = 1; limit <= 40; limit++) {
+        met += check_only_plane_is_touched(&s, limit);
+    }
+    assert_true(met > 0);
+    shape_free(&s);
+}
+
 static uint32_t exceeded_by(const shape *s, double amplitude) {
     knurl_surface_check check;
     surface_parts parts = surface_shape(s, amplitude);

@@ -34,6 +34,15 @@ static double proxy_distance(const knurl_hip_path *path) {
     return sqrt(knurl_max(vec3_distance2(path->proxy, path->from), vec3_distance2(path->proxy, path->to)));
 }
 
+/* One more obstacle. Where another was in its place at the last collection, what is in `touched` is not its own. */
+static void add_obstacle(joint_search *m, const knurl_obstacle *obstacle) {
+    const uint32_t i = m->near.count++;
+    m->asked = i < m->asked && m->near.list[i].candidate != obstacle->candidate ? i : m->asked;
+    m->near.list[i] = *obstacle;
+    m->near.moving |= obstacle->before != obstacle->pose;
+    m->jumped |= obstacle->candidate->in_contact && knurl_obstacle_has_jumped(obstacle);
+}
+
 /* Collects the obstacles within `margin` (m) of a path, and those in contact. */
 static void collect(joint_search *m, const knurl_hip_path *path, double margin) {
     knurl_contacts *c = m->contacts;
@@ -42,24 +51,23 @@ static void collect(joint_search *m, const knurl_hip_path *path, double margin) 
     m->near.moving = m->jumped = 0;
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
-        knurl_obstacle *o = &m->near.list[m->near.count];
         const knurl_surface_data *surface = NULL;
+        knurl_obstacle o;
         if (candidate->in_contact || knurl_candidate_is_near(candidate, path, margin)) {
             surface = knurl_contacts_surface(m->index, candidate);
         }
         if (surface) {
             const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
             knurl_contacts_catch_up(c, &record->motion);
-            knurl_obstacle_set(o, candidate, surface, record, &c->clock);
+            knurl_obstacle_set(&o, candidate, surface, record, &c->clock);
         }
-        if (!surface || !(candidate->in_contact || knurl_obstacle_is_near(o, path->from, path->to, reach))) {
+        if (surface && (candidate->in_contact || knurl_obstacle_is_near(&o, path->from, path->to, reach))) {
+            add_obstacle(m, &o);
+        } else {
             candidate->has_previous = 0;
-            continue;
         }
-        m->near.count++;
-        m->near.moving |= o->before != o->pose;
-        m->jumped |= candidate->in_contact && knurl_obstacle_has_jumped(o);
     }
+    m->asked = m->asked < m->near.count ? m->asked : m->near.count;
 }
 
 /* One shape's contact with a HIP at `hip`, as if it were alone. previous: the HIP a tick ago (scene); null: unknown. */
