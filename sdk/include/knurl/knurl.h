@@ -1,4 +1,4 @@
-/* Knurl: haptic gratings on force-feedback devices. This header includes every room.
+/* Knurl: haptic gratings on force-feedback devices. This header includes all the others.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_KNURL_H
 #define KNURL_KNURL_H

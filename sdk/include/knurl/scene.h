@@ -412,9 +412,8 @@ enum {
     KNURL_LIMIT_PERIOD = 16,   /**< ridges finer than two of the device's position quanta */
     KNURL_LIMIT_FAR = 64, /**< farther than KNURL_FAR from the scene's origin: float32 positions are centimetres apart
                                there */
-    KNURL_LIMIT_VISITS = 128,  /**< a mesh on which contact meets a tick's limit of visits somewhere (max_visits of the
-                                    HIP's description): looked for at 65 places; or, once committed, one with 15 others
-                                    within 1 mm of its anchor (knurl_surface_info) */
+    KNURL_LIMIT_VISITS = 128,  /**< contact meets knurl_hip_desc.max_visits at one of 65 places of the mesh; or 15 other
+                                    meshes come within 1 mm of its anchor (once committed) */
     KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not */
     KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
                                     material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */

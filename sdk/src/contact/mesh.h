@@ -15,7 +15,7 @@
 #define KNURL_FLIPPED           0x40000000u /* the triangle beyond this edge faces the other way */
 #define KNURL_NON_MANIFOLD      0x80000000u /* of the vertex: swinging does not get round it (knurl_vertex_corners) */
 
-/* A non-manifold vertex: its triangles do not all hang together by edges that two of them share (bow ties, more than
+/* A non-manifold vertex: its triangles are not all connected by edges that two of them share (bow ties, more than
  * two sheets on one edge), so they are listed. */
 typedef struct knurl_vertex_corners {
     uint32_t vertex;
@@ -43,8 +43,8 @@ typedef struct knurl_mesh {
     uint32_t non_manifold_count;
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
-    uint32_t turned;         /* triangles turned over to face as those that they hang together with */
-    uint32_t mixed;          /* triangles that still face another way than those that they hang together with */
+    uint32_t turned;         /* triangles turned over to face as the rest of their connected component */
+    uint32_t mixed;          /* triangles that still face another way than that rest */
     int32_t double_sided;    /* 1: there were reversed twins, or no front was found */
     double seam;             /* m: edges that run side by side within this touch */
     uint32_t touching;       /* pairs of triangles that touch other than along an edge that they share */

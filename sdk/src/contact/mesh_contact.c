@@ -281,13 +281,12 @@ static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *qu
                            knurl_closest_point *closest, knurl_contact *c) {
     knurl_facet *facet = query->facet;
     const int is_kept = facet && facet->triangle == state->triangle && facet->side == state->side;
-    if (is_kept && knurl_facet_contact(facet, query->hip, c, closest)) {
-        if (c->z <= 0.0) {
-            c->facet = facet;
-            return 0;
-        }
-        knurl_closest_on_triangle(mesh, state->triangle, query->hip, closest);
-    } else if (!is_kept) {
+    const int is_above = is_kept && knurl_facet_contact(facet, query->hip, c, closest);
+    if (is_above && c->z <= 0.0) {
+        c->facet = facet;
+        return 0;
+    }
+    if (is_above || !is_kept) {
         knurl_closest_on_triangle(mesh, state->triangle, query->hip, closest);
     }
     if (closest->feature != 7) {

@@ -13,8 +13,8 @@ typedef struct knurl_shape_facts {
     uint32_t triangle_count; /* of the mesh it was given as, without those left out; 0: it was given as a plane */
     uint32_t dropped;        /* triangles left out for want of area, or as duplicates */
     uint32_t reversed_twins; /* triangles left out because another has the same corners, facing the other way */
-    uint32_t turned;         /* triangles turned over to face as those that they hang together with */
-    uint32_t mixed;          /* triangles that still face another way than those that they hang together with */
+    uint32_t turned;         /* triangles turned over to face as the rest of their connected component */
+    uint32_t mixed;          /* triangles that still face another way than that rest */
     double seam;             /* m: edges that run side by side within this touch */
     uint32_t touching;       /* pairs of triangles that touch other than along an edge that they share */
     double error;            /* m: how far the model is off what was given */

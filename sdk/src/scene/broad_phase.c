@@ -9,7 +9,7 @@
 #include "scene/broad_phase.h"
 
 #include "base/atomic.h"
-#include "contact/mesh_search.h"
+#include "contact/bvh.h"
 
 #include <string.h>
 

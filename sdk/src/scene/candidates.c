@@ -63,7 +63,8 @@ static void remove_others(knurl_candidates *c, const uint32_t *places, uint32_t 
     c->count = kept;
 }
 
-/* A free slot, cleared but for what `has_previous` and `facet.side` say that it does not hold. */
+/* Takes a free slot. Its poses and its facet keep what was in them: they are read only once `placed` and `facet.side`
+ * are not 0. */
 static uint8_t take_slot(knurl_candidates *c, uint32_t place) {
     const uint8_t slot = (uint8_t)__builtin_ctz(~c->used);
     knurl_candidate *candidate = &c->slots[slot];
