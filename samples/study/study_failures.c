@@ -115,7 +115,7 @@ const failure failures[] = {
      "Where crests reach as far as a mesh is wide, all of its triangles may be the nearest.",
      "%.0f %% of the ticks from 20 mm above a sphere of 10 mm to its middle, with crests of 20 mm", "measured",
      "lower crests or fewer triangles; KNURL_LIMIT_VISITS warns at load", "mm from the middle", failure_contact_visits},
-    {"contact_squeezed", "contact", "lets go where surfaces close",
+    {"contact_squeezed", "contact", "ends contact where surfaces close",
      "Where the proxy has no room left, the surface that moved no longer holds the HIP.",
      "%.2f N, 4 mm above a floor on which a lid comes down, fall to 0 within 5 ms",
      "K 4 mm less a tick of the lid's 100 mm/s", "a gap between what moves; KNURL_TICK_SQUEEZED says when it is so",
