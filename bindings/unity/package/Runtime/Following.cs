@@ -39,16 +39,16 @@ namespace Knurl
         /// <summary>Adds all surfaces that are enabled, in the order of enabling. Errors go to the console.</summary>
         internal void Fill()
         {
-            for (int i = 0; i < World.Surfaces.Count; i++)
+            for (int i = 0; i < Registry.Surfaces.Count; i++)
             {
-                Enlist(World.Surfaces[i]);
+                Add(Registry.Surfaces[i]);
             }
             Follow(layers);
         }
 
         /// <summary>A surface that was enabled: it is added by the next <see cref="Follow"/>, with all that is set
         /// until then.</summary>
-        internal void Enlist(KnurlSurface surface)
+        internal void Add(KnurlSurface surface)
         {
             if (count == surfaces.Length)
             {

@@ -35,9 +35,9 @@ namespace Knurl
         void LateUpdate()
         {
             KnurlDevice shown = device;
-            for (int i = 0; shown == null && i < World.Devices.Count; i++)
+            for (int i = 0; shown == null && i < Registry.Devices.Count; i++)
             {
-                shown = World.Devices[i].Running ? World.Devices[i] : null;
+                shown = Registry.Devices[i].Running ? Registry.Devices[i] : null;
             }
             if (shown != null && shown.Running)
             {

@@ -12,11 +12,11 @@ namespace Knurl
         [NonSerialized] KnurlSurface touched; // as told: null also for a file's surface
 
         /// <summary>A surface was disabled: that it is no longer touched is told at once.</summary>
-        internal void LetGoOf(KnurlSurface surface)
+        internal void EndContactWith(KnurlSurface surface)
         {
             if (ReferenceEquals(touched, surface))
             {
-                LetGo();
+                EndContact();
             }
         }
 
@@ -32,7 +32,7 @@ namespace Knurl
                         Touch(e.surface);
                         break;
                     case NativeMethods.KNURL_SESSION_CONTACT_ENDED:
-                        LetGo(); // nothing where its surface was disabled: that was told
+                        EndContact(); // nothing where its surface was disabled: that was told
                         break;
                     case NativeMethods.KNURL_SESSION_BUTTON:
                         TellButton(e.code, e.value != 0.0);
@@ -67,7 +67,7 @@ namespace Knurl
             }
         }
 
-        void LetGo()
+        void EndContact()
         {
             if (touchedId != 0)
             {

@@ -85,29 +85,29 @@ namespace Knurl
             if (isRunning)
             {
                 Release();
-                LetGo(); // last: a handler finds a device that is stopped, and may start it
+                EndContact(); // last: a handler finds a device that is stopped, and may start it
             }
         }
 
         /// <summary>Stops every device and gives back all that is native, for the editor.</summary>
         internal static void StopAll()
         {
-            World.StopAll();
+            Registry.StopAll();
         }
 
         /// <summary>Stops it and gives back all that is native: what files brought, too.</summary>
-        internal void Shut()
+        internal void StopAndFree()
         {
             StopDevice();
             hasFiles = false;
             Release();
         }
 
-        internal void Enlist(KnurlSurface surface)
+        internal void Add(KnurlSurface surface)
         {
             if (following != null)
             {
-                following.Enlist(surface);
+                following.Add(surface);
             }
         }
 
@@ -135,7 +135,7 @@ namespace Knurl
             if (session == null)
             {
                 session = SessionHandle.Create();
-                World.Devices.Add(this);
+                Registry.Devices.Add(this);
             }
         }
 
@@ -260,7 +260,7 @@ namespace Knurl
         }
 
         /// <summary>Closes the session without reporting its last events: that the contact ended is reported by <see
-        /// cref="LetGo"/>.</summary>
+        /// cref="EndContact"/>.</summary>
         unsafe void Release()
         {
             knurl_session_event ignored;
@@ -284,7 +284,7 @@ namespace Knurl
             {
                 session.Dispose();
                 session = null;
-                World.Devices.Remove(this);
+                Registry.Devices.Remove(this);
             }
         }
 
@@ -376,7 +376,7 @@ namespace Knurl
 
         void OnDestroy()
         {
-            Shut();
+            StopAndFree();
         }
     }
 }

@@ -99,9 +99,9 @@ namespace Knurl
             get
             {
                 int count = 0;
-                for (int i = 0; i < World.Devices.Count && count == 0; i++)
+                for (int i = 0; i < Registry.Devices.Count && count == 0; i++)
                 {
-                    count = World.Devices[i].CountTriangles(this);
+                    count = Registry.Devices[i].CountTriangles(this);
                 }
                 return count;
             }
@@ -114,9 +114,9 @@ namespace Knurl
             get
             {
                 bool isTouched = false;
-                for (int i = 0; i < World.Devices.Count; i++)
+                for (int i = 0; i < Registry.Devices.Count; i++)
                 {
-                    isTouched |= ReferenceEquals(World.Devices[i].Touched, this);
+                    isTouched |= ReferenceEquals(Registry.Devices[i].Touched, this);
                 }
                 return isTouched;
             }
@@ -159,11 +159,11 @@ namespace Knurl
             {
                 warnings.Add("It is scaled to nothing.");
             }
-            bool isOnLayer = World.Devices.Count == 0;
-            for (int i = 0; i < World.Devices.Count; i++)
+            bool isOnLayer = Registry.Devices.Count == 0;
+            for (int i = 0; i < Registry.Devices.Count; i++)
             {
-                World.Devices[i].Explain(this, warnings);
-                isOnLayer |= (World.Devices[i].Layers & layers) != 0;
+                Registry.Devices[i].Explain(this, warnings);
+                isOnLayer |= (Registry.Devices[i].Layers & layers) != 0;
             }
             if (!isOnLayer)
             {
@@ -205,12 +205,12 @@ namespace Knurl
         void OnEnable()
         {
             Remember();
-            World.Enter(this);
+            Registry.Add(this);
         }
 
         void OnDisable()
         {
-            World.Leave(this);
+            Registry.Remove(this);
         }
 
         void OnValidate()

@@ -6,7 +6,7 @@ namespace Knurl
 {
     /// <summary>Main thread. Statics outlive play mode where domains are not loaded anew: they are cleared before each
     /// one.</summary>
-    internal static class World
+    internal static class Registry
     {
         /// <summary>Those that are enabled, in the order of enabling.</summary>
         internal static readonly List<KnurlSurface> Surfaces = new List<KnurlSurface>();
@@ -16,18 +16,18 @@ namespace Knurl
 
         static bool isHooked;
 
-        internal static void Enter(KnurlSurface surface)
+        internal static void Add(KnurlSurface surface)
         {
             Surfaces.Add(surface);
             for (int i = 0; i < Devices.Count; i++)
             {
-                Devices[i].Enlist(surface);
+                Devices[i].Add(surface);
             }
         }
 
         /// <summary>Contacts with the surface end at once: in the next frame it may be destroyed. Handlers are called
         /// last, because they may add or remove devices and surfaces.</summary>
-        internal static void Leave(KnurlSurface surface)
+        internal static void Remove(KnurlSurface surface)
         {
             Surfaces.Remove(surface);
             for (int i = 0; i < Devices.Count; i++)
@@ -38,7 +38,7 @@ namespace Knurl
             {
                 if (i < Devices.Count)
                 {
-                    Devices[i].LetGoOf(surface);
+                    Devices[i].EndContactWith(surface);
                 }
             }
         }
@@ -51,7 +51,7 @@ namespace Knurl
             {
                 if (i < Devices.Count)
                 {
-                    Devices[i].Shut();
+                    Devices[i].StopAndFree();
                 }
             }
         }
