@@ -115,8 +115,9 @@ TEST(what_loading_may_cost_is_an_option) {
     }
 }
 
-/* Runs `knurl inspect path` with its standard error on a terminal, which gets `text`. */
-static void inspect_on_terminal(const char *path, char *text, size_t size) {
+/* Runs `knurl inspect path` with its standard error on a terminal, which gets `text`. is_slow: it is stopped while it
+ * loads, for longer than a load may take without a word. */
+static void inspect_on_terminal(const char *path, int is_slow, char *text, size_t size) {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     size_t length = 0;
     if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
@@ -138,6 +139,12 @@ static void inspect_on_terminal(const char *path, char *text, size_t size) {
     }
     (void)close(slave);
     (void)close(nothing);
+    if (is_slow) {
+        (void)nanosleep(&(struct timespec){0, 50000000}, NULL);
+        (void)kill(pid, SIGSTOP);
+        (void)nanosleep(&(struct timespec){0, 600000000}, NULL);
+        (void)kill(pid, SIGCONT);
+    }
     for (ssize_t got = 1; got > 0 && length + 1 < size; length += got > 0 ? (size_t)got : 0) {
         got = read(terminal, text + length, size - 1 - length); /* an error once nobody has the other end */
     }
@@ -149,10 +156,10 @@ static void inspect_on_terminal(const char *path, char *text, size_t size) {
 
 TEST(a_terminal_is_shown_how_far_a_long_load_is) {
     char text[8192];
-    inspect_on_terminal(plate, text, sizeof text);
+    inspect_on_terminal(plate, 0, text, sizeof text);
     assert_null(strstr(text, "loading"));
     write_slow_file(tool_path("slow.gltf"));
-    inspect_on_terminal(tool_path("slow.gltf"), text, sizeof text);
+    inspect_on_terminal(tool_path("slow.gltf"), 1, text, sizeof text);
     assert_non_null(strstr(text, "\rloading: "));
     const char *erased = strstr(text, "\r\033[K"); /* before anything else is said */
     assert_non_null(erased);

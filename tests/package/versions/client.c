@@ -23,6 +23,7 @@ int main(int count, char **arguments) {
     knurl_tick_input input;
     memset(&input, 0, sizeof input);
     memset(&info, 0x55, sizeof info);
+    memset(&output, 0x55, sizeof output);
     knurl_plane_desc_init(&plane, sizeof plane);
     knurl_material_desc_init(&material, sizeof material);
     knurl_surface_desc_init(&surface, sizeof surface);
