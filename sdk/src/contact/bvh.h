@@ -66,7 +66,8 @@ static inline int knurl_bvh_meets(const knurl_bvh_node *node, const double low[3
     return 1;
 }
 
-/* The same four floats at a time, for searches of many nodes. Vectors of GCC and Clang: x, y, z and one number that is not used. */
+/* The same four floats at a time, for searches of many nodes. Vectors of GCC and Clang: x, y, z and one number that is
+ * not used. */
 typedef float knurl_float4 __attribute__((vector_size(16)));
 typedef int32_t knurl_mask4 __attribute__((vector_size(16)));
 
