@@ -15,11 +15,13 @@ EXIT_SETUP=3 # what is missing could not be installed
 
 # Where there is ccache, builds go through it. The tests of packages compile the library again in folders of their own: with
 # CCACHE_NOHASHDIR they get the objects of build/release, whose debug information names every source by its whole path.
-if command -v ccache >/dev/null; then
+use_ccache() {
+    command -v ccache >/dev/null || return 0
     export CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
     export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
     export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
-fi
+}
+use_ccache
 
 # Runs a command whose output goes to a file, and says how far it is: a line that moves on a terminal, else one every 15 s.
 # usage: with_progress WHAT LOG COMMAND...

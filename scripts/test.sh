@@ -13,6 +13,7 @@ run_tests() {
         esac
     done
     need_packages "${BUILD_PACKAGES[@]}"
+    [ -z "$all" ] || ! (need_packages ccache) || use_ccache # the tests of packages compile the library five times
     [ "${labels[*]}" != windows ] || { test_windows; return; }
     if [ ${#labels[@]} -gt 0 ]; then
         narrow=(-L "$(IFS='|'; echo "^(${labels[*]})\$")")
