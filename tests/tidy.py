@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Runs clang-tidy on the files named on stdin, as many at once as there are CPUs, and not again on what it found clean: a
 file is known by the contents of all that it includes, by how it is compiled, and by clang-tidy's own version and settings.
+What several programs are linked of is looked at once, as the first of them compiles it.
 usage: tidy.py CLANG_TIDY BUILD CACHE     BUILD: has compile_commands.json. Exit 1: something was found.
 SPDX-License-Identifier: MIT"""
 import concurrent.futures
@@ -42,20 +43,22 @@ def included(entry):
     return [os.path.join(entry["directory"], name) for name in rule.split(":", 1)[1].replace("\\\n", " ").split()]
 
 
-def key(file, version, entries):
-    """Of a file's compilations, or None where it has none, or the compiler does not say what they read."""
+def key(file, version, entry):
+    """Of a file's compilation, or None where it has none, or the compiler does not say what it reads."""
+    if not entry:
+        return None
     settings = [folder / ".clang-tidy" for folder in pathlib.Path(file).resolve().parents]
     try:
-        parts = [f"{name} {content(name)}" for entry in entries for name in included(entry)]
+        parts = [f"{name} {content(name)}" for name in included(entry)]
         parts += [f"{name} {content(name)}" for name in settings if name.exists()]
     except (subprocess.CalledProcessError, OSError, ValueError):
         return None
-    return entries and hashlib.sha256("\n".join([version, *OPTIONS, *(entry["command"] for entry in entries), *parts]).encode()).hexdigest()
+    return hashlib.sha256("\n".join([version, *OPTIONS, entry["command"], *parts]).encode()).hexdigest()
 
 
-def check(file, version, entries):
+def check(file, version, entry):
     """What was found in a file: nothing, or clang-tidy's words."""
-    mark = CACHE / (key(file, version, entries) or "none")
+    mark = CACHE / (key(file, version, entry) or "none")
     if mark.exists():
         return ""
     done = subprocess.run([TOOL, "-p", CACHE, *OPTIONS, file], capture_output=True, text=True, check=False)
@@ -72,13 +75,13 @@ def main():
     version = subprocess.run([TOOL, "--version"], capture_output=True, text=True, check=True).stdout
     commands = [single for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8"))
                 for single in split(entry)]
-    (CACHE / "compile_commands.json").write_text(json.dumps(commands), encoding="utf-8")
     entries = {}
     for entry in commands:
-        entries.setdefault(os.path.realpath(entry["file"]), []).append(entry)
+        entries.setdefault(os.path.realpath(entry["file"]), entry)
+    (CACHE / "compile_commands.json").write_text(json.dumps(list(entries.values())), encoding="utf-8")
     files = sys.stdin.read().split()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = [words for words in pool.map(lambda file: check(file, version, entries.get(os.path.realpath(file), [])), files)
+        found = [words for words in pool.map(lambda file: check(file, version, entries.get(os.path.realpath(file))), files)
                  if words]
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
