@@ -11,9 +11,22 @@
 #include <termios.h>
 #include <unistd.h>
 
+/* A standard stream that is closed gets a descriptor that cannot be written to; else the first file that is opened
+ * would take its number, and be written to by whatever prints. */
+static void occupy_standard_streams(void) {
+    int handle = 0;
+    while (handle >= 0 && handle <= STDERR_FILENO) {
+        handle = open("/dev/null", O_RDONLY);
+    }
+    if (handle > STDERR_FILENO) {
+        (void)close(handle);
+    }
+}
+
 void os_begin(int *argc, char ***argv) {
     (void)argc;
     (void)argv;
+    occupy_standard_streams();
 }
 
 void os_on_interrupt(void (*handler)(int number)) {
@@ -125,6 +138,10 @@ FILE *os_open_output(const char *path) {
 
 FILE *os_open_stdout(void) {
     (void)fflush(stdout);
+    if ((fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY) { /* closed, see occupy_standard_streams() */
+        errno = EBADF;
+        return NULL;
+    }
     return stream_of(dup(STDOUT_FILENO));
 }
 

@@ -131,6 +131,31 @@ TEST(an_empty_name_of_an_output_is_refused_before_the_run) {
     }
 }
 
+/* A run without the standard streams that `closed` closes: >&- or 2>&-. */
+static process run_closed(const char *closed, const char *device, const char *out) {
+    char script[64];
+    (void)snprintf(script, sizeof script, "exec \"$0\" \"$@\" %s", closed);
+    return run_tool((const char *const[]){"/bin/sh", "-c", script, KNURL_TEST_TOOL, "run", plate, "--fast", "--seconds",
+                                          "0.1", "--device", device, "--out", out, NULL});
+}
+
+/* Neither a file called "-" nor the output takes a closed stream's place: the warning that the device is too weak for
+ * the walls would stand among the rows. */
+TEST(closed_standard_streams_are_told_and_no_file_takes_their_place) {
+    process p = run_closed(">&-", "fake", "-");
+    check_refused(&p, 1, "-: Bad file descriptor", "--out - >&-");
+    assert_false(file_exists("-"));
+    p = run_closed(">&-", "fake", tool_path("rows.csv"));
+    check_refused(&p, 1, "standard output cannot be written", ">&-");
+    p = run_closed("2>&-", "fake:?max_stiffness=100", tool_path("warned.csv"));
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    char *rows = read_file(tool_path("warned.csv"));
+    assert_int_equal(strncmp(rows, HEADER, sizeof HEADER - 1), 0);
+    assert_null(strstr(rows, "knurl"));
+    free(rows);
+}
+
 /* As `knurl run ... --out /dev/stdout > all.txt`: the link in /dev stays. */
 TEST(standard_output_that_is_a_file_is_written_on_not_replaced) {
     const char *const arguments[] = {KNURL_TEST_TOOL, "run",   plate,         "--fast", "--seconds",
