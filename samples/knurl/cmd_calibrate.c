@@ -41,25 +41,42 @@ static knurl_result weigh_both(double *heavier) {
     return result;
 }
 
-static int write_setting(const char *path, double gain) {
-    out_file file;
-    if (out_open(&file, path)) {
-        return TOOL_FAILURE;
-    }
-    fprintf(file.stream, "%.3f\n", gain);
-    if (out_keep(&file)) {
+static int print_gain(out_file *file, const char *path, double gain, double heavier) {
+    printf("{\"gain\": %.3f, \"newtons\": %.3f}\n", gain, heavier);
+    fprintf(file->stream, "%.3f\n", gain);
+    if (out_keep(file)) {
         return TOOL_FAILURE;
     }
     fprintf(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
     return TOOL_OK;
 }
 
+static int calibrate(double mass, const char *path) {
+    out_file file;
+    double heavier = 0.0;
+    if (out_open(&file, path)) { /* before somebody has held the grip for two weighings */
+        return TOOL_FAILURE;
+    }
+    if (weigh_both(&heavier)) {
+        out_discard(&file);
+        return tool_library_error(TOOL_FAILURE, "calibrate");
+    }
+    const double gain = weigh_gain(GAIN, mass, heavier);
+    if (!(gain >= 0.05 && gain <= 1.0)) {
+        out_discard(&file);
+        return tool_error(TOOL_FAILURE,
+                          "calibrate: the mass took %g N more than the empty grip, which makes a gain of %g; expected "
+                          "0.05 to 1: was it %g kg, and did nothing touch it?",
+                          heavier, gain, mass);
+    }
+    return print_gain(&file, path, gain, heavier);
+}
+
 int cmd_calibrate(int argc, char **argv) {
     double mass = NAN;
     const char *path = NULL;
     const char *what = NULL;
-    double heavier = 0.0;
-    const tool_option options[] = {{"--mass", TOOL_NUMBER, &mass, 0.05, 0.4, " kg"},
+    const tool_option options[] = {{"--mass", TOOL_NUMBER, &mass, 0.05, 0.4, "kg"},
                                    {"--out", TOOL_TEXT, (void *)&path, 0, 0, ""}};
     if (tool_parse(argc, argv, options, 2, &what) != TOOL_OK) {
         return TOOL_USAGE;
@@ -67,16 +84,5 @@ int cmd_calibrate(int argc, char **argv) {
     if (!what || strcmp(what, "falcon") != 0 || isnan(mass) || !path) {
         return tool_error(TOOL_USAGE, "calibrate: expected falcon --mass KG --out FILE");
     }
-    if (weigh_both(&heavier)) {
-        return tool_error(TOOL_FAILURE, "calibrate: %s", knurl_error_message());
-    }
-    const double gain = weigh_gain(GAIN, mass, heavier);
-    if (!(gain >= 0.05 && gain <= 1.0)) {
-        return tool_error(TOOL_FAILURE,
-                          "calibrate: the mass took %g N more than the empty grip, which makes a gain of %g; expected "
-                          "0.05 to 1: was it %g kg, and did nothing touch it?",
-                          heavier, gain, mass);
-    }
-    printf("{\"gain\": %.3f, \"newtons\": %.3f}\n", gain, heavier);
-    return write_setting(path, gain);
+    return calibrate(mass, path);
 }

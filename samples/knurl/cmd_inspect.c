@@ -124,7 +124,7 @@ int cmd_inspect(int argc, char **argv) {
     int pretty = 0;
     int full = 0;
     int checks = 0;
-    const char *limits = "";
+    const char *limits = NULL;
     knurl_gltf_budget budget;
     const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
                                    {"--full-model", TOOL_FLAG, &full, 0, 0, ""},
@@ -134,7 +134,7 @@ int cmd_inspect(int argc, char **argv) {
         tool_parse_budget(limits, &budget) != TOOL_OK) {
         return TOOL_USAGE;
     }
-    if (!path) {
+    if (!path || !path[0]) {
         return tool_error(TOOL_USAGE, "inspect: expected a .gltf or .glb file, found none");
     }
     knurl_scene *scene = NULL;

@@ -58,7 +58,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
         {"--budget", TOOL_TEXT, &o->limits, 0, 0, ""},
         {"--wav", TOOL_TEXT, &o->wav, 0, 0, ""},
-        {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, 86400.0, "s"},
+        {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, RUN_SECONDS_MAX, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
         {"--view", TOOL_FLAG, &o->view, 0, 0, ""},
@@ -66,14 +66,13 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
-    o->limits = "";
     o->seconds = NAN;
     o->rate = 1000.0;
     if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &o->path) != TOOL_OK ||
         tool_parse_budget(o->limits, &o->budget) != TOOL_OK) {
         return TOOL_USAGE;
     }
-    if (!o->path) {
+    if (!o->path || !o->path[0]) {
         return tool_error(TOOL_USAGE, "run: expected a .gltf or .glb file, found none");
     }
     if (o->out && o->wav && strcmp(o->out, o->wav) == 0) {
@@ -181,7 +180,7 @@ static int open_device(run *r) {
     if (!isnan(o->seconds)) {
         r->ticks = (uint64_t)fmax(1.0, floor(o->seconds * o->rate + 0.5));
     } else if (o->trace) {
-        r->ticks = (uint64_t)floor(fmax(last_t, 0.0) * o->rate + 1e-6) + 1; /* its last row too */
+        r->ticks = (uint64_t)floor(last_t * o->rate + 1e-6) + 1; /* its last row too */
     } else {
         r->ticks = (uint64_t)((o->view ? 600.0 : 5.0) * o->rate);
     }
@@ -437,8 +436,7 @@ static int perform(run *r) {
         code = tool_error(TOOL_FAILURE, "run: the device was lost after %llu ticks", (unsigned long long)stats.ticks);
     }
     print_summary(r, &stats);
-    const int is_fake = !r->options.device || strncmp(r->options.device, "fake", 4) == 0;
-    return code == TOOL_OK && is_fake
+    return code == TOOL_OK && is_fake(&r->options)
                ? travel_check(&r->travel, r->scene, r->surface, (double)stats.ticks / r->options.rate)
                : code;
 }

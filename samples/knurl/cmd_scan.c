@@ -63,8 +63,13 @@ static int read_options(int argc, char **argv, knurl_grating *grating, const cha
     if (tool_parse(argc, argv, options, 5, NULL) != TOOL_OK) {
         return TOOL_USAGE;
     }
-    if (!method || !fs || isnan(amplitude) || !*path) {
-        return tool_error(TOOL_USAGE, "scan: expected --method, --fs, --amplitude and --in, found one missing");
+    const char *missing = !method            ? "--method"
+                          : !fs              ? "--fs"
+                          : isnan(amplitude) ? "--amplitude"
+                          : *path            ? NULL
+                                             : "--in";
+    if (missing) {
+        return tool_error(TOOL_USAGE, "scan: expected --method, --fs, --amplitude and --in, found no %s", missing);
     }
     if (!tool_parse_pair(fs, grating->spatial_frequency)) {
         return tool_error(TOOL_USAGE, "scan: --fs: expected FSX,FSY in cycles/m, found '%s'", fs);

@@ -55,7 +55,7 @@ static const char *describe_header(const char *line, char *const *cells, uint32_
                                                    : "numbers instead of names";
 }
 
-/* Finds each name's column in the header. */
+/* Finds each name's column in the header, which has it once. */
 static int read_header(const char *path, char *line, const char *const *names, uint32_t count, int *columns) {
     char *cells[MAX_COLUMNS];
     line += strncmp(line, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark, as spreadsheets write it */
@@ -65,6 +65,10 @@ static int read_header(const char *path, char *line, const char *const *names, u
         if (columns[i] < 0) {
             return tool_error(TOOL_FAILURE, "%s: line 1: expected a header with a column '%s', found %s", path,
                               names[i], describe_header(cells[0], cells, found, names[i]));
+        }
+        const uint32_t next = (uint32_t)columns[i] + 1;
+        if (column_of(cells + next, found - next, names[i]) >= 0) {
+            return tool_error(TOOL_FAILURE, "%s: line 1: expected one column '%s', found two", path, names[i]);
         }
     }
     return TOOL_OK;
@@ -86,7 +90,7 @@ static int read_row(const char *path, uint64_t line_number, char *line, const ch
     return TOOL_OK;
 }
 
-/* Adds a row, doubling the room where it is used up. */
+/* Adds a row, doubling the capacity where it is used up. */
 static int append(const char *path, tool_table *table, uint64_t *capacity, const double *row) {
     const size_t columns = table->columns;
     if (table->row_count == *capacity) {

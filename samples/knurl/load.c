@@ -1,6 +1,7 @@
 /* Loading a glTF file: --budget, and how far it is, on a terminal. SPDX-License-Identifier: MIT */
 #include "tool.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -16,8 +17,12 @@ static int read_limit(const char *pair, size_t length, double limits[LIMITS]) {
             char *end = NULL;
             const char *digits = pair + strlen(names[i]);
             limits[i] = strtod(digits, &end);
-            return end > digits && end == pair + length && limits[i] >= (i == SECONDS ? 1e-9 : 1.0) &&
-                   limits[i] <= (i == SURFACES ? UINT32_MAX : 9e15);
+            if (end == digits || end != pair + length) {
+                return 0;
+            }
+            return i == SECONDS ? limits[i] >= 1e-9 && limits[i] <= 9e15
+                                : limits[i] >= 1.0 && limits[i] <= (i == SURFACES ? UINT32_MAX : 9e15) &&
+                                      limits[i] == floor(limits[i]);
         }
     }
     return 0;
@@ -25,12 +30,12 @@ static int read_limit(const char *pair, size_t length, double limits[LIMITS]) {
 
 int tool_parse_budget(const char *text, knurl_gltf_budget *budget) {
     double limits[LIMITS] = {0.0};
-    for (const char *pair = text[0] ? text : NULL, *end; pair; pair = *end ? end + 1 : NULL) {
+    for (const char *pair = text, *end; pair; pair = *end ? end + 1 : NULL) {
         end = pair + strcspn(pair, ",");
         if (!read_limit(pair, (size_t)(end - pair), limits)) {
             return tool_error(TOOL_USAGE,
-                              "--budget: expected surfaces=, bytes=, vertices=, triangles= or seconds= and a number "
-                              "above 0, several with commas between, found '%s'",
+                              "--budget: expected surfaces=, bytes=, vertices= or triangles= and a whole number, or "
+                              "seconds= and a number, above 0, several with commas between, found '%s'",
                               text);
         }
     }

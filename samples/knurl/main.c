@@ -51,10 +51,32 @@ static int unknown_command(const char *name) {
 }
 
 static int complete(const char *shell) {
-    return shell && help_print_completion(shell) == 0
+    if (!shell) {
+        return tool_error(TOOL_USAGE, "completion: expected bash, zsh or fish, found none");
+    }
+    return help_print_completion(shell) == 0
                ? TOOL_OK
-               : tool_error(TOOL_USAGE, "completion: expected bash, zsh or fish, found '%s'", shell ? shell : "none");
+               : tool_error(TOOL_USAGE, "completion: expected bash, zsh or fish, found '%s'", shell);
 }
+
+static int show_version(const char *argument) {
+    (void)argument;
+    printf("knurl %s\n", knurl_version_string());
+    return TOOL_OK;
+}
+
+static int show_man(const char *argument) {
+    (void)argument;
+    help_print_man();
+    return TOOL_OK;
+}
+
+/* What the tool says of itself. most: arguments, with the program and its own name. */
+static const struct {
+    const char *name;
+    int (*show)(const char *argument);
+    int most;
+} pages[] = {{"--version", show_version, 2}, {"man", show_man, 2}, {"completion", complete, 3}};
 
 static int run_command(int argc, char **argv) {
     if (argc < 2) {
@@ -64,16 +86,12 @@ static int run_command(int argc, char **argv) {
     if (asked) {
         return help_print(asked[0] ? asked : NULL) ? unknown_command(asked) : TOOL_OK;
     }
-    if (strcmp(argv[1], "--version") == 0) {
-        printf("knurl %s\n", knurl_version_string());
-        return TOOL_OK;
-    }
-    if (strcmp(argv[1], "man") == 0) {
-        help_print_man();
-        return TOOL_OK;
-    }
-    if (strcmp(argv[1], "completion") == 0) {
-        return complete(argc > 2 ? argv[2] : NULL);
+    for (size_t i = 0; i < sizeof pages / sizeof *pages; i++) {
+        if (strcmp(argv[1], pages[i].name) == 0) {
+            return argc > pages[i].most ? tool_error(TOOL_USAGE, "%s: unexpected argument '%s'; see 'knurl --help'",
+                                                     argv[1], argv[pages[i].most])
+                                        : pages[i].show(argc > 2 ? argv[2] : NULL);
+        }
     }
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         if (strcmp(argv[1], commands[i].name) == 0) {

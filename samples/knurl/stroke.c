@@ -98,13 +98,21 @@ int stroke_play(knurl_scene *scene, knurl_device *device, const char *path, doub
     if (code != TOOL_OK) {
         return code;
     }
+    const double last = table.cells[4 * (table.row_count - 1)];
+    if (!(last >= 0.0 && last <= RUN_SECONDS_MAX)) {
+        code = tool_error(TOOL_FAILURE,
+                          "%s: expected times in s from the start of the run, the last from 0 to %g, found %g", path,
+                          RUN_SECONDS_MAX, last);
+        free(table.cells);
+        return code;
+    }
+    *last_t = last;
     warn_of_millimetres(path, &table);
     knurl_result result = knurl_scene_get_workspace(scene, 0, &workspace);
     for (uint64_t i = 0; i < table.row_count && !result; i++) {
         double *row = &table.cells[4 * i];
         knurl_workspace_to_device(&workspace, row + 1, row + 1);
     }
-    *last_t = table.cells[4 * (table.row_count - 1)];
     result = result ? result : knurl_fake_set_trace(device, table.cells, table.row_count);
     free(table.cells);
     return result ? tool_library_error(TOOL_FAILURE, path) : TOOL_OK;

@@ -4,6 +4,9 @@
 
 #include <knurl/knurl.h>
 
+/* s: the longest run, a day. */
+#define RUN_SECONDS_MAX 86400.0
+
 /* Where the surface lies outside the workspace, the workspace is moved to it, and that is said on stderr. TOOL_ codes.
  */
 int stroke_place(knurl_scene *scene, knurl_device *device, knurl_surface_id surface);

@@ -22,7 +22,7 @@ uint32_t tool_warn(const knurl_scene *scene);
 
 /* --- loading (load.c) --- */
 
-/* --budget: "surfaces=1000,seconds=0.5". TOOL_OK, or TOOL_USAGE having said why. */
+/* --budget: "surfaces=1000,seconds=0.5"; null: not given. TOOL_OK, or TOOL_USAGE having said why. */
 int tool_parse_budget(const char *text, knurl_gltf_budget *budget);
 
 /* knurl_gltf_load_file(). What was read is protected from being written over; a terminal is shown how far it is. */

@@ -58,6 +58,11 @@ TEST(wrong_usage_of_the_tool_is_told) {
         {"devices --xml", 2, "--xml"},
         {"signal extra --method T1", 2, "extra"},
         {"run %P --stroke line --trace %G", 2, "--stroke|--trace"},
+        {"--version now", 2, "--version: unexpected argument 'now'"},
+        {"man run", 2, "man: unexpected argument 'run'"},
+        {"completion bash zsh", 2, "completion: unexpected argument 'zsh'"},
+        {"completion", 2, "bash, zsh or fish, found none"},
+        {"completion tcsh", 2, "bash, zsh or fish, found 'tcsh'"},
     };
     check_all_wrong(table, COUNT_OF(table));
 }
@@ -73,10 +78,10 @@ TEST(a_missing_value_is_told) {
         {"signal --period-ms 3 --ticks 6", 2, "--method"},
         {"signal --method T1 --ticks 6", 2, "--period-ms"},
         {"signal --method T1 --period-ms 3", 2, "--ticks"},
-        {"scan --fs 1000,0 --amplitude 1 --in %G", 2, "--method"},
-        {"scan --method S2 --amplitude 1 --in %G", 2, "--fs"},
-        {"scan --method S2 --fs 1000,0 --in %G", 2, "--amplitude"},
-        {"scan --method S2 --fs 1000,0 --amplitude 1", 2, "--in"},
+        {"scan --fs 1000,0 --amplitude 1 --in %G", 2, "found no --method"},
+        {"scan --method S2 --amplitude 1 --in %G", 2, "found no --fs"},
+        {"scan --method S2 --fs 1000,0 --in %G", 2, "found no --amplitude"},
+        {"scan --method S2 --fs 1000,0 --amplitude 1", 2, "found no --in"},
     };
     check_all_wrong(table, COUNT_OF(table));
 }
@@ -110,6 +115,22 @@ TEST(a_number_out_of_range_is_told) {
         {"scan --method S2 --fs 1, --amplitude 1 --in %G", 2, "--fs"},
     };
     check_all_wrong(table, COUNT_OF(table));
+}
+
+TEST(a_limit_of_loading_that_is_none_is_told) {
+    static const char *const limits[] = {"",         "surfaces",   "surfaces=", "surfaces=0",  "surfaces=1.5",
+                                         "bytes=-1", "bytes=1e9,", "seconds=0", "seconds=nan", "walls=1"};
+    for (size_t i = 0; i < COUNT_OF(limits); i++) {
+        process p = RUN_TOOL("run", plate, "--fast", "--budget", limits[i]);
+        check_refused(&p, 2, "--budget: expected surfaces=|whole number|seconds=", limits[i]);
+    }
+}
+
+TEST(an_empty_name_of_a_scene_is_told) {
+    process p = RUN_TOOL("run", "");
+    check_refused(&p, 2, "run: expected a .gltf or .glb file, found none", "run ''");
+    p = RUN_TOOL("inspect", "");
+    check_refused(&p, 2, "inspect: expected a .gltf or .glb file, found none", "inspect ''");
 }
 
 TEST(a_number_of_ticks_that_is_no_whole_number_is_told) {
@@ -204,7 +225,10 @@ TEST(a_bad_trace_is_told_with_its_file_line_and_column) {
                   {"t,x,y,z\n", "trace.csv|row"},
                   {"", "trace.csv"},
                   {"t,x,y,z\n0,0,0,0\n0.2,0,0,0\n0.1,0,0,0\n", "trace.csv|row 3|0.1"},
-                  {"t,x,y,z\n0,0,0,0\n0,0,0,0\n", "trace.csv|row 2"}};
+                  {"t,x,y,z\n0,0,0,0\n0,0,0,0\n", "trace.csv|row 2"},
+                  {"t,x,y,z,x\n0,0,0,0,1\n", "trace.csv|line 1|expected one column 'x', found two"},
+                  {"t,x,y,z\n-2,0,0,0\n-1,0,0,0\n", "trace.csv|the last from 0 to 86400, found -1"},
+                  {"t,x,y,z\n1.79e9,0,0,0\n1.79e9,0,0,0\n", "trace.csv|the last from 0 to 86400, found 1.79e+09"}};
     for (size_t i = 0; i < COUNT_OF(traces); i++) {
         write_text(tool_path("trace.csv"), traces[i].text);
         const wrong w = {"run %P --fast --trace %T/trace.csv --out %T/out.csv", 1, traces[i].words};
@@ -222,6 +246,7 @@ TEST(a_bad_motion_for_scan_is_told_with_its_file_line_and_column) {
                    {"vx,vy\n0,0\n,0\n", "motion.csv|line 3|vx"},
                    {"vx\n0\n", "motion.csv|line 1|vy"},
                    {"a,b\n0,0\n", "motion.csv|line 1"},
+                   {"vx,vy,vy\n0,0,1\n", "motion.csv|line 1|expected one column 'vy', found two"},
                    {"vx,vy\n", "motion.csv|row"},
                    {"", "motion.csv"},
                    {"vx,vy\n0,0\n0,0x\n", "motion.csv|line 3|vy"},
