@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Compiles the library's pure rooms, the glTF loader and web.c to WebAssembly: OUT/knurl.mjs and OUT/knurl.wasm. The
-# options that change numbers are those of ../../CMakeLists.txt. usage: wasm.sh OUT
+# Compiles the library without loop and devices, the glTF loader and web.c to WebAssembly: OUT/knurl.mjs and
+# OUT/knurl.wasm. The options that change numbers are those of ../../CMakeLists.txt. usage: wasm.sh OUT
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1/objects/include"

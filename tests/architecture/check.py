@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the sources to the architecture: which room may use which, no circles of files, short headers, and a picture that
+"""Holds the sources to the architecture: which module may use which, no circles of files, short headers, and a picture that
 agrees with the code. SPDX-License-Identifier: MIT
 
     check.py --build DIR [--nm NM] --objects FILE... [--objects FILE...]     what the test `architecture` runs
@@ -13,8 +13,8 @@ from units import LIBRARY, PUBLIC, Code, unit_of
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 
-# Room: the rooms that it may use. What is not here, bindings and samples, uses public headers only.
-ROOMS = {
+# Module: the modules that it may use. What is not here, bindings and samples, uses public headers only.
+MODULES = {
     "base": set(),
     "vibration": {"base"},
     "grating": {"base", "vibration"},
@@ -37,19 +37,19 @@ KNOWN_CIRCLES = []
 KNOWN_LONG_HEADERS = []
 
 
-def check_rooms(code):
+def check_modules(code):
     wrong = []
     for unit, others in code.uses.items():
-        room = code.room(unit)
+        module = code.module(unit)
         for other in sorted(others):
-            to = code.room(other)
-            if room in ROOMS and to != room and to not in ROOMS[room] and not (room == "gltf" and other in HEADER_ONLY):
-                wrong.append(f"{room} may use {', '.join(sorted(ROOMS[room])) or 'no other room'}: {unit} uses {other}")
-    for path, rooms in code.public.items():
-        room = os.path.basename(path)[:-2] if path.startswith(PUBLIC) else code.room(unit_of(path))
-        for to in sorted(rooms):
-            if room in ROOMS and to not in ROOMS[room] | {room, "base"}:
-                wrong.append(f"{path}: {room} may not use <knurl/{to}.h>")
+            to = code.module(other)
+            if module in MODULES and to != module and to not in MODULES[module] and not (module == "gltf" and other in HEADER_ONLY):
+                wrong.append(f"{module} may use {', '.join(sorted(MODULES[module])) or 'no other module'}: {unit} uses {other}")
+    for path, modules in code.public.items():
+        module = os.path.basename(path)[:-2] if path.startswith(PUBLIC) else code.module(unit_of(path))
+        for to in sorted(modules):
+            if module in MODULES and to not in MODULES[module] | {module, "base"}:
+                wrong.append(f"{path}: {module} may not use <knurl/{to}.h>")
     wrong += [f'{path}: only public headers, <knurl/...>, are for bindings and samples, found "{name}"'
               for path, name in code.stray if name[:-2] not in HEADER_ONLY]
     return wrong
@@ -65,7 +65,7 @@ def check_circles(code, known):
 
 def check_headers(code, known):
     long = {path: lines for path, lines in code.lines.items() if path.endswith(".h") and lines > HEADER_LINES
-            and path.startswith(tuple(f"{LIBRARY}/{room}/" for room in SHORT_HEADERS))}
+            and path.startswith(tuple(f"{LIBRARY}/{module}/" for module in SHORT_HEADERS))}
     wrong = [f"{path}: {lines} lines, at most {HEADER_LINES}" for path, lines in long.items() if path not in known]
     return wrong + [f"{path} is short: take it out of KNOWN_LONG_HEADERS" for path in known if path not in long]
 
@@ -85,7 +85,7 @@ def main(arguments):
     code = Code(ROOT)
     for objects in given.objects:
         code.add_objects(objects, given.build, given.nm)
-    wrong = check_rooms(code) + check_circles(code, KNOWN_CIRCLES) + check_headers(code, KNOWN_LONG_HEADERS)
+    wrong = check_modules(code) + check_circles(code, KNOWN_CIRCLES) + check_headers(code, KNOWN_LONG_HEADERS)
     drawn, missing = picture.draw(code)
     path = os.path.join(ROOT, picture.PATH)
     if given.draw and drawn:

@@ -1,4 +1,4 @@
-"""The picture of the architecture, an SVG: rooms, what stands in them, and an arrow from what uses to what is used. Where
+"""The picture of the architecture, an SVG: modules, what stands in them, and an arrow from what uses to what is used. Where
 things stand is said here; what there is, and every arrow, comes from the code. SPDX-License-Identifier: MIT"""
 from xml.sax.saxutils import escape
 
@@ -6,8 +6,8 @@ PATH = "assets/pictures/architecture.svg"
 WIDTH, HEIGHT = 944, 980
 BOX = 40  # height of a box with a title and a line below it
 
-# Room: left, top, right, bottom, what it does. Rooms without boxes list their units.
-ROOMS = {
+# Module: left, top, right, bottom, what it does. Modules without boxes list their units.
+MODULES = {
     "loop": (16, 72, 304, 146, "the 1 kHz thread: read, tick, write"),
     "audio": (316, 72, 474, 146, "a tick's sound"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
@@ -17,11 +17,12 @@ ROOMS = {
     "contact": (172, 550, 752, 866, "where a HIP touches"),
     "grating": (782, 550, 928, 650, "a height from a speed"),
     "vibration": (782, 690, 928, 774, "square waves in time"),
-    "base": (16, 896, 928, 964, "used by all rooms"),
+    "base": (16, 896, 928, 964, "used by all modules"),
 }
-# Where the arrow between two rooms stands: x, or y where they stand side by side. Boxes of a room have arrows of their own to other rooms' boxes.
-ROOM_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 466,
-               ("scene", "grating"): 855, ("grating", "vibration"): 855}
+# Where the arrow between two modules stands: x, or y where they stand side by side. Boxes in a module have arrows of their
+# own to boxes in other modules.
+MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 466,
+                 ("scene", "grating"): 855, ("grating", "vibration"): 855}
 
 # Box: its middle, its top, its width, its title, the line below it, the units in it.
 BOXES = {
@@ -68,12 +69,12 @@ LEGEND = ["1 to 13: the way of", "a force; then back", "to the device", "", "blu
 STYLE = """
 text { font: 12px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill: #1f2328; }
 .small { font-size: 11px; fill: #59636e; } .title { font-weight: 600; font-size: 14px; } .middle { text-anchor: middle; }
-.paper { fill: #ffffff; } .room { fill: #f3f5f8; stroke: #c9d1d9; } .box { fill: #ffffff; stroke: #8c959f; }
+.paper { fill: #ffffff; } .module { fill: #f3f5f8; stroke: #c9d1d9; } .box { fill: #ffffff; stroke: #8c959f; }
 .tick { fill: #e8f2ff; stroke: #0969da; stroke-width: 1.4; } .arrow { fill: none; stroke: #6e7781; stroke-width: 1.3; }
 .call { stroke: #0969da; stroke-width: 1.6; } .head { fill: #6e7781; } .callhead { fill: #0969da; }
 .badge { fill: #0969da; } .number { fill: #ffffff; font-size: 10px; font-weight: 700; text-anchor: middle; }
 @media (prefers-color-scheme: dark) {
-text { fill: #e6edf3; } .small { fill: #9da7b1; } .paper { fill: #0d1117; } .room { fill: #161b22; stroke: #30363d; }
+text { fill: #e6edf3; } .small { fill: #9da7b1; } .paper { fill: #0d1117; } .module { fill: #161b22; stroke: #30363d; }
 .box { fill: #21262d; stroke: #6e7681; } .tick { fill: #0c2d55; stroke: #4493f8; } .arrow { stroke: #8b949e; }
 .call { stroke: #4493f8; } .head { fill: #8b949e; } .callhead { fill: #4493f8; } .badge { fill: #4493f8; }
 .number { fill: #0d1117; } }
@@ -164,47 +165,47 @@ def draw_arrows(svg, uses, kinds):
                           kind)
 
 
-def draw_rooms(svg, code):
+def draw_modules(svg, code):
     """Returns those whose list is too long."""
     full = []
-    for room, (left, top, right, bottom, about) in ROOMS.items():
-        svg.rectangle(left, top, right, bottom, "room", 8)
+    for module, (left, top, right, bottom, about) in MODULES.items():
+        svg.rectangle(left, top, right, bottom, "module", 8)
         narrow = right - left < 200
-        svg.text(left + 12, top + 20, room, "title")
-        svg.text(left + 12 if narrow else left + 24 + 8 * len(room), top + (37 if narrow else 20), about, "small")
-        if room in ("scene", "contact"):
+        svg.text(left + 12, top + 20, module, "title")
+        svg.text(left + 12 if narrow else left + 24 + 8 * len(module), top + (37 if narrow else 20), about, "small")
+        if module in ("scene", "contact"):
             continue
-        names = dict.fromkeys(unit.split("/")[1] for unit in code.units_of(room))  # a driver's files are one
+        names = dict.fromkeys(unit.split("/")[1] for unit in code.units_of(module))  # a driver's files are one
         y = top + (58 if narrow else 38)
         for line in wrap(names, int((right - left - 20) / 6.4)):
             svg.text(left + 12, y, line, "")
             y += 15
-        full += [room] if y - 10 > bottom else []
+        full += [module] if y - 10 > bottom else []
     return full
 
 
-def draw_room_arrows(svg, rooms):
-    for room, others in rooms.items():
+def draw_module_arrows(svg, modules):
+    for module, others in modules.items():
         for other in sorted(others):
-            at, y, to = ROOM_ARROWS[room, other], ROOMS[room][3], ROOMS[other][1]
+            at, y, to = MODULE_ARROWS[module, other], MODULES[module][3], MODULES[other][1]
             if to > y:
                 svg.arrow(f"M{at} {y} L{at} {to - 2}", "")
             else:
-                svg.arrow(f"M{ROOMS[room][0]} {at} L{ROOMS[other][2] + 2} {at}", "")
+                svg.arrow(f"M{MODULES[module][0]} {at} L{MODULES[other][2] + 2} {at}", "")
 
 
 def draw(code):
     """The picture's text, and what it has no place for."""
-    missing = [f"picture.py: {unit} has no box" for room in ("scene", "contact") for unit in code.units_of(room)
+    missing = [f"picture.py: {unit} has no box" for module in ("scene", "contact") for unit in code.units_of(module)
                if not any(unit in box[5] for box in BOXES.values())]
     missing += [f"picture.py: there is no {unit}" for box in BOXES.values() for unit in box[5] if unit not in code.uses]
     boxes = between(code, {name: box[5] for name, box in BOXES.items()})
-    rooms = reduced(between(code, {room: code.units_of(room) for room in ROOMS if room != "base"}))
-    rooms["gltf"] |= {"scene"} & set().union(*(code.public[path] for path in code.public if "/gltf/" in path))
-    rooms["audio"] |= {"scene"}  # a tick's output, from the public header
-    rooms["scene"].discard("contact")  # from box to box
-    missing += [f"picture.py: no place for the arrow from {room} to {other}" for room in rooms for other in rooms[room]
-                if (room, other) not in ROOM_ARROWS]
+    modules = reduced(between(code, {module: code.units_of(module) for module in MODULES if module != "base"}))
+    modules["gltf"] |= {"scene"} & set().union(*(code.public[path] for path in code.public if "/gltf/" in path))
+    modules["audio"] |= {"scene"}  # a tick's output, from the public header
+    modules["scene"].discard("contact")  # from box to box
+    missing += [f"picture.py: no place for the arrow from {module} to {other}" for module in modules for other in modules[module]
+                if (module, other) not in MODULE_ARROWS]
     if missing:
         return "", missing
     steps = boxes["tick"] & set(WAY)
@@ -212,13 +213,13 @@ def draw(code):
     arrows["tick"] |= steps
     svg = Svg()
     svg.rectangle(0, 0, WIDTH, HEIGHT, "paper", 10)
-    svg.rectangle(16, 16, WIDTH - 16, 50, "room", 8)
+    svg.rectangle(16, 16, WIDTH - 16, 50, "module", 8)
     svg.text(28, 38, "bindings, samples, the knurl tool", "title")
-    svg.text(310, 38, "see every room, but only its public header: <knurl/...>", "small")
+    svg.text(310, 38, "use all modules, by their public headers alone: <knurl/...>", "small")
     for i, line in enumerate(LEGEND):
         svg.text(20, 580 + 16 * i, line, "small")
-    missing += [f"picture.py: the list of {room} is longer than its room" for room in draw_rooms(svg, code)]
-    draw_room_arrows(svg, rooms)
+    missing += [f"picture.py: the list of {module} is longer than its box" for module in draw_modules(svg, code)]
+    draw_module_arrows(svg, modules)
     draw_arrows(svg, arrows, {("tick", step): "call" for step in steps})
     runs = code.nonblocking | {"scene/tick"}  # its mark is in the public header
     for name, (x, top, width, title, about, units) in BOXES.items():
@@ -226,8 +227,8 @@ def draw(code):
         svg.text(x, top + 17, title, "middle")
         svg.text(x, top + 32, about, "small middle")
     for number, name in enumerate(WAY, 1):
-        x, y = (BOXES[name][0] - BOXES[name][2] / 2, BOXES[name][1]) if name in BOXES and name not in ROOMS else \
-            (ROOMS[name][0], ROOMS[name][1])
+        x, y = (BOXES[name][0] - BOXES[name][2] / 2, BOXES[name][1]) if name in BOXES and name not in MODULES else \
+            (MODULES[name][0], MODULES[name][1])
         svg.badge(x, y, number)
     heads = "".join(f'<marker id="{name}" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" '
                     f'markerUnits="userSpaceOnUse" orient="auto"><path d="M0 0.5 L8 4 L0 7.5 Z" class="{kind}"/></marker>'

@@ -15,8 +15,8 @@ class Tree(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.root = self.folder.name
-        for room in check.ROOMS:
-            os.makedirs(os.path.join(self.root, "sdk/src", room))
+        for module in check.MODULES:
+            os.makedirs(os.path.join(self.root, "sdk/src", module))
 
     def write(self, path, text=""):
         path = os.path.join(self.root, path)
@@ -39,20 +39,20 @@ class Tree(unittest.TestCase):
             self.write("sdk/src/" + name)
         self.assertEqual(list(self.code().uses), ["base/system"])
 
-    def test_a_room_that_may_use_another_does(self):
+    def test_a_module_that_may_use_another_does(self):
         self.write("sdk/src/scene/tick.c", '#include "contact/mesh.h"\n')
         self.write("sdk/src/contact/mesh.h")
-        self.assertEqual(check.check_rooms(self.code()), [])
+        self.assertEqual(check.check_modules(self.code()), [])
 
-    def test_a_room_that_points_back_is_told(self):
+    def test_a_module_that_points_back_is_reported(self):
         self.write("sdk/src/contact/mesh.c", '#include "scene/surface.h"\n')
         self.write("sdk/src/scene/surface.h")
-        self.assertEqual(check.check_rooms(self.code()), ["contact may use base: contact/mesh uses scene/surface"])
+        self.assertEqual(check.check_modules(self.code()), ["contact may use base: contact/mesh uses scene/surface"])
 
     def test_a_public_header_points_back_no_more_than_a_private_one(self):
         self.write("sdk/src/contact/mesh.c", "#include <knurl/scene.h>\n")
         self.write("sdk/include/knurl/motion.h", "#include <knurl/scene.h>\n")
-        self.assertEqual(sorted(check.check_rooms(self.code())),
+        self.assertEqual(sorted(check.check_modules(self.code())),
                          ["sdk/include/knurl/motion.h: motion may not use <knurl/scene.h>",
                           "sdk/src/contact/mesh.c: contact may not use <knurl/scene.h>"])
 
@@ -60,7 +60,7 @@ class Tree(unittest.TestCase):
         self.write("samples/hello.c", '#include <knurl/scene.h>\n#include "scene/scene.h"\n#include "base/finite.h"\n')
         self.write("sdk/src/scene/scene.h")
         self.write("sdk/src/base/finite.h")
-        self.assertEqual(check.check_rooms(self.code()),
+        self.assertEqual(check.check_modules(self.code()),
                          ['samples/hello.c: only public headers, <knurl/...>, are for bindings and samples, found '
                           '"scene/scene.h"'])
 

@@ -32,7 +32,7 @@ class Code:
         self.root = root
         self.files = sorted(self._find(FOLDERS) + self._find([PUBLIC]))  # from the repository
         self.uses = {unit_of(path): set() for path in self.files}  # unit: units
-        self.public = collections.defaultdict(set)  # file: rooms whose public headers it includes
+        self.public = collections.defaultdict(set)  # file: modules whose public headers it includes
         self.lines = {}  # file: how many
         self.nonblocking = set()  # units with something that may run in a tick
         self.stray = []  # (file, include) of library headers that are included from elsewhere
@@ -95,13 +95,13 @@ class Code:
             if symbol in defined:
                 self._depend(unit, defined[symbol])
 
-    def room(self, unit):
-        """The library's room of a unit; else the unit's folder."""
+    def module(self, unit):
+        """The library's module of a unit; else the unit's folder."""
         return unit.split("/")[0] if os.path.isdir(os.path.join(self.root, LIBRARY, unit.split("/")[0])) \
             else os.path.dirname(unit)
 
-    def units_of(self, room):
-        return sorted(unit for unit in self.uses if self.room(unit) == room)
+    def units_of(self, module):
+        return sorted(unit for unit in self.uses if self.module(unit) == module)
 
     def circles(self):
         """Sets of units that all depend on one another (Tarjan 1972), sorted."""

@@ -1,4 +1,4 @@
-/* What the unit tests of the pure rooms share: cmocka's headers, comparisons, refusals, random numbers.
+/* What unit tests share: cmocka's headers, comparisons, refusals, random numbers.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_CLOSE_H
 #define KNURL_TEST_CLOSE_H
