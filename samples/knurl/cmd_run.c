@@ -147,7 +147,7 @@ static int is_fake(const run_options *o) {
     return !o->device || strncmp(o->device, "fake", 4) == 0;
 }
 
-/* A fake device gets its hand or its trace; at a real one, somebody sits. */
+/* A fake device gets its hand or its trace; a real one is moved by its user. */
 static int lay(run *r, knurl_surface_id surface, double *last_t) {
     const run_options *o = &r->options;
     if (!is_fake(o)) {
@@ -278,7 +278,7 @@ static void show_progress(const run *r, double seconds) {
     }
 }
 
-/* Nobody has to watch a run that waits for a device for ever. */
+/* A run ends after this long without a position. */
 #define GIVE_UP_S 30.0
 
 static int waits_too_long(const knurl_loop_stats *stats, double rate) {
@@ -306,8 +306,8 @@ static void step(run *r) {
     }
 }
 
-/* Until the loop is done: drains recorder and sound, shows faults and, on a terminal, progress, obeys Ctrl-C and the
- * clock. */
+/* Until the loop is done: drains recorder and sound, shows faults and, on a terminal, progress; ends it at Ctrl-C and
+ * when its time is up. */
 static void play(run *r) {
     const int terminal = isatty(STDERR_FILENO);
     const double end = now() + r->seconds;

@@ -7,7 +7,7 @@
 #define SAMPLE_RATE 48000
 #define BLOCK       480
 #define HEADER      44
-#define LONGEST     (UINT32_MAX - HEADER) /* bytes that a WAV file can tell */
+#define LONGEST     (UINT32_MAX - HEADER) /* bytes that a WAV file's header can hold */
 
 static void put(FILE *f, uint32_t value, int bytes) {
     for (int i = 0; i < bytes; i++) {
@@ -15,7 +15,7 @@ static void put(FILE *f, uint32_t value, int bytes) {
     }
 }
 
-/* The lengths are those of a stream that nobody knows the end of, until they are known. */
+/* The lengths are those of a stream of unknown length, until they are known. */
 static void write_header(FILE *f, uint64_t frames) {
     const uint32_t bytes = frames < LONGEST / 2 ? (uint32_t)frames * 2 : LONGEST;
     fputs("RIFF", f);
@@ -25,7 +25,7 @@ static void write_header(FILE *f, uint64_t frames) {
     put(f, 1, 2);  /* integers */
     put(f, 1, 2);  /* channels */
     put(f, SAMPLE_RATE, 4);
-    put(f, SAMPLE_RATE * 2, 4); /* bytes a second */
+    put(f, SAMPLE_RATE * 2, 4); /* bytes per second */
     put(f, 2, 2);               /* bytes a frame */
     put(f, 16, 2);              /* bits a sample */
     fputs("data", f);

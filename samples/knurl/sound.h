@@ -9,7 +9,7 @@
 typedef struct sound {
     knurl_audio *audio; /* its user for knurl_audio_take() */
     out_file file;
-    double rate;     /* ticks a second */
+    double rate;     /* ticks per second */
     uint64_t ticks;  /* taken; atomic, counted by the haptic thread */
     uint64_t frames; /* written */
 } sound;

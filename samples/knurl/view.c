@@ -94,8 +94,8 @@ static int header_is(struct lws *wsi, enum lws_token_indexes header, const char 
     return 0;
 }
 
-/* What follows "/TOKEN/" in a path, or null. A page of another site may find the port, and by a name that it lets
- * resolve to 127.0.0.1 be of the same origin; the token it cannot know, and the Host header tells on it. */
+/* What follows "/TOKEN/" in a path, or null. A page of another site may find the port, and may be of the same origin by
+ * a name that resolves to 127.0.0.1; it does not have the token, and its Host header names the other site. */
 static const char *asked_for(struct lws *wsi, const view *v, const char *path) {
     const int knows =
         strlen(path) > TOKEN + 1 && path[TOKEN + 1] == '/' && lws_timingsafe_bcmp(path + 1, v->token, TOKEN) == 0;

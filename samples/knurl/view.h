@@ -15,7 +15,7 @@ typedef struct view_desc {
     const char *file;   /* the scene's */
     const char *page;   /* the folder that ./run web fills; it may be missing */
     const char *device; /* its name */
-    double rate;        /* ticks a second */
+    double rate;        /* ticks per second */
 } view_desc;
 
 /* Starts a thread that serves. What the desc points to is used until view_close(). TOOL_OK, or

@@ -28,17 +28,17 @@ TEST_WITH(deadlines_are_absolute_and_do_not_drift, NULL, end_rig) {
         rig_create(&r);
         rig_run(&r);
         assert_true(r.sleeps >= 6000);
-        for (int64_t beat = 0; beat < 6000; beat++) {
-            const long double exact = (long double)start + 1e9L * (long double)(beat + 1) / (long double)rates[i];
-            CHECK_CLOSE((long double)r.deadlines[beat], exact, 1.0L);
+        for (int64_t cycle = 0; cycle < 6000; cycle++) {
+            const long double exact = (long double)start + 1e9L * (long double)(cycle + 1) / (long double)rates[i];
+            CHECK_CLOSE((long double)r.deadlines[cycle], exact, 1.0L);
         }
         assert_int_equal(rig_stats(&r).overruns, 0);
         rig_destroy(&r);
     }
 }
 
-/* Late by so many periods: an overrun above a half; the rhythm goes on from the next whole period after that. */
-TEST_WITH(a_late_tick_is_counted_and_missed_beats_are_skipped, NULL, end_rig) {
+/* Late by so many periods: an overrun above a half; deadlines go on from the next whole period after that. */
+TEST_WITH(a_late_tick_is_counted_and_missed_cycles_are_skipped, NULL, end_rig) {
     static const double lateness[] = {0.0, 0.4, 0.49, 0.51, 0.9, 1.1, 1.6, 2.3, 17.5, 1000.25};
     for (size_t i = 0; i < COUNT_OF(lateness); i++) {
         int64_t late[11] = {0};
@@ -51,7 +51,7 @@ TEST_WITH(a_late_tick_is_counted_and_missed_beats_are_skipped, NULL, end_rig) {
         rig_create(&r);
         rig_run(&r);
         const knurl_loop_stats stats = rig_stats(&r);
-        assert_int_equal(stats.ticks, 40); /* skipped beats are no ticks */
+        assert_int_equal(stats.ticks, 40); /* skipped cycles are no ticks */
         assert_int_equal(stats.overruns, lateness[i] > 0.5);
         for (int64_t sleep = 0; sleep < 40; sleep++) {
             const int64_t skipped = sleep > 10 ? (int64_t)lateness[i] : 0;

@@ -164,7 +164,7 @@ static void lose_and_find(uint32_t blocking) {
     desc.force_callback = no_force;
     desc.reconnect = 1;
     desc.tick_limit = UINT64_MAX;
-    desc.update_rate_hz = 10000.0; /* so fast that beats come late, which they note at the device */
+    desc.update_rate_hz = 10000.0; /* so fast that cycles begin late, which is noted at the device */
     over = 0;
     torn = 0;
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);

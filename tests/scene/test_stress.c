@@ -34,7 +34,7 @@ typedef struct stage {
 } stage;
 
 /* What one HIP found; threads cannot fail a test themselves. */
-typedef struct witness {
+typedef struct observer {
     stage *stage;
     uint32_t hip;
     uint64_t ticks;
@@ -44,7 +44,7 @@ typedef struct witness {
     const char *what; /* of the first failure, with its numbers */
     double found;
     double expected;
-} witness;
+} observer;
 
 static double stiffness_of(uint64_t number) {
     return 100.0 + 0.001 * (double)number;
@@ -73,7 +73,7 @@ static pose moved_pose(uint64_t number) {
 
 /* --- HIPs --- */
 
-static void expect(witness *w, int holds, const char *what, double found, double expected) {
+static void expect(observer *w, int holds, const char *what, double found, double expected) {
     if (!holds && w->failures++ == 0) {
         w->what = what;
         w->found = found;
@@ -82,21 +82,21 @@ static void expect(witness *w, int holds, const char *what, double found, double
 }
 
 /* A number felt: not from before `done`, which was complete when the tick began, and not older than the last. */
-static void expect_number(witness *w, int which, uint64_t number, uint64_t done) {
+static void expect_number(observer *w, int which, uint64_t number, uint64_t done) {
     expect(w, number >= done, "an edit older than one that was complete", (double)number, (double)done);
     expect(w, number >= w->last[which], "an edit older than one felt before", (double)number, (double)w->last[which]);
     w->news[which] += number != w->last[which];
     w->last[which] = number;
 }
 
-static void look_at_felt(witness *w, const knurl_tick_output *out, uint64_t done) {
+static void look_at_felt(observer *w, const knurl_tick_output *out, uint64_t done) {
     expect(w, out->contacts == 1, "FELT is not in contact", out->contacts, 1.0);
     const double stiffness = out->force[2] / (out->height + out->depth);
     expect(w, fabs(out->height - 1e-6 * stiffness) < 1e-12, "half a material", out->height, 1e-6 * stiffness);
     expect_number(w, FELT, number_of(stiffness), done);
 }
 
-static void look_at_moved(witness *w, const knurl_tick_output *out, uint64_t done) {
+static void look_at_moved(observer *w, const knurl_tick_output *out, uint64_t done) {
     expect(w, out->contacts <= 1, "too many contacts", out->contacts, 1.0);
     if (out->contacts == 0) {
         return;
@@ -108,7 +108,7 @@ static void look_at_moved(witness *w, const knurl_tick_output *out, uint64_t don
     expect_number(w, MOVED, done + (shown + CYCLE - done % CYCLE + CYCLE / 2) % CYCLE - CYCLE / 2, done);
 }
 
-static void look_at_comes(witness *w, const knurl_tick_output *out, uint64_t gone) {
+static void look_at_comes(observer *w, const knurl_tick_output *out, uint64_t gone) {
     expect(w, out->contacts <= 1, "too many contacts", out->contacts, 1.0);
     if (out->contacts == 0) {
         expect(w, out->force[2] == 0.0 && out->surface == 0, "a force without contact", out->force[2], 0.0);
@@ -120,7 +120,7 @@ static void look_at_comes(witness *w, const knurl_tick_output *out, uint64_t gon
     expect_number(w, COMES, number, gone + 1);
 }
 
-static void look_at_glides(witness *w, const knurl_tick_output *out) {
+static void look_at_glides(observer *w, const knurl_tick_output *out) {
     expect(w, out->contacts == 1, "GLIDES is not in contact", out->contacts, 1.0);
     expect(w, out->depth >= BOTTOM - 1e-12 && out->depth <= BOTTOM + TALLEST + 1e-12, "a place that is not on its way",
            out->depth, BOTTOM);
@@ -129,7 +129,7 @@ static void look_at_glides(witness *w, const knurl_tick_output *out) {
 
 /* Down on each surface in turn, a while there, and up again. */
 static void *hip_thread(void *user) {
-    witness *w = user;
+    observer *w = user;
     stage *s = w->stage;
     while (!knurl_load_acquire(&s->over)) {
         for (int which = 0; which < 4; which++) {
@@ -289,7 +289,7 @@ static double stress_seconds(void) {
     return given ? strtod(given, NULL) : 1.0;
 }
 
-static void check_witness(const witness *w, const stage *s) {
+static void check_observer(const observer *w, const stage *s) {
     if (w->failures > 0) {
         print_error("HIP %u: %llu failures in %llu ticks; the first: %s: found %.9g, expected %.9g\n", (unsigned)w->hip,
                     (unsigned long long)w->failures, (unsigned long long)w->ticks, w->what, w->found, w->expected);
@@ -303,7 +303,7 @@ static void check_witness(const witness *w, const stage *s) {
 TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
     ledger books = {0, 0, 0, 0};
     stage s;
-    witness w[HIPS];
+    observer w[HIPS];
     pthread_t threads[HIPS + 2];
     uint64_t seed = 9;
     set_stage(&s, &books);
@@ -333,7 +333,7 @@ TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
                   (unsigned long long)s.done[MOVED], (unsigned long long)s.done[COMES],
                   (unsigned long long)s.done[GLIDES]);
     for (uint32_t i = 0; i < HIPS; i++) {
-        check_witness(&w[i], &s);
+        check_observer(&w[i], &s);
         check_newest(&s, i);
     }
     assert_true(halves == 0);

@@ -13,14 +13,14 @@
 
 #define WAITS 100
 
-typedef struct beats {
+typedef struct pace {
     int realtime;
     int priority;
     int early;
-} beats;
+} pace;
 
-static void keep_time(void *argument) {
-    beats *b = argument;
+static void wait_for_deadlines(void *argument) {
+    pace *b = argument;
     b->realtime = knurl_system_make_realtime();
     b->priority = GetThreadPriority(GetCurrentThread());
     const int64_t start = knurl_system_now_ns();
@@ -32,8 +32,8 @@ static void keep_time(void *argument) {
 }
 
 TEST(a_real_time_thread_is_time_critical_and_never_wakes_before_its_deadline) {
-    beats b = {0, 0, 0};
-    knurl_thread *thread = knurl_system_start_thread(keep_time, &b, (size_t)64 * 1024);
+    pace b = {0, 0, 0};
+    knurl_thread *thread = knurl_system_start_thread(wait_for_deadlines, &b, (size_t)64 * 1024);
     assert_non_null(thread);
     knurl_system_join_thread(thread);
     assert_int_equal(b.realtime, 1);

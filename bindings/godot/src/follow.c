@@ -127,7 +127,7 @@ static void move(device *d, surface *s) {
     }
 }
 
-static void feel(device *d, surface *s) {
+static void set_material(device *d, surface *s) {
     knurl_material_desc material;
     grating_describe(s->grating, &material);
     if (knurl_scene_set_material(knurl_session_get_scene(d->session), s->ids[d->slot], &material)) {
@@ -135,7 +135,7 @@ static void feel(device *d, surface *s) {
     }
 }
 
-static void tell(device *d, surface *s) {
+static void apply_changes(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
     if (s->is_leaving) {
@@ -144,7 +144,7 @@ static void tell(device *d, surface *s) {
         follow_put(d, s);
     }
     if (s->ids[d->slot] && s->grating && s->changed & bit) {
-        feel(d, s);
+        set_material(d, s);
     }
     if (s->ids[d->slot] && s->moved & bit) {
         move(d, s);
@@ -174,13 +174,13 @@ void follow_all(device *d) {
     const uint8_t running = running_slots();
     for (surface *s = d->gratings_seen < grating_changes ? surfaces : NULL; s; s = s->next) {
         if (s->ids[d->slot] && s->grating && s->grating->changed_at > d->gratings_seen) {
-            feel(d, s);
+            set_material(d, s);
         }
     }
     d->gratings_seen = grating_changes;
     for (surface *s = marked_surfaces, *next; s; s = next) {
         next = s->next_marked;
-        tell(d, s);
+        apply_changes(d, s);
         if (s->is_leaving && !follow_is_felt(s)) {
             surface_unlist(s);
         } else if (!s->is_leaving && !((s->moved | s->changed | s->made_anew) & running)) {

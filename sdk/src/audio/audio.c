@@ -150,8 +150,8 @@ void knurl_audio_take(const knurl_tick_output *output, void *audio) {
 
 /* --- the audio thread --- */
 
-/* Ticks a sample for the next `count` samples of which `written` ticks are there; 0: too few to begin with. What comes
- * too late is left out. The tick after the one that plays has to be there too: see find_level(). */
+/* Ticks per sample for the next `count` samples of which `written` ticks are there; 0: too few to begin with. What
+ * comes too late is left out. The tick after the one that plays has to be there too: see find_level(). */
 static double choose_pace(knurl_audio *a, uint64_t written, uint32_t count) {
     const double rate = a->desc.update_rate_hz;
     const double pace = rate / a->desc.sample_rate_hz;

@@ -18,7 +18,7 @@
 #define HIGH_PASS_HZ 20.0
 #define SILENCE      1e-6 /* 120 dB below full scale */
 
-/* Where along the way, 0 to 1, the sign of cos(2 pi p) changes; 1: it does not. */
+/* At which share of the distance, 0 to 1, the sign of cos(2 pi p) changes; 1: it does not. */
 static double crossing(double from, double to) {
     const double half = floor(2.0 * from + 0.5);
     const double next = floor(2.0 * to + 0.5);

@@ -1,4 +1,5 @@
-/* The height map as a signal: means over ways, and the filters from there to samples. SPDX-License-Identifier: MIT */
+/* The height map as a signal: means over distances, and the filters that make samples of them. SPDX-License-Identifier:
+ * MIT */
 #ifndef KNURL_SRC_WAVE_H
 #define KNURL_SRC_WAVE_H
 
@@ -16,12 +17,12 @@ typedef struct knurl_wave_filter {
     uint32_t next;                   /* in the ring */
     uint32_t equal;                  /* how many of the latest were the same */
     double latest;                   /* what was pushed */
-    double decay;                    /* of the high pass, a sample */
+    double decay;                    /* of the high pass, per sample */
     double before, output;           /* the high pass's latest input and output */
 } knurl_wave_filter;
 
-/* Eq. 11's mean, -1 to 1, over the straight way from one place to another, cycles along x and y. Over half a cycle or
- * more, where it cannot be heard, 0. */
+/* Eq. 11's mean, -1 to 1, over the straight line from one position to another, cycles along x and y. Over half a cycle
+ * or more, where it cannot be heard, 0. */
 double knurl_wave_mean(const double from[2], const double to[2]) KNURL_NONBLOCKING;
 
 void knurl_wave_filter_init(knurl_wave_filter *filter, double sample_rate_hz);

@@ -54,9 +54,9 @@ static inline void vec3_cross(const double a[3], const double b[3], double out[3
 }
 
 static inline double vec3_distance2(const double a[3], const double b[3]) {
-    double way[3];
-    vec3_sub(a, b, way);
-    return vec3_dot(way, way);
+    double difference[3];
+    vec3_sub(a, b, difference);
+    return vec3_dot(difference, difference);
 }
 
 static inline double vec3_length(const double a[3]) {

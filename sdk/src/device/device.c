@@ -127,7 +127,7 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
-/* Forgets earlier positions. */
+/* Discards earlier positions. */
 static void begin_check(knurl_device *device) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);

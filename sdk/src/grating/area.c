@@ -54,26 +54,26 @@ static double follow(knurl_grating_state *s, double place, double quantum, int *
 
 /* The distance that the velocity makes in one tick along an axis, m; 0 where it is not finite. */
 static double coast(const knurl_grating *g, double velocity) {
-    const double way = velocity / g->update_rate_hz;
-    return fabs(way) < FARTHEST ? way : 0.0;
+    const double distance = velocity / g->update_rate_hz;
+    return fabs(distance) < FARTHEST ? distance : 0.0;
 }
 
-/* The way of a tick, between two phases in cycles: on a line those of the place, on a grid those in the direction of
+/* What a tick passes, from one phase to another, cycles: on a line the position's, on a grid those in the direction of
  * motion. */
-typedef struct way {
+typedef struct span {
     double from, to;
     double length; /* >= 0, or no number */
-} way;
+} span;
 
 /* Moves on by one tick; s->phase gets to where it is, in the direction of motion. */
-static way move(const knurl_grating *g, knurl_grating_state *s, const double position[2], const double velocity[2]) {
+static span move(const knurl_grating *g, knurl_grating_state *s, const double position[2], const double velocity[2]) {
     const double *fs = g->spatial_frequency;
     const int along = choose_axis(g, s, velocity);
     const int is_grid = fs[1 - along] > 0.0;
     const int begins = s->direction == 0;
     int turned = 0;
     double place = position ? position[along] : s->held + coast(g, velocity[along]);
-    if (begins) { /* no way yet */
+    if (begins) { /* nothing is passed yet */
         place = position ? place : 0.0;
         s->direction = velocity[along] < 0.0 ? -1 : 1;
         s->held = place;
@@ -88,29 +88,31 @@ static way move(const knurl_grating *g, knurl_grating_state *s, const double pos
     }
     if (is_grid) {
         s->across = position ? position[1 - along] : s->across + coast(g, velocity[1 - along]);
-        return (way){s->phase - (length < 1.0 ? length : 0.0), s->phase, length};
+        return (span){s->phase - (length < 1.0 ? length : 0.0), s->phase, length};
     }
-    return (way){from, to, length};
+    return (span){from, to, length};
 }
 
 /* One tick cannot render a distance of a cycle or more: the height is 0. */
 double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                            const double velocity[2], double frequency, knurl_grating_output *output) {
     const double rate = grating->update_rate_hz;
-    const way w = move(grating, state, position, velocity);
-    const double before = state->phase - (w.length < 1.0 ? w.length : 0.0); /* as late as means, which are of the way */
+    const span passed = move(grating, state, position, velocity);
+    const double before =
+        state->phase - (passed.length < 1.0 ? passed.length : 0.0); /* as late as a mean over the span */
     const double lowest = (state->moving ? KNURL_AREA_EVENTS_UNTIL : KNURL_AREA_EVENTS_FROM) * rate;
     double height;
-    output->saturated |= !(w.length < 1.0);
+    output->saturated |= !(passed.length < 1.0);
     /* only where distance and velocity agree: after a jump the estimated velocity is wrong for some ticks */
-    if (((w.length > 0.5 * KNURL_AREA_EVENTS_UNTIL && w.length < 1.0) || state->moving || state->playing) &&
+    if (((passed.length > 0.5 * KNURL_AREA_EVENTS_UNTIL && passed.length < 1.0) || state->moving || state->playing) &&
         knurl_locked_play(grating, state, before, before - frequency / rate, frequency, lowest, &height)) {
         return height;
     }
     state->next_tick = 0;
-    if (!(w.length < 1.0)) {
+    if (!(passed.length < 1.0)) {
         return 0.0;
     }
-    return w.from == w.to ? knurl_area_point(grating->amplitude, w.to)
-                          : knurl_area_mean(grating->amplitude, w.from, w.to, w.length < 0.5 ? w.length : 0.5);
+    return passed.from == passed.to
+               ? knurl_area_point(grating->amplitude, passed.to)
+               : knurl_area_mean(grating->amplitude, passed.from, passed.to, passed.length < 0.5 ? passed.length : 0.5);
 }

@@ -17,15 +17,15 @@
 #define KNURL_AREA_EVENTS_FROM  0.46
 #define KNURL_AREA_EVENTS_UNTIL 0.44
 
-/* way * sinc(d), with sinc(d) = sin(pi d)/(pi d) for |d| <= 1/2 to 2e-11: the polynomial in d^2 through Chebyshev's
+/* cycles * sinc(d), with sinc(d) = sin(pi d)/(pi d) for |d| <= 1/2 to 2e-11: the polynomial in d^2 through Chebyshev's
  * points of [0, 1/4], as the product of its zero (near 1, where sinc has one) and two pairs of complex ones. Three
  * short products have less latency and fewer operations than a sum of six terms. */
-static inline double knurl_area_droop(double way, double d) {
+static inline double knurl_area_droop(double cycles, double d) {
     const double x = d * d;
     const double u = x - 3.365848657123835;
     const double v = x - 1.971283354845006;
     const double pairs = (u * u + 1.2880499846963516) * (v * v + 31.545598934987193);
-    return way * 0.0022372048506589257 * (0.9998810763148457 - x) * pairs;
+    return cycles * 0.0022372048506589257 * (0.9998810763148457 - x) * pairs;
 }
 
 /* The integral of the square wave from the start of a cycle, a triangle of height 1/2: how far the phase is from a
@@ -49,23 +49,23 @@ static inline double knurl_area_point(double amplitude, double phase) {
 double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                            const double velocity[2], double frequency, knurl_grating_output *output) KNURL_NONBLOCKING;
 
-/* The height of this tick. frequency: Hz, of this motion. position: null where there is none to go by: the way is then
- * the velocity's. Sets output->saturated where it jumps. */
+/* The height of this tick. frequency: Hz, of this motion. position: null where there is none; the distance is then that
+ * of the velocity. Sets output->saturated where it jumps. */
 static inline double knurl_area_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                                      const double velocity[2], double frequency, knurl_grating_output *output) {
     const double *fs = grating->spatial_frequency;
     if (position && !(fs[1] > 0.0) && !state->playing &&
         frequency < KNURL_AREA_EVENTS_UNTIL * grating->update_rate_hz) { /* ridges one way, and no event */
-        const double way = position[0] - state->held;
+        const double distance = position[0] - state->held;
         const double from = fs[0] * state->held + 0.25;
         const double to = fs[0] * position[0] + 0.25;
-        if (state->direction * (to - from) > 0.0 && fabs(fs[0] * way) < 0.5) {
+        if (state->direction * (to - from) > 0.0 && fabs(fs[0] * distance) < 0.5) {
             state->held = position[0];
             state->moving = 0;
             state->next_tick = 0;
-            return knurl_area_mean(grating->amplitude, from, to, fs[0] * way);
+            return knurl_area_mean(grating->amplitude, from, to, fs[0] * distance);
         }
-        if (way == 0.0 && state->direction) {
+        if (distance == 0.0 && state->direction) {
             state->moving = 0;
             state->next_tick = 0;
             return knurl_area_point(grating->amplitude, to);

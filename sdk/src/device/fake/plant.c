@@ -17,11 +17,11 @@ void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, cons
 
 void knurl_plant_write(knurl_plant *plant, const double force[3]) {
     const double length = vec3_length(force);
-    vec3_scale(length > plant->config.max_force ? plant->config.max_force / length : 1.0, force, plant->told);
+    vec3_scale(length > plant->config.max_force ? plant->config.max_force / length : 1.0, force, plant->commanded);
 }
 
 void knurl_plant_zero_force(knurl_plant *plant) {
-    memset(plant->told, 0, sizeof plant->told);
+    memset(plant->commanded, 0, sizeof plant->commanded);
     memset(plant->forces, 0, sizeof plant->forces);
 }
 
@@ -158,7 +158,7 @@ static const double *acting(const knurl_plant *plant) {
 void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]) {
     const double h = dt / SUBSTEPS;
     plant->newest = (plant->newest + 1) % (KNURL_PLANT_MAX_DELAY + 1);
-    vec3_copy(plant->told, plant->forces[plant->newest]); /* under way from this tick on */
+    vec3_copy(plant->commanded, plant->forces[plant->newest]); /* under way from this tick on */
     if (plant->motion.step != h) {
         make_motion(&plant->config, h, &plant->motion);
     }

@@ -33,7 +33,7 @@ typedef struct knurl_plant {
     knurl_plant_config config;
     double position[3];
     double velocity[3];
-    double told[3];                              /* what the motors are told: holds until they are told again */
+    double commanded[3];                         /* the latest command, which holds until the next one */
     double forces[KNURL_PLANT_MAX_DELAY + 1][3]; /* a ring, one a tick: the newest, and those still under way */
     uint32_t newest;
     knurl_plant_motion motion;
@@ -42,7 +42,7 @@ typedef struct knurl_plant {
 /* At rest at `position`, no force under way. */
 void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, const double position[3]);
 
-/* What the motors are told from now on. */
+/* Commands a force, which holds until the next one. */
 void knurl_plant_write(knurl_plant *plant, const double force[3]);
 
 /* Cuts the motors off: no force, and none under way. */
@@ -55,7 +55,7 @@ void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], con
 void knurl_plant_forces(const knurl_plant *plant, const double target[3], const double target_velocity[3],
                         double motor[3], double hand[3]);
 
-/* The position as the encoders tell it. */
+/* The position as the encoders measure it. */
 void knurl_plant_measure(const knurl_plant *plant, double position[3]);
 
 #endif

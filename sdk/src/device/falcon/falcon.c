@@ -19,9 +19,9 @@
  * first in some directions, see kinematics.h. */
 #define MAX_FORCE 8.9
 
-/* What the motors are told over what libnifalcon's gain (kinematics.h) would tell them. In recorded packets of the
- * maker's own driver it is 0.35 to 0.53; nobody has weighed a force yet. With the least of that no force is stronger
- * than was asked for, and none weaker than 0.35 / 0.53 = 0.66 of it. */
+/* What is sent to the motors, as a share of what libnifalcon's gain (kinematics.h) would send. In recorded packets of
+ * the maker's own driver it is 0.35 to 0.53; nobody has weighed a force yet. With the least of that no force is
+ * stronger than was asked for, and none weaker than 0.35 / 0.53 = 0.66 of it. */
 #define GAIN       0.35
 #define GAIN_LEAST 0.05
 #define GAIN_MOST  1.0
@@ -84,9 +84,9 @@ static int send(falcon *f, const double force[3]) {
     int16_t motors[3] = {0, 0, 0};
     uint32_t light = KNURL_FALCON_RED;
     if (f->has_position) {
-        double told[3];
-        vec3_scale(f->gain, force, told);
-        (void)knurl_falcon_motors(f->position, f->theta, told, motors);
+        double scaled[3];
+        vec3_scale(f->gain, force, scaled);
+        (void)knurl_falcon_motors(f->position, f->theta, scaled, motors);
         light = is_zero(force) ? KNURL_FALCON_GREEN : KNURL_FALCON_BLUE;
     }
     knurl_falcon_encode(motors, KNURL_FALCON_HOMING | light, frame);

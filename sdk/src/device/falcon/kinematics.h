@@ -14,8 +14,8 @@
 /* m either side of the centre beyond which no answer is believed. */
 #define KNURL_FALCON_REACH 0.06
 
-/* What one motor may be told at most: libnifalcon's documentation calls this the limit, and nothing in the device or
- * there enforces it. */
+/* The most that may be sent to one motor: libnifalcon's documentation calls this the limit, and nothing in the device
+ * or there enforces it. */
 #define KNURL_FALCON_MOTOR_MOST 4096
 
 /* The angle (rad) that an encoder's count stands for. */
@@ -31,10 +31,10 @@ int knurl_falcon_forward(const double theta[3], double position[3]);
 /* d theta / d x at a position with its angles, a row a leg. 0: a leg is stretched out, or the numbers are none. */
 int knurl_falcon_jacobian(const double position[3], const double theta[3], double jacobian[9]);
 
-/* What the motors have to be told for a force (N), by libnifalcon's gain, which was never calibrated and is likely 1.9
- * to 2.9 times too strong (falcon.c takes less). They all give way where one would be told too much, so that the
+/* What to send to the motors for a force (N), by libnifalcon's gain, which was never calibrated and is likely 1.9
+ * to 2.9 times too strong (falcon.c takes less). All are reduced where one would get too much, so that the
  * direction is kept: by that gain 4096 units make 7 N sideways and 16 N to and fro at the centre. 0: no such position
- * or force; the motors are told 0 then. */
+ * or force; the motors get 0 then. */
 int knurl_falcon_motors(const double position[3], const double theta[3], const double force[3], int16_t motors[3]);
 
 #endif

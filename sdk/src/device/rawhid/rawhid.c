@@ -1,5 +1,5 @@
-/* WoodenHaptics and its kin: a microcontroller with encoders and current-controlled motors that speaks raw HID. Read
- * exchange() first. SPDX-License-Identifier: MIT */
+/* WoodenHaptics and devices like it: a microcontroller with encoders and current-controlled motors that speaks raw HID.
+ * Read exchange() first. SPDX-License-Identifier: MIT */
 #include "device/rawhid/rawhid.h"
 
 #include "base/atomic.h"

@@ -93,16 +93,16 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
     for (size_t i = 0; i < count && handle == HD_NO_DEVICE; i++) {
         (void)touch_take_errors(hd, NULL);
         handle = hd->init(name[0] ? name : defaults[i]);
-        const uint32_t told = touch_take_errors(hd, NULL);
-        *code = *code ? *code : told; /* the first name's */
+        const uint32_t error = touch_take_errors(hd, NULL);
+        *code = *code ? *code : error; /* the first name's */
         handle = handle <= HD_DEVICE_MOST ? handle : HD_NO_DEVICE;
         if (handle != HD_NO_DEVICE && touch_find_slot(handle)) {
             *code = 0x0301;
             return HD_NO_DEVICE; /* another of ours: nothing to give back */
         }
-        if (handle != HD_NO_DEVICE && told) {
+        if (handle != HD_NO_DEVICE && error) {
             hd->disable_device(handle);
-            *code = told;
+            *code = error;
             handle = HD_NO_DEVICE;
         }
     }

@@ -28,8 +28,8 @@ static void ask_workspace(touch *t) {
 }
 
 static const char *ask_string(touch *t, hd_enum what, const char *otherwise) {
-    const char *told = t->hd->get_string(what);
-    return told && told[0] ? told : otherwise;
+    const char *answer = t->hd->get_string(what);
+    return answer && answer[0] ? answer : otherwise;
 }
 
 void touch_ask_info(touch *t) {
