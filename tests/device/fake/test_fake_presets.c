@@ -97,6 +97,18 @@ TEST(keys_after_a_preset_count_and_keys_before_it_do_not) {
     CHECK_SAME(info_of("fake:?heat_time=3").heat_time, 3.0);
 }
 
+TEST(every_preset_is_taken_and_named_by_the_help) {
+    static const char *const names[] = {"touch", "falcon", "woodenhaptics", "omega", "inverse3", "ideal"};
+    char uri[64];
+    char listed[64];
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        (void)snprintf(uri, sizeof uri, "fake:?preset=%s", names[i]);
+        (void)snprintf(listed, sizeof listed, "%s, ", names[i]);
+        (void)info_of(uri);
+        assert_non_null(strstr(knurl_fake_keys(), listed));
+    }
+}
+
 TEST(a_preset_that_is_none_is_refused) {
     static const char *const bad[] = {"fake:?preset=delta", "fake:?preset=", "fake:?preset",      "fake:?preset=Touch",
                                       "fake:?exact=0.5",    "fake:?exact=2", "fake:?hand_mass=-1"};
@@ -107,7 +119,7 @@ TEST(a_preset_that_is_none_is_refused) {
         CHECK_REFUSED(knurl_device_open(bad[i], &out.device), KNURL_ERROR_ARGUMENT, out);
     }
     CHECK_REFUSED(knurl_device_open("fake:?preset=delta", &out.device), KNURL_ERROR_ARGUMENT, out);
-    check_message("delta");
+    check_message("expected one of touch, falcon, woodenhaptics, omega, inverse3, ideal, found 'delta'");
 }
 
 /* x = F t^2 / 2 (m + hand's m). */

@@ -33,4 +33,9 @@ TEST(a_port_that_is_not_there_is_named) {
     process_free(&p);
 }
 
+TEST(a_file_that_is_no_port_is_told_apart_from_one_in_use) {
+    process p = RUN_TOOL("run", plate, "--device", "serial:/dev/null", "--seconds", "0.1");
+    check_refused(&p, 1, "/dev/null could not be opened|expected a serial port", "serial:/dev/null");
+}
+
 SUITE_FIXTURES(make_folder, remove_folder)

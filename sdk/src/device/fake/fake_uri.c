@@ -28,12 +28,16 @@ static const struct {
 #undef KNURL_FAKE_PRESET
 };
 
+/* "touch, falcon, ", and so on. */
+#define KNURL_FAKE_PRESET_WORD(name, about, options) #name ", "
+#define PRESET_WORDS                                 KNURL_FAKE_PRESETS(KNURL_FAKE_PRESET_WORD)
+
 const char *knurl_fake_preset_name(int32_t preset) {
     return presets[preset].about;
 }
 
 const char *knurl_fake_keys(void) {
-    return "preset=touch \ttouch, falcon, woodenhaptics, omega or ideal: sets all keys anew\n"
+    return "preset=touch \t" PRESET_WORDS "each of which sets all keys anew\n"
 #define KNURL_FAKE_LINE(name, standard, least, greatest, unit, meaning) #name "=" #standard " " unit "\t" meaning "\n"
         KNURL_FAKE_KEYS(KNURL_FAKE_LINE)
 #undef KNURL_FAKE_LINE
@@ -47,9 +51,9 @@ static knurl_result set_value(const key *k, const char *text, size_t length, knu
                      k->offset != offsetof(knurl_fake_settings, seed) &&
                      k->offset != offsetof(knurl_fake_settings, exact);
     if (!is_number || !knurl_is_within(value, k->least, k->greatest) || !(real || value == floor(value))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %g%s%s, found '%.*s'",
-                          k->name, real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit,
-                          (int)length, text);
+        return knurl_fail(
+            KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %.10g%s%s, found '%.*s'", k->name,
+            real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit, (int)length, text);
     }
     memcpy((char *)settings + k->offset, &value, sizeof value);
     settings->resolution_named |= k->offset == offsetof(knurl_fake_settings, resolution);
@@ -104,8 +108,7 @@ static knurl_result set_preset(const char *text, size_t length, knurl_fake_setti
             return result;
         }
     }
-    return knurl_fail(KNURL_ERROR_ARGUMENT,
-                      "device fake: preset: expected touch, falcon, woodenhaptics, omega or ideal, found '%.*s'",
+    return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: preset: expected one of " PRESET_WORDS "found '%.*s'",
                       (int)(length < 64 ? length : 64), text);
 }
 

@@ -255,8 +255,7 @@ static knurl_result open_port(rawhid *r, knurl_rawhid_found *chosen) {
         return result;
     }
     if (!r->bus->open(r->bus->user, &found, &r->port, why, sizeof why)) {
-        return knurl_fail(KNURL_ERROR_SYSTEM,
-                          "device '%s' (%04x:%04x): %s could not be opened: %s; end other programs that use it",
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device '%s' (%04x:%04x): %s could not be opened: %s",
                           r->base.driver->uri, found.vendor, found.product, found.path, why);
     }
     r->wanted.vendor = found.vendor; /* from now on it is this one that is meant */

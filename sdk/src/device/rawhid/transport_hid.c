@@ -216,7 +216,7 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     }
     p->node = knurl_system_take_node(found->path);
     if (p->node == 0) {
-        (void)snprintf(why, why_size, "it is in use: another program, or this one, has it open");
+        (void)snprintf(why, why_size, "it is in use: another program, or this one, has it open; end that");
     } else {
         p->device = open_path(found->path, why, why_size); /* what could not be taken for want of rights says so here */
     }

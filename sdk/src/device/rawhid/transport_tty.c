@@ -73,9 +73,11 @@ static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char 
     made->descriptor = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (made->descriptor < 0 || !set_raw(made->descriptor)) {
         (void)snprintf(why, why_size, "%s%s", strerror(errno),
-                       errno == EACCES ? "; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
-                                         "--reload' and 'udevadm trigger', and plug it in again"
-                                       : "");
+                       errno == EACCES   ? "; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
+                                           "--reload' and 'udevadm trigger', and plug it in again"
+                       : errno == EBUSY  ? "; end other programs that use it"
+                       : errno == ENOTTY ? "; expected a serial port"
+                                         : "");
         if (made->descriptor >= 0) {
             (void)close(made->descriptor);
         }
