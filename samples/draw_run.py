@@ -11,19 +11,35 @@ SPDX-License-Identifier: MIT
 import csv
 import html
 import math
+import os
 import sys
 
 WIDTH, LEFT, RIGHT = 900, 80, 860
 INK, GREY, RULE, PALE, CURVE = "#1c2b33", "#66737a", "#c3ccd0", "#eef2f4", "#0f6e84"
 
 
+COLUMNS = ("t", "ft", "height", "fx", "fy", "fz", "vx", "vy", "surface")
+
+
+def fail(why):
+    sys.exit(f"draw_run.py: {why}")
+
+
 def read(path):
     """The run's rows as dictionaries of floats; `surface` stays text."""
+    rows = []
     with open(path, encoding="utf-8", newline="") as file:
-        rows = [{key: value if key == "surface" else float(value or "nan") for key, value in row.items()}
-                for row in csv.DictReader(file)]
-    if len(rows) < 2 or not {"t", "ft", "height", "fx", "fy", "fz", "vx", "vy", "surface"} <= rows[0].keys():
-        sys.exit(f"draw_run.py: {path}: expected the CSV of `knurl run ... --out`, found something else")
+        reader = csv.DictReader(file)
+        for name in COLUMNS:
+            if name not in (reader.fieldnames or ()):
+                fail(f"{path}: expected the CSV of `knurl run ... --out`, found no column '{name}'")
+        for row in reader:
+            try:
+                rows.append({name: row[name] if name == "surface" else float(row[name]) for name in COLUMNS})
+            except (TypeError, ValueError) as error:
+                fail(f"{path}: line {reader.line_num}: expected a number in each column, found: {error}")
+    if len(rows) < 2:
+        fail(f"{path}: expected at least two rows, found {len(rows)}")
     return rows
 
 
@@ -106,12 +122,18 @@ def main():
     if len(sys.argv) != 3 or sys.argv[1].startswith("-"):
         print(__doc__)
         sys.exit(0 if {"-h", "--help"} & set(sys.argv[1:]) else 2)
+    run, out = sys.argv[1:]
     try:
-        rows = read(sys.argv[1])
-        with open(sys.argv[2], "w", encoding="utf-8") as file:
-            file.write(draw(rows))
-    except (OSError, ValueError) as error:
-        sys.exit(f"draw_run.py: {error}")
+        rows = read(run)
+        picture = draw(rows)
+        if os.path.exists(out) and os.path.samefile(run, out):
+            fail(f"{out}: expected another file than the run, which would be replaced")
+        with open(out, "w", encoding="utf-8") as file:
+            file.write(picture)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    except UnicodeDecodeError:
+        fail(f"{run}: expected the CSV of `knurl run ... --out`, found no text")
     print(say(rows))
 
 

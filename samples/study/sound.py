@@ -12,12 +12,15 @@ import os
 import sys
 import wave
 
-import matplotlib
-import numpy as np
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+try:
+    import matplotlib
+    import numpy as np
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
 
-from style import ASKED, GREY, INPUTS, SHADES, STYLE, BadInput, heading, read_table, save
+    from style import ASKED, GREY, INPUTS, SHADES, STYLE, BadInput, heading, read_table, save
+except ImportError as missing:
+    sys.exit(f"sound.py: {missing} for {sys.executable}; apt-get install python3-matplotlib, then use /usr/bin/python3")
 
 RANGE_DB = 50.0  # below the loudest
 SOUND_TOP_HZ = 1500.0

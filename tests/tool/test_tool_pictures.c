@@ -1,0 +1,120 @@
+/* What samples/study/plot.py and samples/draw_run.py draw of a run: never over the run, and with a sentence on what
+ * they cannot read. SPDX-License-Identifier: MIT */
+#include "support/close.h"
+#include "support/tool.h"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+
+static const char python[] = "/usr/bin/python3";
+static const char plotter[] = KNURL_TEST_ASSETS "/../samples/study/plot.py";
+static const char drawer[] = KNURL_TEST_ASSETS "/../samples/draw_run.py"; /* without matplotlib */
+
+static int can_plot(void) {
+    const char *const arguments[] = {python, "-c",
+                                     "import sys, importlib.util as u; sys.exit(not u.find_spec('matplotlib'))", NULL};
+    process p = process_start(arguments, NULL);
+    process_finish(&p);
+    process_free(&p);
+    return p.exit_code == 0;
+}
+
+TEST(a_picture_does_not_replace_the_run_that_it_shows) {
+    if (!can_plot()) {
+        print_message("skipped: no matplotlib for %s\n", python);
+        skip();
+    }
+    const char *run = tool_path("run.csv");
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.5", "--out", run);
+    check_done(&p);
+    process_free(&p);
+    assert_int_equal(link(run, tool_path("run.png")), 0);
+    const char *const outputs[] = {run, tool_path("run.png")};
+    for (size_t i = 0; i < COUNT_OF(outputs); i++) {
+        char *before = read_file(run);
+        const char *const arguments[] = {python, plotter, run, "--out", outputs[i], NULL};
+        p = process_start(arguments, NULL);
+        process_finish(&p);
+        assert_int_equal(p.exit_code, 1);
+        assert_non_null(strstr(p.err, "a file that is read"));
+        process_free(&p);
+        char *after = read_file(run);
+        assert_string_equal(before, after);
+        free(before);
+        free(after);
+    }
+    const char *const good[] = {python, plotter, run, "--out", tool_path("good.png"), NULL};
+    p = process_start(good, NULL);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    assert_true(file_exists(tool_path("good.png")));
+    const char *const straight[] = {python, plotter, run, "--out", "/dev/stdout", NULL};
+    p = process_start(straight, NULL);
+    process_finish(&p);
+    assert_int_equal(p.exit_code, 0);
+    assert_memory_equal(p.out, "\x89PNG", 4);
+    process_free(&p);
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+static process draw_run(const char *run, const char *picture) {
+    return run_tool((const char *const[]){python, drawer, run, picture, NULL});
+}
+
+TEST(a_drawing_does_not_replace_the_run_that_it_shows) {
+    const char *run = tool_path("drawn.csv");
+    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--out", run);
+    check_done(&p);
+    process_free(&p);
+    assert_int_equal(link(run, tool_path("drawn.svg")), 0);
+    const char *const outputs[] = {run, tool_path("drawn.svg")};
+    char *before = read_file(run);
+    for (size_t i = 0; i < COUNT_OF(outputs); i++) {
+        p = draw_run(run, outputs[i]);
+        assert_int_equal(p.exit_code, 1);
+        assert_non_null(strstr(p.err, "expected another file than the run"));
+        process_free(&p);
+        char *after = read_file(run);
+        assert_string_equal(before, after);
+        free(after);
+    }
+    free(before);
+    p = draw_run(run, tool_path("good.svg"));
+    assert_int_equal(p.exit_code, 0);
+    assert_non_null(strstr(p.out, "ridges"));
+    process_free(&p);
+    char *picture = read_file(tool_path("good.svg"));
+    assert_int_equal(strncmp(picture, "<svg", 4), 0);
+    free(picture);
+}
+
+#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
+#define ROW    "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n"
+
+TEST(a_drawing_of_what_is_no_run_is_refused_with_its_file_and_line) {
+    static const struct {
+        const char *text, *words;
+    } runs[] = {{"", "found no column 't'"},
+                {"t,x,y,z\n0,0,0,0\n1,0,0,0\n", "found no column 'ft'"},
+                {HEADER, "at least two rows, found 0"},
+                {HEADER ROW, "at least two rows, found 1"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,fast,0,0,0,0\n", "line 3: expected a number"},
+                {HEADER ROW "1,0,0\n", "line 3: expected a number"},
+                {"\xff\xfe\x01", "found no text"}};
+    for (size_t i = 0; i < COUNT_OF(runs); i++) {
+        write_text(tool_path("bad.csv"), runs[i].text);
+        process p = draw_run(tool_path("bad.csv"), tool_path("bad.svg"));
+        assert_int_equal(p.exit_code, 1);
+        if (!strstr(p.err, "bad.csv: ") || !strstr(p.err, runs[i].words) || lines_in(p.err) != 1) {
+            fail_msg("wanted \"%s\" in one line: %s", runs[i].words, p.err);
+        }
+        process_free(&p);
+        assert_false(file_exists(tool_path("bad.svg")));
+    }
+    process p = draw_run(tool_path("gone.csv"), tool_path("bad.svg"));
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.err, "gone.csv: No such file or directory"));
+    process_free(&p);
+}
+
+SUITE_FIXTURES(make_folder, remove_folder)
