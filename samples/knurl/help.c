@@ -1,10 +1,11 @@
 /* The commands of the tool in one table: help, a man page and completions. SPDX-License-Identifier: MIT */
 #include "help.h"
 
-#include "tool.h"
+#include "options.h"
 
 #include <knurl/knurl.h>
 
+#include <stdio.h>
 #include <string.h>
 
 #define OPTIONS_MAX 18

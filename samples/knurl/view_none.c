@@ -1,6 +1,7 @@
 /* --view in a build without libwebsockets. SPDX-License-Identifier: MIT */
-#include "tool.h"
 #include "view.h"
+
+#include "options.h"
 
 int view_open(const view_desc *desc, view **opened) {
     (void)desc;

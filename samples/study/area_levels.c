@@ -4,7 +4,6 @@
 
 #include "gratings.h"
 #include "steady.h"
-#include "study.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,8 +5,6 @@
 #include "gratings.h"
 #include "steady.h"
 
-#include <math.h>
-
 #define FS       1000.0
 #define FIRST_HZ 20.0
 #define STEP_HZ  5.0

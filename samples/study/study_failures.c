@@ -1,6 +1,5 @@
 /* The catalogue's rows, its traces and its page. SPDX-License-Identifier: MIT */
 #include "failures.h"
-#include "gratings.h"
 #include "study.h"
 
 #include <math.h>

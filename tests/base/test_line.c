@@ -1,7 +1,7 @@
 /* Names that do something to a terminal, and where they come out. SPDX-License-Identifier: MIT */
 #include "support/suite.h"
 
-#include <knurl/scene.h>
+#include <knurl/base.h>
 
 #include <string.h>
 

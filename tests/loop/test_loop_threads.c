@@ -3,7 +3,6 @@
 #include "support/close.h"
 #include "support/rig.h"
 
-#include "base/atomic.h"
 #include "base/system.h"
 
 #include <stdio.h>

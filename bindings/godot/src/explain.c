@@ -4,7 +4,6 @@
 #include "geometry.h"
 #include "preview.h"
 #include "surface_node.h"
-#include "warnings.h"
 
 #include <math.h>
 #include <stdio.h>

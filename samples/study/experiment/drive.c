@@ -3,7 +3,6 @@
 
 #include "os.h"
 
-#include <string.h>
 #include <unistd.h>
 
 volatile sig_atomic_t exp_interrupted;

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define RING_TICKS    16384 /* 1.6 s at 10 kHz */
 #define LATE_S        0.02  /* more than this behind, ticks are left out */

@@ -2,7 +2,6 @@
 #include "device/drivers.h"
 
 #include "base/atomic.h"
-#include "base/base.h"
 #include "base/system.h"
 #include "device/listings.h"
 

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include "home.h"
 
-#include "device/driver.h"
 #include "device/port.h"
 
 #include <knurl/loop.h>

@@ -1,8 +1,6 @@
 /* Force Dimension's library when it is not there, and the tool with the stand-in. SPDX-License-Identifier: MIT */
 #include "support/tool.h"
 
-#include <knurl/device.h>
-
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 TEST(without_the_library_the_tool_says_what_helps) {

@@ -1,7 +1,6 @@
 /* The simulated Haply Inverse Service. SPDX-License-Identifier: MIT */
 #include "device/inverse3/inverse3_sim.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -3,7 +3,6 @@
 #include "support/close.h"
 
 #include "base/system.h"
-#include "device/driver.h"
 #include "device/port.h"
 
 static void sleep_ms(int ms) {

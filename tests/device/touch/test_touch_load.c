@@ -1,8 +1,6 @@
 /* Finding the HD library: what is told when it cannot be had, and how long it stays. SPDX-License-Identifier: MIT */
 #include "device/touch/stub.h"
 
-#include "device/touch/hd_load.h"
-
 #include <dlfcn.h>
 #include <stdio.h>
 

@@ -2,7 +2,6 @@
  * over a force and asks for a position. Read exchange() first. SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd.h"
 
-#include "base/vec3.h"
 #include "device/drivers.h"
 #include "device/dynlib.h"
 #include "device/link.h"

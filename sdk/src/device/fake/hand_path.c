@@ -1,16 +1,15 @@
 /* Paths over a surface for the simulated hand. SPDX-License-Identifier: MIT */
 #include "device/fake/hand_path.h"
 
-#include "base/base.h"
 #include "base/vec3.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static double distance(const double *a, const double *b) {
-    double way[3];
-    vec3_sub(b, a, way);
-    return vec3_length(way);
+    double between[3];
+    vec3_sub(b, a, between);
+    return vec3_length(between);
 }
 
 /* Its length, m, or an error. */

@@ -15,7 +15,6 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
 
 #else
 
-#include "base/system.h"
 #include "device/dynlib.h"
 
 #include <libwebsockets.h>

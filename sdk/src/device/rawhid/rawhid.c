@@ -3,7 +3,6 @@
 #include "device/rawhid/rawhid.h"
 
 #include "base/atomic.h"
-#include "base/vec3.h"
 #include "device/drivers.h"
 #include "device/link.h"
 #include "device/listings.h"

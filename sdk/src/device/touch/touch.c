@@ -8,7 +8,6 @@
 #include "base/atomic.h"
 #include "base/system.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
