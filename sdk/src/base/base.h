@@ -23,6 +23,9 @@
 #define KNURL_UNLIKELY(condition) (condition)
 #endif
 
+/* Begins a function that only prefetches: GCC 12 takes its call for one without effect, and leaves it out. */
+#define KNURL_PREFETCHING static inline __attribute__((always_inline))
+
 /* For a call on the haptic path that fails: this thread's error message becomes `sentence`, which stays where it is (a
  * literal, knurl_result_string()). One store into the thread's memory: no heap, lock or formatting. Returns `code`. */
 #if defined(__GNUC__)

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_walk.h"
 
+#include "base/base.h"
 #include "contact/corner.h"
 #include "contact/mesh_query.h"
 
@@ -53,9 +54,21 @@ static void vertex_of(const knurl_mesh *mesh, uint32_t corner, double out[3]) {
     out[2] = (double)p[2];
 }
 
+/* What the walk may read next, after a triangle: in a mesh larger than the caches, its waits for memory, one after the
+ * other, would be nearly all of its time. */
+KNURL_PREFETCHING void fetch_neighbours(const knurl_mesh *mesh, uint32_t triangle) {
+    const uint32_t *beyond = &mesh->opposite[3 * (size_t)triangle];
+    for (int k = 0; k < 3; k++) {
+        const size_t next = 3 * (size_t)((beyond[k] & KNURL_CORNER_MASK) >> 2); /* of a boundary: any triangle */
+        __builtin_prefetch(&mesh->opposite[next]);
+        __builtin_prefetch(&mesh->triangles[next]);
+    }
+}
+
 /* A triangle beyond the feature has a closer point only where its far corner lies towards p; then: has it? */
 static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from, knurl_closest_point *to) {
     double corner[3];
+    __builtin_prefetch(&w->mesh->opposite[3 * (size_t)(apex >> 2)]);
     vertex_of(w->mesh, apex, corner);
     vec3_sub(corner, from->point, corner);
     if (!(vec3_dot(corner, from->offset) > 0.0)) {
@@ -65,6 +78,7 @@ static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from
         w->capped = 1;
         return 0;
     }
+    fetch_neighbours(w->mesh, apex >> 2);
     knurl_closest_on_triangle(w->mesh, apex >> 2, w->p, to);
     return is_closer(to, from);
 }
