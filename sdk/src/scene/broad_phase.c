@@ -303,7 +303,10 @@ static uint32_t note(uint32_t place, uint32_t limit, uint32_t count, uint32_t *p
 static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t limit, uint32_t count,
                     const uint32_t *places) {
     int noted = 0;
-    for (uint32_t i = 0; knurl_load_relaxed(&index->rank[place]) && i < count && i < limit; i++) {
+    if (!knurl_load_relaxed(&index->rank[place])) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < count && i < limit; i++) {
         noted |= places[i] == place;
     }
     return noted;

@@ -100,8 +100,9 @@ static void insert_new(knurl_candidates *c, const uint32_t *places, uint32_t fou
 }
 
 static void load_box(const knurl_broad_index *index, knurl_candidate *candidate) {
+    const float *from = index->boxes[candidate->place];
     for (int i = 0; i < 6; i++) {
-        __atomic_load(&index->boxes[candidate->place][i], &candidate->box[i], __ATOMIC_RELAXED);
+        __atomic_load(&from[i], &candidate->box[i], __ATOMIC_RELAXED);
     }
 }
 
@@ -183,6 +184,22 @@ void knurl_candidates_update(knurl_candidates *c, const knurl_broad_phase *phase
     if (c->version != knurl_load_acquire(&phase->version) || path->is_first || !inside || path->depth > c->depth ||
         c->overflow || path->everything) {
         query_broad_phase(c, phase, index, path);
+    }
+}
+
+void knurl_candidates_look_ahead(knurl_candidates *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                                 const knurl_hip_path *path) {
+    knurl_hip_path next = *path;
+    double to[3];
+    int leaves = 0;
+    for (int i = 0; i < 3; i++) {
+        to[i] = 2.0 * path->to[i] - path->from[i];
+        leaves |= to[i] < c->low[i] || to[i] > c->high[i];
+    }
+    if (leaves && c->version != 0) {
+        next.from = path->to;
+        next.to = to;
+        query_broad_phase(c, phase, index, &next);
     }
 }
 

@@ -47,6 +47,11 @@ void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;
 void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_phase *phase,
                              const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
 
+/* In a tick that has had little to do: where the HIP would leave the list's box in the next one if it went on alike,
+ * makes the list anew now, so that few ticks both do that and go from surface to surface. */
+void knurl_candidates_look_ahead(knurl_candidates *candidates, const knurl_broad_phase *phase,
+                                 const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
+
 /* 1: the list is complete, and only surfaces in contact need to be tested, as in most ticks. depth: m, of the deepest
  * contact. */
 static inline int knurl_candidates_are_clear(const knurl_candidates *c, const knurl_broad_phase *phase,

@@ -183,9 +183,13 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
     knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
 }
 
+/* Visits of a tick with several surfaces near that has had little to do: the faces that it went on with were free. */
+#define FEW_VISITS 4
+
 /* Finds contact with several surfaces. */
-__attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_index *index,
-                                                   const double position[3], uint32_t *flags) {
+__attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_phase *phase,
+                                                   const knurl_broad_index *index, const double position[3],
+                                                   uint32_t *flags) {
     const knurl_hip_path path = find_path(c, position);
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
@@ -200,6 +204,9 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
         double way[3];
         vec3_sub(c->proxy, position, way);
         c->depth = vec3_length(way);
+    }
+    if (c->pressed && c->max_visits - c->visits.left <= FEW_VISITS) {
+        knurl_candidates_look_ahead(&c->candidates, phase, index, &path);
     }
     knurl_candidates_measure(&c->candidates, position, c->proxy, c->active_count < before || c->everything);
 }
@@ -216,7 +223,7 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
         alone = update_candidates(c, phase, index, position, &margin);
     }
     if (KNURL_UNLIKELY(!alone || !hold_alone(c, index, alone, position, margin))) {
-        find_jointly(c, index, position, flags);
+        find_jointly(c, phase, index, position, flags);
     } else {
         keep_proxy(c, position);
         if (KNURL_UNLIKELY(!clear)) {
