@@ -1,6 +1,11 @@
 /* The command-line tool with a WoodenHaptics on an emulated serial port. SPDX-License-Identifier: MIT */
 #include "support/tool.h"
 
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #define ON_EMULATED(...)                                                                                               \
     run_tool((const char *const[]){EMULATE_SERIAL, tool_path("port"), "--", KNURL_TEST_TOOL, __VA_ARGS__, NULL})
 
@@ -36,6 +41,19 @@ TEST(a_port_that_is_not_there_is_named) {
 TEST(a_file_that_is_no_port_is_told_apart_from_one_in_use) {
     process p = RUN_TOOL("run", plate, "--device", "serial:/dev/null", "--seconds", "0.1");
     check_refused(&p, 1, "/dev/null could not be opened|expected a serial port", "serial:/dev/null");
+}
+
+TEST(a_port_that_another_program_has_locked_is_refused) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+    const int other = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    assert_true(other >= 0 && flock(other, LOCK_EX) == 0);
+    char uri[128];
+    (void)snprintf(uri, sizeof uri, "serial:%s", ptsname(terminal));
+    process p = RUN_TOOL("run", plate, "--device", uri, "--seconds", "0.1");
+    check_refused(&p, 1, "could not be opened|busy; end other programs that use it", uri);
+    (void)close(other);
+    (void)close(terminal);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

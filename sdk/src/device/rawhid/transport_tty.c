@@ -15,6 +15,7 @@ const knurl_serial_ports *knurl_serial_tty(void) {
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -63,6 +64,15 @@ static int set_raw(int descriptor) {
     return tcsetattr(descriptor, TCSANOW, &settings) == 0 && tcflush(descriptor, TCIOFLUSH) == 0;
 }
 
+/* Locks a port against other programs that lock it: two would drive the same motors. */
+static int lock(int descriptor) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+        return 1;
+    }
+    errno = errno == EWOULDBLOCK ? EBUSY : errno;
+    return 0;
+}
+
 static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char *why, size_t why_size) {
     (void)user;
     tty *made = malloc(sizeof *made);
@@ -71,7 +81,7 @@ static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char 
         return 0;
     }
     made->descriptor = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (made->descriptor < 0 || !set_raw(made->descriptor)) {
+    if (made->descriptor < 0 || !lock(made->descriptor) || !set_raw(made->descriptor)) {
         (void)snprintf(why, why_size, "%s%s", strerror(errno),
                        errno == EACCES   ? "; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
                                            "--reload' and 'udevadm trigger', and plug it in again"
