@@ -11,7 +11,7 @@ PANELS = (("push", "mean force over 50 ms (A)", (0, 0.2)),
           ("level", "level of the ridges' line (A; 4/\u03c0 is meant)", (0.6, 1.6)),
           ("unevenness", "wavering: CV of the rms in 12.5 ms", (0, 0.15)),
           ("spurious", "false tones: share of the power below $f_h/2$", (0, 0.4)))
-CANDIDATES = {"point": ("Eq. 11 at a point (S1)", METHODS["S1"], "-"), "place": ("its mean along the way", GREY, "-"),
+CANDIDATES = {"point": ("Eq. 11 at a point (S1)", METHODS["S1"], "-"), "place": ("its mean along the path", GREY, "-"),
               "way": ("mean over Eq. 12's way", METHODS["locked"], "--"),
               "axis": ("mean along an axis (area)", METHODS["area"], "-")}
 

@@ -89,7 +89,7 @@ def draw_speed_accuracy(data, folder):
     figure.text(0.02, 0.945, "Which method, at which rate, for what cost, and how it fails", fontsize=17,
                 fontweight="bold", va="center")
     figure.text(0.02, 0.882, "ridges of 1 mm through an encoder of 0.055 mm, the worst of 20 to 480 Hz and of "
-                "strokes from rest; at the names: what is noticed at 1 kHz,\nin sizes at which it is · faint: the speed by "
+                "strokes from rest;\nbelow a name: its errors at 1 kHz that a hand notices · faint: the speed by "
                 "a low pass (dashed) or by differences (dotted)", fontsize=10.5, color=INK, alpha=0.75, va="center")
     shapes = data["shapes"]
     figure.text(0.755, 0.815, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=INK, alpha=0.75)
