@@ -57,7 +57,7 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number", "")                                      \
     X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move", "m")                            \
     X(KNURL_FAULT_LATE, 6, "late", "the newest force was too old to be played on", "s")                                \
-    X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; told once for a row of them", "s")                          \
+    X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; reported once for several in a row", "s")                   \
     X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still", "s")                                       \
     X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
     X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \

@@ -43,7 +43,7 @@ typedef struct knurl_loop_desc {
     uint64_t tick_limit;                 /**< ends by itself after so many ticks; 0 (default): never */
     double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
     double watchdog_s; /**< s without a tick after which the watchdog zeroes the force; default 0.05; 0: no watchdog.
-                            A haptic thread that wakes 50 ms late or more zeroes it in any case, tells it
+                            A haptic thread that wakes 50 ms late or more zeroes it in any case, reports it
                             (KNURL_FAULT_GAP) and ramps */
     const knurl_clock *clock; /**< copied; null: the system's */
     uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default), or 0 to ignore the device's

@@ -373,7 +373,7 @@ namespace Knurl
         /// <summary>The newest force was too old to be played on.</summary>
         Late = 6,
 
-        /// <summary>Ticks came late; told once for a row of them.</summary>
+        /// <summary>Ticks came late; reported once for several in a row.</summary>
         Overrun = 7,
 
         /// <summary>The haptic thread stood still.</summary>
