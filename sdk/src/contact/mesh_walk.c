@@ -74,7 +74,7 @@ static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from
     if (!(vec3_dot(corner, from->offset) > 0.0)) {
         return 0;
     }
-    if (!knurl_visits_take(w->visits, KNURL_VISITS_CLOSEST)) {
+    if (!knurl_visits_take(w->visits, KNURL_VISITS_STEP)) {
         w->capped = 1;
         return 0;
     }

@@ -13,6 +13,9 @@ typedef struct knurl_visits {
 /* Visits that finding the closest point of one triangle costs, beside the visit of the triangle. */
 #define KNURL_VISITS_CLOSEST 4
 
+/* The same for a triangle that a walk comes to: in a large mesh each waits for memory that the last one named. */
+#define KNURL_VISITS_STEP 9
+
 /* Takes `count` visits. 0 where they are not left: the query is to end. visits: null: no limit. */
 static inline int knurl_visits_take(knurl_visits *visits, uint32_t count) {
     if (!visits) {
