@@ -12,13 +12,12 @@
  * cells: the study's maps and a finer grid; 127 of them runaways, of 12 to 25 Hz). On flat walls the sum of squares
  * reached 24 mm^2 in all 37 runaways and in none of 861 others; on gratings in 83 of 90 runaways, and in 32 of 6013
  * others, 30 of which shook by more than half a millimetre. */
-#define REVERSAL 0.2e-3 /* m that the depth must come back by to count as a reversal: four quanta */
-#define LEAST    0.7e-3 /* m: a smaller swing ends a row; runaways swing by at least 0.84 mm, arrivals soon by less */
-#define PERIOD   0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
-#define FORGETS  0.985  /* decay of the largest swing, per swing: a bounce that dies out is no row */
-#define AGAIN    0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
-#define ROW      4      /* swings: as many may be the arrival of a hand */
-#define ENOUGH   24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
+#define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by at least 0.84 mm, arrivals soon by less */
+#define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
+#define FORGETS 0.985  /* decay of the largest swing, per swing: a bounce that dies out is no row */
+#define AGAIN   0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
+#define ROW     4      /* swings: as many may be the arrival of a hand */
+#define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */
 
 /* A swing is caused by a texture if the texture moves more than this share of it, and crosses 0 no more often than a
  * HIP that bounces on every other ridge: twice, or four times in and out again. */
@@ -50,19 +49,14 @@ void knurl_passivity_set_scale(knurl_passivity *p, int watches, const knurl_hip_
     p->unit = scale;
 }
 
-static void end_row(knurl_passivity *p) {
-    p->largest = p->squares = 0.0;
-    p->row = 0;
-}
-
 /* The depth reversed: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
  * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
-static void end_swing(knurl_passivity *p) {
+void knurl_passivity_end_swing(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
     const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
     const int by_texture = slow && p->moved > TEXTURE_SHARE * swing;
     if (by_texture || swing < LEAST * p->unit || p->ticks + p->before > p->longest) {
-        end_row(p);
+        knurl_passivity_end_row(p);
     } else {
         const double largest = FORGETS * p->largest;
         p->largest = swing > largest ? swing : largest;
@@ -83,37 +77,16 @@ static void end_swing(knurl_passivity *p) {
     p->moved = 0.0;
 }
 
-/* From a tick to the next one without an alarm. */
-static void follow_depth(knurl_passivity *p) {
-    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
-    p->ticks++;
-    if (beyond > 0.0) {
-        p->farthest = p->depth;
-    } else if (-beyond > REVERSAL * p->unit) {
-        end_swing(p);
-    } else if (p->ticks > p->longest) { /* rests, or is off */
-        end_row(p);
-        p->ticks = (int32_t)p->longest;
-        p->crossings = 0;
-        p->moved = 0.0;
-        p->busy = p->depth > 0.0;
+/* From a tick to the next one in an alarm. */
+void knurl_passivity_go_on(knurl_passivity *p) {
+    p->crossings = 0;
+    p->soft += p->softening * (1.0 - p->soft);
+    p->off += 1.0;
+    if (p->off > p->off_most) {
+        knurl_passivity_end_row(p);
+        p->soft = 0.0;
+        p->alarmed = 0;
     }
-}
-
-void knurl_passivity_follow(knurl_passivity *p) {
-    if (KNURL_UNLIKELY(p->alarmed)) {
-        p->crossings = 0;
-        p->soft += p->softening * (1.0 - p->soft);
-        p->off += 1.0;
-        if (p->off > p->off_most) {
-            end_row(p);
-            p->soft = 0.0;
-            p->alarmed = 0;
-        }
-    } else {
-        follow_depth(p);
-    }
-    p->depth = 0.0;
 }
 
 void knurl_passivity_soften(knurl_passivity *p, knurl_wall *wall) {

@@ -7,6 +7,8 @@
 #include "scene/hip_facts.h"
 #include "scene/wall.h"
 
+#define KNURL_PASSIVITY_REVERSAL 0.2e-3 /* m that the depth must come back by to count as a reversal: four quanta */
+
 /* A HIP's swings in walls that could be unstable. Scene units. */
 typedef struct knurl_passivity {
     double safe;       /* N/m: a wall up to this is stable, and not watched; infinite: protection off */
@@ -38,8 +40,33 @@ void knurl_passivity_init(knurl_passivity *passivity, const knurl_hip_facts *fac
 void knurl_passivity_set_scale(knurl_passivity *passivity, int watches, const knurl_hip_facts *facts,
                                double scale) KNURL_NONBLOCKING;
 
+/* What is rare: called by knurl_passivity_follow(). */
+void knurl_passivity_go_on(knurl_passivity *passivity) KNURL_NONBLOCKING;
+void knurl_passivity_end_swing(knurl_passivity *passivity) KNURL_NONBLOCKING;
+
+static inline void knurl_passivity_end_row(knurl_passivity *p) {
+    p->largest = p->squares = 0.0;
+    p->row = 0;
+}
+
 /* From one tick to the next; only while it is busy. */
-void knurl_passivity_follow(knurl_passivity *passivity) KNURL_NONBLOCKING;
+static inline void knurl_passivity_follow(knurl_passivity *p) {
+    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    if (KNURL_UNLIKELY(p->alarmed)) {
+        knurl_passivity_go_on(p);
+    } else if (++p->ticks, beyond > 0.0) {
+        p->farthest = p->depth;
+    } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
+        knurl_passivity_end_swing(p);
+    } else if (p->ticks > p->longest) { /* rests, or is off */
+        knurl_passivity_end_row(p);
+        p->ticks = (int32_t)p->longest;
+        p->crossings = 0;
+        p->moved = 0.0;
+        p->busy = p->depth > 0.0;
+    }
+    p->depth = 0.0;
+}
 
 /* Softens a wall that the HIP is in during an alarm: called by knurl_passivity_watch(). */
 void knurl_passivity_soften(knurl_passivity *passivity, knurl_wall *wall) KNURL_NONBLOCKING;
