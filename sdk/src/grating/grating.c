@@ -4,10 +4,8 @@
 
 #include "base/base.h"
 #include "base/handle.h"
-#include "grating/area.h"
-#include "grating/locked.h"
 #include "grating/phase.h"
-#include "vibration/event.h"
+#include "grating/step.h"
 #include "vibration/ticks.h"
 
 #include <math.h>
@@ -79,17 +77,11 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
     return KNURL_OK;
 }
 
-static double highest(const double spatial_frequency[2], const double velocity[2]) {
-    const double along_x = spatial_frequency[0] * fabs(velocity[0]);
-    const double along_y = spatial_frequency[1] * fabs(velocity[1]);
-    return along_x > along_y ? along_x : along_y;
-}
-
 double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) {
     if (!spatial_frequency || !velocity) {
         return 0.0;
     }
-    return highest(spatial_frequency, velocity);
+    return knurl_grating_highest(spatial_frequency, velocity);
 }
 
 double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
@@ -106,8 +98,8 @@ double knurl_grating_s1(const double position[2], const double spatial_frequency
     return x == y ? amplitude : -amplitude;
 }
 
-/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. 0: none begins. */
-static int begin_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
+/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */
+int knurl_grating_begin_s2(const knurl_grating *grating, knurl_grating_state *state, double speed2, double frequency) {
     const double ticks = grating->update_rate_hz / frequency; /* infinite across no ridge */
     const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
     state->moving = 0;
@@ -123,45 +115,19 @@ static int begin_s2(const knurl_grating *grating, knurl_grating_state *state, do
     return 1;
 }
 
-/* Whether a half cycle begins. */
-static void tell_turn(knurl_grating_state *state, knurl_grating_output *output) {
-    const int32_t sign = (output->height > 0.0) - (output->height < 0.0);
-    output->turned = sign * state->sign < 0;
-    state->sign = sign ? sign : state->sign;
-}
-
-/* The latest ridge to begin: AREA's events. One of LOCKED's, which begins on a ridge, has been counted. */
-static int64_t count_ridges(knurl_grating_state *state, double height) {
-    state->event_count += (height > 0.0) & (state->sign <= 0) & (state->next_tick == 0); /* no branch to mispredict */
-    return state->event_count - 1;
+double knurl_grating_mixed_height(const knurl_grating_state *state) {
+    return knurl_vibration_event_value(&state->event, state->next_tick);
 }
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
+    knurl_grating_input input = {{0.0, 0.0}, {0.0, 0.0}, position != NULL};
     if (KNURL_UNLIKELY(!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1))) {
         return;
     }
-    const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-    const double frequency = highest(grating->spatial_frequency, velocity);
-    output->height = 0.0;
-    output->spatial_frequency = speed2 > 0.0 ? frequency / sqrt(speed2) : 0.0;
-    output->temporal_frequency = frequency;
-    output->event = KNURL_NO_EVENT;
-    output->saturated = frequency > 0.5 * grating->update_rate_hz;
-    output->reserved = 0;
-    if (grating->method == KNURL_LOCKED) {
-        output->height = knurl_locked_step(grating, state, position, velocity, frequency, output);
-    } else if (grating->method == KNURL_AREA) {
-        output->height = knurl_area_step(grating, state, position, velocity, frequency, output);
-        output->event = count_ridges(state, output->height);
-    } else if (state->playing || (grating->method == KNURL_S2 && begin_s2(grating, state, speed2, frequency))) {
-        output->height =
-            knurl_vibration_event_value(&state->event, state->next_tick); /* also one that another method began */
-        output->event = state->event_count - 1;
-        state->next_tick++;
-        state->playing = state->next_tick < state->event.length;
-    } else if (grating->method == KNURL_S1) {
-        output->height = knurl_grating_s1(position, grating->spatial_frequency, grating->amplitude);
+    for (int i = 0; i < 2; i++) {
+        input.position[i] = position ? position[i] : 0.0;
+        input.velocity[i] = velocity[i];
     }
-    tell_turn(state, output);
+    knurl_grating_run(grating, state, &input, output);
 }

@@ -5,6 +5,7 @@
 #define KNURL_SRC_FORCE_LAW_H
 
 #include "base/base.h"
+#include "grating/step.h"
 #include "scene/contact_update.h"
 #include "scene/surface_frame.h"
 
@@ -51,22 +52,21 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     }
     out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* no -0 where there are no ridges */
     out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
-    const double place[2] = {coordinates[0], coordinates[1]};
-    const double *position = place;
-    double velocity[2] = {out->velocity[0], out->velocity[1]};
+    knurl_grating_input at = {{coordinates[0], coordinates[1]}, {out->velocity[0], out->velocity[1]}, 1};
     double steepest = 1.0;
-    if (m->method >= KNURL_LOCKED && /* or AREA */
-        !knurl_surface_rates(c->surface, c->record, &c->contact, over, velocity, &steepest)) {
-        position = NULL; /* they count the way */
+    if (m->method >= KNURL_LOCKED) { /* or AREA; without a position they count the way */
+        double rates[2] = {at.velocity[0], at.velocity[1]}, most = 1.0;
+        at.has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &most);
+        at.velocity[0] = rates[0];
+        at.velocity[1] = rates[1];
+        steepest = most;
     }
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
                                    .update_rate_hz = hip->rate,
                                    .resolution = hip->quantum * steepest};
-    knurl_grating_output played;
-    knurl_grating_step(&grating, state, position, velocity, &played);
-    out->grating = played;
+    knurl_grating_run(&grating, state, &at, &out->grating);
 }
 
 /* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */

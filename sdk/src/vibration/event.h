@@ -15,12 +15,17 @@ void knurl_vibration_event_prepare(double period_ticks, double amplitude,
 /* Algorithm 2 or 4: an event of `length` ticks, 2 or more. */
 void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) KNURL_NONBLOCKING;
 
+/* knurl_vibration_event_value() of an event that is not mixed. */
+static inline double knurl_vibration_event_level(const knurl_vibration_event *event, int32_t index) {
+    return index < event->positive_ticks ? event->positive : -event->negative;
+}
+
 /* knurl_vibration_event_height() for 0 <= index < event->length. */
 static inline double knurl_vibration_event_value(const knurl_vibration_event *event, int32_t index) {
     if (event->kind == KNURL_EVENT_MIXED) {
         return event->positive * knurl_mixed_heights[index];
     }
-    return index < event->positive_ticks ? event->positive : -event->negative;
+    return knurl_vibration_event_level(event, index);
 }
 
 #endif
