@@ -100,19 +100,29 @@ void knurl_contacts_reset(knurl_contacts *c) {
     c->depth = 0.0;
     c->active_count = 0;
     c->pressed = 0;
+    c->held_by = NULL;
     c->slip.time = -1.0;
 }
 
-/* The proxy of the one surface that holds the HIP, for the next tick. */
-static void keep_proxy(knurl_contacts *c, const double position[3]) {
-    const knurl_candidate *candidate = c->active[0].candidate;
-    if (c->pressed) {
-        vec3_madd(candidate->proxy, c->active[0].surface->shape.seam, candidate->normal, c->proxy);
-        vec3_copy(candidate->normal, c->normal);
+/* The proxy of the one surface that holds the HIP, for the next tick: hardly one ever asks for it. */
+static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
+    if (KNURL_LIKELY(c->pressed)) {
+        c->held_by = c->active[0].candidate;
+        c->held_off = c->active[0].surface->shape.seam;
         c->depth = fabs(c->active[0].contact.z);
     } else {
+        c->held_by = NULL;
         vec3_copy(position, c->proxy);
         c->depth = 0.0;
+    }
+}
+
+/* Sets the proxy and the normal that keep_proxy() has left for later. */
+static void settle_proxy(knurl_contacts *c) {
+    if (c->held_by) {
+        vec3_madd(c->held_by->proxy, c->held_off, c->held_by->normal, c->proxy);
+        vec3_copy(c->held_by->normal, c->normal);
+        c->held_by = NULL;
     }
 }
 
@@ -168,6 +178,7 @@ static knurl_hip_path find_path(const knurl_contacts *c, const double position[3
 __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contacts *c, const knurl_broad_phase *phase,
                                                                     const knurl_broad_index *index,
                                                                     const double position[3], double *margin) {
+    settle_proxy(c);
     const knurl_hip_path path = find_path(c, position);
     *margin = knurl_hip_path_margin(&path);
     knurl_candidates_update(&c->candidates, phase, index, &path);
@@ -176,6 +187,7 @@ __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contac
 
 /* Measures the clearance of a HIP that is in contact with `alone` only. */
 static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
+    settle_proxy(c);
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
         candidate->has_previous &= candidate == alone;
@@ -190,6 +202,7 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
 __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_phase *phase,
                                                    const knurl_broad_index *index, const double position[3],
                                                    uint32_t *flags) {
+    settle_proxy(c);
     const knurl_hip_path path = find_path(c, position);
     const uint32_t before = c->active_count;
     c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;

@@ -44,11 +44,13 @@ typedef struct knurl_touched {
 /* Of one HIP, from tick to tick. */
 typedef struct knurl_contacts {
     knurl_hip_clock clock;
-    double previous[3];  /* HIP position at the last tick, scene */
-    double depth;        /* at the latest tick: m, how deep it was pressed in; 0: it was not */
-    double proxy[3];     /* and where its proxy was, scene: outside of every surface, */
-    double normal[3];    /* and which way it was held */
-    uint32_t pressed;    /* surfaces that held it; 0: none, and the proxy is the HIP */
+    double previous[3];             /* HIP position at the last tick, scene */
+    double depth;                   /* at the latest tick: m, how deep it was pressed in; 0: it was not */
+    double proxy[3];                /* and where its proxy was, scene: outside of every surface, */
+    double normal[3];               /* and which way it was held */
+    const knurl_candidate *held_by; /* not null: proxy and normal are not set yet, but follow from this one's, */
+    double held_off;                /* m: off whose surface the proxy is; see knurl_contacts_find() */
+    uint32_t pressed;               /* surfaces that held it; 0: none, and the proxy is the HIP */
     double ramped_depth; /* m: the depth as limited by the entry ramp: a contact that begins goes on from there */
     int32_t has_previous;
     knurl_slip slip;
