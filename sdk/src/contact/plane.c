@@ -200,20 +200,6 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     return 1;
 }
 
-int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
-                      double *steepest) {
-    double most = 0.0;
-    for (int i = 0; i < 2; i++) {
-        const double *map = plane->map[i];
-        const double steepness2 = map[0] * map[0] + map[1] * map[1];
-        rates[i] = map[0] * velocity[0] + map[1] * velocity[1];
-        most = steepness2 > most ? steepness2 : most;
-    }
-    rates[1] *= contact->normal[2];
-    *steepest = most == 1.0 ? 1.0 : sqrt(most);
-    return plane->has_coordinates;
-}
-
 void knurl_plane_destroy(knurl_heap *heap, knurl_plane *plane) {
     if (plane) {
         knurl_heap_free(heap, plane->outline);

@@ -99,9 +99,4 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
 /* Sets the seam, by the plane's size and how far it is off what was given. */
 void knurl_plane_set_seam(knurl_plane *plane);
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
- * 0: the plane has no coordinates. Allowed in a tick. */
-int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
-                      double *steepest) KNURL_NONBLOCKING;
-
 #endif

@@ -38,4 +38,20 @@ static inline void knurl_plane_frame(const knurl_plane *plane, const knurl_conta
     coordinates[1] *= side; /* from behind y runs the other way */
 }
 
+/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
+ * 0: the plane has no coordinates. Allowed in a tick. */
+static inline int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
+                                    double rates[2], double *steepest) {
+    double most = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double *map = plane->map[i];
+        const double steepness2 = map[0] * map[0] + map[1] * map[1];
+        rates[i] = map[0] * velocity[0] + map[1] * velocity[1];
+        most = steepness2 > most ? steepness2 : most;
+    }
+    rates[1] *= contact->normal[2];
+    *steepest = most == 1.0 ? 1.0 : sqrt(most);
+    return plane->has_coordinates;
+}
+
 #endif

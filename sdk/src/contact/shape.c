@@ -38,11 +38,6 @@ static void plane_rest(const void *plane, const knurl_cast_hit *hit, const doubl
     knurl_plane_rest(hit, point, state, contact);
 }
 
-static int plane_rates(const void *plane, const knurl_contact *contact, const double velocity[3], double rates[2],
-                       double *steepest) KNURL_NONBLOCKING {
-    return knurl_plane_rates(plane, contact, velocity, rates, steepest);
-}
-
 static void plane_anchor(const void *geometry, const double rotation[9], knurl_contact *anchor) {
     const knurl_plane *plane = geometry;
     (void)rotation;
@@ -81,9 +76,9 @@ static void plane_destroy(knurl_heap *heap, void *plane) {
     knurl_plane_destroy(heap, plane);
 }
 
-static const knurl_shape_functions plane_functions = {plane_contact,        plane_cast,        plane_rest,
-                                                      plane_rates,          plane_anchor,      plane_facts,
-                                                      plane_exceeds_visits, plane_other_users, plane_destroy};
+static const knurl_shape_functions plane_functions = {plane_contact,     plane_cast,   plane_rest,
+                                                      plane_anchor,      plane_facts,  plane_exceeds_visits,
+                                                      plane_other_users, plane_destroy};
 
 /* --- the mesh's --- */
 
@@ -99,11 +94,6 @@ static int mesh_cast(const void *mesh, const knurl_cast *cast, knurl_cast_hit *h
 static void mesh_rest(const void *mesh, const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
                       knurl_contact *contact) KNURL_NONBLOCKING {
     knurl_mesh_rest(mesh, hit, point, state, contact);
-}
-
-static int mesh_rates(const void *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
-                      double *steepest) KNURL_NONBLOCKING {
-    return knurl_mesh_rates(mesh, contact, velocity, rates, steepest);
 }
 
 static void mesh_anchor(const void *mesh, const double rotation[9], knurl_contact *anchor) {
@@ -139,9 +129,8 @@ static void mesh_destroy(knurl_heap *heap, void *mesh) {
     knurl_mesh_destroy(heap, mesh);
 }
 
-static const knurl_shape_functions mesh_functions = {mesh_contact,        mesh_cast,        mesh_rest,
-                                                     mesh_rates,          mesh_anchor,      mesh_facts,
-                                                     mesh_exceeds_visits, mesh_other_users, mesh_destroy};
+static const knurl_shape_functions mesh_functions = {mesh_contact, mesh_cast,           mesh_rest,        mesh_anchor,
+                                                     mesh_facts,   mesh_exceeds_visits, mesh_other_users, mesh_destroy};
 
 /* --- creation --- */
 

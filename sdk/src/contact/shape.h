@@ -18,8 +18,6 @@ typedef struct knurl_shape_functions {
     int (*cast)(const void *geometry, const knurl_cast *cast, knurl_cast_hit *hit) KNURL_NONBLOCKING;
     void (*rest)(const void *geometry, const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
                  knurl_contact *contact) KNURL_NONBLOCKING;
-    int (*rates)(const void *geometry, const knurl_contact *contact, const double velocity[3], double rates[2],
-                 double *steepest) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
     void (*facts)(const void *geometry, knurl_shape_facts *facts);
     int (*exceeds_visits)(const void *geometry, double reach, uint32_t max_visits);
@@ -30,7 +28,7 @@ typedef struct knurl_shape_functions {
 typedef struct knurl_shape {
     const knurl_shape_functions *functions;
     void *geometry;           /* what the functions are given */
-    const knurl_plane *plane; /* the same where it is a plane, else null: its frame is shorter than a call */
+    const knurl_plane *plane; /* the same where it is a plane, else null: calls are longer */
     double low[3];            /* bounds, m */
     double high[3];
     double seam;             /* m: a cast misses what is farther beyond its edges */
@@ -97,7 +95,11 @@ static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_conta
  * along the surface. 0 and not to be used where there are no coordinates. Allowed in a tick. */
 static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contact *contact, const double velocity[3],
                                     double rates[2], double *steepest) KNURL_NONBLOCKING {
-    return shape->functions->rates(shape->geometry, contact, velocity, rates, steepest);
+    if (shape->plane) {
+        return knurl_plane_rates(shape->plane, contact, velocity, rates, steepest);
+    }
+    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* a copy, see force_law.h */
+    return knurl_mesh_rates(shape->geometry, contact, moving, rates, steepest);
 }
 
 /* A place for a stroke to begin, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh what a

@@ -29,9 +29,8 @@ static inline void knurl_surface_frame(const knurl_surface_data *surface, const 
 static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
                                       const knurl_contact *contact, const double velocity[3], double rates[2],
                                       double *steepest) {
-    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* a copy, see force_law.h */
     double straight[2];
-    if (!knurl_shape_rates(&surface->shape, contact, moving, straight, steepest)) {
+    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
         return 0;
     }
     rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];
