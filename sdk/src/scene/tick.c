@@ -302,14 +302,15 @@ knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_
     return KNURL_OK;
 }
 
-KNURL_PREFETCHING void fetch(const void *from, size_t size) {
+/* By loads: the dry tick would be over before all of so many prefetches are. */
+static void fetch(const void *from, size_t size) {
     for (size_t at = 0; at < size; at += 64) { /* a cache's line */
-        __builtin_prefetch((const char *)from + at, 1);
+        (void)knurl_load_relaxed((const char *)from + at);
     }
 }
 
 /* The parts of a HIP that its next tick uses. */
-KNURL_PREFETCHING void fetch_hip(knurl_hip *hip) {
+static void fetch_hip(knurl_hip *hip) {
     const knurl_velocity_state *v = knurl_velocity_get_state(&hip->velocity);
     const uint32_t phase = v->phase + 1 < v->stride ? v->phase + 1 : 0;
     fetch(hip, offsetof(knurl_hip, velocity));
