@@ -62,7 +62,7 @@ def make_later(folder):
          (r"(KNURL_API uint32_t knurl_version_number\(void\);)", r"\1 KNURL_API uint32_t knurl_later(void);"))
     edit(os.path.join(folder, "sdk/src/base/error.c"), (r"\Z", "uint32_t knurl_later(void) { return 1; }\n"))
     edit(os.path.join(folder, "sdk/src/scene/tick.c"), (r"memset\(out->reserved,", r"out->later = 0; \g<0>"),
-         (r"(?s)static int is_reserved_zero.*?\n\}\n", "static int is_reserved_zero(const knurl_tick_input *input) {"
+         (r"(?s)static (?:inline )?int is_reserved_zero.*?\n\}\n", "static int is_reserved_zero(const knurl_tick_input *input) {"
                                                        " return input->reserved[0] == 0; }\n"))
 
 
