@@ -12,6 +12,7 @@
 #define BENCH_TICKS          1000000 /* a case, unless its time is up before */
 #define BENCH_PACED_TICKS    3000
 #define BENCH_SECONDS        0.3   /* of one case at the most, so that the whole run ends within 40 s */
+#define BENCH_WORST_RUNS     5     /* of the same ticks, of which each one's least time counts */
 #define BENCH_BATCH          64    /* ticks between two readings of the clock, where single ones are not told */
 #define BENCH_FRAME_RATE     120.0 /* Hz: how often a game moves what moves */
 #define BENCH_TIMER_READINGS 10000
@@ -121,6 +122,9 @@ int bench_run(bench *b, const bench_case *c, bench_result *result);
 
 /** Puts a case's scene up, or changes the one that is up. Results as the library's. */
 knurl_result bench_stage_set(bench_stage *stage, const bench_case *c);
+
+/** Clears the state of the HIPs, so that a case's ticks can be run once more. Results as the library's. */
+knurl_result bench_stage_reset(const bench_stage *stage, const bench_case *c);
 
 /** A frame of a game at 120 Hz: what moves of the scene is sent on its way. *moved: how many surfaces. */
 knurl_result bench_stage_move(bench_stage *stage, double seconds, uint32_t *moved);

@@ -143,20 +143,36 @@ static int64_t timed(subject *s, const knurl_tick_input *input) {
     return bench_now() - before;
 }
 
-/* As fast as they go: what a tick costs with everything warm. */
-static size_t time_warm(subject *s, size_t ticks, knurl_result *failed) {
+/* As fast as they go: what a tick costs with everything warm. is_repeat: of each tick's times the least is kept. */
+static size_t time_warm(subject *s, size_t ticks, int is_repeat, knurl_result *failed) {
     const bench *b = s->owner;
     const int64_t end = bench_now() + (int64_t)(1e9 * BENCH_SECONDS);
+    const int is_timed_out = b->ticks == 0.0 && !is_repeat;
     size_t i = 0;
-    while (i < ticks && !*b->interrupted && !(b->ticks == 0.0 && i % 1024 == 0 && bench_now() > end)) {
+    while (i < ticks && !*b->interrupted && !(is_timed_out && i % 1024 == 0 && bench_now() > end)) {
         knurl_tick_input input;
         *failed = between(s, i, &input);
         if (*failed) {
             break;
         }
-        b->samples[i++] = timed(s, &input);
+        const int64_t ns = timed(s, &input);
+        b->samples[i] = is_repeat && b->samples[i] < ns ? b->samples[i] : ns;
+        i++;
     }
     return i;
+}
+
+/* Where a tick takes 5 us and more, the system interrupts one of some hundred, and p99.9 would be of interrupts. What a
+ * tick does is the same each time that the same ticks are run. */
+static size_t time_repeatedly(subject *s, size_t ticks, knurl_result *failed) {
+    const size_t count = time_warm(s, ticks, 0, failed);
+    for (int run = 1; run < BENCH_WORST_RUNS && !*failed; run++) {
+        *failed = bench_stage_reset(&s->owner->stage, s->timed);
+        if (!*failed) {
+            (void)time_warm(s, count, 1, failed);
+        }
+    }
+    return count;
 }
 
 /* The same without a reading of the clock at each tick, which some clocks are too coarse for. Returns ns a tick. */
@@ -203,7 +219,7 @@ static size_t time_beside_others(subject *s, size_t ticks, knurl_result *failed)
         *failed = knurl_fail(KNURL_ERROR_SYSTEM, "a second thread was refused");
         return 0;
     }
-    const size_t count = time_warm(s, ticks, failed);
+    const size_t count = time_warm(s, ticks, 0, failed);
     __atomic_store_n(&n.stop, 1, __ATOMIC_RELAXED);
     (void)pthread_join(thread, NULL);
     return count;
@@ -250,7 +266,9 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
         if (c->pace != BENCH_WARM) {
             failed = bench_pace(b, c, ticks, &count, &result->overruns);
         } else {
-            count = c->hips > 1 ? time_beside_others(&s, ticks, &failed) : time_warm(&s, ticks, &failed);
+            count = c->hips > 1                ? time_beside_others(&s, ticks, &failed)
+                    : bench_is_worst(c->shape) ? time_repeatedly(&s, ticks, &failed)
+                                               : time_warm(&s, ticks, 0, &failed);
         }
     }
     if (failed) {

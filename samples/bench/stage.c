@@ -191,6 +191,10 @@ static knurl_result change(const bench_stage *stage, const bench_case *c) {
     return result;
 }
 
+knurl_result bench_stage_reset(const bench_stage *stage, const bench_case *c) {
+    return configure_hips(stage->scene, c);
+}
+
 knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
     if (stage->scene && stage->shape == c->shape && stage->asked_triangles == c->triangles && stage->hips == c->hips) {
         return change(stage, c);

@@ -104,6 +104,7 @@ static const help_command commands[] = {
       {"--case", "NAME",
        "one case only; a wrong name lists all. worst_..., mesh_10m and ..._thrashed run by name only"},
       {"--ticks", "N", "ticks to time per case"}},
+     "The same ticks of worst_... are run 5 times, and each tick's least time counts: what interrupted it does not.\n"
      "JSON: version, timer_ns, clock_step_ns, machine, cases [{case, batch_ns, p50_ns, p99_ns, p999_ns, max_ns, bytes,\n"
      "build_ms, ...}], skipped [{case, why}].",
      NULL},

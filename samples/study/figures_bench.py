@@ -65,7 +65,7 @@ def paced(ax, cases, key):
 
 
 def frame(ax, title, about):
-    ax.set(xscale="log", yscale="log", xlim=(1.5, 2.6e6), ylim=(50, 2e5))
+    ax.set(xscale="log", yscale="log", xlim=(1.5, 2.6e6), ylim=(25, 2e5))
     ax.set_xticks([*PLACES.values(), 1e3, 1e4, 1e5, 1e6],
                   ["plane", "10 that\nmove", "10,000\nsurfaces", "1k", "10k", "100k", "1M"])
     ax.set_yticks([1e2, 1e3, 1e4, 1e5], ["100 ns", "1 µs", "10 µs", "100 µs"])
