@@ -34,8 +34,9 @@ static void hang(double kilograms) {
 }
 
 TEST(the_gain_is_found_within_two_percent_in_spite_of_friction) {
-    static const double gains[] = {0.53, 0.45, 0.35};
-    for (size_t i = 0; i < (SUITE_SANITIZED ? 1 : COUNT_OF(gains)); i++) {
+    static const double gains[] = {0.53, 0.35, 0.45};
+    const size_t count = SUITE_SANITIZED ? 1 : getenv("KNURL_LONG") ? COUNT_OF(gains) : 2; /* 4 s each */
+    for (size_t i = 0; i < count; i++) {
         double height = (double)NAN;
         double empty = 0.0;
         double loaded = 0.0;
