@@ -74,8 +74,8 @@ enum {
  * gradually. */
 #define KNURL_ENTRY_SPEED_MAX 0.5
 
-/** Visits of a tick by default. The worst scenes known, most of which use them all, were measured at 8 to 12 us a tick
- * (99th percentile) and 10 to 17 us (99.9th) where nothing interrupts it. Tuned: with 600, the proxy was inside in 2 of
+/** Visits of a tick by default. The worst scenes known, most of which use them all, were measured at 8 to 11 us a tick
+ * (99th percentile) and 9 to 16 us (99.9th) where nothing interrupts it. Tuned: with 600, the proxy was inside in 2 of
  * 70,000 presses into moving meshes; with 800, in none of 1,050,000 presses in rooms of 15 kinds. */
 #define KNURL_VISITS_MAX 800
 

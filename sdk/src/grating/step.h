@@ -23,7 +23,7 @@ int knurl_grating_begin_s2(const knurl_grating *grating, knurl_grating_state *st
 /* The height of the tick of a mixed event: Algorithm 5. Rare, too. */
 double knurl_grating_mixed_height(const knurl_grating_state *state) KNURL_NONBLOCKING;
 
-/* Hz. */
+/* How often ridges are crossed along x or along y, whichever is more often, Hz (Eq. 12). */
 static inline double knurl_grating_highest(const double spatial_frequency[2], const double velocity[2]) {
     const double along_x = spatial_frequency[0] * fabs(velocity[0]);
     const double along_y = spatial_frequency[1] * fabs(velocity[1]);
@@ -31,7 +31,7 @@ static inline double knurl_grating_highest(const double spatial_frequency[2], co
 }
 
 /* Whether a half cycle begins. */
-static inline void knurl_grating_tell_turn(knurl_grating_state *state, knurl_grating_output *output) {
+static inline void knurl_grating_note_turn(knurl_grating_state *state, knurl_grating_output *output) {
     const int32_t sign = (output->height > 0.0) - (output->height < 0.0);
     output->turned = sign * state->sign < 0;
     state->sign = sign ? sign : state->sign;
@@ -62,17 +62,17 @@ static inline void knurl_grating_follow(const knurl_grating *grating, knurl_grat
     const double *position = input->has_position ? place : NULL;
     const double frequency = output->temporal_frequency;
     knurl_grating g;
-    knurl_grating_output told;
+    knurl_grating_output out;
     knurl_grating_copy(grating, &g);
-    told.event = output->event;
-    told.saturated = output->saturated;
+    out.event = output->event;
+    out.saturated = output->saturated;
     if (g.method == KNURL_LOCKED) {
-        output->height = knurl_locked_step(&g, state, position, velocity, frequency, &told);
-        output->event = told.event;
+        output->height = knurl_locked_step(&g, state, position, velocity, frequency, &out);
+        output->event = out.event;
     } else {
-        output->height = knurl_area_step(&g, state, position, velocity, frequency, &told);
+        output->height = knurl_area_step(&g, state, position, velocity, frequency, &out);
         output->event = knurl_grating_count_ridges(state, output->height);
-        output->saturated = told.saturated;
+        output->saturated = out.saturated;
     }
 }
 
@@ -110,7 +110,7 @@ static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating
         const double fs[2] = {grating->spatial_frequency[0], grating->spatial_frequency[1]};
         output->height = knurl_grating_s1(position, fs, grating->amplitude);
     }
-    knurl_grating_tell_turn(state, output);
+    knurl_grating_note_turn(state, output);
 }
 
 #endif

@@ -52,9 +52,10 @@ static inline void knurl_passivity_end_row(knurl_passivity *p) {
 /* From one tick to the next; only while it is busy. */
 static inline void knurl_passivity_follow(knurl_passivity *p) {
     const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    p->ticks += !p->alarmed;
     if (KNURL_UNLIKELY(p->alarmed)) {
         knurl_passivity_go_on(p);
-    } else if (++p->ticks, beyond > 0.0) {
+    } else if (beyond > 0.0) {
         p->farthest = p->depth;
     } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
         knurl_passivity_end_swing(p);

@@ -302,7 +302,7 @@ knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_
     return KNURL_OK;
 }
 
-/* By loads: the dry tick would be over before all of so many prefetches are. */
+/* Loads, not prefetches: of so many, some would still be under way when the dry tick ends. */
 static void fetch(const void *from, size_t size) {
     for (size_t at = 0; at < size; at += 64) { /* a cache's line */
         (void)knurl_load_relaxed((const char *)from + at);
