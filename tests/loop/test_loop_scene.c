@@ -130,6 +130,26 @@ TEST_WITH(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, 
     knurl_scene_destroy(scene);
 }
 
+static void count_writes(const knurl_tick_output *output, void *user) {
+    uint64_t *late = user;
+    *late += r.writes <= output->tick;
+}
+
+TEST_WITH(a_recorder_delays_no_force, NULL, end_rig) {
+    uint64_t late = 0;
+    knurl_scene *scene = make_scene(1);
+    rig_init(&r);
+    r.desc.scene = scene;
+    r.desc.force_callback = NULL;
+    r.desc.tick_callback = count_writes;
+    r.desc.user = &late;
+    rig_create(&r);
+    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    rig_destroy(&r);
+    assert_int_equal(late, 0); /* each tick's force had been written before */
+    knurl_scene_destroy(scene);
+}
+
 /* After a halt the force climbs back over the ramp, and what is recorded climbs with it. */
 TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, NULL, end_rig) {
     rig_init(&r);
@@ -379,6 +399,8 @@ static knurl_loop_stats play_in_real_time(record *into, uint32_t dry_ticks) {
     const knurl_loop_stats stats = rig_stats(&r);
     rig_destroy(&r);
     knurl_scene_destroy(scene);
+    assert_int_equal(r.reads, 60 + 20);  /* and the ramp's: the device itself is read for no dry cycle */
+    assert_int_equal(r.writes, 60 + 20); /* nor written to */
     return stats;
 }
 

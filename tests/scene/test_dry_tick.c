@@ -23,6 +23,16 @@ static knurl_scene *make_scene(knurl_surface_id *wall) {
     return scene;
 }
 
+static void dry_tick(knurl_scene *scene, knurl_hip *scratch, const double position[3]) {
+    knurl_tick_input input;
+    knurl_tick_output output;
+    memset(&input, 0, sizeof input);
+    memcpy(input.position, position, sizeof input.position);
+    knurl_hip_begin_dry(scene, &scene->hips[0], scratch);
+    knurl_hip_tick(scene, scratch, &input, NULL, &output);
+    knurl_hip_end_dry(&scene->hips[0]);
+}
+
 TEST(a_dry_tick_before_each_tick_changes_no_bit_of_any) {
     static knurl_hip scratch;
     knurl_surface_id walls[2];
@@ -30,7 +40,7 @@ TEST(a_dry_tick_before_each_tick_changes_no_bit_of_any) {
     knurl_hip_counts counts[2];
     uint64_t contacts = 0;
     double last[3] = {0.0, 0.0, 0.0};
-    knurl_hip_begin_dry(scenes[1], 0, &scratch);
+    knurl_hip_init_dry(&scenes[1]->hips[0], &scratch);
     for (int i = 0; i < TICKS; i++) {
         knurl_tick_output out[2];
         knurl_tick_input input;
@@ -46,7 +56,7 @@ TEST(a_dry_tick_before_each_tick_changes_no_bit_of_any) {
                 assert_int_equal(knurl_scene_set_transform(scenes[k], walls[k], position, level, 0.1), KNURL_OK);
             }
             if (k == 1) {
-                knurl_hip_dry_tick(scenes[k], 0, &scratch, last);
+                dry_tick(scenes[k], &scratch, last);
             }
             assert_int_equal(knurl_scene_tick(scenes[k], 0, &input, &out[k]), KNURL_OK);
             out[k].surface = 0; /* ids carry their scene */
@@ -68,15 +78,15 @@ TEST(what_an_edit_takes_away_is_kept_while_a_dry_tick_may_read_it) {
     knurl_surface_id wall;
     knurl_scene *scene = make_scene(&wall);
     const double at[3] = {0.04, 0.0, 0.0149};
-    knurl_hip_begin_dry(scene, 0, &scratch);
+    knurl_hip_init_dry(&scene->hips[0], &scratch);
     for (int i = 0; i < 50; i++) {
-        knurl_hip_dry_tick(scene, 0, &scratch, at);
+        dry_tick(scene, &scratch, at);
     }
     assert_int_equal(scratch.contacts.active_count, 1);
     assert_int_equal(scene->hips[0].contacts.active_count, 0); /* the HIP itself has felt nothing */
     assert_int_equal(scene->hips[0].pinned, 0);                /* and holds nothing up */
     assert_int_equal(knurl_scene_remove_surface(scene, wall), KNURL_OK);
-    knurl_hip_dry_tick(scene, 0, &scratch, at); /* under ASan: it is gone */
+    dry_tick(scene, &scratch, at); /* under ASan: it is gone */
     assert_int_equal(scratch.contacts.active_count, 0);
     knurl_scene_destroy(scene);
 }
@@ -96,10 +106,10 @@ TEST(dry_ticks_of_a_hip_that_is_in_contact_write_nothing_to_it) {
     }
     assert_int_equal(scene->hips[0].contacts.active_count, 1);
     before = scene->hips[0];
-    knurl_hip_begin_dry(scene, 0, &scratch);
+    knurl_hip_init_dry(&scene->hips[0], &scratch);
     for (int i = 0; i < 50; i++) {
         const double beside[3] = {0.041, 0.0, 0.0145};
-        knurl_hip_dry_tick(scene, 0, &scratch, beside);
+        dry_tick(scene, &scratch, beside);
     }
     assert_int_equal(scratch.contacts.active_count, 1);
     assert_memory_equal(&scene->hips[0], &before, sizeof before);

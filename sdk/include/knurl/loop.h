@@ -18,7 +18,7 @@ typedef struct knurl_loop knurl_loop;
 /** Computes the force instead of a scene. tick: counts from 0. force: to be written, N, device axes. [haptic thread] */
 typedef void (*knurl_force_callback)(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user);
 
-/** Called with every tick's output before its force is written, for recording. It must not allocate, lock or wait. The
+/** Called with every tick's output once its force is written, for recording. It must not allocate, lock or wait. The
  * forces in `output` are as sent: ramps included, zero while the device is halted. The ramp at the loop's end is not
  * made of ticks; knurl_scene_get_tick() shows its forces. [haptic thread] */
 typedef void (*knurl_tick_callback)(const knurl_tick_output *output, void *user);

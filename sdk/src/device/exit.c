@@ -28,7 +28,9 @@ static int is_zero(const double force[3]) {
  * least one of the two sees the other's store. */
 void knurl_device_before_force(knurl_device *device, double force[3]) {
     if (!is_zero(force)) {
-        __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
+        if (knurl_load_relaxed(&device->quiet)) { /* only this thread writes it */
+            __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
+        }
         if (knurl_device_must_be_zero()) {
             force[0] = force[1] = force[2] = 0.0;
         }

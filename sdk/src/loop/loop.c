@@ -207,16 +207,30 @@ static void release(const knurl_loop_desc *d) {
     knurl_device_release(d->device);
 }
 
-static knurl_result allocate(knurl_loop **loop) {
-    *loop = calloc(1, sizeof **loop);
-    return *loop ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof **loop);
+static knurl_result make(const knurl_loop_desc *d, const knurl_hip_facts *facts, knurl_loop **loop) {
+    static const knurl_clock system_clock = {system_now, system_sleep, NULL};
+    knurl_loop *made = calloc(1, sizeof *made);
+    if (!made) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof *made);
+    }
+    made->handle = KNURL_HANDLE_LOOP;
+    made->desc = *d;
+    made->clock = d->clock ? *d->clock : system_clock;
+    made->hip = d->scene ? &d->scene->hips[d->hip] : NULL;
+    knurl_loop_init(made, facts);
+    const knurl_result result = knurl_loop_make_dry(made, facts);
+    if (result) {
+        free(made);
+        return result;
+    }
+    *loop = made;
+    return KNURL_OK;
 }
 
 knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     if (KNURL_IS_NULL(desc) || KNURL_IS_NULL(loop)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    static const knurl_clock system_clock = {system_now, system_sleep, NULL};
     knurl_loop_desc d;
     knurl_loop_desc_init(&d, sizeof d);
     knurl_result result = knurl_desc_read("knurl_loop_desc", desc, &d, sizeof d);
@@ -229,21 +243,11 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     knurl_loop *made = NULL;
     result = adopt(&d, &facts);
     result = result ? result : knurl_device_begin(d.device, d.update_rate_hz);
-    result = result ? result : allocate(&made);
+    result = result ? result : make(&d, &facts, &made);
     if (result) {
         release(&d);
         return result;
     }
-    made->handle = KNURL_HANDLE_LOOP;
-    made->desc = d;
-    made->clock = d.clock ? *d.clock : system_clock;
-    made->gain = made->added.gain = made->added.gain_now = 1.0;
-    made->game_was_alive = made->wanted = 1;
-    made->max_force = facts.max_force;
-    if (d.scene) {
-        knurl_hip_begin_dry(d.scene, d.hip, &made->scratch);
-    }
-    knurl_loop_init_heat(made, &facts);
     knurl_device_release_halt(d.device);
     *loop = made;
     return KNURL_OK;
@@ -259,6 +263,14 @@ static knurl_result start_haptics(knurl_loop *loop) {
     return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
 }
 
+/* Returns 1 where the loop's own memory and its scene's are locked into RAM. */
+static int lock_memory(knurl_loop *loop) {
+    const int own = knurl_system_lock_memory(loop, sizeof *loop);
+    const int dry = !loop->dry || knurl_system_lock_memory(loop->dry, sizeof *loop->dry);
+    const int scene = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
+    return own && dry && scene;
+}
+
 knurl_result knurl_loop_start(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return KNURL_ERROR_ARGUMENT;
@@ -270,8 +282,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: its %s",
                           knurl_device_is_closed(loop->desc.device) ? "device was closed" : "scene was destroyed");
     }
-    const int scene_locked = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
-    knurl_store_relaxed(&loop->scene_locked, (uint32_t)(knurl_system_lock_memory(loop, sizeof *loop) && scene_locked));
+    knurl_store_relaxed(&loop->scene_locked, (uint32_t)lock_memory(loop));
     knurl_device_claim_thread(loop->desc.device);
     knurl_loop_begin_heat(loop);
     knurl_store_release(&loop->threaded, 1u);
@@ -414,6 +425,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
         knurl_system_join_thread(loop->watchdog);
     }
     knurl_system_unlock_memory(loop, sizeof *loop);
+    knurl_loop_free_dry(loop);
     release(&loop->desc);
     knurl_handle_clear(&loop->handle);
     free(loop);

@@ -48,19 +48,18 @@ void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
 /* 1: its owner has destroyed it. [any thread] */
 int knurl_scene_is_destroyed(const knurl_scene *scene);
 
-/* knurl_scene_tick() for the loop that has claimed the HIP. added: or null. */
-knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,
-                            const knurl_added_force *added, knurl_tick_output *output) KNURL_NONBLOCKING;
+/* The tick of one of the scene's HIPs, or of a scratch HIP. The scene is committed. added: or null. */
+void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
+                    knurl_tick_output *output) KNURL_NONBLOCKING;
 
-/* The scratch HIP of dry ticks: a copy of the claimed HIP that touches nothing, whose contacts share no memory with the
- * HIP's. [game thread, while the HIP does not tick] */
-void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch);
+/* dry_tick.c. Makes a scratch HIP: a copy that touches nothing, whose contacts share no memory with the HIP's. [game
+ * thread, while the HIP does not tick] */
+void knurl_hip_init_dry(const knurl_hip *hip, knurl_hip *scratch);
 
-/* A dry tick: a tick at the latest position (device, m) on the scratch HIP, whose result is discarded. It loads what
- * the claimed HIP's next tick needs into the cache. It takes as long as a tick with cold caches; the tick after it
- * takes a fifth of that. */
-void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip, knurl_hip *scratch,
-                        const double position[3]) KNURL_NONBLOCKING;
+/* Around a tick of the scratch HIP, on the HIP's thread. Begin: loads what the HIP's next tick uses into the cache, and
+ * puts the scratch HIP to the same time and workspace; end: edits may free again what the tick read. */
+void knurl_hip_begin_dry(knurl_scene *scene, knurl_hip *hip, knurl_hip *scratch) KNURL_NONBLOCKING;
+void knurl_hip_end_dry(knurl_hip *hip) KNURL_NONBLOCKING;
 
 /* Fills in what a claimed HIP's description leaves open from the loop and its device, and clears the HIP's state except
  * for the heat. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */

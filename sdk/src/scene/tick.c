@@ -228,8 +228,8 @@ static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_ou
 }
 
 /* The whole tick. */
-static void tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
-                 knurl_tick_output *output) {
+void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
+                    knurl_tick_output *output) {
     double force = 0.0;
     output->tick = hip->counts.ticks;
     knurl_epoch_pin(&scene->epoch, &hip->pinned);
@@ -267,11 +267,19 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
         return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: input.reserved: expected zeros, found another number",
                       output);
     }
-    if (hip_index < scene->hip_count && knurl_load_relaxed(&scene->use) >> hip_index & 1) {
+    if (hip_index >= scene->hip_count) {
+        return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: hip: expected below hip_count, found more", output);
+    }
+    if (knurl_load_relaxed(&scene->use) >> hip_index & 1) {
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: hip: expected one that no loop has, found a loop's",
                       output);
     }
-    return knurl_hip_tick(scene, hip_index, input, NULL, output);
+    if (!knurl_load_acquire(&scene->committed)) {
+        return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",
+                      output);
+    }
+    knurl_hip_tick(scene, &scene->hips[hip_index], input, NULL, output);
+    return KNURL_OK;
 }
 
 knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *inputs,
@@ -287,59 +295,4 @@ knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip_index, cons
         first = first ? first : result;
     }
     return first;
-}
-
-knurl_result knurl_hip_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
-                            const knurl_added_force *added, knurl_tick_output *output) {
-    if (hip_index >= scene->hip_count) {
-        return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: hip: expected below hip_count, found more", output);
-    }
-    if (!knurl_load_acquire(&scene->committed)) {
-        return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",
-                      output);
-    }
-    tick(scene, &scene->hips[hip_index], input, added, output);
-    return KNURL_OK;
-}
-
-/* Loads, not prefetches: of so many, some would still be under way when the dry tick ends. */
-static void fetch(const void *from, size_t size) {
-    for (size_t at = 0; at < size; at += 64) { /* a cache's line */
-        (void)knurl_load_relaxed((const char *)from + at);
-    }
-}
-
-/* The parts of a HIP that its next tick uses. */
-static void fetch_hip(knurl_hip *hip) {
-    const knurl_velocity_state *v = knurl_velocity_get_state(&hip->velocity);
-    const uint32_t phase = v->phase + 1 < v->stride ? v->phase + 1 : 0;
-    fetch(hip, offsetof(knurl_hip, velocity));
-    fetch(v->history[phase], sizeof v->history[phase]);
-    fetch(v->held, sizeof *v - offsetof(knurl_velocity_state, held));
-    fetch(&hip->guard, offsetof(knurl_hip, given) - offsetof(knurl_hip, guard));
-    fetch(&hip->move, offsetof(knurl_workspace_move, motion));
-    fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, slots));
-    for (uint32_t i = 0; i < hip->contacts.candidates.count; i++) {
-        fetch(knurl_candidates_at(&hip->contacts.candidates, i), sizeof(knurl_candidate));
-    }
-}
-
-void knurl_hip_begin_dry(const knurl_scene *scene, uint32_t hip, knurl_hip *scratch) {
-    *scratch = scene->hips[hip];
-    knurl_contacts_reset(&scratch->contacts); /* its active contacts pointed to the HIP's own candidates */
-}
-
-void knurl_hip_dry_tick(knurl_scene *scene, uint32_t hip_index, knurl_hip *scratch, const double position[3]) {
-    knurl_hip *hip = &scene->hips[hip_index];
-    knurl_tick_input input;
-    knurl_tick_output output;
-    memset(&input, 0, sizeof input);
-    vec3_copy(position, input.position);
-    knurl_epoch_pin(&scene->epoch, &hip->pinned); /* edits do not know the scratch HIP's */
-    fetch_hip(hip);
-    scratch->contacts.clock = hip->contacts.clock;
-    scratch->workspace = hip->workspace;
-    scratch->is_rotated = hip->is_rotated;
-    tick(scene, scratch, &input, NULL, &output);
-    knurl_epoch_unpin(&hip->pinned);
 }

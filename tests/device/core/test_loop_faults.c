@@ -218,28 +218,29 @@ TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_th
     }
 }
 
-static uint32_t halts; /* bit k: the device was halted when the force of tick k was about to be written */
+static uint32_t halts; /* bit k: the device was halted when the force of tick k was written */
 
-static void see_halt(const knurl_tick_output *output, void *user) {
-    rig *self = user;
-    halts |= knurl_device_is_halted(&self->device) << (output->tick % 32);
+static knurl_result write_and_see_halt(knurl_device *device, const double force[3]) {
+    halts |= knurl_device_is_halted(device) << (rig_of(device)->writes % 32);
+    return rig_write(device, force);
 }
 
 /* What an I/O thread still has is the force from before: it must not be played between the halt and the ramp. */
 TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, end_rig) {
     init();
+    extra_driver.write = write_and_see_halt;
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
     halts = 0;
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
-    r.desc.tick_callback = see_halt;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     knurl_device_halt(&r.device);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     assert_int_equal(halts, 1u << 10);
     assert_int_equal(knurl_device_is_halted(&r.device), 0);
+    assert_int_equal(r.writes, 20);
     rig_destroy(&r);
     knurl_scene_destroy(scene);
 }
