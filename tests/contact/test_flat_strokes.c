@@ -56,7 +56,8 @@ static void check_same(const pair *p) {
     double mesh_coordinates[2];
     to_mesh(p, flat->proxy, 1, proxy);
     to_mesh(p, flat->normal, 0, normal);
-    knurl_plane_frame(&p->plane.plane, flat, x, y, coordinates);
+    knurl_plane_axes(&p->plane.plane, flat, x, y);
+    knurl_plane_coordinates(&p->plane.plane, flat, coordinates);
     to_mesh(p, x, 0, x);
     flat_mesh_frame(p->mesh.mesh, p->axis, c, mesh_x, mesh_coordinates);
     CHECK_CLOSE(distance3(proxy, c->proxy), 0.0, p->tolerance);

@@ -21,21 +21,24 @@ static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3]
     return 1;
 }
 
-/* The surface's tangent frame at a contact (unit, y = n x x, in the plane's frame), and where on the grating it is (m;
- * not turned by the material's orientation). Allowed in a tick. */
-static inline void knurl_plane_frame(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3],
-                                     double coordinates[2]) {
-    const double *p = contact->proxy;
+/* The surface's tangent frame at a contact: unit, y = n x x, in the plane's frame. Allowed in a tick. */
+static inline void knurl_plane_axes(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3]) {
     const double side = contact->normal[2];
-    const double normal[3] = {0.0, 0.0, side};
     x[0] = plane->x[0];
     x[1] = plane->x[1];
-    x[2] = 0.0;
-    vec3_cross(normal, x, y);
+    y[0] = 0.0 - side * x[1]; /* never -0 */
+    y[1] = side * x[0];
+    x[2] = y[2] = 0.0;
+}
+
+/* Where on the grating it is (m; not turned by the material's orientation). Allowed in a tick. */
+static inline void knurl_plane_coordinates(const knurl_plane *plane, const knurl_contact *contact,
+                                           double coordinates[2]) {
+    const double *p = contact->proxy;
     for (int i = 0; i < 2; i++) {
         coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
     }
-    coordinates[1] *= side; /* from behind y runs the other way */
+    coordinates[1] *= contact->normal[2]; /* from behind y runs the other way */
 }
 
 /* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.

@@ -80,12 +80,12 @@ static inline void knurl_shape_rest(const knurl_shape *shape, const knurl_cast_h
     shape->functions->rest(shape->geometry, hit, point, state, contact);
 }
 
-/* The surface's tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and where on the
- * grating it is (m). Allowed in a tick. */
+/* The surface's tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and a mesh's
+ * coordinates (m; of a plane by knurl_plane_coordinates(), because a smooth one needs none). Allowed in a tick. */
 static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_contact *contact, double x[3], double y[3],
                                      double coordinates[2]) KNURL_NONBLOCKING {
     if (shape->plane) {
-        knurl_plane_frame(shape->plane, contact, x, y, coordinates);
+        knurl_plane_axes(shape->plane, contact, x, y);
     } else {
         knurl_mesh_frame(shape->geometry, contact, x, y, coordinates);
     }

@@ -38,7 +38,6 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
                              const double position[3], double margin) {
     knurl_active_contact *a = &c->active[0];
     knurl_contact_state *state = &candidate->contact;
-    const knurl_contact_state before = *state;
     const knurl_pose *pose_before;
     double hip[3], proxy[3], normal[3];
     a->candidate = candidate;
@@ -61,6 +60,7 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     const knurl_plane *plane = a->surface->shape.plane;
     int held = plane && knurl_plane_hold(plane, hip, state, &a->contact);
     const int is_asked = !held;
+    const knurl_contact_state before = *state;
     held = held || query_shape(c, a, hip, state);
     const int is_settled = held && !a->contact.unsure && c->visits.left > 0;
     if (KNURL_LIKELY(is_settled)) {
@@ -73,8 +73,8 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
             c->asked.state = *state;
             c->asked.contact = a->contact;
             c->asked_of = candidate;
+            *state = before;
         }
-        *state = before;
         return 0;
     }
     vec3_copy(proxy, candidate->proxy);

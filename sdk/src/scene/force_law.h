@@ -38,10 +38,10 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
     }
 }
 
-/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: where on the grating. Functions
- * that are not inlined are given copies, so that the values themselves can stay in registers. */
+/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: the frame's. Functions that are
+ * not inlined are given copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
-                                const double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
+                                double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
     knurl_grating_state *state = &c->candidate->grating;
     if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
@@ -50,6 +50,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         out->cycles[0] = out->cycles[1] = 0.0;
         return;
     }
+    knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
     out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* no -0 where there are no ridges */
     out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
     knurl_grating_input at = {{coordinates[0], coordinates[1]}, {out->velocity[0], out->velocity[1]}, 1};
@@ -100,7 +101,7 @@ static inline void friction_force(const knurl_active_contact *c, const knurl_wal
 /* The force of one contact. wall: as limited by the protections; its height is set. */
 static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                                    knurl_contact_force *out) {
-    double over[3], x[3], y[3], coordinates[2];
+    double over[3], x[3], y[3], coordinates[2] = {0.0, 0.0};
     relative_velocity(hip, c, over);
     knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
     out->velocity[0] = vec3_dot(over, x);

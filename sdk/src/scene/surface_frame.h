@@ -6,19 +6,31 @@
 #include "scene/surface.h"
 
 /* A surface's tangent frame at a contact, in the shape's frame. x, y: unit, tangent to the contact's normal.
- * coordinates: m, what S1 looks up. */
+ * coordinates: for knurl_surface_coordinates(). */
 static inline void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record,
                                        const knurl_contact *contact, double x[3], double y[3], double coordinates[2]) {
     knurl_shape_frame(&surface->shape, contact, x, y, coordinates);
-    if (record->is_oriented) { /* the orientation rotates the frame, so the coordinates rotate back */
+    if (record->is_oriented) {
         const double c = record->cos_sin[0];
         const double s = record->cos_sin[1];
-        const double place[2] = {coordinates[0], coordinates[1]};
         for (int i = 0; i < 3; i++) {
             const double along = x[i];
             x[i] = c * along + s * y[i];
             y[i] = c * y[i] - s * along;
         }
+    }
+}
+
+/* Where on the grating the contact is, m: what S1 looks up. After knurl_surface_frame(), with its coordinates. */
+static inline void knurl_surface_coordinates(const knurl_surface_data *surface, const knurl_record *record,
+                                             const knurl_contact *contact, double coordinates[2]) {
+    if (surface->shape.plane) {
+        knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
+    }
+    if (record->is_oriented) { /* which rotates the frame, so the coordinates rotate back */
+        const double c = record->cos_sin[0];
+        const double s = record->cos_sin[1];
+        const double place[2] = {coordinates[0], coordinates[1]};
         coordinates[0] = c * place[0] + s * place[1];
         coordinates[1] = c * place[1] - s * place[0];
     }
