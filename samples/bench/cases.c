@@ -282,9 +282,10 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     result->ticks = (double)count;
     if (s.tick == tick_scene) {
         tell_shares(b, result);
+        failed = bench_stage_reset(&b->stage, c); /* or the batches would begin with a jump through surfaces */
     }
-    if (c->pace == BENCH_WARM && c->hips == 1 && !is_moving(c)) {
+    if (!failed && c->pace == BENCH_WARM && c->hips == 1 && !is_moving(c)) {
         result->batch_ns = time_batches(&s, ticks);
     }
-    return BENCH_DONE;
+    return failed ? BENCH_FAILED : BENCH_DONE;
 }
