@@ -25,8 +25,8 @@
 
 /* Stores are most of what a tick's time goes to: a processor does one in a cycle, of 8 bytes or of 16. A reader may see
  * the halves of a 16-byte store one after the other; the proof below needs only that stores keep their order, as they
- * do on x86. C has no such store that is not a data race, hence the assembler. ThreadSanitizer does not look into it and
- * gets the atomics. */
+ * do on x86. C has no such store that is not a data race, hence the assembler. ThreadSanitizer does not look into it
+ * and gets the atomics. */
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define KNURL_STORES_PAIRS 1
 typedef uint64_t knurl_pair __attribute__((vector_size(16), aligned(8), may_alias));
