@@ -32,12 +32,14 @@ static inline void knurl_store_float(float *to, float value) {
 /* For counters with one writer and any number of readers. */
 #define knurl_count_up(p) knurl_store_relaxed((p), knurl_load_relaxed(p) + 1)
 
-/* Brings memory into the cache, for a tick that is about to use it; no other thread may write to it but by atomics.
- * Loads, not prefetches: of so many, some would still be under way then. */
-static inline void knurl_fetch(const void *from, size_t size) {
-    for (size_t at = 0; at < size; at += 64) { /* a cache's line */
-        (void)knurl_load_relaxed((const char *)from + at);
+/* Brings a part of an object, from one byte up to another, into the cache, for a tick that is about to use it; no other
+ * thread may write to it but by atomics. Loads, not prefetches: of so many, some would still be under way then. */
+static inline void knurl_fetch(const void *object, size_t from, size_t to) {
+    const char *bytes = object;
+    for (size_t at = from; at < to; at += 64) { /* a cache's line */
+        (void)knurl_load_relaxed(&bytes[at]);
     }
+    (void)knurl_load_relaxed(&bytes[to - 1]); /* what begins within a line ends in one more */
 }
 
 #endif

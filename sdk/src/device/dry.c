@@ -53,13 +53,13 @@ void knurl_port_free_dry(knurl_device *scratch) {
 
 /* What a read and a write use. */
 static void fetch(const knurl_device *device) {
-    knurl_fetch(device, offsetof(knurl_device, motor_check));
-    knurl_fetch(&device->use, sizeof *device - offsetof(knurl_device, use));
+    knurl_fetch(device, 0, offsetof(knurl_device, motor_check));
+    knurl_fetch(device, offsetof(knurl_device, use), sizeof *device);
     if (device->link) {
         const knurl_link *link = device->link; /* not the samples, which its thread writes */
-        knurl_fetch(&link->stale, offsetof(knurl_link, orders) - offsetof(knurl_link, stale));
-        knurl_fetch(&link->forces[link->orders.back], sizeof link->forces[0]);
-        knurl_fetch(&link->is_silent, offsetof(knurl_link, durations) - offsetof(knurl_link, is_silent));
+        knurl_fetch(link, offsetof(knurl_link, stale), offsetof(knurl_link, orders));
+        knurl_fetch(&link->forces[link->orders.back], 0, sizeof link->forces[0]);
+        knurl_fetch(link, offsetof(knurl_link, is_silent), offsetof(knurl_link, durations));
     }
 }
 

@@ -1,6 +1,6 @@
-/* Dry cycles: at 1 kHz a loop finds its code and data where a millisecond of other people's work has left them, mostly
- * in main memory. Shortly before the device is read, a dry cycle does what the real one will do, on a scratch loop with
- * a scratch device and a scratch HIP, and loads what these stand for. SPDX-License-Identifier: MIT */
+/* Dry cycles: at 1 kHz a loop finds its code and data where a millisecond of other programs has left them, mostly not
+ * in the cache. Before the device is read, a dry cycle does what the real one will do, on a scratch loop with a scratch
+ * device and a scratch HIP, and loads what these stand for. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "scene/scene.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The callers' callbacks are never run for nothing, and their clocks not asked. */
+/* A force callback and a clock are the caller's, and are called for real cycles only. */
 static int is_wanted(const knurl_loop_desc *desc) {
     return desc->dry_ticks && desc->scene && !desc->clock;
 }
@@ -47,8 +47,8 @@ void knurl_loop_free_dry(knurl_loop *loop) {
 
 /* What a tick uses of the loop itself. */
 static void fetch(const knurl_loop *loop) {
-    knurl_fetch(&loop->desc, offsetof(knurl_loop, thread) - offsetof(knurl_loop, desc));
-    knurl_fetch(&loop->force, offsetof(knurl_loop, tick_ns) - offsetof(knurl_loop, force));
+    knurl_fetch(loop, offsetof(knurl_loop, desc), offsetof(knurl_loop, thread));
+    knurl_fetch(loop, offsetof(knurl_loop, force), offsetof(knurl_loop, tick_ns));
 }
 
 void knurl_loop_run_dry(knurl_loop *loop) {

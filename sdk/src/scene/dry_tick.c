@@ -16,14 +16,14 @@ void knurl_hip_init_dry(const knurl_hip *hip, knurl_hip *scratch) {
 static void fetch(knurl_hip *hip) {
     const knurl_velocity_state *v = knurl_velocity_get_state(&hip->velocity);
     const uint32_t phase = v->phase + 1 < v->stride ? v->phase + 1 : 0;
-    knurl_fetch(hip, offsetof(knurl_hip, velocity));
-    knurl_fetch(v->history[phase], sizeof v->history[phase]);
-    knurl_fetch(v->held, sizeof *v - offsetof(knurl_velocity_state, held));
-    knurl_fetch(&hip->guard, offsetof(knurl_hip, given) - offsetof(knurl_hip, guard));
-    knurl_fetch(&hip->move, offsetof(knurl_workspace_move, motion));
-    knurl_fetch(&hip->contacts, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, slots));
+    knurl_fetch(hip, 0, offsetof(knurl_hip, velocity));
+    knurl_fetch(v->history[phase], 0, sizeof v->history[phase]);
+    knurl_fetch(v, offsetof(knurl_velocity_state, held), sizeof *v);
+    knurl_fetch(hip, offsetof(knurl_hip, guard), offsetof(knurl_hip, given));
+    knurl_fetch(&hip->move, 0, offsetof(knurl_workspace_move, motion));
+    knurl_fetch(&hip->contacts, 0, offsetof(knurl_contacts, candidates) + offsetof(knurl_candidates, slots));
     for (uint32_t i = 0; i < hip->contacts.candidates.count; i++) {
-        knurl_fetch(knurl_candidates_at(&hip->contacts.candidates, i), sizeof(knurl_candidate));
+        knurl_fetch(knurl_candidates_at(&hip->contacts.candidates, i), 0, sizeof(knurl_candidate));
     }
 }
 
