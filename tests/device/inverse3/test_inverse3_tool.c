@@ -36,15 +36,24 @@ TEST(a_plate_is_felt_with_it) {
     process_free(&p);
 }
 
-/* 0.1 s in; the tool ends with it, or plays on without a force. */
+static int tells(const process *p, const char *word) {
+    return strstr(p->err, word) || strstr(p->out, word);
+}
+
+/* 0.1 s in; the tool ends with it, or plays on without a force. An answer that comes after 5 ms is silence, whatever it
+ * says: where the machine is too busy to pass on 70 KB within that time, the fault is tried again. */
 TEST(faults_of_the_service_are_told) {
     static const struct {
         const char *fault, *seconds, *words;
     } table[] = {{"unplugged", "0.2", "lost"}, {"closed", "0.2", "lost"},     {"mute", "0.2", "silent"},
                  {"late", "0.2", "silent"},    {"garbage", "0.2", "corrupt"}, {"long", "0.6", "corrupt"}};
-    for (size_t i = 0; i < COUNT_OF(table); i++) { /* 70 KB may take longer than 0.1 s to arrive */
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
         process p = STROKE(table[i].fault, table[i].seconds);
-        if (!strstr(p.err, table[i].words) && !strstr(p.out, table[i].words)) {
+        for (int tries = 1; tries < 5 && !tells(&p, table[i].words) && tells(&p, "silent"); tries++) {
+            process_free(&p);
+            p = STROKE(table[i].fault, table[i].seconds);
+        }
+        if (!tells(&p, table[i].words)) {
             fail_msg("%s: exit %d, %s%s", table[i].fault, p.exit_code, p.out, p.err);
         }
         process_free(&p);
