@@ -28,7 +28,7 @@ enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3, K
 
 /** Hz: below this LOCKED follows the position, above it plays events. Chosen by the chart of `knurl study locked`:
  * strokes of up to two a second to 480 Hz over 0.5 mm, positions in steps of 0.055 mm, 1 to 10 kHz. With 120 Hz,
- * played cycles stay within 0.42 of those crossed. At 100 Hz and below whole cycles are lost, because an event that
+ * played cycles stay within 0.44 of those crossed. At 100 Hz and below whole cycles are lost, because an event that
  * begins while the hand speeds up outlasts its cycle. A higher crossover gains nothing at 1 kHz, and following the
  * position has a larger net force: up to A/9 at 111 Hz and A/5 at 200 Hz. */
 #define KNURL_LOCKED_CROSSOVER_HZ 120.0
@@ -106,8 +106,9 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
  *   deadband, or where an event would last over 1e6 ticks, the height is 0.
  * - LOCKED: the phase p counts cycles crossed in the direction of motion: by position on a grating in one direction
  *   (cycles begin at Eq. 11's rising edges), by the integral of Eq. 12's frequency on a grid. Below the crossover the
- *   height is +A in the first half of each cycle, else -A. Above it, from the next cycle's begin on, T3 events follow
- *   each other. After n events the next lasts the whole number of ticks nearest T (1 - (p - n)), limited to T/1.38 to
+ *   height is +A in the first half of each cycle, else -A; -A also in what is left of a first half, up to a tenth of
+ *   a cycle, when the event that has played it ends. Above it, from the next cycle's begin on, T3 events follow each
+ *   other. After n events the next lasts the whole number of ticks nearest T (1 - (p - n)), limited to T/1.38 to
  *   1.38 T or to the whole numbers next to T, so that cycles played keep step with cycles crossed. A reversal restarts
  *   the count from p. f_t above f_h/2, or a difference of more than a cycle, changes n by whole cycles.
  * - AREA: the mean of the square wave over the distance since the last tick, scaled so that the fundamental keeps 4/pi
