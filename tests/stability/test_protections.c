@@ -1,20 +1,11 @@
 /* The protections in the laboratory: what runs away is stopped by the defaults, what is calm is left alone to the bit.
+ * test_protection_grids.c has many more cells, and counts.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "runaways.h"
 
-#include <stdlib.h>
-
-#define STEP           (SUITE_SANITIZED ? 7 : 1) /* through the cases of a grid */
-#define PASSIVITY_ONLY (KNURL_PROTECT_ALL & ~(uint32_t)KNURL_PROTECT_PASSIVITY)
-
-/* Near the limit a swing takes seconds to grow, and a stroke turns after a metre: judged is the end of five seconds or
- * of 0.98 m. */
-static void judge_late(lab_case *c) {
-    c->seconds = 0.3;
-    c->settle = fmin(5.0, 0.98 / fmax(c->speed, 0.1)) - 0.25 - c->seconds;
-}
+#define STEP (SUITE_SANITIZED ? 7 : 1) /* through the cases of a grid */
 
 static lab_signals signals;
 static lab_signals others;
@@ -93,44 +84,6 @@ TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL
                       1e3 * late_swing(&others, others.height));
         assert_true(acts < (raw.swing > 0.003 ? 1.0 : 2.5));
     }
-}
-
-/* The Falcon where it begins to run away, finer than the study's maps: every grip and method, up to the maker's
- * stiffness. What swings by 0.5 to 1 mm more than the reference is not called unstable yet, nor is it calm. */
-TEST_WITH(a_finer_grid_has_no_runaway_left_and_no_calm_cell_touched, NULL, drop_signals) {
-    const char *const finer_grips[] = {"loose", "light", "medium", "firm"};
-    const int fine = getenv("KNURL_LONG") != NULL;
-    const int rows = fine ? 9 : 3;
-    const int columns = fine ? 12 : 4;
-    int stopped = 0;
-    int calm = 0;
-    for (int i = 0; i < 20 * rows * columns; i += STEP) {
-        lab_case c;
-        lab_case_init(&c);
-        c.device = "preset=falcon";
-        c.grip = lab_grip_named(finer_grips[i % 4]);
-        c.method = ((const int32_t[]){KNURL_METHOD_DEFAULT, KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA})[i / 4 % 5];
-        c.amplitude = c.method == KNURL_METHOD_DEFAULT ? 0.0 : 0.0002;
-        c.stiffness = 1500.0 + 1500.0 * (i / 20 % rows) / (rows - 1);
-        c.speed = 0.06 + 0.24 * (i / 20 / rows) / (columns - 1);
-        judge_late(&c);
-        const lab_result raw = run(&c, &others);
-        if (raw.outcome == LAB_UNSTABLE) {
-            (void)check_stopped(&c);
-            stopped++;
-        } else if (raw.outcome <= LAB_VIBRATION && raw.swing < raw.reference_swing + 0.0005) {
-            c.without = PASSIVITY_ONLY;
-            (void)run(&c, &signals);
-            if (memcmp(signals.written, others.written, signals.count * sizeof *signals.written) != 0) {
-                fail_msg("%s, method %d, %g N/m, %g m/s: not the same forces; swings by %g m, the reference by %g m",
-                         c.grip->name, (int)c.method, c.stiffness, c.speed, raw.swing, raw.reference_swing);
-            }
-            calm++;
-        }
-    }
-    print_message("of %d cells %d run away and are stopped, %d are calm and left alone\n", 20 * rows * columns / STEP,
-                  stopped, calm);
-    assert_true(stopped * STEP > 4 * rows && calm * STEP > 8 * rows * columns);
 }
 
 static const char *const devices[] = {"preset=touch", "preset=falcon"};
