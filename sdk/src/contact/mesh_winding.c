@@ -202,7 +202,7 @@ static void choose_fronts(const winding *w, knurl_mesh *mesh) {
         knurl_mesh_triangle(mesh, t, &triangle);
         w->parts[root >> 1].areas[root & 1] += triangle.area2;
         w->parts[root >> 1].counts[root & 1]++;
-        w->marks[root >> 1] |= w->marks[t] & CONTRADICTS;
+        w->marks[root >> 1] = (uint8_t)(w->marks[root >> 1] | (w->marks[t] & CONTRADICTS));
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         const uint32_t root = root_of(w, t);
