@@ -84,9 +84,9 @@ def compile_client(version, name, *options):
 def main():
     os.makedirs(FOLDER, exist_ok=True)
     make_later(os.path.join(FOLDER, "later.source"))
-    today = build(SOURCE, f"{BUILD}-today", C_FLAGS)  # as other builds compile it, so that ccache has its objects
-    later = build(os.path.join(FOLDER, "later.source"), os.path.join(FOLDER, "later"), "-O1",
-                  "-DKNURL_WARNINGS_AS_ERRORS=OFF")
+    today = build(SOURCE, f"{BUILD}-today", C_FLAGS,
+                  "-DKNURL_WARNINGS_AS_ERRORS=ON")  # as other builds compile it, so that ccache has its objects
+    later = build(os.path.join(FOLDER, "later.source"), os.path.join(FOLDER, "later"), "-O1")
     client = compile_client(today, "client_of_today")
     newer = compile_client(later, "client_to_come", "-DLATER")
     newest = compile_client(later, "client_with_function", "-DLATER", "-DLATER_FUNCTION")
