@@ -20,7 +20,8 @@ def run(*command):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
                           env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja",
                                "KNURL_BUILD_FOLDER": f"{BUILD}-python", "CMAKE_ARGS":
-                               f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}'"})
+                               f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}' "
+                               "-DKNURL_WARNINGS_AS_ERRORS=ON"})
     if done.returncode:
         sys.exit(f"python: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
     return done.stdout
