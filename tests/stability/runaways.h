@@ -7,10 +7,6 @@
 
 #include "lab.h"
 
-#include <math.h>
-
-#define PASSIVITY_ONLY (KNURL_PROTECT_ALL & ~(uint32_t)KNURL_PROTECT_PASSIVITY)
-
 typedef struct runaway {
     const char *device, *grip;
     int32_t method;
@@ -33,13 +29,6 @@ static const runaway runaways[] = {
     {"preset=touch&coulomb=0", "loose", KNURL_S2, 1020.0, 0.0002, 0.1},
     {"preset=touch&coulomb=0", "loose", KNURL_LOCKED, 1020.0, 0.0002, 0.1},
 };
-
-/* Near the limit a swing takes seconds to grow, and a stroke turns after a metre: judged is the end of five seconds or
- * of 0.98 m. */
-static inline void judge_late(lab_case *c) {
-    c->seconds = 0.3;
-    c->settle = fmin(5.0, 0.98 / fmax(c->speed, 0.1)) - 0.25 - c->seconds;
-}
 
 static inline lab_case runaway_case(const runaway *r, uint32_t without) {
     lab_case c;

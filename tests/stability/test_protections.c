@@ -1,23 +1,13 @@
 /* The protections in the laboratory: what runs away is stopped by the defaults, what is calm is left alone to the bit.
  * test_protection_grids.c has many more cells, and counts.
  * SPDX-License-Identifier: MIT */
-#include "support/close.h"
-
+#include "protection.h"
 #include "runaways.h"
 
 #define STEP (SUITE_SANITIZED ? 7 : 1) /* through the cases of a grid */
 
 static lab_signals signals;
 static lab_signals others;
-
-static lab_result run(const lab_case *c, lab_signals *into) {
-    lab_result r;
-    memset(&r, 0, sizeof r);
-    if (lab_run(c, into, &r)) {
-        fail_msg("%s", knurl_error_message());
-    }
-    return r;
-}
 
 static int drop_signals(void **state) {
     (void)state;
@@ -26,33 +16,7 @@ static int drop_signals(void **state) {
     return 0;
 }
 
-/* From the lowest to the highest over the last quarter of a second. */
-static double late_swing(const lab_signals *s, const double *values) {
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (size_t i = s->count - 250; i < s->count; i++) {
-        low = fmin(low, values[i]);
-        high = fmax(high, values[i]);
-    }
-    return high - low;
-}
-
-/* s from the first touch to the first tick in which the controller acts; negative: it never does. */
-static double time_to_act(const lab_signals *s) {
-    size_t touched = 0;
-    while (touched < s->count && s->measured[touched] >= 0.0) {
-        touched++;
-    }
-    for (size_t i = touched; i < s->count; i++) {
-        if (s->flags[i] & KNURL_TICK_PASSIVITY) {
-            return 0.001 * (double)(i - touched);
-        }
-    }
-    return -1.0;
-}
-
-/* Stopped: no longer unstable, and the force swings by a sixth at most of what it does raw. others: the raw run, with
- * the same times. Returns the time to act. */
+/* others: the raw run, with the same times. Returns the time to act. */
 static double check_stopped(const lab_case *raw) {
     lab_case c = *raw;
     c.without = 0;
@@ -60,7 +24,7 @@ static double check_stopped(const lab_case *raw) {
     const double acts = time_to_act(&signals);
     const double force = late_swing(&signals, signals.written);
     const double raw_force = late_swing(&others, others.written);
-    if (r.outcome == LAB_UNSTABLE || acts < 0.0 || force > raw_force / 6.0) {
+    if (!is_stopped(&r, &signals, &others)) {
         fail_msg("%s, %s, method %d, %g N/m, %g m, %g m/s: acts after %g s, force swings by %g N instead of %g N: %s",
                  c.device, c.grip->name, (int)c.method, c.stiffness, c.amplitude, c.speed, acts, force, raw_force,
                  lab_outcome_name(r.outcome));

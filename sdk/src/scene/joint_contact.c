@@ -7,8 +7,6 @@
 #include "scene/god_object.h"
 #include "scene/joint_faces.h"
 
-#include <string.h>
-
 /* 1 where everything between `from` and the proxy has been collected. */
 static int is_collected(const knurl_joint_search *m, const double from[3]) {
     return m->pressed == 0 || vec3_distance2(from, m->proxy) <= m->margin * m->margin;
