@@ -11,6 +11,10 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Every buffer, as tinygltf is told of it: a file would have it call functions for files, and which of those it wants
+/// changes with its versions.
+constexpr const char *one_byte = "data:application/octet-stream;base64,AA==";
+
 /// Copies a checked whole number where it is there.
 void copy_whole(Json &to, const Fields &from, const char *key, uint32_t least = 0, uint32_t most = whole_max) {
     if (const auto value = from.whole(key, least, most))
@@ -91,7 +95,7 @@ class Filter {
             filtered.primitives.push_back(primitive_place(instance.mesh, instance.primitive));
         }
         for (uint32_t i = 0; i < sources_.size(); ++i)
-            buffers_[i] = {{"byteLength", 1}, {"uri", std::to_string(i)}}; // what the file calls for is in sources_
+            buffers_[i] = {{"byteLength", 1}, {"uri", one_byte}}; // what the file calls for is in sources_
         Json mesh = {{"primitives", std::move(primitives_)}};
         const Json all = {{"asset", {{"version", "2.0"}}},     {"nodes", nodes_.take_json()},
                           {"meshes", {std::move(mesh)}},       {"accessors", accessors_.take_json()},

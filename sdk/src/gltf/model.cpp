@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp> // for tinygltf's own code
+
 #define TINYGLTF_IMPLEMENTATION
 #include "model.hpp"
 
@@ -18,21 +20,6 @@ Bytes read_buffer(const BufferSource &source, const Resources &resources, Source
     return {bin->data, source.byte_length};
 }
 
-bool buffer_exists(const std::string & /*name*/, void * /*user*/) {
-    return true;
-}
-
-std::string same_name(const std::string &name, void * /*user*/) {
-    return name;
-}
-
-/// Buffers are read apart; tinygltf gets as much as the filtered JSON says.
-bool read_stub(std::vector<unsigned char> *out, std::string * /*error*/, const std::string & /*name*/,
-               void * /*user*/) {
-    out->assign(1, 0);
-    return true;
-}
-
 } // namespace
 
 void load_model(Filtered filtered, const Resources &resources, Model &model) {
@@ -41,12 +28,7 @@ void load_model(Filtered filtered, const Resources &resources, Model &model) {
         model.buffers.push_back(read_buffer(source, resources, model.sources));
         resources.budget->step();
     }
-    tinygltf::FsCallbacks callbacks{};
-    callbacks.FileExists = buffer_exists;
-    callbacks.ExpandFilePath = same_name;
-    callbacks.ReadWholeFile = read_stub;
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(callbacks);
     std::string error;
     std::string warning;
     const bool loaded = parser.LoadASCIIFromString(&model.parsed, &error, &warning, model.filtered.json.data(),

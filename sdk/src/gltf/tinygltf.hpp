@@ -7,6 +7,8 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS
+#define TINYGLTF_NO_INCLUDE_JSON // model.cpp includes it: as published, the header looks for it beside itself
+
 #include <fstream> // the header needs it and, with NO_FS, forgets it
 
 #include <tiny_gltf.h>
