@@ -111,8 +111,6 @@ static struct lws_context *serve(int *port) {
     info.port = 0; /* one that is free */
     info.iface = "lo";
     info.protocols = protocols;
-    info.uid = -1;
-    info.gid = -1;
     info.fd_limit_per_thread = 64;
     info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
     lws_set_log_level(LLL_ERR, NULL);

@@ -198,8 +198,6 @@ static int start(websocket *w, int port) {
     memset(&info, 0, sizeof info);
     info.port = CONTEXT_PORT_NO_LISTEN;
     info.protocols = protocols;
-    info.uid = -1;
-    info.gid = -1;
     info.fd_limit_per_thread = FD_LIMIT;
     info.pt_serv_buf_size = 16384;
     w->texts[0] = malloc(KNURL_INVERSE3_LONGEST);
