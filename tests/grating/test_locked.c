@@ -152,7 +152,7 @@ TEST(the_last_tenth_of_a_ridge_that_an_event_has_played_is_not_felt) {
     locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
     double x = 0.0;
     int left = 0;
-    for (int k = 0; x * FS + 0.25 < 3.0; k++) {
+    while (x * FS + 0.25 < 3.0) {
         const double speed = w.state.event_count == 0 ? 0.2 : 0.085;
         x += speed / RATE;
         const double height = walk_x(&w, x, speed);

@@ -17,6 +17,12 @@ extern "C" {
 #endif
 #include <cmocka.h>
 
+/** cmocka 2 deprecates the name; its own for unsigned numbers casts them to signed ones, which gcc warns of. */
+#ifdef assert_int_in_range
+#undef assert_in_range
+#define assert_in_range assert_int_in_range
+#endif
+
 void suite_add(const struct CMUnitTest *test, const char *file, int line);
 void suite_fixtures(CMFixtureFunction setup, CMFixtureFunction teardown);
 

@@ -92,7 +92,7 @@ static inline int file_exists(const char *path) {
  * '|'), and nothing on standard output. Frees. */
 static inline void check_refused(process *p, int code, const char *words, const char *what) {
     char all[256];
-    const char *word = all;
+    char *word = all;
     (void)snprintf(all, sizeof all, "%s", words);
     const size_t length = strlen(p->err);
     int good = p->signal == 0 && p->exit_code == code && p->sizes[0] == 0 && strncmp(p->err, "knurl: ", 7) == 0 &&

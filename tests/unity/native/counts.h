@@ -47,6 +47,10 @@ static inline int64_t heap_bytes(HANDLE heap) {
     return bytes;
 }
 
+#if !__GLIBC_PREREQ(2, 33)
+#define mallinfo2 mallinfo /* in ints, which differences of less than 2 GB get over */
+#endif
+
 static inline counts count_all(void) {
     counts c = {count_threads(), 0, 0, 0};
     DWORD handles = 0;
@@ -85,6 +89,10 @@ static inline int64_t count_lines(const char *path) {
     }
     return lines;
 }
+
+#if !__GLIBC_PREREQ(2, 33)
+#define mallinfo2 mallinfo /* in ints, which differences of less than 2 GB get over */
+#endif
 
 static inline counts count_all(void) {
     const counts c = {count_entries("/proc/self/task"), count_entries("/proc/self/fd"), (int64_t)mallinfo2().uordblks,
