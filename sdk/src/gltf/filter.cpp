@@ -201,7 +201,7 @@ class Filter {
             keep_view_of(to, *from);
             if (!to.contains("bufferView"))
                 from->refuse_key("bufferView", "missing: expected an index");
-            copy_whole(to, *from, "byteOffset");
+            to["byteOffset"] = from->whole("byteOffset").value_or(0); // tinygltf 2.5 asks for one
             if (part == "indices")
                 copy_component_type(to, *from);
         }
