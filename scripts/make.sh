@@ -6,12 +6,9 @@ DEMO=(run assets/plate_1d.glb --stroke sweep --seconds 5)
 demo() {
     need_packages "${DEMO_PACKAGES[@]}"
     mkdir -p build/demo
-    if [ ! -f build/release/CMakeCache.txt ]; then
-        cmake --preset release -DBUILD_TESTING=OFF >build/release.log 2>&1 ||
-            { cat build/release.log >&2; exit 1; }
-    fi
+    [ -f build/release/CMakeCache.txt ] || configure release -DBUILD_TESTING=OFF
     echo 'run: building the tool'
-    with_progress 'building the tool' build/release.log cmake --build --preset release --target knurl_tool feel_scene \
+    with_progress 'building the tool' build/release.log cmake --build build/release --target knurl_tool feel_scene \
         touch_grating || { tail -n 60 build/release.log >&2; exit 1; }
     echo "run: build/release/knurl ${DEMO[*]} --out build/demo/sweep.csv"
     build/release/knurl "${DEMO[@]}" --out build/demo/sweep.csv --pretty >build/demo/sweep.json

@@ -44,7 +44,7 @@ package_godot() {
     cmake/zip.py "build/knurl-godot-demo-$version.zip" build/knurl-godot-demo
     echo "run: the demo project is in build/knurl-godot-demo-$version.zip"
     if fetch_godot; then
-        KNURL_GODOT_PACKAGE=$package ctest --preset release -R '^addon_package$' --no-tests=error
+        KNURL_GODOT_PACKAGE=$package test_preset release -R '^addon_package$' --no-tests=error
     else
         echo "run: SKIPPED: trying the package in Godot: it could not be fetched, see above" >&2
     fi
@@ -162,6 +162,9 @@ check_release() {
     need_packages debootstrap
     echo 'run: trying each archive in an empty Debian'
     tests/package/empty_debian.sh "$1" build/empty-debian
+    echo 'run: trying the two commands in the oldest and in the newest system'
+    test_systems '' "$OLDEST_SYSTEM" "$NEWEST_SYSTEM"
+    [ ! -d build/systems ] || tests/package/tinygltf.sh build/systems build/tinygltf
     echo 'run: building all of it again'
     rm -rf "$again"
     git clone -q . "$again"

@@ -4,13 +4,14 @@
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libtinygltf-dev nlohmann-json3-dev libglm-dev libusb-1.0-0-dev
     libhidapi-dev libwebsockets-dev libjsmn-dev libcmocka-dev libkissfft-dev umockdev libumockdev-dev python3)
 DEMO_PACKAGES=(g++ cmake ninja-build libtinygltf-dev nlohmann-json3-dev libglm-dev python3)
-FUZZ_PACKAGES=(clang llvm libclang-rt-14-dev) # Debian 12's
+FUZZ_PACKAGES=(clang llvm libclang-rt-dev)
 PLOT_PACKAGES=(python3 python3-numpy python3-matplotlib)
 WEB_PACKAGES=(emscripten node-acorn libtinygltf-dev nlohmann-json3-dev libglm-dev)
 WINDOWS_PACKAGES=(gcc-mingw-w64-x86-64-posix g++-mingw-w64-x86-64-posix wine wine64 xz-utils)
 UNITY_PACKAGES=(mono-mcs mono-runtime libmono-cil-dev nunit-console libnunit-cil-dev)
 PYTHON_PACKAGES=(python3-cffi python3-numpy python3-setuptools python3-wheel python3-pip python3-venv)
 NUMBERS_PACKAGES=(clang gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf libc6-dev-armhf-cross qemu-user)
+OLDEST_SYSTEM=bullseye CURRENT_SYSTEM=trixie NEWEST_SYSTEM=sid # of those that the two commands are tried in
 EXIT_SETUP=3 # what is missing could not be installed
 
 # Where there is ccache, builds go through it. The tests of packages compile the library again in folders of their own: with
@@ -47,17 +48,17 @@ with_progress() {
     return $code
 }
 
-# Installs those of the named packages that are missing, and says which.
+# Installs those of the named packages that are missing, and says which; without apt-get it says what to install.
 need_packages() {
+    if ! command -v apt-get >/dev/null; then
+        look_for_packages "$@"
+        return
+    fi
     local missing=() package sudo=()
     for package in "$@"; do
         dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
     done
     [ ${#missing[@]} -gt 0 ] || return 0
-    if ! command -v apt-get >/dev/null; then
-        echo "run: these are missing and there is no apt-get to install them: ${missing[*]}" >&2
-        exit $EXIT_SETUP
-    fi
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo >/dev/null || ! sudo -n true 2>/dev/null; then
             echo "run: these packages are missing: ${missing[*]}" >&2
@@ -66,18 +67,53 @@ need_packages() {
         fi
         sudo=(sudo)
     fi
-    echo "run: installing ${missing[*]}"
-    local log
+    local log absent=()
     log=$(mktemp)
-    if ! with_progress 'installing packages' "$log" "${sudo[@]}" apt-get update -q ||
-        ! with_progress 'installing packages' "$log" "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
-            apt-get install -y -q --no-install-recommends "${missing[@]}"; then
+    if with_progress 'reading lists of packages' "$log" "${sudo[@]}" apt-get update -q; then
+        for package in "${missing[@]}"; do
+            apt-cache show "$package" >/dev/null 2>&1 || absent+=("$package")
+        done
+        if [ ${#absent[@]} -gt 0 ]; then
+            rm -f "$log"
+            echo "run: this system has no package ${absent[*]}" >&2
+            exit $EXIT_SETUP
+        fi
+    fi
+    echo "run: installing ${missing[*]}"
+    if ! with_progress 'installing packages' "$log" "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -q --no-install-recommends "${missing[@]}"; then
         tail -n 5 "$log" >&2
         rm -f "$log"
         echo "run: apt-get could not install ${missing[*]} (is there a network?)" >&2
         exit $EXIT_SETUP
     fi
     rm -f "$log"
+}
+
+# Where there is no apt-get: which of the packages are missing, by their names there, which docs/building.md lists. What is
+# no package there is a header, which may stand in /usr/local/include.
+look_for_packages() {
+    local column query install package name missing=() headers=()
+    if command -v dnf >/dev/null; then
+        column=2 query='rpm -q' install='dnf install'
+    elif command -v pacman >/dev/null; then
+        column=3 query='pacman -Q' install='pacman -S'
+    elif command -v zypper >/dev/null; then
+        column=4 query='rpm -q' install='zypper install'
+    else
+        echo "run: neither apt-get, dnf, pacman nor zypper: expecting what Debian calls $*" >&2
+        return 0
+    fi
+    for package in "$@"; do
+        name=$(awk -F '[ |`]+' -v package="$package" -v column=$column '$2 == package { print $(column + 1) }' docs/building.md)
+        case ${name:=$package} in
+        *.h) [ -f "/usr/include/$name" ] || [ -f "/usr/local/include/$name" ] || headers+=("$name") ;;
+        *) $query "$name" >/dev/null 2>&1 || missing+=("$name") ;;
+        esac
+    done
+    [ ${#missing[@]} -eq 0 ] || echo "run: these packages are missing; run: sudo $install ${missing[*]}" >&2
+    [ ${#headers[@]} -eq 0 ] || echo "run: to be put into /usr/local/include (docs/building.md says from where): ${headers[*]}" >&2
+    [ $((${#missing[@]} + ${#headers[@]})) -eq 0 ] || exit $EXIT_SETUP
 }
 
 # A Python environment in build/NAME with what a file of requirements names, pinned by version and hash.
@@ -99,11 +135,30 @@ need_python() {
     cp "$requirements" "$venv/installed.txt"
 }
 
-# Configures a preset; quiet unless something goes wrong.
+# Warnings are errors with the compiler and the libraries of Debian 12, which all is written with. Others warn of other things.
+warnings_as_errors() {
+    # shellcheck source=/dev/null
+    if [ -z "${CC:-}${CXX:-}" ] && [ "$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}")" = 'debian 12' ]; then
+        echo ON
+    else
+        echo OFF
+    fi
+}
+
+# Configures a preset, with any CMake; quiet unless something goes wrong. usage: configure PRESET [OPTION...]
 configure() {
-    local preset=$1 log=build/$1.log
+    local preset=$1 log=build/$1.log options
+    shift
     mkdir -p build
-    cmake --preset "$preset" -DBUILD_TESTING=ON >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+    mapfile -t options < <(/usr/bin/python3 -B scripts/preset.py "$preset")
+    cmake -DKNURL_WARNINGS_AS_ERRORS="$(warnings_as_errors)" -DBUILD_TESTING=ON "${options[@]}" "$@" >"$log" 2>&1 ||
+        { cat "$log" >&2; exit 1; }
+    sed -n 's/^ *\(tests\? .* left out: .*\)/run: SKIPPED: \1/p' "$log" >&2
+}
+
+# Runs the tests of a preset. usage: test_preset PRESET [OPTION...]: ctest's
+test_preset() {
+    (cd "build/$1" && ctest --output-on-failure "${@:2}")
 }
 
 # Builds a preset, or only the targets named after it.
@@ -112,6 +167,7 @@ build() {
     shift
     configure "$preset"
     echo "run: building $preset"
-    with_progress "building $preset" "$log" cmake --build --preset "$preset" ${1:+--target "$@"} ||
+    with_progress "building $preset" "$log" cmake --build "build/$preset" ${1:+--target "$@"} ||
         { tail -n 60 "$log" >&2; exit 1; }
+    ! grep -q 'warning:' "$log" || echo "run: the compiler warned $(grep -c 'warning:' "$log") times, see $log"
 }

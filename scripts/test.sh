@@ -1,15 +1,19 @@
 # Part of ./run: ./run test, soak and fuzz.
 
-LABELS='base vibration grating motion contact scene audio loop device gltf tool bindings fidelity stability realtime clock threads'
+LABELS='base vibration grating motion contact scene audio loop device gltf tool docs bindings fidelity stability realtime clock threads'
 LABELS+=' windows godot unity abi package python web'
 
 run_tests() {
-    local all='' label labels=() excluded='' narrow=()
+    local all='' label labels=() excluded='' narrow=() targets=() whole=''
     [ "${1:-}" != all ] || { all=1; shift; }
     for label in "$@"; do
         case " $LABELS " in
         *" $label "*) labels+=("$label") ;;
         *) echo "run: unknown label '$label'; known: all $LABELS" >&2; exit 2 ;;
+        esac
+        case $label in
+        gltf | threads | tool) targets+=("${label}_tests") ;; # all of these are programs, which need little else
+        *) whole=1 ;;
         esac
     done
     need_packages "${BUILD_PACKAGES[@]}"
@@ -27,16 +31,26 @@ run_tests() {
     ! wanted python || (need_packages "${PYTHON_PACKAGES[@]}") ||
         echo "run: SKIPPED: tests of the Python module: see above" >&2
     ! wanted web || prepare_web "${labels[@]}" || echo "run: SKIPPED: the page in a browser: see above" >&2
-    build release
+    [ -z "$whole" ] || targets=()
+    build release "${targets[@]}"
     run_ctest release "$excluded" "${narrow[@]}"
     if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load what needs a sanitizer's runtime first
-        build asan-ubsan
+        build asan-ubsan "${targets[@]}"
         run_ctest asan-ubsan "" "${narrow[@]}"
     fi
     ! wanted device || cat build/release/tests/device/faults/faults.md # what each fault comes to
     [ -z "$all" ] || ! wanted threads || test_threads
     [ -z "$all" ] || [ ${#labels[@]} -gt 0 ] || fuzz_in_tests
+    [ -z "$all" ] || [ ${#labels[@]} -gt 0 ] || test_systems 'gltf tool' "$CURRENT_SYSTEM"
     ! wanted windows || test_windows
+}
+
+# The README's two commands in empty Debians; where these cannot be made, says so and goes on. usage: test_systems LABELS SUITE...
+test_systems() {
+    local code=0
+    (need_packages debootstrap) && tests/package/systems.sh build/systems "$@" || code=$?
+    [ $code -ne $EXIT_SETUP ] || { echo "run: SKIPPED: the two commands in an empty Debian (${*:2}): see above" >&2; return 0; }
+    return $code
 }
 
 # Runs the tests of a built preset: first what only computes, as many at once as there are CPUs; then what waits on threads
@@ -51,14 +65,14 @@ run_ctest() {
         waits) select=(-L '^clock$' -LE "^(realtime$excluded)\$" -j "$((2 * $(nproc)))") ;;
         measures) select=(-L '^realtime$' -LE "^(none$excluded)\$" -j 1) ;;
         esac
-        [ "$(ctest --preset "$preset" "${select[@]}" "$@" -N 2>/dev/null | grep -c 'Test *#')" -gt 0 ] || continue
+        [ "$(test_preset "$preset" "${select[@]}" "$@" -N 2>/dev/null | grep -c 'Test *#')" -gt 0 ] || continue
         some=1
-        if ! ctest --preset "$preset" "${select[@]}" "$@"; then
+        if ! test_preset "$preset" "${select[@]}" "$@"; then
             if [ $part != waits ]; then
                 failed=1
             else
                 echo 'run: what failed beside others is run by itself: that decides'
-                ctest --preset "$preset" -j 1 --rerun-failed || failed=1
+                test_preset "$preset" -j 1 --rerun-failed || failed=1
             fi
         fi
         grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # why; those in one
@@ -89,7 +103,7 @@ test_threads() {
     if [ ${#runner[@]} -eq 0 ]; then
         run_ctest tsan '' -L '^threads$'
     else
-        export -f run_ctest
+        export -f run_ctest test_preset
         "${runner[@]}" bash -euo pipefail -c 'run_ctest tsan "" -L "^threads\$"'
     fi
 }
@@ -108,9 +122,17 @@ test_windows() {
     done
 }
 
-# mono and NUnit for the Unity package's C#, and the parser that its view of the headers is made with.
+# mono and NUnit for the Unity package's C#, Debian 12's where the system has no more; and the parser that its view of the
+# headers is made with.
 prepare_unity() {
-    (need_packages "${UNITY_PACKAGES[@]}" && need_python mirror-venv bindings/unity/native/requirements.txt)
+    if ! (need_packages "${UNITY_PACKAGES[@]}"); then
+        mkdir -p build
+        (need_packages pkg-config && with_progress "fetching Debian 12's mono" build/mono.log tests/unity/mono.sh build/mono) ||
+            { tail -n 1 build/mono.log >&2; return $EXIT_SETUP; }
+        echo "run: the C# is tested with Debian 12's mono, in build/mono"
+        PATH=$PWD/build/mono/bin:$PATH
+    fi
+    (need_python mirror-venv bindings/unity/native/requirements.txt)
 }
 
 # The page for its tests in a browser. Asked for by its label, what is missing is installed and every case is run; else a
@@ -167,6 +189,7 @@ soak() {
         fi
     done
     same_numbers || failed+=(same_numbers)
+    test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # and what warns there
     figures --check || failed+=("figures --check")
     [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }
     echo 'run: soak: all is well'

@@ -91,6 +91,16 @@ def options_without_help():
             yield f"samples/study/studies.c: expected {name} in samples/knurl/help.c, found none"
 
 
+def packages_without_names():
+    """What ./run demo and ./run test install has a row with its names on systems without apt-get."""
+    table = (ROOT / "docs/building.md").read_text(encoding="utf-8")
+    setup = (ROOT / "scripts/setup.sh").read_text(encoding="utf-8")
+    for names in re.findall(r"^(?:BUILD|DEMO)_PACKAGES=\(([^)]*)\)", setup, re.M):
+        for name in names.split():
+            if not re.search(rf"^\| `{re.escape(name)}` \|( `[^`]+` \|){{3}}$", table, re.M):
+                yield f"docs/building.md: expected a row of names for {name}, found none"
+
+
 def main():
     broken_links.count = 0
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -98,6 +108,7 @@ def main():
     problems += pictures_without_dark()
     problems += unknown_functions()
     problems += options_without_help()
+    problems += packages_without_names()
     if len(readme.encode()) > README_MOST:
         problems.append(f"README.md: expected at most {README_MOST} bytes, found {len(readme.encode())}")
     sample = (ROOT / SAMPLE).read_text(encoding="utf-8").split("README: begin */\n")[1].split("    /* README: end")[0]

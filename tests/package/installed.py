@@ -36,7 +36,8 @@ def build(name, targets, *options):
     folder = f"{BUILD}-{name}"
     run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
         f"-DCMAKE_C_FLAGS_RELEASE={C_FLAGS}", f"-DCMAKE_CXX_FLAGS_RELEASE={CXX_FLAGS}", "-DBUILD_TESTING=OFF",
-        "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib", "-DKNURL_WARNINGS_AS_ERRORS=ON", *options)
+        "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
+        f"-DKNURL_WARNINGS_AS_ERRORS={os.environ['KNURL_WARNINGS_AS_ERRORS']}", *options)
     run("cmake", "--build", folder, "--target", *targets)
     return folder
 

@@ -85,7 +85,7 @@ def main():
     os.makedirs(FOLDER, exist_ok=True)
     make_later(os.path.join(FOLDER, "later.source"))
     today = build(SOURCE, f"{BUILD}-today", C_FLAGS,
-                  "-DKNURL_WARNINGS_AS_ERRORS=ON")  # as other builds compile it, so that ccache has its objects
+                  f"-DKNURL_WARNINGS_AS_ERRORS={os.environ['KNURL_WARNINGS_AS_ERRORS']}")  # ccache has its objects then
     later = build(os.path.join(FOLDER, "later.source"), os.path.join(FOLDER, "later"), "-O1")
     client = compile_client(today, "client_of_today")
     newer = compile_client(later, "client_to_come", "-DLATER")

@@ -21,7 +21,7 @@ def run(*command):
                           env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja",
                                "KNURL_BUILD_FOLDER": f"{BUILD}-python", "CMAKE_ARGS":
                                f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}' "
-                               "-DKNURL_WARNINGS_AS_ERRORS=ON"})
+                               f"-DKNURL_WARNINGS_AS_ERRORS={os.environ['KNURL_WARNINGS_AS_ERRORS']}"})
     if done.returncode:
         sys.exit(f"python: {' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}")
     return done.stdout
