@@ -1,8 +1,8 @@
 // What is deep, long or large: small stacks, chains, many surfaces, and the time that a real size takes.
 // SPDX-License-Identifier: MIT
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include <pthread.h>
 
@@ -147,9 +147,9 @@ TEST(a_hundred_thousand_triangles_load_within_half_a_second) {
     double best = 1e9;
     for (int i = 0; i < 3; ++i) {
         Loaded loaded;
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock(); // of the processor: others may use it, too
         loaded.assert_loads(bytes);
-        best = std::fmin(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        best = std::fmin(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         assert_int_equal(loaded.info().triangle_count, 100352);
     }
     std::printf("100,352 triangles (%.1f MB) load in %.0f ms\n", static_cast<double>(bytes.size()) * 1e-6, best * 1e3);
