@@ -69,7 +69,8 @@ need_packages() {
     fi
     local log absent=()
     log=$(mktemp)
-    if with_progress 'reading lists of packages' "$log" "${sudo[@]}" apt-get update -q; then
+    if with_progress 'reading lists of packages' "$log" "${sudo[@]}" \
+        apt-get update -q -o APT::Update::Error-Mode=any; then
         for package in "${missing[@]}"; do
             apt-cache show "$package" >/dev/null 2>&1 || absent+=("$package")
         done
