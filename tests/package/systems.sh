@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The README's two commands in empty systems, as somebody has them who clones this there: ./run demo, and ./run test or its
-# parts. Says for each how long both took, what was tested, and what its compiler warned of.
+# parts. Says for each how long both took with what they install, what was tested, and what its compiler warned of.
 # usage: systems.sh FOLDER PARTS SUITE...     FOLDER: keeps the empty systems; PARTS: '' for ./run test whole, or labels
 # Exit 1: something failed; 3: no empty system can be had.
 set -euo pipefail
@@ -23,15 +23,13 @@ mkdir /knurl
 tar -C /source --exclude=./build --exclude=./.git -c . | tar -C /knurl -x
 cd /knurl
 export CCACHE_BASEDIR=/knurl
-begin=$SECONDS
-./run demo
+TIMEFORMAT="systems: demo %0R %0U %0S"
+time ./run demo
 cp build/release.log /tmp/demo.log
 [ -s build/demo/sweep.svg ]
-echo "systems: demo $((SECONDS - begin)) s"
-begin=$SECONDS
-./run test '$parts'
+TIMEFORMAT="systems: test %0R %0U %0S"
+time ./run test '$parts'
 grep -ho "[^ ]*: warning: .*" /tmp/demo.log build/release.log | sort -u | sed "s#^[./]*#systems: warns #" || true
-echo "systems: test $((SECONDS - begin)) s"
 cp /usr/include/tiny_gltf.h /kept/
 '
 code=0
@@ -42,13 +40,13 @@ for suite in "$@"; do
     log=$folder/$suite-commands.log
     [ $failed -ne 3 ] || grep -q '^+ ./run' "$log" || give_up "$suite has no packages to install (is there a network?)"
     awk -v suite="$suite" -v failed=$failed '
-        /^systems: demo / { demo = $3 }
-        /^systems: test / { test = $3 }
+        /^systems: demo / { demo = $3; cpu = $4 + $5 }
+        /^systems: test / { test = $3; cpu += $4 + $5 }
         /Test .*(Passed|Failed|\*\*\*)/ { ran++ }
         /\*\*\*Skipped/ { skipped++ }
         /^systems: warns / { warned++ }
-        END { printf "systems: %s %s: demo %d s, tests %d s: %d run, %d skipped; %d warnings\n",
-              failed ? "FAIL" : "ok  ", suite, demo, test, ran, skipped, warned }' "$log"
+        END { printf "systems: %s %s: demo %d s, tests %d s (%d s of CPU): %d run, %d skipped; %d warnings\n",
+              failed ? "FAIL" : "ok  ", suite, demo, test, cpu, ran, skipped, warned }' "$log"
     grep '^systems: warns ' "$log" || true
     [ $failed -eq 0 ] || { code=1; grep -v '^+' "$log" | tail -n 30 >&2; echo "systems: see $log" >&2; }
 done
