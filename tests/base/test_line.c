@@ -36,6 +36,19 @@ TEST(c1_controls_separators_and_turns_of_direction_become_question_marks) {
                "?cod.exe?\?\?\?\?\?\?");
 }
 
+TEST(characters_that_cannot_be_seen_become_question_marks) {
+    static const struct {
+        const char *text, *what;
+    } unseen[] = {{"\xE1\xA0\x8E", "U+180E"},      {"\xE2\x80\x8B", "U+200B"},      {"\xE2\x81\xA0", "U+2060"},
+                  {"\xE2\x81\xAA", "U+206A"},      {"\xEF\xBB\xBF", "U+FEFF"},      {"\xEF\xBF\xB9", "U+FFF9"},
+                  {"\xF3\xA0\x80\x80", "U+E0000"}, {"\xF3\xA0\x80\x81", "U+E0001"}, {"\xF3\xA0\x81\xBF", "U+E007F"}};
+    for (size_t i = 0; i < sizeof unseen / sizeof *unseen; i++) {
+        print_message("%s\n", unseen[i].what);
+        check_line(unseen[i].text, "?");
+    }
+    check_line("\xE2\x80\x8D\xF3\xA0\x84\x80", "\xE2\x80\x8D\xF3\xA0\x84\x80"); /* a joiner, a variation selector */
+}
+
 TEST(bytes_that_are_no_utf8_become_question_marks) {
     check_line("\x9b"
                "31m",

@@ -96,7 +96,8 @@ KNURL_API const char *knurl_result_string(knurl_result result);
 KNURL_API const char *knurl_error_message(void);
 
 /** Copies untrusted text (names, paths, a file's contents) as one line that is safe to print: control characters and
- * line ends become spaces; C1 controls, characters that change the direction of text, and invalid UTF-8 become '?'.
+ * line ends become spaces; C1 controls, characters that change the direction of text or cannot be seen (Unicode tags,
+ * zero width spaces, byte order marks), and invalid UTF-8 become '?'.
  * All messages of this library have passed it. to: `size` bytes, the caller's; longer text is cut between characters;
  * may be `from`. Returns the length without the final 0. [any thread, never from a tick] */
 KNURL_API size_t knurl_text_line(char *to, size_t size, const char *from);

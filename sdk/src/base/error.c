@@ -68,11 +68,28 @@ static uint32_t code_point(const unsigned char *at, size_t *bytes) {
     return code;
 }
 
-/* What moves a cursor, begins an escape, ends a line or turns what is read the other way: C0, DEL, C1, the separators
- * of lines and paragraphs, the bidirectional marks, embeddings, overrides and isolates, and the byte order mark. */
+/* Characters that move a cursor, begin an escape, end a line, reverse the direction of text, or cannot be seen. The
+ * joiners U+200C and U+200D are not among them: several scripts are spelled with them. */
 static int is_harmful(uint32_t code) {
-    return code < 0x20 || (code >= 0x7f && code <= 0x9f) || code == 0x61c || code == 0x200e || code == 0x200f ||
-           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfeff;
+    static const uint32_t ranges[][2] = {
+        {0x00, 0x1f},       /* C0 controls */
+        {0x7f, 0x9f},       /* DEL, C1 controls */
+        {0x61c, 0x61c},     /* Arabic letter mark */
+        {0x180e, 0x180e},   /* Mongolian vowel separator */
+        {0x200b, 0x200b},   /* zero width space */
+        {0x200e, 0x200f},   /* left-to-right and right-to-left marks */
+        {0x2028, 0x202e},   /* separators of lines and paragraphs, embeddings, overrides */
+        {0x2060, 0x206f},   /* invisible operators, isolates, deprecated format characters */
+        {0xfeff, 0xfeff},   /* byte order mark */
+        {0xfff9, 0xfffb},   /* interlinear annotations */
+        {0xe0000, 0xe007f}, /* tags */
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        if (code >= ranges[i][0] && code <= ranges[i][1]) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 size_t knurl_text_line(char *to, size_t size, const char *from) {
