@@ -19,10 +19,29 @@ INK, GREY, RULE, PALE, CURVE = "#1c2b33", "#66737a", "#c3ccd0", "#eef2f4", "#0f6
 
 
 COLUMNS = ("t", "ft", "height", "fx", "fy", "fz", "vx", "vy", "surface")
+MOST = 1e9  # of any number, in SI units
+
+
+def one_line(text):
+    """Text of any origin as a line that sends nothing to a terminal."""
+    return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def fail(why):
-    sys.exit(f"draw_run.py: {why}")
+    sys.exit(one_line(f"draw_run.py: {why}"))
+
+
+def number(row, name, place):
+    """A cell as a number that can be drawn."""
+    text = row[name]
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        fail(f"{place}: expected a number for {name}, found {repr(text[:40]) if text else 'nothing'}")
+    least = 0.0 if name == "ft" else -MOST
+    if not least <= value <= MOST:  # nor is it NaN
+        fail(f"{place}: expected {least:g} to {MOST:g} for {name}, found {text[:40]}")
+    return value
 
 
 def read(path):
@@ -34,13 +53,18 @@ def read(path):
             if name not in (reader.fieldnames or ()):
                 fail(f"{path}: expected the CSV of `knurl run ... --out`, found no column '{name}'")
         for row in reader:
-            try:
-                rows.append({name: row[name] if name == "surface" else float(row[name]) for name in COLUMNS})
-            except (TypeError, ValueError) as error:
-                fail(f"{path}: line {reader.line_num}: expected a number in each column, found: {error}")
+            place = f"{path}: line {reader.line_num}"
+            rows.append({name: row[name] if name == "surface" else number(row, name, place) for name in COLUMNS})
+            if len(rows) > 1 and not rows[-1]["t"] > rows[-2]["t"]:
+                fail(f"{place}: expected a time after {rows[-2]['t']:g} s, found {row['t'][:40]}")
     if len(rows) < 2:
         fail(f"{path}: expected at least two rows, found {len(rows)}")
     return rows
+
+
+def surface_name(cell):
+    """The name in a cell, which begins with an apostrophe if the name alone would be a formula or the word none."""
+    return cell[1:] if cell.startswith("'") else cell
 
 
 def label(x, y, text, size=12, colour=INK, anchor="start"):
@@ -70,8 +94,8 @@ def time_axis(top, first, last, unit):
 
 
 def round_up(value):
-    """The next of 1, 2, 5 times a power of ten."""
-    power = 10 ** math.floor(math.log10(value)) if value > 0 else 1.0
+    """The next of 1, 2, 5 times a power of ten; 1 of nothing."""
+    power = 10 ** math.floor(math.log10(value)) if value > 1e-12 else 1.0
     return next(power * step for step in (1, 2, 5, 10) if value <= 1.0001 * power * step)
 
 
@@ -113,7 +137,7 @@ def say(rows):
     ridges = sum(row["ft"] for row in touched) * period
     metres = sum(math.hypot(row["vx"], row["vy"]) for row in touched) * period
     force = max(math.hypot(row["fx"], row["fy"], row["fz"]) for row in touched)
-    return (f"In {rows[-1]['t'] + period:.0f} s the hand slid over {100 * metres:.0f} cm of '{touched[0]['surface']}' "
+    return (f"In {rows[-1]['t'] + period:.0f} s the hand slid over {100 * metres:.0f} cm of '{surface_name(touched[0]['surface'])}' "
             f"and felt {ridges:.0f} ridges, up to {max(row['ft'] for row in touched):.0f} per second, with up to "
             f"{force:.2f} N.")
 
@@ -131,10 +155,12 @@ def main():
         with open(out, "w", encoding="utf-8") as file:
             file.write(picture)
     except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
+        fail(f"{error.filename or out}: {error.strerror}")
     except UnicodeDecodeError:
         fail(f"{run}: expected the CSV of `knurl run ... --out`, found no text")
-    print(say(rows))
+    except csv.Error as error:
+        fail(f"{run}: expected the CSV of `knurl run ... --out`, found: {error}")
+    print(one_line(say(rows)))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ def parse(path, reader):
     for cells in reader:
         if len(cells) != len(COLUMNS):
             raise BadInput(f"{path}: line {reader.line_num}: expected {len(COLUMNS)} cells, found {len(cells)}")
-        names.append(cells.pop(surface))
+        names.append(cells.pop(surface))  # an apostrophe before what alone would be a formula or the word none
         try:
             rows.append([float(cell or "nan") for cell in cells])
         except ValueError as error:
@@ -284,7 +284,7 @@ def facts(run, path):
 
 
 def default_title(run):
-    names = list(dict.fromkeys(run.name[run.touching]))
+    names = [name.removeprefix("'") for name in dict.fromkeys(run.name[run.touching])]
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "") if names else "No contact"
 
 

@@ -26,7 +26,11 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axe
 
 
 class BadInput(Exception):
-    """One line for the user: which file, what was expected, what was found."""
+    """One line for the user: which file, what was expected, what was found. Paths and cells in it
+    send nothing to a terminal."""
+
+    def __str__(self):
+        return "".join(character if character.isprintable() else "?" for character in super().__str__())
 
 
 INPUTS = []  # the files that were read: (device, inode)

@@ -99,7 +99,15 @@ TEST(a_drawing_of_what_is_no_run_is_refused_with_its_file_and_line) {
                 {HEADER, "at least two rows, found 0"},
                 {HEADER ROW, "at least two rows, found 1"},
                 {HEADER ROW "1,0,0,0,0,0,none,0,0,fast,0,0,0,0\n", "line 3: expected a number"},
-                {HEADER ROW "1,0,0\n", "line 3: expected a number"},
+                {HEADER ROW "1,0,0\n", "line 3: expected a number for ft, found nothing"},
+                {HEADER ROW "nan,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected -1e+09 to 1e+09 for t, found nan"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,nan,0,0,0\n", "for height, found nan"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,inf,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found inf"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,-inf,0,0\n", "for fx, found -inf"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,1e308,0,0\n", "for fx, found 1e308"},
+                {HEADER ROW "1,0,0,0,0,0,none,0,0,-1,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found -1"},
+                {HEADER ROW "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found 0"},
+                {HEADER ROW "-1,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found -1"},
                 {"\xff\xfe\x01", "found no text"}};
     for (size_t i = 0; i < COUNT_OF(runs); i++) {
         write_text(tool_path("bad.csv"), runs[i].text);
