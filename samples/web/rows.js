@@ -12,15 +12,18 @@ const COLUMNS = [["t", 16], ["x", 3], ["y", 4], ["z", 5], ["vx", 17], ["vy", 18]
   ["ft", 11], ["height", 10], ["fx", 0], ["fy", 1], ["fz", 2], ["px", 6], ["py", 7], ["pz", 8], ["nx", 20], ["ny", 21],
   ["nz", 22], ["cycles_x", 12], ["cycles_y", 13]];
 
+// As the tool has it: without its first apostrophe a cell is the name; `none` is no contact.
 function cell(name) {
-  return /[",\r\n]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name;
+  const text = /^\s*['=+\-@＝＋－＠]|^none$/.test(name) ? `'${name}` : name;
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
 export function toCsv(rows, surfaces) {
   const lines = [COLUMNS.map(([name]) => name).join()];
   for (let k = 0; k < rows.length; k += ROW) {
-    const name = surfaces[rows[k + AT.surface]]?.name ?? "none";
-    lines.push(COLUMNS.map(([, at]) => (at === undefined ? cell(name) : rows[k + at])).join());
+    const name = surfaces[rows[k + AT.surface]]?.name;
+    const found = name === undefined ? "none" : cell(name);
+    lines.push(COLUMNS.map(([, at]) => (at === undefined ? found : rows[k + at])).join());
   }
   return `${lines.join("\n")}\n`;
 }
@@ -54,7 +57,7 @@ export function fromCsv(text, surfaces) {
       }
     }
     row[AT.contact] = found[named] === "none" ? 0 : 1;
-    row[AT.surface] = row[AT.contact] ? Math.max(0, surfaces.findIndex(({ name }) => name === found[named])) : -1;
+    row[AT.surface] = row[AT.contact] ? Math.max(0, surfaces.findIndex(({ name }) => name === found[named].replace(/^'/, ""))) : -1;
     if (!header.includes("nz")) {
       const force = length(vector(row, AT.force));
       for (let i = 0; i < 3; i++) {

@@ -132,6 +132,20 @@ export const cases = {
     assert.ok(most > 0.9 * cycles && most <= cycles + 0.1, `${most} of ${cycles}`);
   },
 
+  async "names in CSV are no formulas, and a surface called none is one"() {
+    const { fromCsv, toCsv } = await import("../../samples/web/rows.js");
+    const names = ["plate", "none", "=1+1", "-1", "＝1", "'none", "=a,\"b\""];
+    const surfaces = names.map((name) => ({ name }));
+    const rows = new Float64Array(ROW * (names.length + 1));
+    for (let k = 0; k <= names.length; k++) {
+      rows.set([k < names.length ? 1 : 0, k < names.length ? k : -1], ROW * k + 14); // contact, surface
+    }
+    const csv = toCsv(rows, surfaces);
+    assert.deepEqual(csv.trim().split("\n").slice(1).map((line) => line.split(/^(?:[^,]*,){6}/)[1].split(/,0,/)[0]),
+      ["plate", "'none", "'=1+1", "'-1", "'＝1", "''none", "\"'=a,\"\"b\"\"\"", "none"]);
+    assert.deepEqual([...fromCsv(csv, surfaces)], [...rows]);
+  },
+
   async "a run with --view is seen, recorded and replayed"() {
     const { run, url } = await startLive();
     try {
