@@ -136,7 +136,8 @@ int main(int argc, char **argv) {
             continue;
         }
         if (*end || !(seconds > 0.0 && seconds <= 86400.0)) {
-            (void)fprintf(stderr, "touch_grating: cannot make sense of '%s'\n%s", argv[i], usage);
+            (void)knurl_fail(KNURL_ERROR_ARGUMENT, "cannot make sense of '%s'", argv[i]); /* cleans it for terminals */
+            (void)fprintf(stderr, "touch_grating: %s\n%s", knurl_error_message(), usage);
             return 2;
         }
     }

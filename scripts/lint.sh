@@ -1,4 +1,4 @@
-# Part of ./run: ./run lint, and what ./run test looks at first: formatting and clang-tidy.
+# Part of ./run: ./run lint, and what ./run test looks at first: formatting, clang-tidy, and how the samples print names.
 
 lint() {
     need_packages "${BUILD_PACKAGES[@]}" git
@@ -35,6 +35,7 @@ changed_sources() {
 
 check_sources() {
     local windows='(_windows\.c|^tests/windows/.*)$' units
+    /usr/bin/python3 -B tests/tool/printing.py
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
     # No part of this build: fuzz targets, what is for browsers, what is built against an installed Knurl or by other
     # compilers, and what stands in for libwebsockets where it is missing.

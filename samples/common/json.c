@@ -3,41 +3,48 @@
 
 #include "out.h"
 
+#include <knurl/base.h>
+
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-/* Of a character of two or three bytes that does something to a terminal, its code: C1 controls, separators of lines,
- * marks that turn the direction of reading. 0: it may be printed. */
-static unsigned escaped(const char *text) {
+/* Of the character at `text` its bytes, and the code point if it has to be escaped: it is one that knurl_text_line()
+ * keeps from terminals, or U+FFFD for a byte that is no UTF-8. 0: it may be printed as it is. */
+static int measure(const char *text, unsigned long *code) {
     const unsigned char *u = (const unsigned char *)text;
-    if (u[0] == 0xc2 && u[1] >= 0x80 && u[1] <= 0x9f) {
-        return u[1];
+    const int length = u[0] < 0xc0 ? 1 : u[0] < 0xe0 ? 2 : u[0] < 0xf0 ? 3 : 4;
+    char one[5] = {text[0]};
+    char line[5];
+    int bytes = 1;
+    unsigned long point = length > 1 ? u[0] & (0x7fu >> length) : u[0];
+    for (; bytes < length && u[bytes] >> 6 == 2; bytes++) {
+        one[bytes] = text[bytes];
+        point = point << 6 | (u[bytes] & 0x3fu);
     }
-    if (u[0] == 0xd8 && u[1] == 0x9c) {
-        return 0x61c;
+    const size_t written = knurl_text_line(line, sizeof line, one);
+    if (strcmp(line, one) == 0) {
+        *code = 0;
+        return bytes;
     }
-    const unsigned code = u[0] == 0xe2 && u[1] >= 0x80 && u[1] <= 0x81 && u[2] >= 0x80
-                              ? 0x2000u + ((u[1] & 1u) << 6) + (u[2] & 0x3fu)
-                              : 0;
-    return code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069)
-               ? code
-               : 0;
+    const int is_utf8 = written == 1 && bytes == length && (u[0] < 0x80 || length > 1); /* else a '?' for each byte */
+    *code = is_utf8 ? point : 0xfffd;
+    return is_utf8 ? bytes : 1;
 }
 
 static void print_text(FILE *stream, const char *text) {
     fputc('"', stream);
-    for (const char *c = text; *c; c++) {
-        const unsigned code = escaped(c);
-        if (code) {
-            fprintf(stream, "\\u%04x", code);
-            c += code < 0x800 ? 1 : 2;
-        } else if (*c == '"' || *c == '\\') {
-            fprintf(stream, "\\%c", *c);
-        } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
-            fprintf(stream, "\\u%04x", (unsigned)(unsigned char)*c);
+    for (const char *c = text; *c;) {
+        unsigned long code;
+        const int bytes = measure(c, &code);
+        if (code > 0xffff) {
+            fprintf(stream, "\\u%04lx\\u%04lx", 0xd7c0 + (code >> 10), 0xdc00 + (code & 0x3ff));
+        } else if (code) {
+            fprintf(stream, "\\u%04lx", code);
         } else {
-            fputc(*c, stream);
+            fprintf(stream, "%s%.*s", *c == '"' || *c == '\\' ? "\\" : "", bytes, c);
         }
+        c += bytes;
     }
     fputc('"', stream);
 }

@@ -1,6 +1,8 @@
 /* Command-line options. SPDX-License-Identifier: MIT */
 #include "options.h"
 
+#include "say.h"
+
 #include <knurl/knurl.h>
 
 #include <math.h>
@@ -17,9 +19,17 @@ int tool_error(int code, const char *format, ...) {
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    (void)knurl_text_line(text, sizeof text, text); /* whatever a name holds */
-    fprintf(stderr, "%s: %s\n", tool_name, text);
+    say(stderr, "%s: %s\n", tool_name, text);
     return code;
+}
+
+void tool_tell(const char *kind, const char *format, ...) {
+    char text[4608];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say(stderr, "%s: %s: %s\n", tool_name, kind, text);
 }
 
 int tool_library_error(int code, const char *what) {

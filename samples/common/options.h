@@ -15,7 +15,10 @@ extern const char *tool_name;
 /* Prints "knurl: ..." as one line on stderr; returns `code`. */
 int tool_error(int code, const char *format, ...) KNURL_PRINTF(2, 3);
 
-/* The same with the library's own message. */
+/* Prints "knurl: KIND: ..." as one line on stderr, for what does not end the program: "note", "warning", "hint". */
+void tool_tell(const char *kind, const char *format, ...) KNURL_PRINTF(2, 3);
+
+/* tool_error() with the library's own message. */
 int tool_library_error(int code, const char *what);
 
 /* What main() returns: `code`, or TOOL_FAILURE where that is TOOL_OK and standard output cannot be written: a full disk

@@ -2,6 +2,8 @@
 #define _CRT_RAND_S /* rand_s(); NOLINT(bugprone-reserved-identifier) */
 #include "os.h"
 
+#include "say.h"
+
 #include <windows.h> /* before shellapi.h, which needs it */
 
 #include <conio.h>
@@ -76,7 +78,7 @@ void os_begin(int *argc, char ***argv) {
     int count = 0;
     char **arguments = read_arguments(&count);
     if (!arguments) {
-        fputs("knurl: no memory for the arguments\n", stderr);
+        say(stderr, "knurl: no memory for the arguments\n");
         exit(1);
     }
     *argc = count;

@@ -38,8 +38,7 @@ int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *ou
         return tool_library_error(TOOL_USAGE, argv[0]);
     }
     if (out->wave.saturated) {
-        fprintf(stderr, "knurl: note: %g ms is below two updates at %g Hz; two updates are played\n", period_ms,
-                out->rate);
+        tool_tell("note", "%g ms is below two updates at %g Hz; two updates are played", period_ms, out->rate);
     }
     return TOOL_OK;
 }

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define MAX_CASES 64
 
@@ -50,12 +49,6 @@ static int unknown_case(const char *name) {
     return tool_error(TOOL_USAGE, "bench: --case: expected one of %s, found '%s'", known, name);
 }
 
-static void show_progress(const char *name) {
-    if (isatty(STDERR_FILENO)) {
-        fprintf(stderr, "\r\033[K%s", name);
-    }
-}
-
 /* All cases but those on request, or the one: TOOL_OK, or TOOL_FAILURE having said why. What was measured before stays
  * in the report. */
 static int measure(bench *b, const bench_case *only, report *out) {
@@ -64,10 +57,10 @@ static int measure(bench *b, const bench_case *only, report *out) {
             continue;
         }
         row *r = &out->rows[out->count];
-        show_progress(c->name);
+        say_progress("%s", c->name);
         r->timed = c;
         r->outcome = bench_run(b, c, &r->result);
-        show_progress("");
+        say_progress_end();
         if (r->outcome == BENCH_INTERRUPTED) {
             return tool_error(TOOL_FAILURE, "bench: interrupted in %s; the cases before it are told", c->name);
         }
@@ -76,7 +69,7 @@ static int measure(bench *b, const bench_case *only, report *out) {
         }
         if (r->outcome == BENCH_SKIPPED) {
             (void)snprintf(r->why, sizeof r->why, "%s", knurl_error_message());
-            fprintf(stderr, "knurl: note: %s is skipped: %s\n", c->name, r->why);
+            tool_tell("note", "%s is skipped: %s", c->name, r->why);
         }
         out->count++;
     }
@@ -139,30 +132,30 @@ static void print_json(const report *out) {
 }
 
 static void print_table(const report *out) {
-    printf("%s; ns a tick, less %g of the timer, whose steps are %g; in batches: without it\n", out->machine,
-           out->timer_ns, out->step_ns);
-    printf("%-20s %8s %8s %8s %8s %10s %10s %12s %6s %9s\n", "case", "batch", "p50", "p99", "p99.9", "max", "ticks",
-           "bytes", "/tri", "build ms");
+    say(stdout, "%s; ns a tick, less %g of the timer, whose steps are %g; in batches: without it\n", out->machine,
+        out->timer_ns, out->step_ns);
+    say(stdout, "%-20s %8s %8s %8s %8s %10s %10s %12s %6s %9s\n", "case", "batch", "p50", "p99", "p99.9", "max",
+        "ticks", "bytes", "/tri", "build ms");
     for (size_t i = 0; i < out->count; i++) {
         const row *r = &out->rows[i];
         const bench_result *t = &r->result;
         if (r->outcome == BENCH_SKIPPED) {
-            printf("%-20s skipped\n", r->timed->name);
+            say(stdout, "%-20s skipped\n", r->timed->name);
             continue;
         }
-        printf("%-20s %8.1f %8.0f %8.0f %8.0f %10.0f %10.0f %12.0f ", r->timed->name, t->batch_ns, t->p50_ns, t->p99_ns,
-               t->p999_ns, t->max_ns, t->ticks, t->bytes);
+        say(stdout, "%-20s %8.1f %8.0f %8.0f %8.0f %10.0f %10.0f %12.0f ", r->timed->name, t->batch_ns, t->p50_ns,
+            t->p99_ns, t->p999_ns, t->max_ns, t->ticks, t->bytes);
         if (t->triangles > 0.0) {
-            printf("%6.1f ", t->bytes / t->triangles);
+            say(stdout, "%6.1f ", t->bytes / t->triangles);
         } else {
-            printf("%6s ", "");
+            say(stdout, "%6s ", "");
         }
-        printf("%9.2f\n", t->build_ms);
+        say(stdout, "%9.2f\n", t->build_ms);
         if (bench_is_worst(r->timed->shape)) {
-            printf("%-20s %.1f %% of the ticks met the limit of visits\n", "", 100.0 * t->visit_limit);
+            say(stdout, "%-20s %.1f %% of the ticks met the limit of visits\n", "", 100.0 * t->visit_limit);
         }
         if (r->timed->pace != BENCH_WARM) {
-            printf("%-20s %.0f overruns\n", "", t->overruns);
+            say(stdout, "%-20s %.0f overruns\n", "", t->overruns);
         }
     }
 }

@@ -10,7 +10,7 @@
 
 static void wait_for_enter(const char *text) {
     int c = 0;
-    fprintf(stderr, "%s, then press Enter. ", text);
+    say(stderr, "%s, then press Enter. ", text);
     while (c != '\n' && c != EOF) {
         c = getchar();
     }
@@ -29,11 +29,11 @@ static knurl_result weigh_both(double *heavier) {
         return result;
     }
     wait_for_enter("Pull the grip out and push it in, until its light is green. Hold it in the middle");
-    fprintf(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+    say(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
     result = weigh(device, &height, &empty);
     if (!result) {
         wait_for_enter("Hang the mass from the grip, and hold it in the middle");
-        fprintf(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+        say(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
         result = weigh(device, &height, &loaded);
     }
     knurl_device_close(device);
@@ -42,12 +42,12 @@ static knurl_result weigh_both(double *heavier) {
 }
 
 static int print_gain(out_file *file, const char *path, double gain, double heavier) {
-    printf("{\"gain\": %.3f, \"newtons\": %.3f}\n", gain, heavier);
-    fprintf(file->stream, "%.3f\n", gain);
+    say(stdout, "{\"gain\": %.3f, \"newtons\": %.3f}\n", gain, heavier);
+    say(file->stream, "%.3f\n", gain);
     if (out_keep(file)) {
         return TOOL_FAILURE;
     }
-    fprintf(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
+    say(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
     return TOOL_OK;
 }
 

@@ -1,4 +1,5 @@
 /* knurl devices: lists the connected devices, and what to do where there are problems. SPDX-License-Identifier: MIT */
+#include "help.h"
 #include "tool.h"
 
 #include <knurl/device.h>
@@ -7,12 +8,14 @@
 
 static void print_for_people(const knurl_device_listing *listings, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        printf("%-20s %s\n", listings[i].uri, listings[i].name);
+        say(stdout, "%-20s %s\n", listings[i].uri, listings[i].name);
         if (listings[i].reason[0]) {
-            printf("%-20s cannot be used: %s\n", "", listings[i].reason);
+            say(stdout, "%-20s cannot be used: %s\n", "", listings[i].reason);
         }
     }
-    printf("\nTo open one: knurl run FILE --device URI. fake:?key=value&key=value takes\n%s", knurl_fake_keys());
+    say(stdout, "\n");
+    say(stdout, "To open one: knurl run FILE --device URI. fake:?key=value&key=value takes\n");
+    help_print_fake_keys();
 }
 
 static void print_json(const knurl_device_listing *listings, uint32_t count, int pretty) {

@@ -227,9 +227,9 @@ static int open_view(run *r) {
     }
     (void)snprintf(index, sizeof index, "%s/index.html", page);
     if (access(index, R_OK) != 0) {
-        fprintf(stderr, "knurl: note: the page is not built, so that a browser has nothing to open: ./run web\n");
+        tool_tell("note", "the page is not built, so that a browser has nothing to open: ./run web");
     }
-    fprintf(stderr, "knurl: note: to see what is felt, open %s\n", view_url(r->view));
+    tool_tell("note", "to see what is felt, open %s", view_url(r->view));
     return TOOL_OK;
 }
 
@@ -271,10 +271,10 @@ static void show_progress(const run *r, double seconds) {
     knurl_tick_output now;
     knurl_hip_counts counts;
     if (knurl_scene_get_tick(r->scene, 0, &now, &counts) == KNURL_OK && counts.ticks > 0) {
-        fprintf(stderr, "\r%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ", seconds,
-                (double)r->ticks / r->options.rate, 100.0 * (double)counts.contact_ticks / (double)counts.ticks,
-                now.temporal_frequency,
-                sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
+        say_progress("%5.1f of %.1f s   in contact %3.0f %%   %5.0f Hz   force %5.2f N ", seconds,
+                     (double)r->ticks / r->options.rate, 100.0 * (double)counts.contact_ticks / (double)counts.ticks,
+                     now.temporal_frequency,
+                     sqrt(now.force[0] * now.force[0] + now.force[1] * now.force[1] + now.force[2] * now.force[2]));
     }
 }
 
@@ -306,10 +306,9 @@ static void step(run *r) {
     }
 }
 
-/* Until the loop is done: drains recorder and sound, shows faults and, on a terminal, progress; ends it at Ctrl-C and
+/* Until the loop is done: drains recorder and sound, shows faults and progress; ends it at Ctrl-C and
  * when its time is up. */
 static void play(run *r) {
-    const int terminal = isatty(STDERR_FILENO);
     const double end = now() + r->seconds;
     knurl_loop_stats stats;
     knurl_loop_stats_init(&stats, sizeof stats);
@@ -327,17 +326,13 @@ static void play(run *r) {
         }
         faults_show(&r->faults, r->device, -1.0);
         (void)knurl_loop_get_stats(r->loop, &stats);
-        if (terminal) {
-            show_progress(r, r->seconds > 0.0 ? r->seconds - (end - now()) : (double)stats.ticks / r->options.rate);
-        }
+        show_progress(r, r->seconds > 0.0 ? r->seconds - (end - now()) : (double)stats.ticks / r->options.rate);
         r->gave_up |= waits_too_long(&stats, r->options.rate);
         if (interrupted || r->gave_up || (r->seconds > 0.0 && now() >= end)) {
             knurl_loop_request_stop(r->loop);
         }
     } while (stats.state == KNURL_LOOP_RUNNING);
-    if (terminal) {
-        fputs("\r\033[K", stderr);
-    }
+    say_progress_end();
 }
 
 static void print_percentiles(json_writer *json, const char *key, const knurl_percentiles *p, double unit) {
@@ -415,7 +410,7 @@ static int perform(run *r) {
     knurl_loop_stats_init(&stats, sizeof stats);
     (void)knurl_loop_get_stats(r->loop, &stats);
     if (!r->options.fast && !stats.realtime) {
-        fputs("knurl: note: real-time scheduling is not permitted here (see ulimit -r); timing may suffer\n", stderr);
+        tool_tell("note", "real-time scheduling is not permitted here (see ulimit -r); timing may suffer");
     }
     const int cut_short = interrupted && stats.ticks < r->ticks;
     code = recorder_close(&r->recorder, !cut_short);

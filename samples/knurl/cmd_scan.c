@@ -27,25 +27,25 @@ static void next_motion(const double *row, int is_position, uint64_t tick, doubl
 
 static void print_scan(const knurl_grating *grating, const tool_table *table, int is_position) {
     knurl_grating_state state;
+    csv_writer csv;
     motion m;
     memset(&state, 0, sizeof state);
     memset(&m, 0, sizeof m);
-    fputs("tick,height,fs,ft,event\n", stdout);
+    csv_start(&csv, stdout, "tick,height,fs,ft,event");
     for (uint64_t tick = 0; tick < table->row_count; tick++) {
         knurl_grating_output output;
         next_motion(&table->cells[2 * tick], is_position, tick, grating->update_rate_hz, &m);
         knurl_grating_step(grating, &state, m.position, m.velocity, &output);
-        printf("%llu,", (unsigned long long)tick);
-        out_number(stdout, output.height);
-        putchar(',');
-        out_number(stdout, output.spatial_frequency);
-        putchar(',');
-        out_number(stdout, output.temporal_frequency);
+        csv_number(&csv, (double)tick);
+        csv_number(&csv, output.height);
+        csv_number(&csv, output.spatial_frequency);
+        csv_number(&csv, output.temporal_frequency);
         if (output.event == KNURL_NO_EVENT) {
-            fputs(",none\n", stdout);
+            csv_word(&csv, "none");
         } else {
-            printf(",%lld\n", (long long)output.event);
+            csv_number(&csv, (double)output.event);
         }
+        csv_end_row(&csv);
     }
 }
 

@@ -18,11 +18,12 @@ int cmd_signal(int argc, char **argv) {
     if (ticks != floor(ticks)) {
         return tool_error(TOOL_USAGE, "--ticks: expected a whole number, found %g", ticks);
     }
-    fputs("tick,value\n", stdout);
+    csv_writer csv;
+    csv_start(&csv, stdout, "tick,value");
     for (uint64_t tick = 0; tick < (uint64_t)ticks; tick++) {
-        printf("%llu,", (unsigned long long)tick);
-        out_number(stdout, knurl_wave_value(&signal.wave, tick));
-        putchar('\n');
+        csv_number(&csv, (double)tick);
+        csv_number(&csv, knurl_wave_value(&signal.wave, tick));
+        csv_end_row(&csv);
     }
     return TOOL_OK;
 }

@@ -3,7 +3,6 @@
 
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 void faults_start(faults *f) {
     struct timespec now;
@@ -24,10 +23,13 @@ void faults_show(faults *f, knurl_device *device, double simulated) {
         }
         const char *unit = knurl_fault_unit(event.code);
         if (event.code != KNURL_FAULT_OVERRUN) {
-            fprintf(stderr, "%sknurl: note: after %.3f s: %s: %s", isatty(STDERR_FILENO) ? "\r\033[K" : "",
-                    simulated >= 0.0 ? simulated : 1e-9 * (double)(event.time_ns - f->start_ns),
-                    knurl_fault_name(event.code), knurl_fault_string(event.code));
-            fprintf(stderr, *unit ? " (%g %s)\n" : "\n", event.value, unit);
+            char value[64] = "";
+            if (*unit) {
+                (void)snprintf(value, sizeof value, " (%g %s)", event.value, unit);
+            }
+            tool_tell("note", "after %.3f s: %s: %s%s",
+                      simulated >= 0.0 ? simulated : 1e-9 * (double)(event.time_ns - f->start_ns),
+                      knurl_fault_name(event.code), knurl_fault_string(event.code), value);
         }
     }
 }

@@ -66,7 +66,8 @@ static const help_command commands[] = {
       PRETTY},
      "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres.\n"
      "CSV out (--out): t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz. x..z and f in scene axes (m, N), v in the\n"
-     "surface's frame (m/s), surface a name or none.\n"
+     "surface's frame (m/s), surface a name or none. An apostrophe stands before a name that is none, that begins with\n"
+     "one, or that a spreadsheet would take for a formula (= + - @).\n"
      "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
      "watchdogs, absences, saturations, frequency_saturations, not_finite, entries, slews, heats, passivities,\n"
      "squeezes, visit_limits, heat, force_max_n, faults, tick_ns and jitter_us {p50, p99, max}.\n"
@@ -165,6 +166,10 @@ int help_print(const char *command) {
     }
     printf("\n%s\n%s", c->details, c->more ? c->more() : "");
     return 0;
+}
+
+void help_print_fake_keys(void) {
+    fputs(knurl_fake_keys(), stdout);
 }
 
 static void print_roff(const char *text) {

@@ -5,6 +5,9 @@
 /* Prints the overview (null) or a command's help. Returns 0, or 1 where there is no such command. */
 int help_print(const char *command);
 
+/* Prints the keys of the fake device's URI, a line each. */
+void help_print_fake_keys(void);
+
 /* Prints a man page (roff). */
 void help_print_man(void);
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 enum { SURFACES, BYTES, VERTICES, TRIANGLES, SECONDS, LIMITS };
 
@@ -50,7 +49,6 @@ int tool_parse_budget(const char *text, knurl_gltf_budget *budget) {
 
 typedef struct progress {
     double next; /* s: when a line is due */
-    int is_shown;
 } progress;
 
 static double now(void) {
@@ -62,9 +60,8 @@ static double now(void) {
 static int32_t show_progress(void *user, double done) {
     progress *p = user;
     if (now() >= p->next) {
-        fprintf(stderr, "\rloading: %3.0f %%", 100.0 * done);
+        say_progress("loading: %3.0f %%", 100.0 * done);
         p->next = now() + 0.1;
-        p->is_shown = 1;
     }
     return 0;
 }
@@ -76,16 +73,14 @@ static void tell_file(void *user, const char *path) {
 
 knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_budget *budget, uint32_t *skipped) {
     knurl_gltf_report report;
-    progress p = {now() + 0.5, 0}; /* what is done by then needs no line */
+    progress p = {now() + 0.5}; /* what is done by then needs no line */
     knurl_gltf_report_init(&report, sizeof report);
     report.file_read = tell_file;
     report.budget = budget;
     report.user = &p;
-    report.progress = isatty(STDERR_FILENO) ? show_progress : NULL;
+    report.progress = show_progress;
     const knurl_result result = knurl_gltf_load_file(scene, path, &report);
-    if (p.is_shown) {
-        fputs("\r\033[K", stderr);
-    }
+    say_progress_end();
     *skipped = report.skipped;
     return result;
 }

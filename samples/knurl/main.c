@@ -61,7 +61,7 @@ static int complete(const char *shell) {
 
 static int show_version(const char *argument) {
     (void)argument;
-    printf("knurl %s\n", knurl_version_string());
+    say(stdout, "knurl %s\n", knurl_version_string());
     return TOOL_OK;
 }
 

@@ -12,6 +12,7 @@ typedef struct recorder {
     tick_ring ring;
     const knurl_scene *scene;
     out_file file;
+    csv_writer csv;
     double rate;
 } recorder;
 

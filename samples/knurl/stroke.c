@@ -32,9 +32,8 @@ static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, kn
     if (knurl_scene_configure_hip(scene, 0, &desc)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    fprintf(stderr,
-            "knurl: note: surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it\n",
-            info->name);
+    tool_tell("note", "surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it",
+              info->name);
     return TOOL_OK;
 }
 
@@ -82,9 +81,8 @@ static void warn_of_millimetres(const char *path, const tool_table *table) {
             high = fmax(high, table->cells[4 * i + axis]);
         }
         if (high - low > TRACE_SPAN_MAX) {
-            fprintf(stderr,
-                    "knurl: warning: %s: %c spans %g m; positions are taken as metres: are these millimetres?\n", path,
-                    "txyz"[axis], high - low);
+            tool_tell("warning", "%s: %c spans %g m; positions are taken as metres: are these millimetres?", path,
+                      "txyz"[axis], high - low);
             return;
         }
     }

@@ -1,10 +1,12 @@
-/* Declarations that the commands share: CSV input and output, warnings. SPDX-License-Identifier: MIT */
+/* Declarations that the commands share: CSV input, warnings. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_H
 #define KNURL_TOOL_H
 
+#include "csv.h"
 #include "json.h"
 #include "options.h"
 #include "out.h"
+#include "say.h"
 
 #include <knurl/gltf.h>
 
@@ -13,9 +15,6 @@
 #include <stdio.h>
 
 /* --- output (output.c) --- */
-
-/* A CSV cell, quoted where it must be (RFC 4180). */
-void tool_print_cell(FILE *stream, const char *name);
 
 /* A line on stderr for each limit of HIP 0's device that a surface exceeds. Returns how many. */
 uint32_t tool_warn(const knurl_scene *scene);

@@ -264,7 +264,7 @@ static int make_hello(view *v) {
     if (!stream) {
         return 1;
     }
-    fprintf(stream, "%*s", LWS_PRE, "");
+    (void)fseek(stream, LWS_PRE, SEEK_SET);
     json_start(&json, stream, 0);
     json_open(&json, NULL, '{');
     json_string(&json, "file", slash ? slash + 1 : v->desc.file);
@@ -370,8 +370,7 @@ void view_close(view *v) {
     lws_cancel_service(v->context);
     (void)pthread_join(v->thread, NULL);
     if (v->ring.lost > 0) {
-        fprintf(stderr, "knurl: note: %llu ticks were not shown: there was no time for them\n",
-                (unsigned long long)v->ring.lost);
+        tool_tell("note", "%llu ticks were not shown: there was no time for them", (unsigned long long)v->ring.lost);
     }
     destroy(v);
 }

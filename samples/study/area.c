@@ -3,6 +3,7 @@
 #include "area_parts.h"
 #include "gratings.h"
 #include "metrics.h"
+#include "say.h"
 #include "steady.h"
 #include "study.h"
 
@@ -173,8 +174,8 @@ static int write_directions(FILE *csv, json_writer *json) {
             }
         }
         const double turned = c == WAY || c == AXIS ? turned_share(c) : 0.0;
-        printf("| %s | %.2f A | %.0f %% (%g) | %.3f A (%g) | %.0f %% |\n", names[c], worst.rms, 100.0 * worst.share,
-               at[0], worst.push, at[1], 100.0 * turned);
+        say(stdout, "| %s | %.2f A | %.0f %% (%g) | %.3f A (%g) | %.0f %% |\n", names[c], worst.rms,
+            100.0 * worst.share, at[0], worst.push, at[1], 100.0 * turned);
         json_open(json, NULL, '{');
         json_string(json, "name", names[c]);
         json_number(json, "least_rms", worst.rms);
@@ -223,8 +224,8 @@ static int search(const char *name, int by_push, json_writer *json) {
         best = top > most ? here : best;
         most = fmax(most, top);
     }
-    printf("| worst %s by search | %.3f at %.1f mm/s, %.1f degrees, start %.3f %.3f, encoder %.4f mm |\n", name, most,
-           1e3 * best.speed, best.angle * 180.0 / PI, best.start[0], best.start[1], 1e3 * best.quantum);
+    say(stdout, "| worst %s by search | %.3f at %.1f mm/s, %.1f degrees, start %.3f %.3f, encoder %.4f mm |\n", name,
+        most, 1e3 * best.speed, best.angle * 180.0 / PI, best.start[0], best.start[1], 1e3 * best.quantum);
     json_open(json, name, '{');
     json_number(json, "worst", most);
     json_number(json, "speed", best.speed);

@@ -3,6 +3,7 @@
 #include "area_parts.h"
 
 #include "gratings.h"
+#include "say.h"
 #include "steady.h"
 
 #include <math.h>
@@ -87,7 +88,7 @@ static int measure(int32_t method, double rate, levels *l) {
 }
 
 static void write_levels(json_writer *json, int32_t method, double rate, const levels *l) {
-    printf(
+    say(stdout,
         "| %s, %g kHz | %.3f | %.2f %% (%g Hz) | %.1f %% (%g Hz) | %.4f (%.3f) | %.3f (%.3f) | %.4f (%.3f) | %.1e |\n",
         knurl_method_name(method), 1e-3 * rate, 1.0 + l->played_off, 100.0 * l->mean_off, l->mean_hz,
         100.0 * l->single_off, l->single_hz, l->spurious, l->spurious_worst, l->unevenness, l->unevenness_worst,

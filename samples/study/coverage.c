@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "coverage.h"
 
+#include "say.h"
 #include "study.h"
 
 #include <math.h>
@@ -179,7 +180,7 @@ static void print_summary(double rate) {
         study_reach reach[STUDY_MAX_REACH];
         const size_t count = study_reachable(rate, LOWEST_HZ, set, reach);
         const double limit = study_no_gap_up_to(reach, count, PAPERS_WEBER);
-        printf("  %-20s %3zu frequencies, no haptic gap up to %.0f Hz", set_words[set], count, limit);
+        say(stdout, "  %-20s %3zu frequencies, no haptic gap up to %.0f Hz", set_words[set], count, limit);
         if (set == STUDY_SET_ODD) {
             printf(" (%.0f with %g)", study_no_gap_up_to(reach, count, PRINTED_WEBER), PRINTED_WEBER);
         }

@@ -1,5 +1,6 @@
 /* The half cycles of every surface, period and speed: the study, and its table. SPDX-License-Identifier: MIT */
 #include "half_cycles.h"
+#include "say.h"
 #include "study.h"
 
 #include <string.h>
@@ -94,7 +95,7 @@ static void print_table(const table *t) {
     printf("\n|---|---|---|---|\n");
     for (size_t i = 0; i < SURFACES; i++) {
         for (size_t p = 0; p < PERIODS; p++) {
-            printf("| %s, %g mm |", surfaces[i].name, 1e3 * periods[p]);
+            say(stdout, "| %s, %g mm |", surfaces[i].name, 1e3 * periods[p]);
             for (size_t v = 0; v < SPEEDS; v++) {
                 const half_cycles *h = &t->cells[i][p][v];
                 printf(" %.0f %% (%.3f; %.3f; %.1f %%), %.3f |", 100.0 * h->lost, h->cv, h->raw_cv,

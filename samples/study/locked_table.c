@@ -1,5 +1,6 @@
 /* The method LOCKED beside S1 and S2: the study, and its table. SPDX-License-Identifier: MIT */
 #include "locked.h"
+#include "say.h"
 #include "study.h"
 
 #include <math.h>
@@ -233,8 +234,8 @@ static void print_speeds(const table *t) {
             worst.push = fmax(worst.push, f->push);
             spurious += f->spurious / SPEEDS;
         }
-        printf("| %s | %.3f to %.3f | %.3g | %.3f A | %.1f %% |\n", knurl_method_name(methods[m]), low, high,
-               worst.step.error, worst.push, 100.0 * spurious);
+        say(stdout, "| %s | %.3f to %.3f | %.3g | %.3f A | %.1f %% |\n", knurl_method_name(methods[m]), low, high,
+            worst.step.error, worst.push, 100.0 * spurious);
     }
 }
 
@@ -244,10 +245,10 @@ static void print_strokes(const table *t) {
     for (size_t i = 0; i < 9; i++) {
         const stroke_cell(*row)[2] = t->strokes[i / 3][i % 3];
         double longest = 0.0;
-        printf("| %s, %s |", knurl_method_name(methods[i / 3]),
-               i % 3 == 0   ? "ideal"
-               : i % 3 == 1 ? "0.055 mm"
-                            : "0.01 mm");
+        say(stdout, "| %s, %s |", knurl_method_name(methods[i / 3]),
+            i % 3 == 0   ? "ideal"
+            : i % 3 == 1 ? "0.055 mm"
+                         : "0.01 mm");
         for (size_t p = 0; p < 3; p++) {
             printf(" %.3g, %.3g |", row[p][0].error, row[p][1].error);
             longest = fmax(longest, fmax(row[p][0].longest, row[p][1].longest));

@@ -2,11 +2,11 @@
 #include "study_out.h"
 
 #include "os.h"
+#include "say.h"
 
 #include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 void study_end_row(FILE *csv, const double *cells, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -60,7 +60,8 @@ int study_write(const char *folder, const char *name, int (*write)(FILE *csv, js
 }
 
 void study_progress(const char *name, double share) {
-    if (isatty(STDERR_FILENO)) {
-        fprintf(stderr, "\r  %s: %3.0f %%%s", name, 100.0 * share, share >= 1.0 ? "\n" : "");
+    say_progress("  %s: %3.0f %%", name, 100.0 * share);
+    if (share >= 1.0) {
+        say_progress_end();
     }
 }

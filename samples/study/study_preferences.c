@@ -1,6 +1,7 @@
 /* knurl study preferences: figure 8 and Experiment 3 beside this code's metrics. SPDX-License-Identifier: MIT */
 #include "preferences.h"
 
+#include "say.h"
 #include "statistics.h"
 #include "study.h"
 #include "wave_options.h"
@@ -50,7 +51,7 @@ static ranks correlate(const preference_cell *cells, int metric, int first, int 
 /* The correlations of one part. */
 static void write_part(json_writer *json, const preference_cell *cells, int part) {
     json_open(json, parts[part].name, '{');
-    printf("    %-14s", parts[part].name);
+    say(stdout, "    %-14s", parts[part].name);
     for (int k = 0; k < PREFERENCE_METRICS; k++) {
         const ranks r = correlate(cells, k, parts[part].first, parts[part].step);
         json_open(json, preference_metric_names[k], '{');
@@ -61,7 +62,7 @@ static void write_part(json_writer *json, const preference_cell *cells, int part
         if (isfinite(r.spearman)) {
             printf("  %+6.3f (%.3f)", r.spearman, r.separation);
         } else {
-            printf("  %-15s", "      none");
+            say(stdout, "  %-15s", "      none");
         }
     }
     putchar('\n');
@@ -126,8 +127,8 @@ static void write_gratings(json_writer *json, const preference_grating *g) {
         }
         const double rho = rank_spearman(advantage, counts, 3);
         json_number(json, names[k], rho);
-        printf("    %-14s  %+.4f %+.4f %+.4f, Spearman %+.1f (of three cells)\n", names[k], advantage[0], advantage[1],
-               advantage[2], rho);
+        say(stdout, "    %-14s  %+.4f %+.4f %+.4f, Spearman %+.1f (of three cells)\n", names[k], advantage[0],
+            advantage[1], advantage[2], rho);
     }
     json_close(json, '}');
     json_close(json, '}');
@@ -139,11 +140,11 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     preference_grating gratings[3];
     fputs("experiment,period_ticks,frequency,amplitude,sound,preferred", csv);
     printf("preferences: how much worse the other method's metric is, against whether T3 was preferred\n"
-           "  Spearman's rho (chance that a preferred cell is the worse one for the other method)\n    %-14s",
-           "");
+           "  Spearman's rho (chance that a preferred cell is the worse one for the other method)\n");
+    say(stdout, "    %-14s", "");
     for (int k = 0; k < PREFERENCE_METRICS; k++) {
         fprintf(csv, ",%s", preference_metric_names[k]);
-        printf("  %-15s", preference_metric_names[k]);
+        say(stdout, "  %-15s", preference_metric_names[k]);
     }
     fputc('\n', csv);
     putchar('\n');

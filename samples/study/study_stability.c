@@ -1,6 +1,7 @@
 /* knurl study stability: the checks, the maps, their files. SPDX-License-Identifier: MIT */
 #include "stability.h"
 
+#include "say.h"
 #include "study.h"
 
 #include <math.h>
@@ -79,15 +80,15 @@ static void print_checks(const stability_check *checks, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const stability_check *k = &checks[i];
         if (strcmp(k->unit, "outcome") == 0) {
-            printf("| %s | %s | %s | %s |\n", k->what, lab_outcome_name((int)k->expected),
-                   lab_outcome_name((int)k->found), stability_holds(k) ? "" : "DIFFERS");
+            say(stdout, "| %s | %s | %s | %s |\n", k->what, lab_outcome_name((int)k->expected),
+                lab_outcome_name((int)k->found), stability_holds(k) ? "" : "DIFFERS");
         } else {
-            printf("| %s | %s%.5g %s | %.5g", k->what, isinf(k->tolerance) ? "at least " : "", k->expected, k->unit,
-                   k->found);
+            say(stdout, "| %s | %s%.5g %s | %.5g", k->what, isinf(k->tolerance) ? "at least " : "", k->expected,
+                k->unit, k->found);
             if (!isinf(k->tolerance)) {
                 printf(" (%+.2f %%)", 100.0 * (k->found / k->expected - 1.0));
             }
-            printf(" | %s |\n", stability_holds(k) ? "" : "DIFFERS");
+            say(stdout, " | %s |\n", stability_holds(k) ? "" : "DIFFERS");
         }
     }
 }
@@ -96,9 +97,10 @@ static void print_checks(const stability_check *checks, size_t count) {
 static void print_runaways(const chart *c) {
     const double limits[][2] = {{1020.0, 3000.0}, {1.0, 1.0}}; /* an amplitude's map ends where the force does */
     const int amplitudes = strcmp(c->figure, "stability_amplitudes") == 0;
-    printf("\n%s: cells that run away or buzz within the device's own limits, of those that lie within them\n\n"
-           "| device, grip | protections | method | runs away | buzzes | of |\n|---|---|---|---|---|---|\n",
-           amplitudes ? "Amplitude against speed" : "Stiffness against speed");
+    say(stdout, "\n");
+    say(stdout, "%s: cells that run away or buzz within the device's own limits, of those that lie within them\n",
+        amplitudes ? "Amplitude against speed" : "Stiffness against speed");
+    printf("\n| device, grip | protections | method | runs away | buzzes | of |\n|---|---|---|---|---|---|\n");
     for (size_t m = 0; m < c->maps; m++) {
         const stability_map *map = &c->map[m];
         int counts[4] = {0};
@@ -108,8 +110,8 @@ static void print_runaways(const chart *c) {
             all += within;
             counts[c->cell[m][i].result.outcome] += within;
         }
-        printf("| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->without ? "raw" : "protected",
-               stability_methods[map->method].name, counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
+        say(stdout, "| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->without ? "raw" : "protected",
+            stability_methods[map->method].name, counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
     }
 }
 

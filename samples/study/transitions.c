@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: MIT */
 #include "study.h"
 
+#include "say.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -161,7 +163,7 @@ static knurl_result run(int32_t method, int transition, int phase, FILE *csv, ou
 
 static void print_row(json_writer *json, int32_t method, int transition, const outcome *o) {
     const int rests = transition == STOP || transition == FLICKER;
-    printf("| %s | %s |", names[transition], knurl_method_name(method));
+    say(stdout, "| %s | %s |", names[transition], knurl_method_name(method));
     if (rests) {
         printf(" %g ms", o->settled);
     }

@@ -1,4 +1,4 @@
-/* Files and names from strangers: what the tool does not read, does not wait for, and does not put on a terminal.
+/* Files from strangers: what the tool does not read and does not wait for.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
@@ -47,32 +47,6 @@ TEST(a_file_that_is_no_geometry_is_not_told_on) {
     process p = RUN_TOOL("run", plate, "--device", uri);
     assert_null(strstr(p.err, "$6$"));
     check_says(&p, 1, "line 1: expected key = value");
-}
-
-/* ESC, a C1 control, an override of the direction of reading, a line end. */
-#define NAME_JSON "\\u001b[31m\\u009b31m\\u202egnp.exe\\nknurl: all is well"
-
-TEST(a_name_does_nothing_to_a_terminal) {
-    write_text(tool_path("name.gltf"),
-               "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"name\":\"" NAME_JSON "\"}],"
-               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"knurl\":{\"version\":1,"
-               "\"spatial_frequency\":[1000,0],\"amplitude\":0.02,\"stiffness\":90000,\"axis\":[1,0,0]}}}],"
-               "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],"
-               "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
-               "\"data:;base64,AAAAAAAAAAAAAAAAzczMPQAAAAAAAAAAAAAAAM3MzD0AAAAA\"}]}");
-    for (int inspect = 0; inspect < 2; inspect++) {
-        process p = inspect ? RUN_TOOL("inspect", tool_path("name.gltf"))
-                            : RUN_TOOL("run", tool_path("name.gltf"), "--fast", "--seconds", "0.2", "--out", "-");
-        assert_non_null(strstr(p.err, "[31m")); /* it is told */
-        const char *const texts[] = {p.out, p.err};
-        for (size_t i = 0; i < 2; i++) {
-            assert_null(strchr(texts[i], '\x1b'));
-            assert_null(strstr(texts[i], "\xC2\x9B"));
-            assert_null(strstr(texts[i], "\xE2\x80\xAE"));
-            assert_null(strstr(texts[i], "\nknurl: all is well"));
-        }
-        process_free(&p);
-    }
 }
 
 /* A file that takes a while: seven million numbers that nothing needs. */

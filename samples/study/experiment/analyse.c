@@ -1,6 +1,7 @@
 /* Analysis of the answers: counts, Eq. 14, and verdicts under three rules. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "say.h"
 #include "statistics.h"
 
 #include <stdlib.h>
@@ -41,13 +42,13 @@ static int verdict(const exp_design *d, const cell *c, int32_t rule) {
 static void print_cell(const exp_design *d, double period, double amplitude, int32_t sound, const cell *c,
                        uint32_t won[3][2]) {
     const uint32_t more = c->m > c->n - c->m ? c->m : c->n - c->m;
-    printf("%9g %9g %5s %6u %4u", period, amplitude, sound ? "yes" : "no", (unsigned)c->m, (unsigned)c->n);
+    say(stdout, "%9g %9g %5s %6u %4u", period, amplitude, sound ? "yes" : "no", (unsigned)c->m, (unsigned)c->n);
     for (int32_t rule = 0; rule < 3; rule++) {
         printf(" %10.3g", binomial_probability(rule, c->n, more));
     }
     for (int32_t rule = 0; rule < 3; rule++) {
         const int who = verdict(d, c, rule);
-        printf(" %10s", who < 0 ? "-" : d->names[who]);
+        say(stdout, " %10s", who < 0 ? "-" : d->names[who]);
         if (who >= 0) {
             won[rule][who]++;
         }
@@ -56,15 +57,15 @@ static void print_cell(const exp_design *d, double period, double amplitude, int
 }
 
 static void print_heading(const exp_design *d) {
-    printf("%9s %9s %5s %6s %4s %32s %32s\n", "period", "amplitude", "sound", d->names[1], "of",
-           "---- probability by chance -----", "--------- preferred by ---------");
-    printf("%9s %9s %5s %6s %4s", d->period_unit, d->force_unit, "", "", "");
+    say(stdout, "%9s %9s %5s %6s %4s %32s %32s\n", "period", "amplitude", "sound", d->names[1], "of",
+        "---- probability by chance -----", "--------- preferred by ---------");
+    say(stdout, "%9s %9s %5s %6s %4s", d->period_unit, d->force_unit, "", "", "");
     for (int block = 0; block < 2; block++) {
         for (int32_t rule = 0; rule < 3; rule++) {
-            printf(" %10s", rules[rule]);
+            say(stdout, " %10s", rules[rule]);
         }
     }
-    printf(" %10s\n", "saturated");
+    say(stdout, " %10s\n", "saturated");
 }
 
 /* The counts that the rules ask for at n trials, or that none is enough. */
@@ -73,9 +74,9 @@ static void print_thresholds(const exp_design *d, uint32_t n) {
     for (int32_t rule = 0; rule < 3; rule++) {
         const uint32_t m = binomial_threshold(rule, n, SIGNIFICANCE / d->family);
         if (m > n) {
-            printf("%s %s none is enough", rule ? "," : "", rules[rule]);
+            say(stdout, "%s %s none is enough", rule ? "," : "", rules[rule]);
         } else {
-            printf("%s %s %u", rule ? "," : "", rules[rule], (unsigned)m);
+            say(stdout, "%s %s %u", rule ? "," : "", rules[rule], (unsigned)m);
         }
     }
     putchar('\n');
@@ -114,8 +115,8 @@ static void print_cells(const exp_records *records, const exp_design *d) {
         print_thresholds(d, seen[i]);
     }
     for (int32_t rule = 0; rule < 3; rule++) {
-        printf("%s: %s preferred in %u of %u cells, %s in %u\n", rules[rule], d->names[1], (unsigned)won[rule][1],
-               (unsigned)cells, d->names[0], (unsigned)won[rule][0]);
+        say(stdout, "%s: %s preferred in %u of %u cells, %s in %u\n", rules[rule], d->names[1], (unsigned)won[rule][1],
+            (unsigned)cells, d->names[0], (unsigned)won[rule][0]);
     }
 }
 
@@ -138,9 +139,10 @@ static void print_experiment(const exp_records *records, const exp_design *d) {
         trials++;
     }
     if (trials > 0) {
-        printf("\nExperiment %d, %s against %s: %lu trials, subjects: %lu; the first was chosen %lu times\n",
-               (int)d->experiment, d->names[0], d->names[1], (unsigned long)trials, (unsigned long)subjects,
-               (unsigned long)first);
+        say(stdout, "\n");
+        say(stdout, "Experiment %d, %s against %s: %lu trials, subjects: %lu; the first was chosen %lu times\n",
+            (int)d->experiment, d->names[0], d->names[1], (unsigned long)trials, (unsigned long)subjects,
+            (unsigned long)first);
         print_cells(records, d);
     }
 }
@@ -154,13 +156,14 @@ int exp_analyse(int count, char *const *paths) {
     if (code == TOOL_OK) {
         const int simulated = records.count > 0 && records.rows[0].simulated;
         if (simulated) {
-            puts(EXP_SIMULATION);
+            say(stdout, "%s\n", EXP_SIMULATION);
         }
         for (int32_t experiment = 1; experiment <= 3; experiment++) {
             print_experiment(&records, exp_design_of(experiment));
         }
         if (simulated) {
-            printf("\n%s\n", EXP_SIMULATION);
+            say(stdout, "\n");
+            say(stdout, "%s\n", EXP_SIMULATION);
         }
     }
     free(records.rows);

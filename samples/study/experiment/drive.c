@@ -2,8 +2,7 @@
 #include "experiment.h"
 
 #include "os.h"
-
-#include <unistd.h>
+#include "say.h"
 
 volatile sig_atomic_t exp_interrupted;
 
@@ -31,8 +30,8 @@ static uint64_t ticks_of(const knurl_loop *loop) {
 
 static void show_cue(const exp_session *session, const exp_run *run, uint64_t ticks, const char **shown) {
     const char *now = run->cue(ticks);
-    if (now != *shown && session->answers != EXP_SIMULATED && isatty(STDERR_FILENO)) {
-        fprintf(stderr, "\r\033[K%s ", now);
+    if (now != *shown && session->answers != EXP_SIMULATED) {
+        say_progress("%s ", now);
     }
     *shown = now;
 }
@@ -41,7 +40,7 @@ static void show_cue(const exp_session *session, const exp_run *run, uint64_t ti
 static int ask(const exp_session *session, exp_run *run, int *asked) {
     if (!*asked) {
         os_forget_keys(); /* typed before the question: no answer to it */
-        fprintf(stderr, "%s%s", isatty(STDERR_FILENO) ? "\r\033[K" : "", run->question);
+        say(stderr, "%s", run->question);
         *asked = 1;
     }
     if (session->answers == EXP_KEYBOARD) {
@@ -73,7 +72,7 @@ static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *lo
     }
     knurl_loop_stop(loop);
     if (asked) {
-        fputc('\n', stderr);
+        say(stderr, "\n");
     }
     return answer < 0 ? tool_error(TOOL_FAILURE, "standard input ended before an answer") : TOOL_OK;
 }

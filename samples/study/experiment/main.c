@@ -2,6 +2,7 @@
 #include "experiment.h"
 
 #include "os.h"
+#include "say.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -166,12 +167,12 @@ static int run(int argc, char **argv) {
 static int dispatch(int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            fputs(help, stdout);
+            say_page(stdout, help);
             return TOOL_OK;
         }
     }
     if (argc < 2) {
-        fputs(help, stderr);
+        say_page(stderr, help);
         return TOOL_USAGE;
     }
     if (strcmp(argv[1], "analyse") != 0) {

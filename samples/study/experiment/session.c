@@ -2,9 +2,9 @@
 #include "experiment.h"
 
 #include "out.h"
+#include "say.h"
 
 #include <string.h>
-#include <unistd.h>
 
 /* What a session adds up to, for its last lines. */
 typedef struct totals {
@@ -24,9 +24,9 @@ static void add(totals *t, const exp_outcome *o) {
 
 static void show_trial(uint32_t number, uint32_t count, const exp_session *session) {
     if (session->answers != EXP_SIMULATED) {
-        fprintf(stderr, "Trial %u of %u\n", (unsigned)number, (unsigned)count);
-    } else if (isatty(STDERR_FILENO)) {
-        fprintf(stderr, "\rtrial %u of %u%s", (unsigned)number, (unsigned)count, number == count ? "\n" : "");
+        say(stderr, "Trial %u of %u\n", (unsigned)number, (unsigned)count);
+    } else {
+        say_progress("trial %u of %u", (unsigned)number, (unsigned)count);
     }
 }
 
@@ -54,25 +54,24 @@ static int play(const exp_session *session, const exp_trial *trials, uint32_t co
 static void report(const exp_session *session, const totals *t) {
     const exp_design *d = session->design;
     if (session->answers == EXP_SIMULATED) {
-        puts(EXP_SIMULATION);
+        say(stdout, "%s\n", EXP_SIMULATION);
     }
-    printf("experiment %d (%s against %s), subject %s, sound %s, seed %llu: %u trials, %.0f s played on %s\n",
-           (int)d->experiment, d->names[0], d->names[1], session->subject, session->sound ? "yes" : "no",
-           (unsigned long long)session->seed, (unsigned)t->trials, (double)t->ticks / EXP_RATE, session->info.name);
+    say(stdout, "experiment %d (%s against %s), subject %s, sound %s, seed %llu: %u trials, %.0f s played on %s\n",
+        (int)d->experiment, d->names[0], d->names[1], session->subject, session->sound ? "yes" : "no",
+        (unsigned long long)session->seed, (unsigned)t->trials, (double)t->ticks / EXP_RATE, session->info.name);
     printf("force above the device's %.3g N: %llu ticks in %u trials, shortened to it\n", session->info.max_force,
            (unsigned long long)t->saturations, (unsigned)t->saturated_trials);
     if (d->experiment == 3) {
         printf("temporal frequency above half the update rate: %llu ticks\n", (unsigned long long)t->saturation_ticks);
     }
     printf("overruns: %llu; trials begun anew: %u\n", (unsigned long long)t->overruns, (unsigned)t->restarts);
-    printf("written: %s\n", session->out);
+    say(stdout, "written: %s\n", session->out);
 }
 
 /* The file is not kept; what people answered stays beside it. */
 static void abandon(const exp_session *session, out_file *file, const totals *t) {
     if (session->answers != EXP_SIMULATED && t->trials > 0 && file->partial) {
-        fprintf(stderr, "knurl_experiment: note: what was answered (trials: %u) is in %s\n", (unsigned)t->trials,
-                file->partial);
+        tool_tell("note", "what was answered (trials: %u) is in %s", (unsigned)t->trials, file->partial);
         out_leave(file);
     }
     out_discard(file);

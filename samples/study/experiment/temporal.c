@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "say.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -82,7 +84,7 @@ int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_ou
         outcome->saturations = p.saturations;
         outcome->restarts = restarts;
         if (code == TOOL_OK && run.left && session->answers != EXP_SIMULATED) {
-            fputs("The hand left the sphere: the trial begins anew.\n", stderr);
+            say(stderr, "The hand left the sphere: the trial begins anew.\n");
         }
         restarts += code == TOOL_OK && run.left;
         if (session->answers == EXP_SIMULATED && restarts > FORGIVEN) {
