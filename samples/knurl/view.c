@@ -20,7 +20,16 @@
 #define MESSAGE_ROWS 512
 #define TOKEN        32 /* hexadecimal digits: 128 bits */
 #define CONNECTIONS  32
-#define SECURITY     "cache-control: no-store\r\nreferrer-policy: no-referrer\r\nx-frame-options: DENY\r\n"
+#define STRANGERS    8 /* connections that have not shown the token yet */
+#define PATIENCE_S   5 /* for a request's headers */
+
+/* With every answer. The page asks nothing of other hosts, whatever the scene's file names; its images are the file's.
+ */
+#define SECURITY                                                                                                        \
+    "cache-control: no-store\r\nreferrer-policy: no-referrer\r\nx-content-type-options: nosniff\r\n"                    \
+    "x-frame-options: DENY\r\ncontent-security-policy: default-src 'none'; script-src 'self'; style-src 'self'; "       \
+    "img-src 'self' data: blob:; connect-src 'self' data: blob: ws://%s ws://%s; base-uri 'none'; form-action 'none'; " \
+    "frame-ancestors 'none'\r\n"
 
 struct view {
     view_desc desc;
@@ -34,7 +43,9 @@ struct view {
     lws_usec_t due; /* when the timer runs out */
     pthread_t thread;
     int stop; /* atomic */
-    char token[TOKEN + 1], url[96], hosts[2][32];
+    char token[TOKEN + 1], url[96], hosts[2][32], security[640];
+    struct lws *strangers[STRANGERS]; /* the longest here first */
+    int stranger_count;
     uint64_t row_count; /* so far */
     double rows[KEPT_ROWS][VIEW_ROW];
     unsigned char message[LWS_PRE + MESSAGE_ROWS * VIEW_ROW * sizeof(double)];
@@ -94,6 +105,26 @@ static int header_is(struct lws *wsi, enum lws_token_indexes header, const char 
     return 0;
 }
 
+static void forget(view *v, const struct lws *wsi) {
+    int kept = 0;
+    for (int i = 0; i < v->stranger_count; i++) {
+        if (v->strangers[i] != wsi) {
+            v->strangers[kept++] = v->strangers[i];
+        }
+    }
+    v->stranger_count = kept;
+}
+
+/* A connection is one of few until it has shown the token: the longest here has to go, so that requests that never end
+ * keep nobody out. */
+static void admit(view *v, struct lws *wsi) {
+    if (v->stranger_count == STRANGERS) {
+        lws_set_timeout(v->strangers[0], PENDING_TIMEOUT_AWAITING_SERVER_RESPONSE, LWS_TO_KILL_ASYNC);
+        forget(v, v->strangers[0]);
+    }
+    v->strangers[v->stranger_count++] = wsi;
+}
+
 /* What follows "/TOKEN/" in a path, or null. A page of another site may find the port, and may be of the same origin by
  * a name that resolves to 127.0.0.1; it does not have the token, and its Host header names the other site. */
 static const char *asked_for(struct lws *wsi, const view *v, const char *path) {
@@ -104,16 +135,31 @@ static const char *asked_for(struct lws *wsi, const view *v, const char *path) {
 
 /* --- HTTP: the scene's file and the page's, by name --- */
 
-static int serve_file(struct lws *wsi, const char *path, const char *type) {
-    const int sent = lws_serve_http_file(wsi, path, type, SECURITY, (int)strlen(SECURITY));
+static int serve_file(struct lws *wsi, const view *v, const char *path, const char *type) {
+    const int sent = lws_serve_http_file(wsi, path, type, v->security, (int)strlen(v->security));
     return sent < 0 || (sent > 0 && lws_http_transaction_completed(wsi)) ? -1 : 0; /* 0: the library sends the rest */
 }
 
-static int refuse(struct lws *wsi, unsigned status, const char *why) {
-    return lws_return_http_status(wsi, status, why) || lws_http_transaction_completed(wsi) ? -1 : 0;
+static int refuse(struct lws *wsi, const view *v, unsigned status, const char *why) {
+    unsigned char text[LWS_PRE + 1024];
+    unsigned char *const begin = text + LWS_PRE;
+    unsigned char *end = begin;
+    unsigned char *const room = text + sizeof text;
+    const size_t size = strlen(why);
+    if (lws_add_http_common_headers(wsi, status, "text/plain", size, &end, room) ||
+        (size_t)(room - end) < strlen(v->security)) {
+        return -1;
+    }
+    memcpy(end, v->security, strlen(v->security));
+    end += strlen(v->security);
+    if (lws_finalize_write_http_header(wsi, begin, &end, room)) {
+        return -1;
+    }
+    memcpy(begin, why, size);
+    return lws_write(wsi, begin, size, LWS_WRITE_HTTP_FINAL) < 0 || lws_http_transaction_completed(wsi) ? -1 : 0;
 }
 
-static int answer(struct lws *wsi, const view *v, const char *path) {
+static int answer(struct lws *wsi, view *v, const char *path) {
     static const struct {
         const char *name, *type;
     } files[] = {{"index.html", "text/html"},
@@ -123,25 +169,32 @@ static int answer(struct lws *wsi, const view *v, const char *path) {
     const char *name = asked_for(wsi, v, path);
     char file[4096];
     if (!name) {
-        return refuse(wsi, HTTP_STATUS_FORBIDDEN, "not the URL that knurl printed");
+        return refuse(wsi, v, HTTP_STATUS_FORBIDDEN, "not the URL that knurl printed");
     }
+    forget(v, wsi);
     if (strcmp(name, "scene") == 0) {
-        return serve_file(wsi, v->desc.file, "application/octet-stream");
+        return serve_file(wsi, v, v->desc.file, "application/octet-stream");
     }
     name = name[0] ? name : "index.html";
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         if (strcmp(name, files[i].name) == 0 &&
             (size_t)snprintf(file, sizeof file, "%s/%s", v->desc.page, name) < sizeof file && access(file, R_OK) == 0) {
-            return serve_file(wsi, file, files[i].type);
+            return serve_file(wsi, v, file, files[i].type);
         }
     }
     const char *why = strcmp(name, "index.html") == 0 ? "the page is not built: ./run web builds it" : "no such file";
-    return refuse(wsi, HTTP_STATUS_NOT_FOUND, why);
+    return refuse(wsi, v, HTTP_STATUS_NOT_FOUND, why);
 }
 
 static int on_http(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in, size_t size) {
-    const view *v = lws_context_user(lws_get_context(wsi));
+    view *v = lws_context_user(lws_get_context(wsi));
     switch ((int)reason) {
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+        admit(v, wsi);
+        return 0;
+    case LWS_CALLBACK_WSI_DESTROY:
+        forget(v, wsi);
+        return 0;
     case LWS_CALLBACK_HTTP:
         return answer(wsi, v, in);
     case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: /* a WebSocket without our protocol */
@@ -190,6 +243,7 @@ static int on_live(struct lws *wsi, enum lws_callback_reasons reason, void *user
     case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
         return !may_watch(wsi, v);
     case LWS_CALLBACK_ESTABLISHED:
+        forget(v, wsi);
         who->next = v->row_count;
         who->greeted = 0;
         (void)lws_callback_on_writable(wsi);
@@ -310,6 +364,8 @@ static int listen_on_loopback(view *v) {
     info.protocols = protocols;
     info.options = LWS_SERVER_OPTION_DISABLE_IPV6;
     info.fd_limit_per_thread = CONNECTIONS;
+    info.max_http_header_pool = CONNECTIONS; /* by default few requests are read at a time */
+    info.timeout_secs = PATIENCE_S;
     info.user = v;
     lws_set_log_level(0, NULL);
     v->context = make_context(&info);
@@ -319,6 +375,7 @@ static int listen_on_loopback(view *v) {
     }
     (void)snprintf(v->hosts[0], sizeof v->hosts[0], "127.0.0.1:%d", port);
     (void)snprintf(v->hosts[1], sizeof v->hosts[1], "localhost:%d", port);
+    (void)snprintf(v->security, sizeof v->security, SECURITY, v->hosts[0], v->hosts[1]);
     (void)snprintf(v->url, sizeof v->url, "http://%s/%s/#live", v->hosts[0], v->token);
     return 0;
 }
