@@ -163,6 +163,7 @@ static int answer(struct lws *wsi, view *v, const char *path) {
     static const struct {
         const char *name, *type;
     } files[] = {{"index.html", "text/html"},
+                 {"start.js", "text/javascript"},
                  {"main.js", "text/javascript"},
                  {"view.js", "text/javascript"},
                  {"style.css", "text/css"}};

@@ -15,5 +15,5 @@ fi
 cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
 "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker}.js --bundle --minify --format=esm \
     --external:./view.js --legal-comments=eof --outdir="$out" --log-level=warning
-cp "$here"/{index.html,style.css} "$work/knurl.wasm" "$out/"
+cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"

@@ -13,9 +13,10 @@ function matt({ color, map, vertexColors, flatShading, side, transparent, opacit
   return new THREE.MeshLambertMaterial({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest });
 }
 
-// The model in a .glb.
+// The model in a .glb, and nothing from elsewhere: a stranger's file may name images at any host.
 export async function read(bytes) {
-  const { scene } = await new GLTFLoader().parseAsync(bytes, "");
+  const manager = new THREE.LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : "data:,"));
+  const { scene } = await new GLTFLoader(manager).parseAsync(bytes, "");
   scene.traverse((part) => {
     if (part.isMesh) {
       part.material = matt(part.material);

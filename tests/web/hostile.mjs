@@ -1,11 +1,99 @@
 // What a page may meet: files that are no model, browsers without this or that, windows and tabs out of sight.
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { once } from "node:events";
+import { readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { join } from "node:path";
-import { complaints, drop, open, page, shown, status, strokeAcross } from "./harness.mjs";
+import { startLive } from "./equal.mjs";
+import { complaints, drop, open, page, shown, status, strokeAcross, tmp } from "./harness.mjs";
+
+// The demo plate with a texture at another host.
+function textured(url) {
+  const whole = readFileSync(join(page, "assets/plate_1d.glb"));
+  const size = whole.readUInt32LE(12);
+  const model = JSON.parse(whole.subarray(20, 20 + size));
+  model.images = [{ uri: url }];
+  model.textures = [{ source: 0 }];
+  model.materials.forEach((material) => {
+    material.pbrMetallicRoughness = { baseColorTexture: { index: 0 } };
+  });
+  const text = Buffer.from(JSON.stringify(model));
+  const padded = Buffer.concat([text, Buffer.alloc(-text.length & 3, " ")]);
+  const bytes = Buffer.concat([whole.subarray(0, 20), padded, whole.subarray(20 + size)]);
+  bytes.writeUInt32LE(bytes.length, 8);
+  bytes.writeUInt32LE(padded.length, 12);
+  return bytes;
+}
+
+// What a server at another port was asked for meanwhile.
+async function requestsDuring(work) {
+  const asked = [];
+  const other = createServer((request, response) => {
+    asked.push(request.url);
+    response.writeHead(204, { "Access-Control-Allow-Origin": "*" }).end();
+  });
+  await new Promise((resolve) => other.listen(0, "127.0.0.1", resolve));
+  try {
+    await work(`http://127.0.0.1:${other.address().port}`);
+  } finally {
+    other.close();
+  }
+  return asked;
+}
+
+const noTexture = () => complaints.splice(0, complaints.length, ...complaints.filter((text) => !/load texture/.test(text)));
 
 export const cases = {
+  async "a model's image at another host is not asked for"() {
+    const asked = await requestsDuring(async (other) => {
+      const tab = await open();
+      await drop(tab, textured(`${other}/dropped.png`), "textured.glb");
+      await tab.waitForFunction(() => /textured\.glb/.test(document.querySelector("#status").textContent));
+      assert.equal(await tab.locator("#status.error").count(), 0);
+      writeFileSync(join(tmp, "textured.glb"), textured(`${other}/live.png`));
+      const { run, url } = await startLive(join(tmp, "textured.glb"));
+      try {
+        const live = await open({ url });
+        await live.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+        await live.waitForTimeout(500);
+      } finally {
+        run.kill("SIGINT");
+        await (run.exitCode === null && run.signalCode === null ? once(run, "exit") : null);
+      }
+    });
+    assert.deepEqual(asked, []);
+    noTexture();
+  },
+
+  async "a script of the page may ask nothing of another host"() {
+    const asked = await requestsDuring(async (other) => {
+      const { run, url } = await startLive();
+      try {
+        for (const address of [undefined, url]) {
+          const tab = await open({ url: address });
+          const refused = await tab.evaluate(async (place) => {
+            const violations = [];
+            document.addEventListener("securitypolicyviolation", ({ effectiveDirective }) => violations.push(effectiveDirective));
+            await fetch(`${place}/fetched`).catch(() => {});
+            new Image().src = `${place}/image.png`;
+            const inline = document.createElement("script");
+            inline.textContent = "globalThis.wasInline = true";
+            document.head.append(inline);
+            await new Promise((resolve) => setTimeout(resolve, 300));
+            return [...new Set(violations)].sort().concat(globalThis.wasInline === true);
+          }, other);
+          assert.deepEqual(refused, ["connect-src", "img-src", "script-src-elem", false]);
+        }
+      } finally {
+        run.kill("SIGINT");
+        await (run.exitCode === null && run.signalCode === null ? once(run, "exit") : null);
+      }
+    });
+    assert.deepEqual(asked, []);
+    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/Content Security Policy/.test(text)));
+  },
+
   async "a hostile file gets a sentence, and what was there goes on"() {
     const tab = await open();
     const whole = readFileSync(join(page, "assets/grid_2d.glb"));
@@ -81,7 +169,7 @@ export const cases = {
   },
 
   async "a window of no size draws nothing, and goes on when it has one"() {
-    const tab = await open();
+    const tab = await open({ options: { viewport: { width: 800, height: 600 }, bypassCSP: true } }); // for the test's style
     await tab.addStyleTag({ content: "body.gone main > * { height: 0; width: 0; min-height: 0 } body.gone canvas { height: 0; width: 0 }" });
     await tab.evaluate(() => document.body.classList.add("gone"));
     await tab.waitForTimeout(300);
