@@ -37,7 +37,7 @@ int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *ou
     if (knurl_wave_init(id, out->period_s, out->amplitude, out->rate, &out->wave)) {
         return tool_library_error(TOOL_USAGE, argv[0]);
     }
-    if (out->wave.saturated) {
+    if (out->wave.above_nyquist) {
         tool_tell("note", "%g ms is below two updates at %g Hz; two updates are played", period_ms, out->rate);
     }
     return TOOL_OK;

@@ -69,8 +69,9 @@ static const help_command commands[] = {
      "surface's frame (m/s), surface a name or none. An apostrophe stands before a name that is none, that begins with\n"
      "one, or that a spreadsheet would take for a formula (= + - @).\n"
      "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
-     "watchdogs, absences, saturations, frequency_saturations, not_finite, entries, slews, heats, passivities,\n"
-     "squeezes, visit_limits, heat, force_max_n, faults, tick_ns and jitter_us {p50, p99, max}.\n"
+     "watchdogs, absences, force_limit_ticks, above_nyquist_ticks, non_finite_ticks, entry_ticks, slew_ticks,\n"
+     "heat_ticks, passivity_ticks, squeezed_ticks, visit_limit_ticks, heat, force_max_n, faults, tick_ns and\n"
+     "jitter_us {p50, p99, max}.\n"
      "Files are written completely or not at all, and never replace one that is read.\n"
      "Keys of --device fake:?key=value&key=value:\n",
      knurl_fake_keys},

@@ -11,7 +11,7 @@ const failure failures[] = {
      "1/N at N ticks", "S2 or locked; or a faster loop: at 10 kHz it is a tenth", "ms", failure_s1_pushes},
     {"s1_silent", "S1", "falls silent", "At f_t = f_h every tick sees the same place of its cycle.",
      "%.0f %% of the half cycles are lost at 1000 Hz", "all of them, at every multiple of f_h",
-     "f_t below f_h/2; KNURL_TICK_FREQUENCY says when it is not", "ms", failure_s1_silent},
+     "f_t below f_h/2; KNURL_TICK_ABOVE_NYQUIST says when it is not", "ms", failure_s1_silent},
     {"s1_alias", "S1", "plays another frequency", "Above f_h/2 the ticks sample an alias.",
      "%.0f Hz are felt where 900 Hz are crossed", "f_h - f_t", "the same", "ms", failure_s1_alias},
     {"s1_diagonal", "S1", "is smooth along a grid's diagonal",

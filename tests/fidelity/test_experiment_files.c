@@ -7,7 +7,7 @@
 
 #define HEADER                                                                                                         \
     "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,preferred,rt_s,ticks,"     \
-    "saturations,frequency_saturations,overruns,restarts,contact_first_s,contact_second_s\n"
+    "force_limit_ticks,above_nyquist_ticks,overruns,restarts,contact_first_s,contact_second_s\n"
 #define REST  ",1.5,10001,0,0,0,0,0,0\n"
 #define GOOD  "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST
 #define GOOD2 "1,s1,keyboard,touch,1,yes,2,1,21,1.05,T3,T1,T1" REST
@@ -198,7 +198,7 @@ TEST(what_is_no_record_is_refused_with_its_line) {
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T2,T3,T3" REST, "line 2: first"},
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T3,T3,T3" REST, "line 2: second"},
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T2" REST, "line 2: preferred"},
-        {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3,1.5,10001,-1,0,0,0,0,0\n", "line 2: saturations"},
+        {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3,1.5,10001,-1,0,0,0,0,0\n", "line 2: force_limit_ticks"},
         {HEADER GOOD GOOD, "line 3: this trial of subject s1"},
         {HEADER GOOD "1,s2,SIMULATED,fake,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 3: people's answers"}};
     const char *path = tool_path("bad.csv");

@@ -126,7 +126,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
     assert_in_range(device.writes, 10001, 10100); /* the loop's ramp goes from nothing to nothing */
     assert_int_equal(o.ticks, 10001);
     assert_int_equal(beyond, 166); /* -1.731 x 2.10 N once in 6 ticks of the second that T3 has at 400 Hz */
-    assert_int_equal(o.saturations, beyond);
+    assert_int_equal(o.force_limit_ticks, beyond);
 }
 
 TEST(leaving_the_sphere_zeroes_the_force_and_begins_the_trial_anew) {

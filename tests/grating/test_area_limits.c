@@ -73,7 +73,7 @@ TEST(a_teleport_is_one_tick_of_nothing) {
         for (int k = 0; k < 100; k++) {
             x += 0.1e-3 + (k == 50 ? jump : 0.0);
             const double height = area_x(&w, x, k == 50 && i & 2 ? 0.1 + jump * RATE : 0.1);
-            assert_int_equal(w.out.saturated, k == 50);
+            assert_int_equal(w.out.above_nyquist, k == 50);
             if (k == 50) {
                 CHECK_SAME(height, 0.0);
             } else if (k > 0 && i % 2 == 0) {

@@ -107,7 +107,7 @@ TEST(s1_step_looks_the_height_up_and_plays_no_event) {
         CHECK_SAME(out.height, knurl_grating_s1(x, grating.spatial_frequency, 0.002));
         assert_true(out.event == KNURL_NO_EVENT);
         CHECK_SAME(out.temporal_frequency, 250.0);
-        assert_int_equal(out.saturated, 0);
+        assert_int_equal(out.above_nyquist, 0);
     }
 }
 
@@ -290,11 +290,11 @@ TEST(above_half_the_update_rate_is_flagged_and_played_at_two_ticks) {
         const knurl_grating_output out = step(&s2, &s, 0.25, 0.0);
         CHECK_SAME(out.height, paper_square(k, 2, 1));
         CHECK_SAME(out.temporal_frequency, 1000.0); /* unclamped */
-        assert_int_equal(out.saturated, 1);
+        assert_int_equal(out.above_nyquist, 1);
     }
-    assert_int_equal(step(&s1, &s, 0.25, 0.0).saturated, 1);
-    assert_int_equal(step(&s1, &s, 0.125, 0.0).saturated, 0); /* exactly half */
-    assert_int_equal(step(&s2, &s, 0.125, 0.0).saturated, 0);
+    assert_int_equal(step(&s1, &s, 0.25, 0.0).above_nyquist, 1);
+    assert_int_equal(step(&s1, &s, 0.125, 0.0).above_nyquist, 0); /* exactly half */
+    assert_int_equal(step(&s2, &s, 0.125, 0.0).above_nyquist, 0);
 }
 
 TEST(every_complete_event_has_no_impulse_and_rms_of_its_amplitude) {

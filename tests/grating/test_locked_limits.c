@@ -101,7 +101,7 @@ TEST(a_seam_or_a_teleport_leaves_nothing_behind) {
 
 /* 2-tick events while f_t is above f_h/2, with up to 14 cycles crossed for each; afterwards no debt of them: within 16
  * ticks (events of 3 or 5 ticks, to gain up to half a cycle) it is in step at 4 ticks an event. */
-TEST(saturation_leaves_no_debt) {
+TEST(a_time_above_nyquist_leaves_no_debt) {
     static const double fast[] = {0.501, 0.7, 0.9, 1.0, 1.5, 7.25};
     for (size_t i = 0; i < COUNT_OF(fast); i++) {
         locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
@@ -111,7 +111,7 @@ TEST(saturation_leaves_no_debt) {
             const double speed = k < 1000 ? fast[i] * RATE / FS : 0.25;
             x += speed / RATE;
             (void)walk_x(&w, x, speed);
-            assert_int_equal(w.out.saturated, k < 1000);
+            assert_int_equal(w.out.above_nyquist, k < 1000);
             assert_true(k < 20 || k >= 1000 || w.state.event.length == 2);
             if (k >= 1016 && w.state.event_count > events) { /* in step again */
                 CHECK_CLOSE(x * FS + 0.25, floor(x * FS + 0.75), 0.126L);

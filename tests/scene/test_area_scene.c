@@ -32,7 +32,7 @@ static void check_stroke(surface_parts *parts, double (*cycles)(double x), doubl
         const knurl_tick_output out = tick_moving(scene, p, v);
         const double now = cycles(p[0]);
         assert_int_equal(out.contacts, 1);
-        assert_int_equal(out.flags & KNURL_TICK_FREQUENCY, 0);
+        assert_int_equal(out.flags & KNURL_TICK_ABOVE_NYQUIST, 0);
         CHECK_CLOSE(length3(out.force), K * (out.height + out.depth), 1e-9L);
         if (k > 0) { /* positions on a mesh are floats */
             CHECK_CLOSE(out.height, mean_between(before, now), 3e-3L * A);

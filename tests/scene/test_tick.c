@@ -78,7 +78,7 @@ TEST(cycles_tell_where_on_the_grating) {
     knurl_scene_destroy(scene);
 }
 
-/* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, saturated. */
+/* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, above f_h/2. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
     surface_parts parts = grating_plane(KNURL_S2, fs, 0.5 * fs);
     knurl_scene *scene = empty_scene(1);
@@ -105,7 +105,7 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
         CHECK_CLOSE(out.temporal_frequency, frequency, 1e-9L * frequency);
         CHECK_CLOSE(out.spatial_frequency, frequency / sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]),
                     1e-9L * fs);
-        assert_int_equal((out.flags & KNURL_TICK_FREQUENCY) != 0, frequency > 0.5 * rate);
+        assert_int_equal((out.flags & KNURL_TICK_ABOVE_NYQUIST) != 0, frequency > 0.5 * rate);
     }
     knurl_scene_destroy(scene);
 }
@@ -116,7 +116,7 @@ TEST(s2_at_constant_speed_plays_t3_events) {
     compare_with_events(1000.0, 1000.0, (const double[3]){0.05, -0.4, 0.0}, 200.0);
     compare_with_events(1000.0, 700.0, (const double[3]){0.2, 0.0, 0.0}, 140.0);  /* 7.14 ticks: 7 */
     compare_with_events(1000.0, 1000.0, (const double[3]){0.4, 0.0, 0.0}, 400.0); /* 2.5 ticks: the mix */
-    compare_with_events(1000.0, 1000.0, (const double[3]){0.6, 0.0, 0.0}, 600.0); /* saturated */
+    compare_with_events(1000.0, 1000.0, (const double[3]){0.6, 0.0, 0.0}, 600.0); /* above f_h/2 */
     compare_with_events(3000.0, 1000.0, (const double[3]){0.6, 0.0, 0.0}, 600.0);
 }
 

@@ -85,8 +85,9 @@ TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
 }
 
 TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
-    static const char *const keys[] = {"ticks",   "contact_s", "events", "overruns", "saturations", "force_max_n",
-                                       "tick_ns", "jitter_us", "p50",    "p99",      "max"};
+    static const char *const keys[] = {"ticks",       "contact_s", "events",    "overruns", "force_limit_ticks",
+                                       "force_max_n", "tick_ns",   "jitter_us", "p50",      "p99",
+                                       "max"};
     process p = RUN_TOOL("run", plate, "--fast", "--method", "S2"); /* which plays events at any speed */
     check_done(&p);
     assert_int_equal(lines_in(p.out), 1);
@@ -99,7 +100,7 @@ TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
     assert_true(json_number_of(p.out, "contact_s") > 4.0);
     assert_true(json_number_of(p.out, "events") > 100.0);
     CHECK_SAME(json_number_of(p.out, "overruns"), 0.0L);
-    CHECK_SAME(json_number_of(p.out, "saturations"), 0.0L);
+    CHECK_SAME(json_number_of(p.out, "force_limit_ticks"), 0.0L);
     assert_true(json_number_of(p.out, "force_max_n") > 0.2 && json_number_of(p.out, "force_max_n") < 3.3);
     process_free(&p);
     p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.1", "--pretty");

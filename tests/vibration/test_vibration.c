@@ -258,22 +258,22 @@ TEST(t2_and_t3_repeat_at_any_tick) {
     }
 }
 
-TEST(below_two_ticks_is_played_as_two_and_marked_saturated) {
+TEST(below_two_ticks_is_played_as_two_and_marked_above_nyquist) {
     for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
         const knurl_wave fast = make_wave(method, 1.9, 1.0, 1000.0);
-        assert_int_equal(fast.saturated, 1);
+        assert_int_equal(fast.above_nyquist, 1);
         CHECK_SAME(fast.period_ticks, 2.0);
         for (uint64_t k = 0; k < 10; k++) {
             CHECK_SAME(knurl_wave_value(&fast, k), paper_square(k, 2, 1));
         }
         for (size_t i = 0; i < COUNT_OF(rates); i++) {
-            assert_int_equal(make_wave(method, 2.0, 1.0, rates[i]).saturated, 0);
+            assert_int_equal(make_wave(method, 2.0, 1.0, rates[i]).above_nyquist, 0);
         }
     }
-    assert_int_equal(make_event(1.9, 1.0).saturated, 1);
+    assert_int_equal(make_event(1.9, 1.0).above_nyquist, 1);
     assert_int_equal(make_event(1.9, 1.0).length, 2);
     assert_int_equal(make_event(1e-300, 1.0).length, 2);
-    assert_int_equal(make_event(2.0, 1.0).saturated, 0);
+    assert_int_equal(make_event(2.0, 1.0).above_nyquist, 0);
 }
 
 TEST(peaks_are_those_the_header_promises) {

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "6225821655fb4324"
+#define KNURL_UNITY_INTERFACE "8ea19b107512eccd"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -30,7 +30,7 @@
     FIELD(knurl_vibration_event, length, "length", 16, 4) \
     FIELD(knurl_vibration_event, positive_ticks, "positive_ticks", 20, 4) \
     FIELD(knurl_vibration_event, kind, "kind", 24, 4) \
-    FIELD(knurl_vibration_event, saturated, "saturated", 28, 4) \
+    FIELD(knurl_vibration_event, above_nyquist, "above_nyquist", 28, 4) \
     STRUCT(knurl_wave, 96) \
     FIELD(knurl_wave, period_ticks, "period_ticks", 0, 8) \
     FIELD(knurl_wave, amplitude, "amplitude", 8, 8) \
@@ -38,7 +38,7 @@
     FIELD(knurl_wave, parts[1], "parts_1", 48, 32) \
     FIELD(knurl_wave, method, "method", 80, 4) \
     FIELD(knurl_wave, part_count, "part_count", 84, 4) \
-    FIELD(knurl_wave, saturated, "saturated", 88, 4) \
+    FIELD(knurl_wave, above_nyquist, "above_nyquist", 88, 4) \
     FIELD(knurl_wave, reserved, "reserved", 92, 4) \
     STRUCT(knurl_grating, 64) \
     FIELD(knurl_grating, method, "method", 0, 4) \
@@ -67,7 +67,7 @@
     FIELD(knurl_grating_output, spatial_frequency, "spatial_frequency", 8, 8) \
     FIELD(knurl_grating_output, temporal_frequency, "temporal_frequency", 16, 8) \
     FIELD(knurl_grating_output, event, "event", 24, 8) \
-    FIELD(knurl_grating_output, saturated, "saturated", 32, 4) \
+    FIELD(knurl_grating_output, above_nyquist, "above_nyquist", 32, 4) \
     FIELD(knurl_grating_output, turned, "turned", 36, 4) \
     FIELD(knurl_grating_output, reserved, "reserved", 40, 8) \
     STRUCT(knurl_velocity, 11264) \
@@ -177,7 +177,7 @@
     FIELD(knurl_hip_counts, contact_ticks, "contact_ticks", 8, 8) \
     FIELD(knurl_hip_counts, events, "events", 16, 8) \
     FIELD(knurl_hip_counts, force_limit_ticks, "force_limit_ticks", 24, 8) \
-    FIELD(knurl_hip_counts, saturation_ticks, "saturation_ticks", 32, 8) \
+    FIELD(knurl_hip_counts, above_nyquist_ticks, "above_nyquist_ticks", 32, 8) \
     FIELD(knurl_hip_counts, non_finite_ticks, "non_finite_ticks", 40, 8) \
     FIELD(knurl_hip_counts, entry_ticks, "entry_ticks", 48, 8) \
     FIELD(knurl_hip_counts, slew_ticks, "slew_ticks", 56, 8) \

@@ -14,7 +14,7 @@ static const char *const rules[] = {"point", "one-sided", "two-sided"};
 /* One cell's trials. */
 typedef struct cell {
     uint32_t n, m; /* trials; those in which our method was preferred */
-    double saturations;
+    double force_limit_ticks;
 } cell;
 
 static cell count_cell(const exp_records *records, const exp_design *d, double period, double amplitude,
@@ -26,7 +26,7 @@ static cell count_cell(const exp_records *records, const exp_design *d, double p
             r->sound == sound) {
             c.n++;
             c.m += r->preferred == d->methods[1];
-            c.saturations += r->saturations;
+            c.force_limit_ticks += r->force_limit_ticks;
         }
     }
     return c;
@@ -53,7 +53,7 @@ static void print_cell(const exp_design *d, double period, double amplitude, int
             won[rule][who]++;
         }
     }
-    printf(" %10.0f\n", c->saturations);
+    printf(" %10.0f\n", c->force_limit_ticks);
 }
 
 static void print_heading(const exp_design *d) {
@@ -65,7 +65,7 @@ static void print_heading(const exp_design *d) {
             say(stdout, " %10s", rules[rule]);
         }
     }
-    say(stdout, " %10s\n", "saturated");
+    say(stdout, " %10s\n", "limited");
 }
 
 /* The counts that the rules ask for at n trials, or that none is enough. */

@@ -88,11 +88,11 @@ typedef struct exp_session {
 
 /* What a trial came to. */
 typedef struct exp_outcome {
-    int32_t chosen;            /* 0: the first (left), 1: the second (right) */
-    double rt_s;               /* from when the question was put; 0 where simulated */
-    uint64_t ticks;            /* played, restarts not counted */
-    uint64_t saturations;      /* ticks whose force the device could not give in full */
-    uint64_t saturation_ticks; /* ticks whose temporal frequency was above half the update rate */
+    int32_t chosen;               /* 0: the first (left), 1: the second (right) */
+    double rt_s;                  /* from when the question was put; 0 where simulated */
+    uint64_t ticks;               /* played, restarts not counted */
+    uint64_t force_limit_ticks;   /* ticks whose force the device could not give in full */
+    uint64_t above_nyquist_ticks; /* ticks whose temporal frequency was above half the update rate */
     uint64_t overruns;
     uint32_t restarts;   /* the hand had left the sphere */
     double contact_s[2]; /* experiment 3: with the left and the right surface */
@@ -144,7 +144,7 @@ typedef struct exp_record {
     int32_t simulated, sound;
     exp_trial trial;
     int32_t preferred; /* the method */
-    double saturations;
+    double force_limit_ticks;
 } exp_record;
 
 typedef struct exp_records {

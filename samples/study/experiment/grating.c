@@ -82,7 +82,7 @@ static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     hip.resolution = session->info.resolution;
     hip.max_force = session->info.max_force;
     hip.workspace = &workspace;
-    hip.protections = 0; /* S1 and S2 as printed, saturation and all */
+    hip.protections = 0; /* S1 and S2 as printed, with all that they do above f_h/2 */
     return knurl_scene_configure_hip(scene, 0, &hip);
 }
 
@@ -147,8 +147,8 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     sum->rt_s += outcome.rt_s;
     sum->ticks += outcome.ticks;
     sum->overruns += outcome.overruns;
-    sum->saturations += counts.force_limit_ticks;
-    sum->saturation_ticks += counts.saturation_ticks;
+    sum->force_limit_ticks += counts.force_limit_ticks;
+    sum->above_nyquist_ticks += counts.above_nyquist_ticks;
     sum->contact_s[0] += (double)e.contacts[0] / EXP_RATE;
     sum->contact_s[1] += (double)e.contacts[1] / EXP_RATE;
     knurl_scene_destroy(e.scene);

@@ -24,7 +24,7 @@ enum {
     PREFERRED,
     RT,
     TICKS,
-    SATURATIONS,
+    FORCE_LIMIT_TICKS,
     FREQUENCIES,
     OVERRUNS,
     RESTARTS,
@@ -114,9 +114,9 @@ static int read_row(const place *at, char *const *cells, exp_record *r) {
     if (!r->sound && strcmp(cells[SOUND], "no") != 0) {
         return refuse(at, "sound", "yes or no", cells[SOUND]);
     }
-    r->saturations = strtod(cells[SATURATIONS], &end);
-    if (end == cells[SATURATIONS] || *end || !(r->saturations >= 0.0 && isfinite(r->saturations))) {
-        return refuse(at, "saturations", "a number of ticks", cells[SATURATIONS]);
+    r->force_limit_ticks = strtod(cells[FORCE_LIMIT_TICKS], &end);
+    if (end == cells[FORCE_LIMIT_TICKS] || *end || !(r->force_limit_ticks >= 0.0 && isfinite(r->force_limit_ticks))) {
+        return refuse(at, "force_limit_ticks", "a number of ticks", cells[FORCE_LIMIT_TICKS]);
     }
     return read_trial(at, cells, exp_design_of(r->experiment), r);
 }

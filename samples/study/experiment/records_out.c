@@ -10,7 +10,7 @@
 
 /* period: ms of the medium, in experiment 3 mm of the grating; amplitude: N, in experiment 3 mm. */
 const char exp_csv_header[] = "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,"
-                              "preferred,rt_s,ticks,saturations,frequency_saturations,overruns,restarts,"
+                              "preferred,rt_s,ticks,force_limit_ticks,above_nyquist_ticks,overruns,restarts,"
                               "contact_first_s,contact_second_s";
 
 const char *const exp_answer_names[] = {"keyboard", "buttons", "SIMULATED"};
@@ -24,8 +24,8 @@ void exp_write_record(FILE *f, const exp_session *session, uint32_t number, cons
     const exp_design *d = session->design;
     const double numbers[] = {o->rt_s,
                               (double)o->ticks,
-                              (double)o->saturations,
-                              (double)o->saturation_ticks,
+                              (double)o->force_limit_ticks,
+                              (double)o->above_nyquist_ticks,
                               (double)o->overruns,
                               (double)o->restarts,
                               o->contact_s[0],

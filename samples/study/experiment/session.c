@@ -8,16 +8,16 @@
 
 /* What a session adds up to, for its last lines. */
 typedef struct totals {
-    uint64_t ticks, saturations, saturation_ticks, overruns;
-    uint32_t trials, saturated_trials, restarts;
+    uint64_t ticks, force_limit_ticks, above_nyquist_ticks, overruns;
+    uint32_t trials, force_limit_trials, restarts;
 } totals;
 
 static void add(totals *t, const exp_outcome *o) {
     t->trials++;
     t->ticks += o->ticks;
-    t->saturations += o->saturations;
-    t->saturated_trials += o->saturations > 0;
-    t->saturation_ticks += o->saturation_ticks;
+    t->force_limit_ticks += o->force_limit_ticks;
+    t->force_limit_trials += o->force_limit_ticks > 0;
+    t->above_nyquist_ticks += o->above_nyquist_ticks;
     t->overruns += o->overruns;
     t->restarts += o->restarts;
 }
@@ -60,9 +60,10 @@ static void report(const exp_session *session, const totals *t) {
         (int)d->experiment, d->names[0], d->names[1], session->subject, session->sound ? "yes" : "no",
         (unsigned long long)session->seed, (unsigned)t->trials, (double)t->ticks / EXP_RATE, session->info.name);
     printf("force above the device's %.3g N: %llu ticks in %u trials, shortened to it\n", session->info.max_force,
-           (unsigned long long)t->saturations, (unsigned)t->saturated_trials);
+           (unsigned long long)t->force_limit_ticks, (unsigned)t->force_limit_trials);
     if (d->experiment == 3) {
-        printf("temporal frequency above half the update rate: %llu ticks\n", (unsigned long long)t->saturation_ticks);
+        printf("temporal frequency above half the update rate: %llu ticks\n",
+               (unsigned long long)t->above_nyquist_ticks);
     }
     printf("overruns: %llu; trials begun anew: %u\n", (unsigned long long)t->overruns, (unsigned)t->restarts);
     say(stdout, "written: %s\n", session->out);

@@ -16,7 +16,7 @@ typedef struct player {
     exp_stimulus stimulus;
     double max_force;
     double centre[3]; /* of the sphere: where the hand is when the first vibration begins */
-    uint64_t saturations;
+    uint64_t force_limit_ticks;
 } player;
 
 /* Forces go up and down (IV-A2). They are passed on as the paper has them: the device's layer shortens what is too
@@ -36,7 +36,7 @@ static void play(exp_run *run, uint64_t tick, const knurl_device_sample *sample,
     }
     if (!__atomic_load_n(&run->left, __ATOMIC_RELAXED)) {
         force[1] = exp_stimulus_force(&p->stimulus, tick - LEAD_TICKS);
-        p->saturations += fabs(force[1]) > p->max_force;
+        p->force_limit_ticks += fabs(force[1]) > p->max_force;
     }
 }
 
@@ -81,7 +81,7 @@ int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_ou
         run.end_tick = QUESTION_TICKS + 1; /* the loop's ramp at the end begins from no force */
         code = code ? code : exp_stimulus_init(trial, &p.stimulus);
         code = code ? code : exp_drive(session, &run, outcome);
-        outcome->saturations = p.saturations;
+        outcome->force_limit_ticks = p.force_limit_ticks;
         outcome->restarts = restarts;
         if (code == TOOL_OK && run.left && session->answers != EXP_SIMULATED) {
             say(stderr, "The hand left the sphere: the trial begins anew.\n");

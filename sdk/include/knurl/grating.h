@@ -71,7 +71,7 @@ typedef struct knurl_grating_output {
     double temporal_frequency; /**< f_t = max(fsx |vx|, fsy |vy|): Hz, not clamped */
     int64_t event;             /**< number of the event being played, from 0 since the state was zeroed, or
                                     KNURL_NO_EVENT. AREA: number of the latest ridge */
-    uint32_t saturated;        /**< 1: f_t is above f_h/2, which no method can render; AREA: also a jump of a whole
+    uint32_t above_nyquist;    /**< 1: f_t is above f_h/2, which no method can render; AREA: also a jump of a whole
                                     cycle */
     uint32_t turned;           /**< 1: the height changed sign in this tick: a half cycle begins. Heights of 0 in
                                     between (idle S2) are skipped */
@@ -115,7 +115,7 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
  *   A at any f_t; heights reach pi/2 A. The distance is by position on a grating in one direction; on a grid along the
  *   axis that crosses the most cycles (Eq. 12), where the phase continues when the other axis takes over (at 1.1 times
  *   as many cycles); without a position by velocity. From 0.46 f_h on, until f_t falls below 0.44 f_h, LOCKED's events
- *   are played, in phase. A jump of a cycle or more gives height 0 for one tick and counts as saturated.
+ *   are played, in phase. A jump of a cycle or more gives height 0 for one tick and counts as above_nyquist.
  *
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],

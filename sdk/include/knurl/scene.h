@@ -187,7 +187,7 @@ typedef struct knurl_tick_input {
 enum {
     KNURL_TICK_CONTACT = 1,        /**< the HIP is in contact: a surface is nearer than its grating's crests are high */
     KNURL_TICK_FORCE_LIMIT = 2,    /**< the force was shortened to max_force */
-    KNURL_TICK_FREQUENCY = 4,      /**< f_t is above f_h/2: the grating is too fine at this speed for the update rate */
+    KNURL_TICK_ABOVE_NYQUIST = 4,  /**< f_t is above f_h/2: the grating is too fine at this speed for the update rate */
     KNURL_TICK_NOT_FINITE = 8,     /**< an input or a result was NaN or infinite: the force is 0 and all contacts end */
     KNURL_TICK_CONTACTS_FULL = 16, /**< more surfaces were in contact than KNURL_CONTACTS_MAX */
     KNURL_TICK_ENTRY = 32,         /**< the entry ramp limited a depth */
@@ -232,19 +232,19 @@ typedef struct knurl_tick_output {
 /** Sums over a HIP's ticks since it was configured. */
 typedef struct knurl_hip_counts {
     uint64_t ticks;
-    uint64_t contact_ticks;      /**< with KNURL_TICK_CONTACT */
-    uint64_t events;             /**< events started (S2, LOCKED) */
-    uint64_t force_limit_ticks;  /**< ticks with KNURL_TICK_FORCE_LIMIT */
-    uint64_t saturation_ticks;   /**< ticks with KNURL_TICK_FREQUENCY */
-    uint64_t non_finite_ticks;   /**< ticks with KNURL_TICK_NOT_FINITE */
-    uint64_t entry_ticks;        /**< ticks with KNURL_TICK_ENTRY */
-    uint64_t slew_ticks;         /**< ticks with KNURL_TICK_SLEW */
-    uint64_t heat_ticks;         /**< ticks with KNURL_TICK_HEAT */
-    uint64_t passivity_ticks;    /**< ticks with KNURL_TICK_PASSIVITY */
-    double force_max;            /**< N: the greatest force so far */
-    double heat;                 /**< heat of the motors: 0 is cold, 1 as warm as continuous_force makes them in the
-                                      long run; above 1 only without KNURL_PROTECT_HEAT. A loop's HIP starts with its
-                                      device's heat */
+    uint64_t contact_ticks;       /**< with KNURL_TICK_CONTACT */
+    uint64_t events;              /**< events started (S2, LOCKED) */
+    uint64_t force_limit_ticks;   /**< ticks with KNURL_TICK_FORCE_LIMIT */
+    uint64_t above_nyquist_ticks; /**< ticks with KNURL_TICK_ABOVE_NYQUIST */
+    uint64_t non_finite_ticks;    /**< ticks with KNURL_TICK_NOT_FINITE */
+    uint64_t entry_ticks;         /**< ticks with KNURL_TICK_ENTRY */
+    uint64_t slew_ticks;          /**< ticks with KNURL_TICK_SLEW */
+    uint64_t heat_ticks;          /**< ticks with KNURL_TICK_HEAT */
+    uint64_t passivity_ticks;     /**< ticks with KNURL_TICK_PASSIVITY */
+    double force_max;             /**< N: the greatest force so far */
+    double heat;                  /**< heat of the motors: 0 is cold, 1 as warm as continuous_force makes them in the
+                                       long run; above 1 only without KNURL_PROTECT_HEAT. A loop's HIP starts with its
+                                       device's heat */
     double half_cycles_crossed;  /**< ridges and grooves that the HIP crossed, for every method, not rounded: the sum of
                                       2 f_t / f_h over all ticks and touched surfaces (Eq. 12; a stroke of L metres
                                       along x crosses 2 fsx L). For LOCKED in the grating's coordinates, for S1 and S2

@@ -24,7 +24,7 @@ typedef struct knurl_vibration_event {
     int32_t length;         /**< ticks, >= 2 */
     int32_t positive_ticks; /**< ticks of the first part; unused for MIXED */
     int32_t kind;           /**< KNURL_EVENT_EVEN, _ODD or _MIXED */
-    uint32_t saturated;     /**< 1: the period given was below 2 ticks and is played as 2 */
+    uint32_t above_nyquist; /**< 1: the period given was below 2 ticks and is played as 2 */
 } knurl_vibration_event;
 
 /** A temporal signal of method T1, T2 or T3, ready to be played. */
@@ -34,12 +34,12 @@ typedef struct knurl_wave {
     knurl_vibration_event parts[2]; /**< T3: one event, repeated; T2: one or two even events, summed */
     int32_t method;                 /**< KNURL_T1, KNURL_T2 or KNURL_T3 */
     int32_t part_count;             /**< 0 for T1 */
-    uint32_t saturated;             /**< 1: the period asked for was below 2 ticks and is played as 2 */
+    uint32_t above_nyquist;         /**< 1: the period asked for was below 2 ticks and is played as 2 */
     uint32_t reserved;              /**< 0 */
 } knurl_wave;
 
 /** Prepares the T3 event for one period (Algorithms 4, 5, 6; Eqs. 7, 8).
- * period_ticks: temporal period in ticks, > 0; below 2 it is played as 2 and marked saturated; at most 1e6.
+ * period_ticks: temporal period in ticks, > 0; below 2 it is played as 2 and marked above_nyquist; at most 1e6.
  * amplitude: finite, >= 0, in the unit that heights are wanted in. event: caller's.
  * Errors: KNURL_ERROR_ARGUMENT, with a message. [any thread, never from a tick] */
 KNURL_API knurl_result knurl_vibration_event_init(double period_ticks, double amplitude, knurl_vibration_event *event);

@@ -102,7 +102,7 @@ double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *st
         state->phase - (passed.length < 1.0 ? passed.length : 0.0); /* as late as a mean over the span */
     const double lowest = (state->moving ? KNURL_AREA_EVENTS_UNTIL : KNURL_AREA_EVENTS_FROM) * rate;
     double height;
-    output->saturated |= !(passed.length < 1.0);
+    output->above_nyquist |= !(passed.length < 1.0);
     /* only where distance and velocity agree: after a jump the estimated velocity is wrong for some ticks */
     if (((passed.length > 0.5 * KNURL_AREA_EVENTS_UNTIL && passed.length < 1.0) || state->moving || state->playing) &&
         knurl_locked_play(grating, state, before, before - frequency / rate, frequency, lowest, &height)) {

@@ -50,7 +50,7 @@ double knurl_area_step_any(const knurl_grating *grating, knurl_grating_state *st
                            const double velocity[2], double frequency, knurl_grating_output *output) KNURL_NONBLOCKING;
 
 /* The height of this tick. frequency: Hz, of this motion. position: null where there is none; the distance is then that
- * of the velocity. Sets output->saturated where it jumps. */
+ * of the velocity. Sets output->above_nyquist where it jumps. */
 static inline double knurl_area_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                                      const double velocity[2], double frequency, knurl_grating_output *output) {
     const double *fs = grating->spatial_frequency;

@@ -65,14 +65,14 @@ static inline void knurl_grating_follow(const knurl_grating *grating, knurl_grat
     knurl_grating_output out;
     knurl_grating_copy(grating, &g);
     out.event = output->event;
-    out.saturated = output->saturated;
+    out.above_nyquist = output->above_nyquist;
     if (g.method == KNURL_LOCKED) {
         output->height = knurl_locked_step(&g, state, position, velocity, frequency, &out);
         output->event = out.event;
     } else {
         output->height = knurl_area_step(&g, state, position, velocity, frequency, &out);
         output->event = knurl_grating_count_ridges(state, output->height);
-        output->saturated = out.saturated;
+        output->above_nyquist = out.above_nyquist;
     }
 }
 
@@ -93,7 +93,7 @@ static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating
     output->spatial_frequency = speed2 > 0.0 ? frequency / sqrt(speed2) : 0.0;
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
-    output->saturated = frequency > 0.5 * grating->update_rate_hz;
+    output->above_nyquist = frequency > 0.5 * grating->update_rate_hz;
     output->reserved = 0;
     if (grating->method >= KNURL_LOCKED) { /* or AREA */
         knurl_grating_follow(grating, state, input, output);

@@ -3,7 +3,7 @@
 
 void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {
     c->force_limit_ticks += (flags & KNURL_TICK_FORCE_LIMIT) != 0;
-    c->saturation_ticks += (flags & KNURL_TICK_FREQUENCY) != 0;
+    c->above_nyquist_ticks += (flags & KNURL_TICK_ABOVE_NYQUIST) != 0;
     c->non_finite_ticks += (flags & KNURL_TICK_NOT_FINITE) != 0;
     c->entry_ticks += (flags & KNURL_TICK_ENTRY) != 0;
     c->slew_ticks += (flags & KNURL_TICK_SLEW) != 0;

@@ -96,8 +96,8 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
 /* Reports one contact; of several the deepest. */
 static inline void report_contact(const knurl_active_contact *contact, const knurl_contact_force *share,
                                   knurl_tick_output *out) {
-    if (KNURL_UNLIKELY(share->grating.saturated)) {
-        out->flags |= KNURL_TICK_FREQUENCY;
+    if (KNURL_UNLIKELY(share->grating.above_nyquist)) {
+        out->flags |= KNURL_TICK_ABOVE_NYQUIST;
     }
     if (KNURL_UNLIKELY(out->contacts++ > 0) && -contact->contact.z <= out->depth) {
         return;

@@ -32,7 +32,7 @@ static void init_odd(int32_t length, double amplitude, knurl_vibration_event *ev
 }
 
 void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) {
-    event->saturated = 0;
+    event->above_nyquist = 0;
     if (length % 2 == 0) {
         init_even(length, amplitude, event);
     } else {
@@ -42,7 +42,7 @@ void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vi
 
 void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
     const double ticks = knurl_snap_ticks(period_ticks);
-    event->saturated = ticks < 2.0;
+    event->above_nyquist = ticks < 2.0;
     if (ticks < 2.25) {
         init_even(2, amplitude, event);
     } else if (ticks <= 2.75) {

@@ -45,7 +45,7 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
     knurl_wave made = {0};
     made.method = method;
     made.amplitude = amplitude;
-    made.saturated = ticks < 2.0;
+    made.above_nyquist = ticks < 2.0;
     made.period_ticks = ticks < 2.0 ? 2.0 : ticks;
     knurl_result result = KNURL_OK;
     if (method == KNURL_T2) {

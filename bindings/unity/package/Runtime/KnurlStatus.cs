@@ -73,32 +73,32 @@ namespace Knurl
         public long HalfCyclesPlayed;
 
         /// <summary>Ticks whose force was shortened to <see cref="MaxForce"/>.</summary>
-        public long ForceLimits;
+        public long ForceLimitTicks;
 
         /// <summary>Ticks whose motion asked for a frequency above half the rate.</summary>
-        public long FrequencySaturations;
+        public long AboveNyquistTicks;
 
         /// <summary>Ticks whose position or force was not a number.</summary>
-        public long NotFinite;
+        public long NonFiniteTicks;
 
         /// <summary>Ticks in which a wall that was suddenly there came in as a ramp.</summary>
-        public long Entries;
+        public long EntryTicks;
 
         /// <summary>Ticks whose force was kept from jumping.</summary>
-        public long Slews;
+        public long SlewTicks;
 
         /// <summary>Ticks whose force was shortened to what warm motors can hold.</summary>
-        public long Heats;
+        public long HeatTicks;
 
         /// <summary>Ticks whose force was shortened because a wall gave out more energy than was put in.</summary>
-        public long Passivities;
+        public long PassivityTicks;
 
         /// <summary>Ticks in which two surfaces closed in on the HIP, so that one of them no longer holds it.</summary>
-        public long Squeezes;
+        public long SqueezedTicks;
 
         /// <summary>Ticks that met the limit of what contact looks at: the scene is too crowded there, or a
         /// grating's amplitude too great for its mesh.</summary>
-        public long VisitLimits;
+        public long VisitLimitTicks;
 
         /// <summary>The longest force played (N).</summary>
         public double ForceMax;
@@ -164,15 +164,15 @@ namespace Knurl
             Events = (long)counts.events;
             HalfCyclesCrossed = counts.half_cycles_crossed;
             HalfCyclesPlayed = (long)counts.half_cycles_played;
-            ForceLimits = (long)counts.force_limit_ticks;
-            FrequencySaturations = (long)counts.saturation_ticks;
-            NotFinite = (long)counts.non_finite_ticks;
-            Entries = (long)counts.entry_ticks;
-            Slews = (long)counts.slew_ticks;
-            Heats = (long)counts.heat_ticks;
-            Passivities = (long)counts.passivity_ticks;
-            Squeezes = (long)counts.squeezed_ticks;
-            VisitLimits = (long)counts.visit_limit_ticks;
+            ForceLimitTicks = (long)counts.force_limit_ticks;
+            AboveNyquistTicks = (long)counts.above_nyquist_ticks;
+            NonFiniteTicks = (long)counts.non_finite_ticks;
+            EntryTicks = (long)counts.entry_ticks;
+            SlewTicks = (long)counts.slew_ticks;
+            HeatTicks = (long)counts.heat_ticks;
+            PassivityTicks = (long)counts.passivity_ticks;
+            SqueezedTicks = (long)counts.squeezed_ticks;
+            VisitLimitTicks = (long)counts.visit_limit_ticks;
             ForceMax = counts.force_max;
             Heat = counts.heat;
             Surfaces = NativeMethods.knurl_scene_get_surface_count(scene);

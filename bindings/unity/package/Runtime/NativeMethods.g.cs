@@ -54,7 +54,7 @@ namespace Knurl
         public int length;
         public int positive_ticks;
         public int kind;
-        public uint saturated;
+        public uint above_nyquist;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -66,7 +66,7 @@ namespace Knurl
         public knurl_vibration_event parts_1;
         public int method;
         public int part_count;
-        public uint saturated;
+        public uint above_nyquist;
         public uint reserved;
     }
 
@@ -107,7 +107,7 @@ namespace Knurl
         public double spatial_frequency;
         public double temporal_frequency;
         public long @event;
-        public uint saturated;
+        public uint above_nyquist;
         public uint turned;
         public ulong reserved;
     }
@@ -257,7 +257,7 @@ namespace Knurl
         public ulong contact_ticks;
         public ulong events;
         public ulong force_limit_ticks;
-        public ulong saturation_ticks;
+        public ulong above_nyquist_ticks;
         public ulong non_finite_ticks;
         public ulong entry_ticks;
         public ulong slew_ticks;
@@ -635,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "6225821655fb4324";
+        internal const string Interface = "8ea19b107512eccd";
 
         internal const string Version = "0.3.0";
 
@@ -749,7 +749,7 @@ namespace Knurl
         internal const int KNURL_FULL_ALL = 7;
         internal const int KNURL_TICK_CONTACT = 1;
         internal const int KNURL_TICK_FORCE_LIMIT = 2;
-        internal const int KNURL_TICK_FREQUENCY = 4;
+        internal const int KNURL_TICK_ABOVE_NYQUIST = 4;
         internal const int KNURL_TICK_NOT_FINITE = 8;
         internal const int KNURL_TICK_CONTACTS_FULL = 16;
         internal const int KNURL_TICK_ENTRY = 32;
