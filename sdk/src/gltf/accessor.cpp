@@ -35,10 +35,10 @@ T value_at(const unsigned char *at) {
 /// (filter.cpp), so that none of these sums and products wraps.
 void locate(const Model &model, int view_index, size_t offset, bool strided, Elements &elements,
             const std::string &where) {
-    const tinygltf::BufferView &view = model.parsed.bufferViews.at(static_cast<size_t>(view_index));
+    const tinygltf::BufferView &view = model.filtered.views.at(static_cast<size_t>(view_index));
     const Bytes &bytes = model.buffers.at(static_cast<size_t>(view.buffer));
     const std::string view_label =
-        "bufferView " + std::to_string(model.filtered.views.at(static_cast<size_t>(view_index)));
+        "bufferView " + std::to_string(model.filtered.view_numbers.at(static_cast<size_t>(view_index)));
     if (uint64_t{view.byteOffset} + view.byteLength > bytes.size)
         refuse(where, view_label + " ends at byte " + std::to_string(uint64_t{view.byteOffset} + view.byteLength) +
                           " of a buffer of " + std::to_string(bytes.size) + " bytes");
@@ -152,7 +152,7 @@ void for_each_sparse(const Model &model, const tinygltf::Accessor &accessor, con
 } // namespace
 
 size_t count_elements(const Model &model, int index, size_t components, size_t most, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
     const std::string place = where + " (" + model.accessor_label(index) + ")";
     if (components == 1)
         check_whole_type(accessor.componentType, place);
@@ -164,7 +164,7 @@ size_t count_elements(const Model &model, int index, size_t components, size_t m
 }
 
 std::vector<float> read_floats(const Model &model, int index, size_t components, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
     const std::string place = where + " (" + model.accessor_label(index) + ")";
     const Elements elements = dense_elements(model, accessor, vertices_max, place); // of so many components: counted
     if (elements.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
@@ -184,7 +184,7 @@ std::vector<float> read_floats(const Model &model, int index, size_t components,
 }
 
 std::vector<uint32_t> read_indices(const Model &model, int index, size_t vertex_count, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.parsed.accessors.at(static_cast<size_t>(index));
+    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
     const std::string place = where + " (" + model.accessor_label(index) + ")";
     const Elements elements = dense_elements(model, accessor, 3 * triangles_max, place);
     std::vector<uint32_t> out(elements.count);

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "fields.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 
 namespace knurl::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 /// A whole number of any spelling (3, 3.0), or none.
 std::optional<uint32_t> whole_of(const Json &value, uint32_t least, uint32_t most) {
-    double number = -1.0;
-    if (value.is_number())
-        number = value.get<double>(); // exact up to 2^53, and rounded above most
+    const double number = value.number().value_or(-1.0); // exact up to 2^53, and rounded above most
     if (!knurl_is_within(number, least, most) || number != std::floor(number))
         return std::nullopt;
     return static_cast<uint32_t>(number);
@@ -33,9 +27,9 @@ Fields::Fields(const Json &object, const Fields &parent, std::string prefix)
 }
 
 void Fields::check() const {
-    if (!object_->is_object())
+    if (object_->object() == nullptr)
         refuse(where(), (prefix_.empty() ? "" : prefix_.substr(0, prefix_.size() - 1) + ": ") +
-                            "expected an object, found " + described(*object_));
+                            "expected an object, found " + object_->described());
 }
 
 std::optional<Fields> Fields::object(const char *key) const {
@@ -54,15 +48,13 @@ std::string Fields::where() const {
 }
 
 std::string_view Fields::name() const {
-    if (!named_->is_object())
-        return {};
-    const auto found = named_->find("name");
-    return found != named_->end() && found->is_string() ? found->get_ref<const std::string &>() : std::string_view();
+    const Json *found = named_->find("name");
+    const std::string *text = found != nullptr ? found->text() : nullptr;
+    return text != nullptr ? std::string_view(*text) : std::string_view();
 }
 
 const Json *Fields::find(const char *key) const {
-    const auto found = object_->find(key);
-    return found == object_->end() ? nullptr : &*found;
+    return object_->find(key);
 }
 
 std::optional<uint32_t> Fields::whole(const char *key, uint32_t least, uint32_t most) const {
@@ -101,13 +93,15 @@ std::optional<std::vector<double>> Fields::numbers(const char *key, size_t count
     if (value == nullptr)
         return std::nullopt;
     const std::string expected = "an array of " + std::to_string(count) + " numbers";
-    if (!value->is_array() || value->size() != count)
+    const Json::Array *elements = value->array();
+    if (elements == nullptr || elements->size() != count)
         refuse_value(key, expected, *value);
     std::vector<double> all;
-    for (const Json &number : *value) {
-        if (!number.is_number())
-            refuse_value(key, expected, number);
-        all.push_back(number.get<double>());
+    for (const Json &element : *elements) {
+        const std::optional<double> number = element.number();
+        if (!number)
+            refuse_value(key, expected, element);
+        all.push_back(*number);
     }
     return all;
 }
@@ -116,31 +110,34 @@ std::optional<bool> Fields::flag(const char *key) const {
     const Json *value = find(key);
     if (value == nullptr)
         return std::nullopt;
-    if (!value->is_boolean())
+    const std::optional<bool> flag = value->flag();
+    if (!flag)
         refuse_value(key, "true or false", *value);
-    return value->get<bool>();
+    return flag;
 }
 
 const std::string *Fields::text(const char *key) const {
     const Json *value = find(key);
     if (value == nullptr)
         return nullptr;
-    if (!value->is_string())
+    const std::string *text = value->text();
+    if (text == nullptr)
         refuse_value(key, "a string", *value);
-    return &value->get_ref<const std::string &>();
+    return text;
 }
 
 size_t Fields::array_size(const char *key) const {
     const Json *value = find(key);
     if (value == nullptr)
         return 0;
-    if (!value->is_array())
+    const Json::Array *elements = value->array();
+    if (elements == nullptr)
         refuse_value(key, "an array", *value);
-    return value->size();
+    return elements->size();
 }
 
 void Fields::refuse_value(const std::string &key, const std::string &expected, const Json &found) const {
-    refuse_key(key, "expected " + expected + ", found " + described(found));
+    refuse_key(key, "expected " + expected + ", found " + found.described());
 }
 
 void Fields::refuse_key(const std::string &key, const std::string &what, knurl_result code) const {

@@ -1,5 +1,4 @@
-// Knurl: typed reading of one JSON object's keys. tinygltf passes over a wrong type in silence and cuts large integers
-// to 32 bits, so types and ranges are checked here, before it sees them.
+// Knurl: typed reading of one JSON object's keys: types and ranges are checked here, and nowhere after.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FIELDS_HPP
 #define KNURL_GLTF_FIELDS_HPP
@@ -13,7 +12,8 @@
 
 namespace knurl::gltf {
 
-/** The largest whole number that is taken: an int in tinygltf, and above any offset in a file of bytes_max. */
+/** The largest whole number that is taken: an int in tinygltf's structs, and above any offset in a file of bytes_max.
+ */
 constexpr uint32_t whole_max = 0x7FFFFFFF;
 
 /** For the file's root, which is one of a kind. */
@@ -23,14 +23,14 @@ constexpr size_t no_index = SIZE_MAX;
 class Fields {
   public:
     /** kind, index: "material" 3; "" and no_index for the root. object: must outlive this. */
-    Fields(const nlohmann::json &object, const char *kind, size_t index);
+    Fields(const Json &object, const char *kind, size_t index);
 
     /** The object under `key`, none where it is absent. Messages call its keys "key.name". */
     std::optional<Fields> object(const char *key) const;
     /** One object of the array under `key`; messages call its keys "key[i].name". */
     Fields element(const char *key, size_t i) const;
 
-    const nlohmann::json &json() const {
+    const Json &json() const {
         return *object_;
     }
     /** "material 'bars' (0)" */
@@ -39,7 +39,7 @@ class Fields {
     std::string_view name() const;
 
     /** The value under a key, null where it is absent. */
-    const nlohmann::json *find(const char *key) const;
+    const Json *find(const char *key) const;
     std::optional<uint32_t> whole(const char *key, uint32_t least = 0, uint32_t most = whole_max) const;
     /** An index into an array of `size` things called `kind`. */
     std::optional<uint32_t> index(const char *key, size_t size, const char *kind) const;
@@ -53,8 +53,7 @@ class Fields {
     std::vector<uint32_t> indices(const char *key, size_t size, const char *kind) const;
 
     /** Throws "where: key: expected `expected`, found ..." */
-    [[noreturn]] void refuse_value(const std::string &key, const std::string &expected,
-                                   const nlohmann::json &found) const;
+    [[noreturn]] void refuse_value(const std::string &key, const std::string &expected, const Json &found) const;
     /** Throws "where: key: what". */
     [[noreturn]] void refuse_key(const std::string &key, const std::string &what,
                                  knurl_result code = KNURL_ERROR_FORMAT) const;
@@ -67,12 +66,12 @@ class Fields {
     }
 
   private:
-    Fields(const nlohmann::json &object, const Fields &parent, std::string prefix);
-    uint32_t index_of(const nlohmann::json &value, const std::string &key, size_t size, const char *kind) const;
+    Fields(const Json &object, const Fields &parent, std::string prefix);
+    uint32_t index_of(const Json &value, const std::string &key, size_t size, const char *kind) const;
     void check() const;
 
-    const nlohmann::json *object_;
-    const nlohmann::json *named_; ///< whose name messages use
+    const Json *object_;
+    const Json *named_; ///< whose name messages use
     const char *kind_;
     size_t index_;
     std::string prefix_; ///< of keys in messages

@@ -1,45 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "filter.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
 
 namespace knurl::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
-/// Every buffer, as tinygltf is told of it: a file would have it call functions for files, and which of those it wants
-/// changes with its versions.
-constexpr const char *one_byte = "data:application/octet-stream;base64,AA==";
-
-/// Copies a checked whole number where it is there.
-void copy_whole(Json &to, const Fields &from, const char *key, uint32_t least = 0, uint32_t most = whole_max) {
-    if (const auto value = from.whole(key, least, most))
-        to[key] = *value;
+/// A checked whole number into one of tinygltf's members, whose types differ from version to version.
+template <typename T>
+void put(T &to, std::optional<uint32_t> value) {
+    if (value)
+        to = static_cast<T>(*value);
 }
 
-void copy_required(Json &to, const Fields &from, const char *key, uint32_t least, const char *expected) {
-    to[key] = from.required(from.whole(key, least), key, expected);
+std::vector<double> numbers_of(const Fields &from, const char *key, size_t count) {
+    return from.numbers(key, count).value_or(std::vector<double>());
 }
 
-void copy_numbers(Json &to, const Fields &from, const char *key, size_t count) {
-    if (auto values = from.numbers(key, count))
-        to[key] = *std::move(values);
-}
-
-/// The vertex layouts that tinygltf and the accessors' reader know.
-void copy_component_type(Json &to, const Fields &from) {
+/// The vertex layouts that the accessors' reader knows.
+uint32_t component_type_of(const Fields &from) {
     constexpr uint32_t known[] = {5120, 5121, 5122, 5123, 5125, 5126};
     const uint32_t type = from.required(from.whole("componentType"), "componentType", "a number such as 5126 (float)");
     if (std::find(std::begin(known), std::end(known), type) == std::end(known))
         from.refuse_value("componentType", "5120, 5121, 5122, 5123, 5125 or 5126", *from.find("componentType"));
-    to["componentType"] = type;
+    return type;
+}
+
+int type_of(const Fields &accessor) {
+    constexpr std::pair<const char *, int> known[] = {{"SCALAR", TINYGLTF_TYPE_SCALAR},
+                                                      {"VEC2", TINYGLTF_TYPE_VEC2},
+                                                      {"VEC3", TINYGLTF_TYPE_VEC3},
+                                                      {"VEC4", TINYGLTF_TYPE_VEC4}};
+    const std::string *type = accessor.text("type");
+    for (const auto &[name, value] : known)
+        if (type != nullptr && *type == name)
+            return value;
+    accessor.refuse_key("type", "expected 'SCALAR', 'VEC2', 'VEC3' or 'VEC4', found " +
+                                    (type != nullptr ? in_quotes(*type) : "none"));
 }
 
 /// An array of the file, of which some elements are kept, in the order in which they are come across.
+template <typename T>
 class Kept {
   public:
     explicit Kept(size_t size) : size_(size) {}
@@ -47,20 +51,20 @@ class Kept {
     size_t size() const {
         return size_;
     }
-    /// The place of element `number`, and whether it is a new one, whose JSON is still to be filled in.
+    /// The place of element `number`, and whether it is a new one, which is still to be filled in.
     std::pair<uint32_t, bool> place(uint32_t number) {
         const auto [found, fresh] = places_.emplace(number, static_cast<uint32_t>(numbers_.size()));
         if (fresh) {
             numbers_.push_back(number);
-            json_.emplace_back();
+            elements_.emplace_back();
         }
         return {found->second, fresh};
     }
-    Json &operator[](uint32_t place) {
-        return json_[place];
+    T &operator[](uint32_t place) {
+        return elements_[place];
     }
-    Json take_json() {
-        return std::move(json_);
+    std::vector<T> take_elements() {
+        return std::move(elements_);
     }
     std::vector<uint32_t> take_numbers() {
         return std::move(numbers_);
@@ -73,7 +77,7 @@ class Kept {
     size_t size_;
     std::unordered_map<uint32_t, uint32_t> places_;
     std::vector<uint32_t> numbers_;
-    Json::array_t json_;
+    std::vector<T> elements_;
 };
 
 class Filter {
@@ -92,19 +96,16 @@ class Filter {
                     break; // and its ancestors are kept
                 nodes_[place] = node_of(static_cast<uint32_t>(node));
             }
-            filtered.primitives.push_back(primitive_place(instance.mesh, instance.primitive));
+            filtered.instance_primitives.push_back(primitive_place(instance.mesh, instance.primitive));
         }
-        for (uint32_t i = 0; i < sources_.size(); ++i)
-            buffers_[i] = {{"byteLength", 1}, {"uri", one_byte}}; // what the file calls for is in sources_
-        Json mesh = {{"primitives", std::move(primitives_)}};
-        const Json all = {{"asset", {{"version", "2.0"}}},     {"nodes", nodes_.take_json()},
-                          {"meshes", {std::move(mesh)}},       {"accessors", accessors_.take_json()},
-                          {"bufferViews", views_.take_json()}, {"buffers", buffers_.take_json()}};
-        filtered.json = all.dump();
-        filtered.buffers = std::move(sources_);
-        filtered.accessors = accessors_.take_numbers();
-        filtered.views = views_.take_numbers();
-        filtered.nodes = nodes_.take_places();
+        filtered.nodes = nodes_.take_elements();
+        filtered.node_places = nodes_.take_places();
+        filtered.primitives = std::move(primitives_);
+        filtered.accessors = accessors_.take_elements();
+        filtered.accessor_numbers = accessors_.take_numbers();
+        filtered.views = views_.take_elements();
+        filtered.view_numbers = views_.take_numbers();
+        filtered.buffers = buffers_.take_elements();
         return filtered;
     }
 
@@ -113,18 +114,18 @@ class Filter {
         return {root_.json().at(key).at(i), kind, i};
     }
 
-    Json node_of(size_t i) const {
+    tinygltf::Node node_of(size_t i) const {
         const Fields node = at("nodes", "node", i);
-        Json kept;
-        kept["name"] = shortened(node.name());
+        tinygltf::Node kept;
+        kept.name = shortened(node.name());
         if (node.find("matrix") != nullptr)
             for (const char *key : {"translation", "rotation", "scale"})
                 if (node.find(key) != nullptr)
                     node.refuse_key(key, "expected either a matrix or translation, rotation and scale, found both");
-        copy_numbers(kept, node, "matrix", 16);
-        copy_numbers(kept, node, "translation", 3);
-        copy_numbers(kept, node, "rotation", 4);
-        copy_numbers(kept, node, "scale", 3);
+        kept.matrix = numbers_of(node, "matrix", 16);
+        kept.translation = numbers_of(node, "translation", 3);
+        kept.rotation = numbers_of(node, "rotation", 4);
+        kept.scale = numbers_of(node, "scale", 3);
         return kept;
     }
 
@@ -132,8 +133,8 @@ class Filter {
     uint32_t primitive_place(uint32_t mesh, uint32_t primitive) {
         const auto [known, fresh] = primitive_places_.emplace(uint64_t{mesh} << 32U | primitive, 0);
         if (fresh) {
-            Json made = primitive_of(mesh, primitive);
-            const auto [same, first] = same_primitives_.emplace(made.dump(), primitives_.size());
+            tinygltf::Primitive made = primitive_of(mesh, primitive);
+            const auto [same, first] = same_primitives_.emplace(key_of(made), primitives_.size());
             if (first)
                 primitives_.push_back(std::move(made));
             known->second = static_cast<uint32_t>(same->second);
@@ -141,16 +142,15 @@ class Filter {
         return known->second;
     }
 
-    Json primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
+    tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
         const Fields mesh = at("meshes", "mesh", mesh_index);
         const Fields primitive = mesh.element("primitives", primitive_index);
-        Json kept;
-        copy_whole(kept, primitive, "mode", 0, 6);
+        tinygltf::Primitive kept;
+        put(kept.mode, primitive.whole("mode", 0, 6).value_or(TINYGLTF_MODE_TRIANGLES));
         if (const auto accessor = primitive.index("indices", accessors_.size(), "accessors")) {
-            const uint32_t place = accessor_place(*accessor);
-            kept["indices"] = place;
-            // tinygltf refuses such a file in words that name nothing.
-            if (!accessors_[place].contains("bufferView"))
+            put(kept.indices, accessor_place(*accessor));
+            // Zeros, by the specification: triangles without an area.
+            if (accessors_[static_cast<uint32_t>(kept.indices)].bufferView < 0)
                 at("accessors", "accessor", *accessor).refuse_key("bufferView", "missing: expected one for indices");
         }
         const std::optional<Fields> attributes = primitive.object("attributes");
@@ -158,7 +158,7 @@ class Filter {
             primitive.refuse_key("attributes.POSITION", "missing: expected an accessor in a tagged primitive");
         for (const Attribute &read : attributes_read)
             if (const auto accessor = attributes->index(read.name, accessors_.size(), "accessors"))
-                kept["attributes"][read.name] = accessor_place(*accessor);
+                put(kept.attributes[read.name], accessor_place(*accessor));
         return kept;
     }
 
@@ -169,69 +169,66 @@ class Filter {
         return place;
     }
 
-    Json accessor_of(uint32_t i) {
+    tinygltf::Accessor accessor_of(uint32_t i) {
         const Fields accessor = at("accessors", "accessor", i);
-        Json kept;
-        keep_view_of(kept, accessor);
-        copy_whole(kept, accessor, "byteOffset");
-        copy_component_type(kept, accessor);
-        copy_required(kept, accessor, "count", 1, "how many elements there are");
-        if (const auto normalized = accessor.flag("normalized"))
-            kept["normalized"] = *normalized;
-        const std::string *type = accessor.text("type");
-        const bool known =
-            type != nullptr && (*type == "SCALAR" || *type == "VEC2" || *type == "VEC3" || *type == "VEC4");
-        if (!known)
-            accessor.refuse_key("type", "expected 'SCALAR', 'VEC2', 'VEC3' or 'VEC4', found " +
-                                            (type != nullptr ? in_quotes(*type) : "none"));
-        kept["type"] = *type;
+        tinygltf::Accessor kept;
+        put(kept.bufferView, view_place(accessor));
+        put(kept.byteOffset, accessor.whole("byteOffset"));
+        put(kept.componentType, component_type_of(accessor));
+        put(kept.count, accessor.required(accessor.whole("count", 1), "count", "how many elements there are"));
+        kept.normalized = accessor.flag("normalized").value_or(false);
+        kept.type = type_of(accessor);
+        kept.sparse.isSparse = false;
         if (const auto sparse = accessor.object("sparse"))
-            kept["sparse"] = keep_sparse(*sparse);
+            keep_sparse(kept, *sparse);
         return kept;
     }
 
-    Json keep_sparse(const Fields &sparse) {
-        Json kept;
-        copy_required(kept, sparse, "count", 1, "how many elements are replaced");
-        for (const std::string part : {"indices", "values"}) {
-            const auto from = sparse.object(part.c_str());
-            if (!from)
-                sparse.refuse_key(part, "missing: expected an object");
-            Json &to = kept[part];
-            keep_view_of(to, *from);
-            if (!to.contains("bufferView"))
-                from->refuse_key("bufferView", "missing: expected an index");
-            to["byteOffset"] = from->whole("byteOffset").value_or(0); // tinygltf 2.5 asks for one
-            if (part == "indices")
-                copy_component_type(to, *from);
-        }
-        return kept;
+    void keep_sparse(tinygltf::Accessor &kept, const Fields &sparse) {
+        auto &to = kept.sparse;
+        to.isSparse = true;
+        put(to.count, sparse.required(sparse.whole("count", 1), "count", "how many elements are replaced"));
+        const Fields indices = sparse_part(sparse, "indices");
+        put(to.indices.bufferView, required_view_place(indices));
+        put(to.indices.byteOffset, indices.whole("byteOffset").value_or(0));
+        put(to.indices.componentType, component_type_of(indices));
+        const Fields values = sparse_part(sparse, "values");
+        put(to.values.bufferView, required_view_place(values));
+        put(to.values.byteOffset, values.whole("byteOffset").value_or(0));
     }
 
-    void keep_view_of(Json &kept, const Fields &from) {
+    static Fields sparse_part(const Fields &sparse, const char *key) {
+        return sparse.required(sparse.object(key), key, "an object");
+    }
+
+    std::optional<uint32_t> view_place(const Fields &from) {
         const auto view = from.index("bufferView", views_.size(), "bufferViews");
         if (!view)
-            return;
+            return std::nullopt;
         const auto [place, fresh] = views_.place(*view);
         if (fresh)
             views_[place] = view_of(*view);
-        kept["bufferView"] = place;
+        return place;
     }
 
-    Json view_of(uint32_t i) {
+    uint32_t required_view_place(const Fields &from) {
+        return from.required(view_place(from), "bufferView", "an index");
+    }
+
+    tinygltf::BufferView view_of(uint32_t i) {
         const Fields view = at("bufferViews", "bufferView", i);
-        Json kept;
+        tinygltf::BufferView kept;
         const uint32_t buffer =
             view.required(view.index("buffer", buffers_.size(), "buffers"), "buffer", "the index of a buffer");
-        copy_whole(kept, view, "byteOffset");
-        copy_required(kept, view, "byteLength", 1, "a length in bytes");
-        copy_whole(kept, view, "byteStride", 4, 252);
-        if (kept.contains("byteStride") && kept["byteStride"].get<uint32_t>() % 4 != 0)
+        put(kept.byteOffset, view.whole("byteOffset"));
+        put(kept.byteLength, view.required(view.whole("byteLength", 1), "byteLength", "a length in bytes"));
+        put(kept.byteStride, view.whole("byteStride", 4, 252));
+        if (kept.byteStride % 4 != 0)
             view.refuse_value("byteStride", "a multiple of 4", *view.find("byteStride"));
         const auto [place, fresh] = buffers_.place(buffer);
-        kept["buffer"] = place;
+        put(kept.buffer, place);
         if (fresh)
-            sources_.push_back(source_of(buffer));
+            buffers_[place] = source_of(buffer);
         return kept;
     }
 
@@ -244,15 +241,25 @@ class Filter {
         return source;
     }
 
+    using PrimitiveKey = std::array<int, 2 + std::size(attributes_read)>; ///< mode, and accessors' places or -1
+
+    static PrimitiveKey key_of(const tinygltf::Primitive &primitive) {
+        PrimitiveKey key{primitive.mode, primitive.indices};
+        for (size_t i = 0; i < std::size(attributes_read); ++i) {
+            const auto found = primitive.attributes.find(attributes_read[i].name);
+            key[2 + i] = found != primitive.attributes.end() ? found->second : -1;
+        }
+        return key;
+    }
+
     Fields root_;
-    Kept nodes_;
-    Kept accessors_;
-    Kept views_;
-    Kept buffers_;
-    Json::array_t primitives_;
+    Kept<tinygltf::Node> nodes_;
+    Kept<tinygltf::Accessor> accessors_;
+    Kept<tinygltf::BufferView> views_;
+    Kept<BufferSource> buffers_;
+    std::vector<tinygltf::Primitive> primitives_;
     std::unordered_map<uint64_t, uint32_t> primitive_places_; ///< by mesh and primitive
-    std::map<std::string, size_t> same_primitives_;           ///< by their JSON
-    std::vector<BufferSource> sources_;
+    std::map<PrimitiveKey, size_t> same_primitives_;
 };
 
 } // namespace

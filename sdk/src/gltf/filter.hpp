@@ -1,10 +1,11 @@
-// Knurl: a glTF file cut down to what its tagged surfaces need, every type and range checked, for tinygltf to read.
-// What nothing needs is not there at all, so that it costs nothing; what is there has a new place, and messages its old
-// number. SPDX-License-Identifier: MIT
+// Knurl: a glTF file cut down to what its tagged surfaces need, every type and range checked. What nothing needs is not
+// there at all, so that it costs nothing; what is there has a new place, and messages its old number.
+// SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FILTER_HPP
 #define KNURL_GLTF_FILTER_HPP
 
 #include "outline.hpp"
+#include "tinygltf.hpp"
 
 #include <unordered_map>
 
@@ -17,17 +18,21 @@ struct BufferSource {
     const std::string *uri = nullptr; ///< in the file's JSON; null: the BIN chunk
 };
 
+/** Indices are places in these vectors. */
 struct Filtered {
-    std::string json;                             ///< one mesh, of all primitives; buffers of 1 byte
-    std::vector<BufferSource> buffers;            ///< by their places in the JSON
-    std::vector<uint32_t> accessors;              ///< likewise: their numbers in the file
-    std::vector<uint32_t> views;                  ///< likewise, of bufferViews
-    std::unordered_map<uint32_t, uint32_t> nodes; ///< by their numbers in the file: their places
-    std::vector<uint32_t> primitives;             ///< of each of the outline's instances: its place in the mesh
+    std::vector<tinygltf::Node> nodes;
+    std::vector<tinygltf::Primitive> primitives;
+    std::vector<tinygltf::Accessor> accessors;
+    std::vector<tinygltf::BufferView> views;
+    std::vector<BufferSource> buffers;
+    std::vector<uint32_t> accessor_numbers;             ///< by their places: their numbers in the file
+    std::vector<uint32_t> view_numbers;                 ///< likewise
+    std::unordered_map<uint32_t, uint32_t> node_places; ///< by their numbers in the file
+    std::vector<uint32_t> instance_primitives;          ///< the place of each of the outline's instances' primitive
 };
 
 /** root: must outlive the result. Throws Failure. */
-Filtered filter(const nlohmann::json &root, const Outline &outline);
+Filtered filter(const Json &root, const Outline &outline);
 
 /** The vertex attributes that are read, POSITION first, and how many numbers an element of each has. */
 struct Attribute {

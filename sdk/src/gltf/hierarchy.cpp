@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hierarchy.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace knurl::gltf {
 namespace {
 
@@ -15,7 +13,7 @@ std::string node_label(const Fields &root, size_t node) {
 Children read_children(const Fields &root, size_t count) {
     Children children(count);
     for (size_t i = 0; i < count; ++i)
-        children[i] = Fields(root.json().at("nodes")[i], "node", i).indices("children", count, "nodes");
+        children[i] = Fields(root.json().at("nodes").at(i), "node", i).indices("children", count, "nodes");
     return children;
 }
 

@@ -9,10 +9,8 @@
 namespace knurl::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Builds the tree from the parser's events, so that limits are met while reading and not after it.
-class Builder : public nlohmann::json_sax<Json> {
+class Builder : public nlohmann::json_sax<nlohmann::json> {
   public:
     explicit Builder(Budget &budget) : budget_(budget) {}
 
@@ -21,34 +19,34 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     bool null() override {
-        add(nullptr);
+        add(Json());
         return true;
     }
     bool boolean(bool value) override {
-        add(value);
+        add(Json(value));
         return true;
     }
     bool number_integer(number_integer_t value) override {
-        add(value);
+        add(Json(value));
         return true;
     }
     bool number_unsigned(number_unsigned_t value) override {
-        add(value);
+        add(Json(value));
         return true;
     }
     bool number_float(number_float_t value, const string_t & /*text*/) override {
-        add(value);
+        add(Json(value));
         return true;
     }
     bool string(string_t &value) override {
-        add(std::move(value));
+        add(Json(std::move(value)));
         return true;
     }
     bool binary(binary_t & /*value*/) override {
         return false; // there is none in JSON
     }
     bool start_object(size_t /*size*/) override {
-        open(Json::object());
+        open(Json(Json::Object()));
         return true;
     }
     bool end_object() override {
@@ -56,7 +54,7 @@ class Builder : public nlohmann::json_sax<Json> {
         return true;
     }
     bool start_array(size_t /*size*/) override {
-        open(Json::array());
+        open(Json(Json::Array()));
         return true;
     }
     bool end_array() override {
@@ -65,15 +63,15 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     bool key(string_t &name) override {
-        auto &members = open_.back()->get_ref<Json::object_t &>();
-        const auto [member, fresh] = members.try_emplace(name);
+        const auto [member, fresh] = open_.back()->object()->try_emplace(name);
         if (!fresh)
             refuse("JSON", "the key " + in_quotes(name) + " appears twice in " + path());
         member_ = &member->second;
         return true;
     }
 
-    bool parse_error(size_t /*position*/, const std::string & /*token*/, const Json::exception &error) override {
+    bool parse_error(size_t /*position*/, const std::string & /*token*/,
+                     const nlohmann::json::exception &error) override {
         // "[json.exception.parse_error.101] parse error at line 1, column 5: ...": the bracket is left out.
         std::string_view text = error.what();
         const size_t bracket = text.find("] ");
@@ -92,9 +90,8 @@ class Builder : public nlohmann::json_sax<Json> {
             root_ = std::move(value);
             return &root_;
         }
-        Json &parent = *open_.back();
-        if (parent.is_array())
-            return &parent.get_ref<Json::array_t &>().emplace_back(std::move(value));
+        if (Json::Array *elements = open_.back()->array())
+            return &elements->emplace_back(std::move(value));
         *member_ = std::move(value);
         return member_;
     }
@@ -109,12 +106,11 @@ class Builder : public nlohmann::json_sax<Json> {
     std::string path() const {
         std::string text;
         for (size_t i = 0; i + 1 < open_.size(); ++i) {
-            const Json &parent = *open_[i];
-            if (parent.is_array()) {
-                text += "[" + std::to_string(parent.size() - 1) + "]";
+            if (const Json::Array *elements = open_[i]->array()) {
+                text += "[" + std::to_string(elements->size() - 1) + "]";
                 continue;
             }
-            for (const auto &[name, child] : parent.get_ref<const Json::object_t &>())
+            for (const auto &[name, child] : *open_[i]->object())
                 if (&child == open_[i + 1])
                     text += (text.empty() ? "" : ".") + shortened(name);
         }
@@ -133,23 +129,10 @@ class Builder : public nlohmann::json_sax<Json> {
 
 } // namespace
 
-nlohmann::json parse_json(std::string_view text, Budget &budget) {
+Json parse_json(std::string_view text, Budget &budget) {
     Builder builder(budget);
-    Json::sax_parse(text.data(), text.data() + text.size(), &builder);
+    nlohmann::json::sax_parse(text.data(), text.data() + text.size(), &builder);
     return builder.take();
-}
-
-std::string described(const nlohmann::json &value) {
-    switch (value.type()) {
-    case Json::value_t::string:
-        return in_quotes(value.get_ref<const std::string &>());
-    case Json::value_t::array:
-        return "an array of " + std::to_string(value.size());
-    case Json::value_t::object:
-        return "an object";
-    default:
-        return value.dump();
-    }
 }
 
 } // namespace knurl::gltf

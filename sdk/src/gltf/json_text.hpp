@@ -4,11 +4,7 @@
 #define KNURL_GLTF_JSON_TEXT_HPP
 
 #include "budget.hpp"
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <string>
-#include <string_view>
+#include "json.hpp"
 
 namespace knurl::gltf {
 
@@ -20,10 +16,7 @@ constexpr size_t json_values_max = size_t{1} << 23U;
 
 /** Parses without recursion. Refuses syntax errors, deeper nesting, more values, and a key that appears twice in one
  * object: parsers differ in which one they keep. */
-nlohmann::json parse_json(std::string_view text, Budget &budget);
-
-/** What a value is, for "found ...". */
-std::string described(const nlohmann::json &value);
+Json parse_json(std::string_view text, Budget &budget);
 
 } // namespace knurl::gltf
 #endif

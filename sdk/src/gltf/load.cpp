@@ -7,8 +7,6 @@
 #include "names.hpp"
 #include "placement.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -104,7 +102,7 @@ struct Plan {
 /// From an outline to surfaces: all is counted before any of it is read.
 class Maker {
   public:
-    Maker(const nlohmann::json &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
+    Maker(const Json &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
         : root_(root), outline_(outline), model_(model), budget_(budget), scene_(scene) {}
 
     uint32_t run() {
@@ -129,7 +127,7 @@ class Maker {
         budget_.step(read_done);
         for (size_t i = 0; i < outline_.instances.size(); ++i) {
             const Instance &instance = outline_.instances[i];
-            const uint32_t place = model_.filtered.primitives[i];
+            const uint32_t place = model_.filtered.instance_primitives[i];
             const Frame frame = placement.frame(instance.node);
             const auto [known, fresh] = shapes_.try_emplace(key_of(instance, place, frame));
             if (fresh) {
@@ -145,7 +143,7 @@ class Maker {
     }
 
     const tinygltf::Primitive &primitive(uint32_t place) const {
-        return model_.parsed.meshes.at(0).primitives.at(place);
+        return model_.filtered.primitives.at(place);
     }
 
     void add(Addition &addition, size_t i, const std::string &name) {
@@ -174,7 +172,7 @@ class Maker {
     /// The first that shows a shape makes it.
     knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc surface, const std::string &where) {
         const Frame &frame = plans_[i].frame;
-        const tinygltf::Primitive &from = primitive(model_.filtered.primitives[i]);
+        const tinygltf::Primitive &from = primitive(model_.filtered.instance_primitives[i]);
         Geometry geometry = read_geometry(model_, from, where);
         bake(geometry, frame, where, model_.accessor_label(from.attributes.at("POSITION")));
         const knurl_mesh_desc mesh = mesh_of(geometry);
@@ -190,7 +188,7 @@ class Maker {
         return addition.add(surface, where);
     }
 
-    const nlohmann::json &root_;
+    const Json &root_;
     const Outline &outline_;
     const Model &model_;
     Budget &budget_;
@@ -209,7 +207,7 @@ struct Order {
 knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder, Order &order) {
     Budget &budget = order.budget;
     const Container container = split(bytes);
-    const nlohmann::json root = parse_json(container.json, budget);
+    const Json root = parse_json(container.json, budget);
     const Outline outline = read_outline(root, budget);
     knurl_gltf_report report{};
     report.skipped = outline.skipped;

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <nlohmann/json.hpp> // for tinygltf's own code
-
-#define TINYGLTF_IMPLEMENTATION
 #include "model.hpp"
 
 namespace knurl::gltf {
@@ -28,15 +25,6 @@ void load_model(Filtered filtered, const Resources &resources, Model &model) {
         model.buffers.push_back(read_buffer(source, resources, model.sources));
         resources.budget->step();
     }
-    tinygltf::TinyGLTF parser;
-    std::string error;
-    std::string warning;
-    const bool loaded = parser.LoadASCIIFromString(&model.parsed, &error, &warning, model.filtered.json.data(),
-                                                   static_cast<unsigned int>(model.filtered.json.size()), "");
-    if (!loaded || !error.empty())
-        throw Failure(KNURL_ERROR_FORMAT, "tinygltf: " + (error.empty() ? "refused" : shortened(error, 300)));
-    model.filtered.json.clear();
-    model.filtered.json.shrink_to_fit();
 }
 
 } // namespace knurl::gltf

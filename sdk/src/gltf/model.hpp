@@ -1,25 +1,22 @@
-// Knurl: the tagged part of a glTF file as tinygltf's model, and the bytes of its buffers beside it.
+// Knurl: the tagged part of a glTF file, and the bytes of its buffers.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_MODEL_HPP
 #define KNURL_GLTF_MODEL_HPP
 
 #include "files.hpp"
 #include "filter.hpp"
-#include "tinygltf.hpp"
 
 namespace knurl::gltf {
 
-/** What tinygltf has read, what its places are called in the file, and the buffers (its own have 1 byte). Holds
- * pointers into itself and the resources' BIN chunk. */
+/** Holds pointers into itself and the resources' BIN chunk. */
 struct Model {
-    tinygltf::Model parsed;
     Filtered filtered;
     Sources sources;
     std::vector<Bytes> buffers;
 
     /** "accessor 7": by its number in the file. */
     std::string accessor_label(int place) const {
-        return "accessor " + std::to_string(filtered.accessors.at(static_cast<size_t>(place)));
+        return "accessor " + std::to_string(filtered.accessor_numbers.at(static_cast<size_t>(place)));
     }
 };
 

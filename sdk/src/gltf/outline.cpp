@@ -3,8 +3,6 @@
 #include "hierarchy.hpp"
 #include "names.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -13,7 +11,6 @@
 namespace knurl::gltf {
 namespace {
 
-using Json = nlohmann::json;
 using Tags = std::map<size_t, Tag>;
 
 /// Extensions that change neither shapes nor TEXCOORD_0: looks, lights, images (which are never loaded), metadata, and
@@ -44,12 +41,12 @@ void check_asset(const Fields &root) {
     if (least != nullptr && *least != "2.0")
         asset->refuse_key("minVersion", "expected '2.0', found " + in_quotes(*least), KNURL_ERROR_UNSUPPORTED);
     for (size_t i = 0; i < root.array_size("extensionsRequired"); ++i) {
-        const Json &name = root.json().at("extensionsRequired")[i];
-        if (!name.is_string())
-            root.refuse_value("extensionsRequired", "an array of strings", name);
-        if (!is_harmless(name.get_ref<const std::string &>()))
-            root.refuse_key("extensionsRequired",
-                            "the extension " + in_quotes(name.get_ref<const std::string &>()) + " is not supported",
+        const Json &value = root.json().at("extensionsRequired").at(i);
+        const std::string *name = value.text();
+        if (name == nullptr)
+            root.refuse_value("extensionsRequired", "an array of strings", value);
+        if (!is_harmless(*name))
+            root.refuse_key("extensionsRequired", "the extension " + in_quotes(*name) + " is not supported",
                             KNURL_ERROR_UNSUPPORTED);
     }
 }
@@ -58,7 +55,7 @@ void check_asset(const Fields &root) {
 Tags read_tags(const Fields &root, const char *key, const char *kind) {
     Tags tags;
     for (size_t i = 0; i < root.array_size(key); ++i)
-        if (std::optional<Tag> tag = read_tag(Fields(root.json().at(key)[i], kind, i)))
+        if (std::optional<Tag> tag = read_tag(Fields(root.json().at(key).at(i), kind, i)))
             tags.emplace(i, *std::move(tag));
     return tags;
 }
@@ -212,8 +209,8 @@ class Reader {
 } // namespace
 
 Outline read_outline(const Json &root, Budget &budget) {
-    if (!root.is_object())
-        refuse("JSON", "expected an object at its root, found " + described(root));
+    if (root.object() == nullptr)
+        refuse("JSON", "expected an object at its root, found " + root.described());
     return Reader(root, budget).read();
 }
 

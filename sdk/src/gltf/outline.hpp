@@ -25,10 +25,10 @@ struct Outline {
 };
 
 /** root: the file's JSON. Throws Failure. */
-Outline read_outline(const nlohmann::json &root, Budget &budget);
+Outline read_outline(const Json &root, Budget &budget);
 
 /** The three roles of "where" in messages about an instance: "node 'n' (1), mesh 'm' (0), primitive 2". */
-std::string where_of(const nlohmann::json &root, const Instance &instance);
+std::string where_of(const Json &root, const Instance &instance);
 
 } // namespace knurl::gltf
 #endif

@@ -21,7 +21,7 @@ constexpr double coordinate_max = 1.2e30;
 constexpr double flat_tolerance = 1e-9;
 
 const tinygltf::Node &node_at(const Model &model, uint32_t number) {
-    return model.parsed.nodes.at(model.filtered.nodes.at(number));
+    return model.filtered.nodes.at(model.filtered.node_places.at(number));
 }
 
 std::string node_label(const Model &model, uint32_t number) {

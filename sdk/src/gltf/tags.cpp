@@ -3,15 +3,11 @@
 
 #include <knurl/grating.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 
 namespace knurl::gltf {
 namespace {
-
-using Json = nlohmann::json;
 
 /// One key's value, and what is needed to refuse it. Keys: "knurl.stiffness", or flat "knurl_stiffness".
 struct Entry {
@@ -25,9 +21,10 @@ struct Entry {
 };
 
 double number(const Entry &entry, const Json &value, const char *expected) {
-    if (!value.is_number() || !knurl_is_finite(value.get<double>()))
+    const std::optional<double> x = value.number();
+    if (!x || !knurl_is_finite(*x))
         entry.refuse(expected);
-    return value.get<double>();
+    return *x;
 }
 
 double number_from_0(const Entry &entry, const Json &value, const char *expected) {
@@ -38,20 +35,20 @@ double number_from_0(const Entry &entry, const Json &value, const char *expected
 }
 
 void read_version(Tag & /*tag*/, const Entry &entry) {
-    if (!entry.value.is_number() || entry.value.get<double>() != 1.0)
+    if (entry.value.number() != 1.0)
         entry.refuse("1, the version that this library reads");
 }
 
 void read_spatial_frequency(Tag &tag, const Entry &entry) {
     const char *expected = "a number >= 0 or an array of 2 of them (cycles/m)";
-    if (entry.value.is_number()) {
+    if (entry.value.number()) {
         tag.spatial_frequency = {number_from_0(entry, entry.value, expected), 0.0};
         return;
     }
-    if (!entry.value.is_array() || entry.value.size() != 2)
+    const Json::Array *two = entry.value.array();
+    if (two == nullptr || two->size() != 2)
         entry.refuse(expected);
-    tag.spatial_frequency = {number_from_0(entry, entry.value[0], expected),
-                             number_from_0(entry, entry.value[1], expected)};
+    tag.spatial_frequency = {number_from_0(entry, two->front(), expected), number_from_0(entry, two->back(), expected)};
 }
 
 void read_amplitude(Tag &tag, const Entry &entry) {
@@ -79,11 +76,12 @@ void read_orientation(Tag &tag, const Entry &entry) {
 
 void read_axis(Tag &tag, const Entry &entry) {
     const char *expected = "an array of 3 numbers that are not all 0 (a direction in object space)";
-    if (!entry.value.is_array() || entry.value.size() != 3)
-        entry.refuse(expected);
     std::array<double, 3> axis{};
+    const Json::Array *three = entry.value.array();
+    if (three == nullptr || three->size() != axis.size())
+        entry.refuse(expected);
     for (size_t i = 0; i < axis.size(); ++i)
-        axis[i] = number(entry, entry.value[i], expected);
+        axis[i] = number(entry, (*three)[i], expected);
     // Scaled to 1, so that squares of tiny and of huge components stay what they are.
     const double largest = std::max({std::fabs(axis[0]), std::fabs(axis[1]), std::fabs(axis[2])});
     if (largest == 0.0)
@@ -94,11 +92,11 @@ void read_axis(Tag &tag, const Entry &entry) {
 }
 
 void read_method(Tag &tag, const Entry &entry) {
-    if (!entry.value.is_string())
+    const std::string *name = entry.value.text();
+    if (name == nullptr)
         entry.refuse("a string: 'S1', 'S2', 'locked' or 'area'");
     int32_t method = KNURL_METHOD_DEFAULT;
-    const knurl_result result = knurl_method_from_name(entry.value.get_ref<const std::string &>().c_str(), &method);
-    if (result != KNURL_OK)
+    if (knurl_method_from_name(name->c_str(), &method) != KNURL_OK)
         entry.refuse("'S1', 'S2', 'locked' or 'area'");
     tag.method = method;
 }
@@ -164,23 +162,23 @@ const char *Tag::missing_key() const {
 
 std::optional<Tag> read_tag(const Fields &owner) {
     const Json *extras = owner.find("extras");
-    if (extras == nullptr || !extras->is_object())
+    const Json::Object *members = extras != nullptr ? extras->object() : nullptr;
+    if (members == nullptr)
         return std::nullopt; // extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
-    const auto nested = extras->find("knurl");
+    const Json *nested = extras->find("knurl");
     std::optional<Tag> tag;
-    if (nested != extras->end()) {
-        if (!nested->is_object())
+    if (nested != nullptr) {
+        if (nested->object() == nullptr)
             owner.refuse_value("extras.knurl", "an object", *nested);
         tag.emplace();
-        if (!nested->contains("version"))
+        if (nested->find("version") == nullptr)
             owner.refuse_key("knurl.version", "missing: expected 1");
-        for (const auto &[name, value] : nested->get_ref<const Json::object_t &>())
+        for (const auto &[name, value] : *nested->object())
             read_entry(*tag, owner, "knurl.", name, value);
     }
-    const auto &members = extras->get_ref<const Json::object_t &>();
-    for (auto member = members.lower_bound(std::string(flat_prefix)); member != members.end() && is_flat(member->first);
+    for (auto member = members->lower_bound(flat_prefix); member != members->end() && is_flat(member->first);
          ++member) {
-        if (nested != extras->end())
+        if (nested != nullptr)
             owner.refuse_key("extras", "holds both an object 'knurl' and flat keys such as " +
                                            in_quotes(member->first) + ": expected one form of the tag");
         if (!tag)
@@ -193,11 +191,11 @@ std::optional<Tag> read_tag(const Fields &owner) {
 
 void refuse_tag(const Fields &owner, const std::string &instead) {
     const Json *extras = owner.find("extras");
-    if (extras == nullptr || !extras->is_object())
+    const Json::Object *members = extras != nullptr ? extras->object() : nullptr;
+    if (members == nullptr)
         return;
-    const auto &members = extras->get_ref<const Json::object_t &>();
-    const auto flat = members.lower_bound(std::string(flat_prefix));
-    if (members.count("knurl") != 0 || (flat != members.end() && is_flat(flat->first)))
+    const auto flat = members->lower_bound(flat_prefix);
+    if (members->count("knurl") != 0 || (flat != members->end() && is_flat(flat->first)))
         owner.refuse_key("extras", "a knurl tag would be lost here: " + instead);
 }
 

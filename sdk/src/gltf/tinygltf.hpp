@@ -1,5 +1,5 @@
-// Knurl: tinygltf configured without images and file access. model.cpp compiles it in.
-// SPDX-License-Identifier: MIT
+// Knurl: tinygltf's types. Its parser is not compiled in: it builds trees of nlohmann's, which end the process where
+// memory runs out, and the filter has read and checked all there is (filter.hpp). SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_TINYGLTF_HPP
 #define KNURL_GLTF_TINYGLTF_HPP
 

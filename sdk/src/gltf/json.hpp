@@ -1,0 +1,78 @@
+// Knurl: a JSON value. nlohmann's would do, if its destructor did not ask for memory: where there is none left, that
+// ends the process. Nothing here does, and whatever throws leaves values that can be destroyed.
+// SPDX-License-Identifier: MIT
+#ifndef KNURL_GLTF_JSON_HPP
+#define KNURL_GLTF_JSON_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace knurl::gltf {
+
+/** Moved, never copied. Destroyed by recursion: parse_json() limits the depth. */
+class Json {
+  public:
+    using Array = std::vector<Json>;
+    using Object = std::map<std::string, Json, std::less<>>; ///< sorted, so that messages are the same every time
+
+    Json() = default; ///< null
+    explicit Json(bool value) : value_(value) {}
+    explicit Json(int64_t value) : value_(value) {}
+    explicit Json(uint64_t value) : value_(value) {}
+    explicit Json(double value) : value_(value) {}
+    explicit Json(std::string value) : value_(std::make_unique<std::string>(std::move(value))) {}
+    explicit Json(Array value) : value_(std::make_unique<Array>(std::move(value))) {}
+    explicit Json(Object value) : value_(std::make_unique<Object>(std::move(value))) {}
+
+    /** Null for a value of another kind. */
+    Object *object() {
+        return get<Object>();
+    }
+    const Object *object() const {
+        return get<Object>();
+    }
+    Array *array() {
+        return get<Array>();
+    }
+    const Array *array() const {
+        return get<Array>();
+    }
+    const std::string *text() const {
+        return get<std::string>();
+    }
+    std::optional<bool> flag() const;
+    /** Rounded to a double, if it is an integer above 2^53. */
+    std::optional<double> number() const;
+
+    /** A member, null if this is no object that has one. */
+    const Json *find(std::string_view key) const;
+
+    /** What is known to be there: throws std::out_of_range. */
+    const Json &at(std::string_view key) const;
+    const Json &at(size_t i) const;
+
+    /** What it is, for "found ...". */
+    std::string described() const;
+
+  private:
+    template <typename T>
+    T *get() const {
+        const std::unique_ptr<T> *held = std::get_if<std::unique_ptr<T>>(&value_);
+        return held != nullptr ? held->get() : nullptr;
+    }
+
+    std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::unique_ptr<std::string>, std::unique_ptr<Array>,
+                 std::unique_ptr<Object>>
+        value_ = nullptr; // 16 bytes: a file may hold millions
+};
+
+} // namespace knurl::gltf
+#endif
