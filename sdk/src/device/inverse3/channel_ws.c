@@ -15,7 +15,9 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
 
 #else
 
+#include "base/base.h"
 #include "device/dynlib.h"
+#include "device/inverse3/pool.h"
 
 #include <libwebsockets.h>
 #include <signal.h>
@@ -40,6 +42,7 @@ typedef struct websocket {
     int coming;      /* of texts */
     int is_too_long; /* the one that comes */
     int count;       /* complete, since the last call */
+    knurl_pool pool;
 } websocket;
 
 /* What is loaded of libwebsockets. */
@@ -53,6 +56,7 @@ typedef struct websocket {
     X(is_final_fragment)                                                                                               \
     X(remaining_packet_payload)                                                                                        \
     X(service)                                                                                                         \
+    X(set_allocator)                                                                                                   \
     X(set_log_level)                                                                                                   \
     X(sul_schedule)                                                                                                    \
     X(write)
@@ -65,6 +69,23 @@ typedef struct lws_functions {
 } lws_functions;
 
 static lws_functions lib; /* null until it is loaded */
+
+/* --- its memory --- */
+
+static KNURL_THREAD_LOCAL websocket *calling; /* by this thread; null while the host calls libwebsockets for itself */
+
+static void *allocate(void *memory, size_t size, const char *reason) {
+    (void)reason;
+    return knurl_pool_realloc(calling ? &calling->pool : NULL, memory, size);
+}
+
+/* This library is unloaded, and a host may go on with libwebsockets: to the C library's own, which takes no notice of a
+ * third argument. */
+__attribute__((destructor)) static void give_back(void) {
+    if (lib.set_allocator) {
+        lib.set_allocator((void *(*)(void *, size_t, const char *))(void (*)(void))realloc);
+    }
+}
 
 /* --- callbacks of libwebsockets --- */
 
@@ -125,9 +146,11 @@ static void on_timer(lws_sorted_usec_list_t *timer) {
 
 static void close_channel(void *self) {
     websocket *w = self;
+    calling = w;
     if (w->context) {
         lib.context_destroy(w->context);
     }
+    calling = NULL;
     free(w->texts[0]);
     free(w->texts[1]);
     free(w);
@@ -140,8 +163,10 @@ static int send_message(void *self, const char *text, size_t size) {
     }
     memcpy(w->out + LWS_PRE, text, size);
     w->out_size = size;
+    calling = w;
     (void)lib.callback_on_writable(w->wsi);
     (void)lib.service(w->context, -1); /* without waiting */
+    calling = NULL;
     const int has_left = w->out_size == 0 && !w->is_gone;
     w->out_size = 0; /* an old force must not follow later */
     return has_left;
@@ -150,13 +175,15 @@ static int send_message(void *self, const char *text, size_t size) {
 /* Handles events until `*until` is not 0, the connection is gone or the time is up. */
 static void wait_for(websocket *w, const int *until, int64_t ns) {
     w->is_late = 0;
-    if (ns <= 0) {
+    calling = w;
+    if (ns > 0) {
+        lib.sul_schedule(w->context, 0, &w->timer, on_timer, ns / 1000);
+        while (!*until && !w->is_gone && !w->is_late && lib.service(w->context, 0) >= 0) {}
+        lib.sul_schedule(w->context, 0, &w->timer, on_timer, LWS_SET_TIMER_USEC_CANCEL);
+    } else {
         (void)lib.service(w->context, -1);
-        return;
     }
-    lib.sul_schedule(w->context, 0, &w->timer, on_timer, ns / 1000);
-    while (!*until && !w->is_gone && !w->is_late && lib.service(w->context, 0) >= 0) {}
-    lib.sul_schedule(w->context, 0, &w->timer, on_timer, LWS_SET_TIMER_USEC_CANCEL);
+    calling = NULL;
 }
 
 static int receive(void *self, int milliseconds, knurl_inverse3_message *message) {
@@ -202,8 +229,10 @@ static int start(websocket *w, int port) {
     info.pt_serv_buf_size = 16384;
     w->texts[0] = malloc(KNURL_INVERSE3_LONGEST);
     w->texts[1] = malloc(KNURL_INVERSE3_LONGEST);
+    calling = w;
     w->context = w->texts[0] && w->texts[1] ? make_context(&info) : NULL;
     if (!w->context) {
+        calling = NULL;
         return 0;
     }
     memset(&to, 0, sizeof to);
@@ -259,6 +288,7 @@ static int load(char *why, size_t why_size) {
         return 0;
     }
     lib.set_log_level(0, NULL); /* it writes to stderr otherwise */
+    lib.set_allocator(allocate);
     return 1;
 }
 
