@@ -124,8 +124,8 @@ KNURL_API knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks);
 /** Requests a stop and returns: the force ramps down to zero, then the loop ends. May be repeated. [any thread] */
 KNURL_API void knurl_loop_request_stop(knurl_loop *loop);
 
-/** Requests a stop and waits for it; from one of the loop's callbacks it only requests it. May be repeated. [any
- * thread] */
+/** Requests a stop and waits for it; from one of the loop's callbacks it only requests it. May be repeated. A child
+ * that was forked has no haptic thread, and nothing to wait for: its parent's loop goes on. [any thread] */
 KNURL_API void knurl_loop_stop(knurl_loop *loop);
 
 /** Pauses: the force ramps down to zero and contacts end. Ticks go on and report the HIP's position and velocity, the

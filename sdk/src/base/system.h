@@ -19,11 +19,14 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns);
 /* A new thread with `stack_bytes` of stack; null when the system refuses. */
 knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *argument, size_t stack_bytes);
 
-/* Waits for its end and gives it back. */
+/* Waits for its end and gives it back. In a child that was forked there is none to wait for. */
 void knurl_system_join_thread(knurl_thread *thread);
 
 /* A number that differs for each living thread; never 0. */
 uintptr_t knurl_system_thread_id(void);
+
+/* Differs in a child that was forked, which has its parent's memory and none of its threads. */
+uintptr_t knurl_system_process_id(void);
 
 /* For threads that edit; never for a tick. */
 typedef struct knurl_mutex {

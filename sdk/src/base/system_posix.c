@@ -26,6 +26,7 @@ struct knurl_thread {
     pthread_t handle;
     void (*entry)(void *argument);
     void *argument;
+    uintptr_t process; /* whose it is */
 };
 
 /* Where there is one that goes on while the machine sleeps, that one: a force from before is then too old to be played.
@@ -103,6 +104,7 @@ knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *arg
     }
     thread->entry = entry;
     thread->argument = argument;
+    thread->process = knurl_system_process_id();
     const int failed = pthread_attr_setstacksize(&attributes, stack_bytes) || create(thread, &attributes);
     (void)pthread_attr_destroy(&attributes);
     if (failed) {
@@ -113,8 +115,14 @@ knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *arg
 }
 
 void knurl_system_join_thread(knurl_thread *thread) {
-    (void)pthread_join(thread->handle, NULL);
+    if (thread->process == knurl_system_process_id()) {
+        (void)pthread_join(thread->handle, NULL);
+    }
     free(thread);
+}
+
+uintptr_t knurl_system_process_id(void) {
+    return (uintptr_t)getpid();
 }
 
 uintptr_t knurl_system_thread_id(void) {

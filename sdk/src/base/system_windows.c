@@ -170,6 +170,10 @@ uintptr_t knurl_system_thread_id(void) {
     return GetCurrentThreadId();
 }
 
+uintptr_t knurl_system_process_id(void) {
+    return GetCurrentProcessId();
+}
+
 /* The multimedia scheduler lifts a thread above what its process may otherwise ask for (23 to 26 instead of 15) and
  * lets it go when it ends; where its library is missing, the thread does without. */
 static int join_pro_audio(void) {

@@ -33,6 +33,11 @@ static int is_running(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
 }
 
+/* A child that was forked has none of the threads that could end it. */
+static int is_running_here(const knurl_loop *loop) {
+    return is_running(loop) && knurl_load_relaxed(&loop->process) == knurl_system_process_id();
+}
+
 /* Beside the haptic thread: zeroes the force when no cycle came for too long (a device may hold its last force for
  * ever), and looks for a device that got lost. */
 typedef struct watchdog {
@@ -47,7 +52,7 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
     const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
     knurl_device *device = loop->desc.device;
-    if (cycles != k->seen) {
+    if (cycles != k->seen || cycles == 0) { /* before the first there is no force */
         k->seen = cycles;
         k->seen_at = now;
     } else if (limit > 0 && !knurl_port_is_lost(device) && now - k->seen_at > limit && is_running(loop) &&
@@ -214,6 +219,7 @@ static knurl_result make(const knurl_loop_desc *d, const knurl_hip_facts *facts,
         return knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof *made);
     }
     made->handle = KNURL_HANDLE_LOOP;
+    made->process = knurl_system_process_id();
     made->desc = *d;
     made->clock = d->clock ? *d->clock : system_clock;
     made->hip = d->scene ? &d->scene->hips[d->hip] : NULL;
@@ -263,6 +269,25 @@ static knurl_result start_haptics(knurl_loop *loop) {
     return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
 }
 
+static knurl_result start_watchdog(knurl_loop *loop) {
+    const int is_needed =
+        loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
+    if (!is_needed || loop->desc.clock) { /* with the caller's clock, real time has no meaning */
+        return KNURL_OK;
+    }
+    loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
+    return loop->watchdog ? KNURL_OK
+                          : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused a thread for the watchdog");
+}
+
+static void end_watchdog(knurl_loop *loop) {
+    if (loop->watchdog) {
+        knurl_system_join_thread(loop->watchdog);
+        loop->watchdog = NULL;
+        knurl_store_release(&loop->watchdog_thread, (uintptr_t)0);
+    }
+}
+
 /* Returns 1 where the loop's own memory and its scene's are locked into RAM. */
 static int lock_memory(knurl_loop *loop) {
     const int own = knurl_system_lock_memory(loop, sizeof *loop);
@@ -285,23 +310,17 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     knurl_store_relaxed(&loop->scene_locked, (uint32_t)lock_memory(loop));
     knurl_device_claim_thread(loop->desc.device);
     knurl_loop_begin_heat(loop);
+    knurl_store_relaxed(&loop->process, knurl_system_process_id());
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
-    const knurl_result result = start_haptics(loop);
+    knurl_result result = start_watchdog(loop); /* first: no force without it */
+    result = result ? result : start_haptics(loop);
     if (result) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
-        return result;
+        end_watchdog(loop);
+        knurl_store_release(&loop->threaded, 0u);
     }
-    const int needs_watchdog =
-        loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
-    if (needs_watchdog && !loop->desc.clock) { /* with the caller's clock, real time has no meaning */
-        loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
-        if (!loop->watchdog) {
-            knurl_loop_stop(loop);
-            return knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused a thread for the watchdog");
-        }
-    }
-    return KNURL_OK;
+    return result;
 }
 
 /* Runs the ramp at the end on this thread. */
@@ -389,7 +408,8 @@ void knurl_loop_stop(knurl_loop *loop) {
     if (is_inside(loop)) {
         return; /* the loop ends when this returns */
     }
-    while (knurl_load_acquire(&loop->threaded) && is_running(loop)) { /* one that is stepped ends in its next step */
+    while (knurl_load_acquire(&loop->threaded) &&
+           is_running_here(loop)) { /* one that is stepped ends in its next step */
         (void)knurl_loop_wait(loop, 1.0);
     }
 }
@@ -399,10 +419,10 @@ uint32_t knurl_loop_wait(knurl_loop *loop, double seconds) {
         return 1;
     }
     const int64_t until = knurl_system_now_ns() + (int64_t)(fmin(fmax(seconds, 0.0), 1e9) * 1e9);
-    while (is_running(loop) && knurl_system_now_ns() < until) {
+    while (is_running_here(loop) && knurl_system_now_ns() < until) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 500000);
     }
-    return !is_running(loop);
+    return !is_running_here(loop);
 }
 
 void knurl_loop_destroy(knurl_loop *loop) {
@@ -421,9 +441,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
     } else if (is_running(loop)) {
         finish_stepping(loop);
     }
-    if (loop->watchdog) {
-        knurl_system_join_thread(loop->watchdog);
-    }
+    end_watchdog(loop);
     knurl_system_unlock_memory(loop, sizeof *loop);
     knurl_loop_free_dry(loop);
     release(&loop->desc);

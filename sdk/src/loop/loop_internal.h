@@ -100,6 +100,7 @@ struct knurl_loop {
     uint32_t stack_locked;
     uintptr_t haptic_thread;
     uintptr_t watchdog_thread;
+    uintptr_t process; /* that has these threads */
     knurl_histogram tick_ns;
     knurl_histogram dry_tick_ns;
     knurl_histogram jitter_ns;

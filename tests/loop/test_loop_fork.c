@@ -1,0 +1,103 @@
+/* A process that forks while a loop runs: its child has the memory, and none of the threads.
+ * SPDX-License-Identifier: MIT */
+#include "support/close.h"
+
+#include <knurl/knurl.h>
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PATIENCE 5 /* s */
+
+static void no_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[0] = force[1] = force[2] = 0.0;
+}
+
+static knurl_result get_position(void *user, knurl_device_sample *sample) {
+    (void)user;
+    (void)sample;
+    return KNURL_OK;
+}
+
+static knurl_result play_force(void *user, const double force[3]) {
+    (void)user;
+    (void)force;
+    return KNURL_OK;
+}
+
+static void get_info(void *user, knurl_device_info *info) {
+    (void)user;
+    info->max_force = 1.0;
+}
+
+/* One with an I/O thread, too. */
+static knurl_device *blocking_device(void) {
+    knurl_device_functions functions;
+    knurl_device *device = NULL;
+    knurl_device_functions_init(&functions, sizeof functions);
+    functions.get_info = get_info;
+    functions.read = get_position;
+    functions.write = play_force;
+    functions.blocking = 1;
+    functions.motors_known = 1;
+    assert_int_equal(knurl_device_open_functions(&functions, &device), KNURL_OK);
+    return device;
+}
+
+static int stop(knurl_loop *loop, knurl_device *device) {
+    (void)device;
+    knurl_loop_stop(loop);
+    return 0;
+}
+
+static int wait_long(knurl_loop *loop, knurl_device *device) {
+    (void)device;
+    return knurl_loop_wait(loop, 100.0) == 1 ? 0 : 1;
+}
+
+static int free_all(knurl_loop *loop, knurl_device *device) {
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+    return 0;
+}
+
+/* The child's exit code; a negative signal if it was ended by one. */
+static int in_a_child(int (*what)(knurl_loop *loop, knurl_device *device), knurl_loop *loop, knurl_device *device) {
+    int status = 0;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        (void)alarm(PATIENCE);
+        _exit(what(loop, device));
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+TEST(a_forked_child_waits_for_no_thread_and_the_loop_of_its_parent_goes_on) {
+    knurl_device *device = blocking_device();
+    knurl_loop *loop = NULL;
+    knurl_loop_desc desc;
+    knurl_loop_stats before;
+    knurl_loop_stats after;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    knurl_loop_stats_init(&before, sizeof before);
+    knurl_loop_stats_init(&after, sizeof after);
+    desc.device = device;
+    desc.force_callback = no_force;
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    assert_int_equal(in_a_child(stop, loop, device), 0);
+    assert_int_equal(in_a_child(wait_long, loop, device), 0);
+    assert_int_equal(in_a_child(free_all, loop, device), 0);
+    assert_int_equal(knurl_loop_get_stats(loop, &before), KNURL_OK);
+    assert_int_equal(knurl_loop_wait(loop, 0.05), 0);
+    assert_int_equal(knurl_loop_get_stats(loop, &after), KNURL_OK);
+    assert_true(after.ticks > before.ticks);
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+}
