@@ -148,6 +148,10 @@ knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t
         knurl_session_set_paused(session, session->paused);
         (void)knurl_loop_set_gain(session->loop, session->gain);
         result = knurl_loop_start(session->loop);
+        if (result) {
+            knurl_loop_destroy(session->loop);
+            session->loop = NULL;
+        }
     }
     if (!result) {
         session->runs = 1;

@@ -129,8 +129,8 @@ KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_se
 
 /** Commits the scene if it is not committed yet, sets up its HIP and the fake hand's stroke, and starts the haptic
  * thread. warning: null, or receives a sentence on what cannot be as requested ("" if nothing), at most `size` bytes.
- * Errors: KNURL_ERROR_STATE (not open, or started before), those of knurl_scene_configure_hip() and
- * knurl_loop_create(); after an error close the session. [game thread] */
+ * Errors: KNURL_ERROR_STATE (not open, or started before), those of knurl_scene_configure_hip(), knurl_loop_create()
+ * and knurl_loop_start(); the session stays open. [game thread] */
 KNURL_API knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size);
 
 /** Instead of a start: runs an open fake device along a path on this thread, as fast as possible.
