@@ -1,0 +1,40 @@
+/* Memory that runs out, everywhere: a call is repeated with its first request refused, then its second, and so on; and
+ * with all requests refused from the first on, from the second on, and so on. Each must give an error or succeed, leave
+ * things as they were if it failed, succeed when it is tried again, leak nothing, and not end the process.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_FAILING_H
+#define KNURL_TEST_FAILING_H
+
+#include "support/close.h"
+#include "support/suite.h"
+
+#include <knurl/knurl.h>
+
+#include <stdio.h>
+
+/** A call, and what stands around it. Only `call` is refused memory. All of it runs in a child process. */
+typedef struct failing_call {
+    const char *name;
+    void (*prepare)(void);                  /* or null */
+    knurl_result (*call)(void);             /* functions without a result: KNURL_OK */
+    void (*finish)(void);                   /* gives everything back; or null */
+    void (*state)(char *text, size_t size); /* of what a failed call must leave as it was; or null */
+    int is_wrong;                           /* 1: it fails with memory, too */
+    int may_leak; /* 1: it looks for USB devices by libraries that forget blocks then, such as libusb; these are counted
+                   */
+} failing_call;
+
+/** Makes all the calls and fails the test if one does not hold; prints a line for each. */
+void failing_run(const failing_call *calls, size_t count);
+
+/** 1 in the long form (`./run soak`): every request, however many. */
+int failing_is_long(void);
+
+/** For `prepare`: ends the child process unless `result` is KNURL_OK, and the test fails. */
+void failing_need(knurl_result result);
+
+/** Runs `call` in a child process with so many bytes of address space beside what is in use; 1 if it came to its end.
+ */
+int failing_survives(knurl_result (*call)(void), size_t bytes);
+
+#endif
