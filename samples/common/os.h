@@ -14,8 +14,9 @@ void os_begin(int *argc, char ***argv);
  * for Ctrl-C and Ctrl-Break only, always with SIGINT. */
 void os_on_interrupt(void (*handler)(int number));
 
-/* Where Ctrl-C, a request to end or a closed terminal would simply end the process, it calls `handler` before. Only
- * what a signal handler may do is done there. */
+/* Whatever ends the process from outside, but kills that nobody sees, calls `handler` before: Ctrl-C and a request to
+ * end unless they interrupt, a closed terminal, a reader that has gone, limits of time and size. It does what a signal
+ * handler may do. After knurl_device_zero_on_exit(), whose handlers are called next. */
 void os_before_end(void (*handler)(void));
 
 /* Runs another program with this one's arguments and standard streams. Returns its exit code, if at all: on POSIX it

@@ -29,33 +29,61 @@ void os_begin(int *argc, char ***argv) {
     occupy_standard_streams();
 }
 
+static void (*on_interrupt)(int number);
+
 void os_on_interrupt(void (*handler)(int number)) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
-    action.sa_handler = handler;
+    action.sa_handler = on_interrupt = handler;
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
 }
 
 static void (*before_end)(void);
 
+/* Every signal that by default ends a process and comes from outside it: without crashes, and without SIGPROF, whose
+ * handler may be a profiler's. */
+static struct {
+    int number;
+    struct sigaction earlier;
+} endings[] = {
+    {.number = SIGHUP},    {.number = SIGINT},  {.number = SIGQUIT},   {.number = SIGPIPE}, {.number = SIGALRM},
+    {.number = SIGTERM},   {.number = SIGUSR1}, {.number = SIGUSR2},   {.number = SIGXCPU}, {.number = SIGXFSZ},
+    {.number = SIGSYS},    {.number = SIGTRAP}, {.number = SIGVTALRM},
+#ifdef SIGPOLL
+    {.number = SIGPOLL},
+#endif
+#ifdef SIGPWR
+    {.number = SIGPWR},
+#endif
+#ifdef SIGSTKFLT
+    {.number = SIGSTKFLT},
+#endif
+};
+
+/* The earlier action comes when this handler has returned: the library's, which zeroes forces, or the default. */
 static void on_end(int number) {
     before_end();
-    (void)signal(number, SIG_DFL);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        if (endings[i].number == number) {
+            (void)sigaction(number, &endings[i].earlier, NULL);
+        }
+    }
     (void)raise(number);
 }
 
-/* Only where a signal would simply end the process: who handles it, or ignores it, goes on doing so. */
+/* A signal that is ignored stays so, and one that interrupts goes on doing that. */
 void os_before_end(void (*handler)(void)) {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     before_end = handler;
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        struct sigaction *earlier = &endings[i].earlier;
         struct sigaction action;
-        if (sigaction(numbers[i], NULL, &action) == 0 && !(action.sa_flags & SA_SIGINFO) &&
-            action.sa_handler == SIG_DFL) {
+        if (sigaction(endings[i].number, NULL, &action) == 0 && action.sa_handler != SIG_IGN &&
+            action.sa_handler != on_end && (!on_interrupt || action.sa_handler != on_interrupt)) {
+            *earlier = action;
             memset(&action, 0, sizeof action);
             action.sa_handler = on_end;
-            (void)sigaction(numbers[i], &action, NULL);
+            (void)sigaction(endings[i].number, &action, NULL);
         }
     }
 }

@@ -20,8 +20,7 @@ typedef struct out_file {
 void out_protect(const char *path);
 void out_protect_stream(FILE *stream);
 
-/* 0, or 1 having said why in one line on stderr. Where SIGINT, SIGTERM or SIGHUP would end the process, they take what
- * is unfinished away first. */
+/* 0, or 1 having said why in one line on stderr. A signal that ends the process takes what is unfinished away first. */
 int out_open(out_file *file, const char *path);
 
 /* Closes and renames; 0, or 1 having said why. No later output of this process may replace it. */

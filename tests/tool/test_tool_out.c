@@ -2,6 +2,8 @@
 #include "support/close.h"
 #include "support/tool.h"
 
+#include <sys/resource.h>
+
 #define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
 
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
@@ -227,6 +229,46 @@ TEST(an_interrupted_run_leaves_no_short_file) {
     }
 }
 
+static const int endings[] = {SIGHUP,  SIGQUIT, SIGPIPE, SIGALRM,   SIGUSR1,
+                              SIGUSR2, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGTERM};
+
+/* The process ends by the signal, and its unfinished files are gone. */
+static void check_ended(const char *const *arguments, int number) {
+    const struct rlimit none = {0, 0};
+    (void)setrlimit(RLIMIT_CORE, &none);
+    (void)signal(number, SIG_DFL); /* the process inherits both */
+    process p = process_start(arguments, NULL);
+    wait_for_part();
+    assert_int_equal(kill(p.pid, number), 0);
+    process_finish(&p);
+    assert_int_equal(p.signal, number);
+    process_free(&p);
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+/* SIGTERM ends one by the ramp, see above. */
+TEST(a_run_that_a_signal_ends_leaves_nothing) {
+    const char *const arguments[] = {
+        KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out", tool_path("end.csv"), "--wav",
+        tool_path("end.wav"), NULL};
+    for (size_t i = 0; i + 1 < COUNT_OF(endings); i++) {
+        check_ended(arguments, endings[i]);
+    }
+    assert_false(file_exists(tool_path("end.csv")) || file_exists(tool_path("end.wav")));
+}
+
+TEST(a_run_whose_reader_has_gone_leaves_nothing) {
+    char line[2400];
+    (void)signal(SIGPIPE, SIG_DFL);
+    (void)snprintf(line, sizeof line, "%s run %s --fast --seconds 20 --out - --wav %s | head -1", KNURL_TEST_TOOL,
+                   plate, tool_path("p.wav"));
+    process p = run_tool((const char *const[]){"/bin/sh", "-c", line, NULL});
+    assert_string_equal(p.out, HEADER);
+    process_free(&p);
+    assert_int_equal(files_that_end(".part"), 0);
+    assert_false(file_exists(tool_path("p.wav")));
+}
+
 /* A whole file that cannot have its name is a failure, and leaves nothing. */
 TEST(a_name_that_is_taken_meanwhile_is_a_failure) {
     const char *const arguments[] = {KNURL_TEST_TOOL,        "run", plate, "--seconds", "1", "--out",
@@ -241,16 +283,11 @@ TEST(a_name_that_is_taken_meanwhile_is_a_failure) {
     process_free(&p);
 }
 
-/* A study does not handle signals: its unfinished files go, and it ends by the signal. */
-TEST(a_study_that_is_ended_leaves_nothing) {
+TEST(a_study_that_a_signal_ends_leaves_nothing) {
     const char *const arguments[] = {KNURL_TEST_TOOL, "study", "gratings", "--out", tool_folder, NULL};
-    process p = process_start(arguments, NULL);
-    wait_for_part();
-    assert_int_equal(kill(p.pid, SIGTERM), 0);
-    process_finish(&p);
-    assert_int_equal(p.signal, SIGTERM);
-    process_free(&p);
-    assert_int_equal(files_that_end(".part"), 0);
+    for (size_t i = 0; i < COUNT_OF(endings); i++) {
+        check_ended(arguments, endings[i]);
+    }
     assert_false(file_exists(tool_path("gratings.csv")));
 }
 
