@@ -56,6 +56,10 @@ int knurl_system_on_exit(const knurl_exit_actions *actions, int faults_recover);
 intptr_t knurl_system_take_node(const char *path);
 void knurl_system_give_back_node(intptr_t node);
 
+/* A variable that names a library or another file; null in a program that has more rights than who started it, and to
+ * whom it belongs (setuid, capabilities). */
+const char *knurl_system_environment(const char *name);
+
 /* Loads a library. path: absolute, or a bare name that is searched where the system keeps libraries (on Windows also
  * beside the program), never in the current folder or along PATH. Returns null and the system's reason in `why`. */
 typedef struct knurl_library knurl_library;

@@ -170,6 +170,10 @@ uintptr_t knurl_system_thread_id(void) {
     return GetCurrentThreadId();
 }
 
+const char *knurl_system_environment(const char *name) {
+    return getenv(name);
+}
+
 uintptr_t knurl_system_process_id(void) {
     return GetCurrentProcessId();
 }

@@ -65,7 +65,7 @@ static int load_functions(const char *path, char *why, size_t why_size) {
 #define FUNCTION(field, result, symbol, arguments) {#symbol, &api.field},
     static const knurl_dynlib_function functions[] = {DHD_FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-    const char *named = path[0] ? path : getenv("KNURL_DHD_LIBRARY");
+    const char *named = path[0] ? path : knurl_system_environment("KNURL_DHD_LIBRARY");
     const int is_named = named && named[0];
     static uint32_t state;
     return knurl_dynlib_load(&state, is_named ? &named : usual, is_named ? 1 : sizeof usual / sizeof *usual, functions,

@@ -314,7 +314,7 @@ static knurl_result read_gain(const char *path, char *text, size_t size) {
 /* `text`: what the URI says, or "". */
 static knurl_result set_gain(falcon *f, const char *text) {
     char kept[64] = "";
-    const char *path = getenv("KNURL_FALCON_GAIN");
+    const char *path = knurl_system_environment("KNURL_FALCON_GAIN");
     const int is_kept = !text[0] && path && path[0];
     const knurl_result result = is_kept ? read_gain(path, kept, sizeof kept) : KNURL_OK;
     if (result) {
@@ -351,7 +351,7 @@ static knurl_result parse(const char *options, falcon *f) {
                           options);
     }
     result = result ? result : set_gain(f, gain);
-    const char *usual = getenv("KNURL_FALCON_FIRMWARE");
+    const char *usual = knurl_system_environment("KNURL_FALCON_FIRMWARE");
     if (!result && !firmware[0] && usual) {
         if (strlen(usual) >= KNURL_URI_ROOM) {
             return knurl_fail(KNURL_ERROR_ARGUMENT,

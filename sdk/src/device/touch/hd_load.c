@@ -5,7 +5,6 @@
 #include "base/system.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define PATH_ROOM 512
@@ -109,7 +108,7 @@ static int try_path(const char *path, attempts *tried) {
 knurl_result hd_acquire(const char *path, const char *device, const hd_api **hd) {
     if (loaded.users == 0) {
         attempts tried = {""};
-        const char *named = path[0] ? path : getenv("KNURL_HD_LIBRARY");
+        const char *named = path[0] ? path : knurl_system_environment("KNURL_HD_LIBRARY");
         int found = 0;
         if (named && named[0]) {
             found = try_path(named, &tried);
