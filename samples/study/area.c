@@ -50,8 +50,8 @@ static double mean_of_places(const double from[2], const double to[2]) {
 static void play(int candidate, const scan *s, double heights[TICKS]) {
     const double velocity[2] = {s->speed * cos(s->angle), s->speed * sin(s->angle)};
     const double along[2] = {knurl_grating_frequency((const double[2]){FS, FS}, velocity) / FS, 0.0};
-    const knurl_grating line = gratings_make(KNURL_AREA, FS, 0.0);
-    knurl_grating grid = gratings_make(candidate == AXIS ? KNURL_AREA : KNURL_S1, FS, FS);
+    const knurl_grating line = gratings_make(KNURL_METHOD_AREA, FS, 0.0);
+    knurl_grating grid = gratings_make(candidate == AXIS ? KNURL_METHOD_AREA : KNURL_METHOD_S1, FS, FS);
     knurl_grating_state state;
     double last[2] = {0.0, 0.0};
     memset(&state, 0, sizeof state);
@@ -124,7 +124,7 @@ static double turned_share(int candidate) {
     for (int turn = 0; turn < 100; turn++) {
         const scan s = {0.05, 0.4, {0.037 * turn, 0.011 * turn}, 0.0};
         const double c[2] = {cos(s.angle), sin(s.angle)};
-        const knurl_grating grating = gratings_make(KNURL_AREA, FS, candidate == WAY ? 0.0 : FS);
+        const knurl_grating grating = gratings_make(KNURL_METHOD_AREA, FS, candidate == WAY ? 0.0 : FS);
         knurl_grating_state state;
         double there[100];
         memset(&state, 0, sizeof state);

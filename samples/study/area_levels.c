@@ -112,8 +112,8 @@ int area_levels(json_writer *json) {
     static const struct {
         int32_t method;
         double rate;
-    } rows[] = {{KNURL_S1, 1000.0},   {KNURL_S2, 1000.0},   {KNURL_LOCKED, 1000.0}, {KNURL_AREA, 1000.0},
-                {KNURL_AREA, 2000.0}, {KNURL_AREA, 5000.0}, {KNURL_AREA, 10000.0}};
+    } rows[] = {{KNURL_METHOD_S1, 1000.0},   {KNURL_METHOD_S2, 1000.0},   {KNURL_METHOD_LOCKED, 1000.0}, {KNURL_METHOD_AREA, 1000.0},
+                {KNURL_METHOD_AREA, 2000.0}, {KNURL_METHOD_AREA, 5000.0}, {KNURL_METHOD_AREA, 10000.0}};
     printf("| 20 to 450 Hz, every whole frequency, 10 start phases | played/crossed, worst | level off 4/pi: mean of "
            "phases, worst (at) | single phase, worst (at) | false tones, mean (worst) | wavering, mean (worst) | push "
            "over 50 ms, mean (worst), A | net of a second, worst, A |\n|---|---|---|---|---|---|---|---|\n");

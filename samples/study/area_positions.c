@@ -19,7 +19,7 @@
 static int scan(double rate, double quantum, int filtered, double frequency, double start, steady_metrics *found) {
     const size_t ticks = (size_t)rate;
     double *heights = calloc(ticks, sizeof *heights);
-    knurl_grating grating = gratings_make(KNURL_AREA, 1.0 / PERIOD_M, 0.0);
+    knurl_grating grating = gratings_make(KNURL_METHOD_AREA, 1.0 / PERIOD_M, 0.0);
     knurl_grating_state state;
     knurl_velocity estimator;
     double carried = start * PERIOD_M;

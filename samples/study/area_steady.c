@@ -38,7 +38,7 @@ static int measure(int32_t method, double frequency, steady_metrics *mean) {
 }
 
 int area_steady(json_writer *json) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA};
     static steady_metrics rows[COUNT];
     double frequencies[COUNT];
     json_open(json, "steady", '[');

@@ -13,7 +13,7 @@
 
 /* A second at 1000 ridges a metre from a start in cycles. */
 static int scan_area(double frequency, double start, study_scan *scan) {
-    const knurl_grating grating = gratings_make(KNURL_AREA, 1000.0, 0.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_AREA, 1000.0, 0.0);
     const double from[2] = {1e-3 * start, 0.0};
     const double velocity[2] = {1e-3 * frequency, 0.0};
     return gratings_scan_line(&grating, from, velocity, (size_t)GRATINGS_RATE, scan);
@@ -79,7 +79,7 @@ int failure_area_lags(const failure_sink *sink, double *number) {
 int failure_area_loop(const failure_sink *sink, double *number) {
     static const int legs[4] = {103, 51, 103, 51}; /* ticks at 100 mm/s */
     static const double ways[4][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
-    const knurl_grating grating = gratings_make(KNURL_AREA, 1000.0, 1000.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_AREA, 1000.0, 1000.0);
     knurl_grating_state state;
     double position[2] = {0.0, 0.0};
     double first = NAN;

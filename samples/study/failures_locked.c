@@ -11,7 +11,7 @@
 /* Nine ticks a cycle, just below the crossover: five up and four down, as S1 has them. */
 int failure_locked_pushes(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_LOCKED, 1000.0 / 9.0, 900, &scan)) {
+    if (!failure_across(KNURL_METHOD_LOCKED, 1000.0 / 9.0, 900, &scan)) {
         return 0;
     }
     *number = fabs(study_scan_net(&scan, 1.0, 2.0));
@@ -23,7 +23,7 @@ int failure_locked_pushes(const failure_sink *sink, double *number) {
 /* 2 and 3 ticks alternate where 2.5 are meant. */
 int failure_locked_dithers(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_LOCKED, 400.0, 2000, &scan)) {
+    if (!failure_across(KNURL_METHOD_LOCKED, 400.0, 2000, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_spurious(&scan, 400.0, 0.02);
@@ -42,7 +42,7 @@ int failure_locked_quantised(const failure_sink *sink, double *number) {
     static const double periods[] = {0.5e-3, 0.7e-3, 1e-3, 1.5e-3, 2e-3, 3e-3};
     for (int quantised = 0; quantised < 2; quantised++) {
         for (size_t i = 0; i < sizeof periods / sizeof *periods; i++) {
-            const locked_scan scan = {.method = KNURL_LOCKED,
+            const locked_scan scan = {.method = KNURL_METHOD_LOCKED,
                                       .rate = GRATINGS_RATE,
                                       .period = periods[i],
                                       .quantum = quantised ? RESOLUTION : 0.0,
@@ -61,7 +61,7 @@ int failure_locked_quantised(const failure_sink *sink, double *number) {
 /* There and back on a grid: the way back is counted on, so other places are high. */
 int failure_locked_grid(const failure_sink *sink, double *number) {
     enum { TICKS = 59 };
-    const knurl_grating grating = gratings_make(KNURL_LOCKED, 1000.0, 1000.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_LOCKED, 1000.0, 1000.0);
     knurl_grating_state state;
     double there[TICKS];
     double x = 0.0;

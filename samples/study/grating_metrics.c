@@ -15,7 +15,7 @@ double study_event_cycles(const knurl_vibration_event *event) {
 }
 
 int study_plays_event(const knurl_grating *grating, const knurl_grating_state *state, const knurl_grating_output *out) {
-    return out->event != KNURL_NO_EVENT && (grating->method != KNURL_AREA || state->next_tick > 0);
+    return out->event != KNURL_NO_EVENT && (grating->method != KNURL_METHOD_AREA || state->next_tick > 0);
 }
 
 void study_motion_line(const double start[2], const double velocity[2], double update_rate_hz, study_motion *motion,

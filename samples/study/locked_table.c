@@ -12,7 +12,7 @@
 #define RATES      4
 #define STARTS     48
 
-static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED};
+static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED};
 static const double quanta[] = {0.0, TOUCH, FINE};
 static const double periods[] = {0.0005, 0.001, 0.002};
 static const double rates[RATES] = {1000.0, 2000.0, 5000.0, 10000.0};
@@ -91,7 +91,7 @@ static int measure_strokes(table *t) {
 static int measure_price(double rate, crossover_cell *cell) {
     const double odd = 2.0 * floor(0.5 * (rate / cell->crossover + 1.0)) + 1.0;
     for (int i = 0; i < 8; i++) {
-        locked_scan scan = scan_of(KNURL_LOCKED, rate);
+        locked_scan scan = scan_of(KNURL_METHOD_LOCKED, rate);
         locked_found found;
         scan.crossover = cell->crossover;
         scan.seconds = 2.0;
@@ -110,7 +110,7 @@ static int measure_crossovers(table *t) {
         crossover_cell *cell = &t->crossovers[i / CROSSOVERS][i % CROSSOVERS];
         cell->crossover = 40.0 + 20.0 * (double)(i % CROSSOVERS);
         for (int k = 0; k < 6; k++) { /* quanta, one way and to and fro */
-            locked_scan scan = scan_of(KNURL_LOCKED, rates[i / CROSSOVERS]);
+            locked_scan scan = scan_of(KNURL_METHOD_LOCKED, rates[i / CROSSOVERS]);
             stroke_cell stroke = {0.0, 0.0};
             scan.crossover = cell->crossover;
             scan.quantum = quanta[k % 3];

@@ -148,7 +148,7 @@ static knurl_result run(int32_t method, int transition, int phase, FILE *csv, ou
         input.has_velocity = 1;
         result = transition == OTHER_MATERIAL && tick == happens ? change_material(scene, left, method) : KNURL_OK;
         result = result ? result : knurl_scene_tick(scene, 0, &input, &out);
-        judge(&out, tick - happens, method == KNURL_AREA, &w, o);
+        judge(&out, tick - happens, method == KNURL_METHOD_AREA, &w, o);
         if (phase == 3 && tick >= happens - 20 && tick < happens + 40) {
             fprintf(csv, "%s,\"%s\",%d,", knurl_method_name(method), names[transition], tick - happens);
             out_number(csv, out.contacts ? out.height / AMPLITUDE : 0.0);
@@ -181,7 +181,7 @@ static void print_row(json_writer *json, int32_t method, int transition, const o
 }
 
 static int write_all(FILE *csv, json_writer *json, void *user) {
-    static const int32_t methods[METHODS] = {KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[METHODS] = {KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA};
     (void)user;
     fputs("method,transition,tick,height\n", csv);
     json_string(json, "study", "transitions");

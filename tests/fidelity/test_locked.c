@@ -17,7 +17,7 @@ static double fineness(void) {
 
 /* LOCKED at a rate, over a grating of 1 mm from ideal positions. */
 static locked_scan ideal(double rate) {
-    const locked_scan scan = {KNURL_LOCKED, rate, 0.001, 0.0, 0.0, 0.0, 0.0, 0.0, 0};
+    const locked_scan scan = {KNURL_METHOD_LOCKED, rate, 0.001, 0.0, 0.0, 0.0, 0.0, 0.0, 0};
     return scan;
 }
 
@@ -64,7 +64,7 @@ TEST(at_500_and_250_hz_as_well) {
 /* The JND of the true period, or the whole numbers of ticks either side of it where the JND shuts both out. */
 static void check_lengths(double rate, double frequency) {
     const double period = rate / frequency;
-    const knurl_grating grating = {KNURL_LOCKED, {0}, {1000.0, 0.0}, 1.0, rate, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_METHOD_LOCKED, {0}, {1000.0, 0.0}, 1.0, rate, 0.0, 0.0};
     const double velocity[2] = {frequency / 1000.0, 0.0};
     knurl_grating_state s = {0};
     for (int k = 0; k < 3000; k++) {
@@ -93,7 +93,7 @@ TEST(at_constant_speed_no_event_is_longer_or_shorter_than_can_be_felt) {
 /* What LOCKED is for: the paper's method drifts at constant speed, most just below 3.5 ticks, by a sixth. */
 TEST(s2_loses_step_at_constant_speed) {
     locked_scan scan = ideal(1000.0);
-    scan.method = KNURL_S2;
+    scan.method = KNURL_METHOD_S2;
     const locked_found found = worst(&scan, 1000.0 / 3.4999, 3);
     CHECK_CLOSE(found.step.played / found.step.crossed, 7.0L / 6.0L, 1e-3L);
     assert_true(found.step.error > 100.0);
@@ -102,7 +102,7 @@ TEST(s2_loses_step_at_constant_speed) {
 /* Without events only edges are counted, and an S1 that does not alias has each of them in its tick. */
 TEST(what_follows_the_position_is_never_out) {
     locked_scan scan = ideal(1000.0);
-    scan.method = KNURL_S1;
+    scan.method = KNURL_METHOD_S1;
     for (double f = 20.0; f < 490.0; f += 9.7) {
         const locked_found found = worst(&scan, f, 3);
         check_step(&found, f, 1e-9);
@@ -128,27 +128,27 @@ static double check_strokes(int32_t method, double quantum, int turns, int start
         const locked_found found = worst(&scan, tops[i % COUNT_OF(tops)], (int)(starts / fineness()));
         check_step(&found, tops[i % COUNT_OF(tops)], bound);
         most = fmax(most, found.step.error);
-        assert_true(method != KNURL_LOCKED || found.step.longest <= 50.0);
-        CHECK_CLOSE(found.unbalanced, 0.0, method == KNURL_LOCKED ? 1e-12L : 1e-11L); /* S2's are 2000 ticks long */
+        assert_true(method != KNURL_METHOD_LOCKED || found.step.longest <= 50.0);
+        CHECK_CLOSE(found.unbalanced, 0.0, method == KNURL_METHOD_LOCKED ? 1e-12L : 1e-11L); /* S2's are 2000 ticks long */
     }
     return most;
 }
 
 TEST(in_strokes_from_rest_it_is_in_step_all_the_way) {
-    (void)check_strokes(KNURL_LOCKED, 0.0, 0, 10, 0.3);
+    (void)check_strokes(KNURL_METHOD_LOCKED, 0.0, 0, 10, 0.3);
 }
 
 TEST(in_strokes_to_and_fro_as_well) {
-    (void)check_strokes(KNURL_LOCKED, 0.0, 1, 10, 0.3);
+    (void)check_strokes(KNURL_METHOD_LOCKED, 0.0, 1, 10, 0.3);
 }
 
 TEST(from_an_encoders_counts_it_is_within_half_a_cycle) {
-    (void)check_strokes(KNURL_LOCKED, TOUCH, 0, 10, 0.5);
-    (void)check_strokes(KNURL_LOCKED, TOUCH, 1, 10, 0.5);
+    (void)check_strokes(KNURL_METHOD_LOCKED, TOUCH, 0, 10, 0.5);
+    (void)check_strokes(KNURL_METHOD_LOCKED, TOUCH, 1, 10, 0.5);
 }
 
 TEST(s2_is_out_by_hundreds_of_cycles_in_strokes) {
-    assert_true(check_strokes(KNURL_S2, 0.0, 0, 2, 1e9) > 100.0);
+    assert_true(check_strokes(KNURL_METHOD_S2, 0.0, 0, 2, 1e9) > 100.0);
 }
 
 /* The chart of `knurl study locked` in one line: 120 Hz is high enough, half of it is not. */

@@ -176,7 +176,7 @@ TEST(the_hand_over_has_a_hysteresis) {
 }
 
 TEST(a_change_of_method_plays_the_event_to_its_end) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA};
     uint64_t seed = 9;
     double x = 0.0;
     area_walk w = area_on(FS, 0.0, RATE);
@@ -196,6 +196,6 @@ TEST(a_change_of_method_plays_the_event_to_its_end) {
             CHECK_CLOSE(sum, 0.0, 1e-12L * A);
         }
     }
-    w.grating.method = KNURL_AREA;
+    w.grating.method = KNURL_METHOD_AREA;
     check_recovery(&w);
 }

@@ -14,7 +14,7 @@ static double bars(double x) {
 
 /* 0.119 m/s is 119 Hz. Positions that lie on no edge. */
 TEST(below_the_crossover_the_height_is_that_of_the_place_forwards_and_back) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     uint64_t seed = 1;
     double x = 0.0123456;
     for (int k = 0; k < 20000; k++) {
@@ -29,7 +29,7 @@ TEST(below_the_crossover_the_height_is_that_of_the_place_forwards_and_back) {
 
 /* Ridges across y as well: the direction is that of the one frequency. */
 TEST(bars_across_y_are_followed_along_y) {
-    locked_walk w = walk_on(KNURL_LOCKED, 0.0, FS, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, 0.0, FS, RATE);
     for (int k = 0; k < 500; k++) {
         const double position[2] = {0.3, 0.0001 * k + 1e-5};
         const double velocity[2] = {0.4, 0.1};
@@ -41,7 +41,7 @@ TEST(bars_across_y_are_followed_along_y) {
 TEST(above_the_crossover_events_begin_at_a_rising_edge) {
     for (int i = 0; i < 2 * 97; i++) {
         const double way = i % 2 ? 1.0 : -1.0;
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         const double start = way * i / 97.0 / FS;
         for (int k = 0; w.out.event != 0; k++) {
             const double x = start + way * 0.00013 * k; /* 130 Hz: 7.7 ticks a cycle */
@@ -60,7 +60,7 @@ TEST(above_the_crossover_events_begin_at_a_rising_edge) {
 
 /* As the header has it: the whole number nearest T (1 - (p - n)), here at a speed that changes from event to event. */
 TEST(an_event_ends_where_its_cycle_does_as_near_as_its_bounds_allow) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     uint64_t seed = 2;
     double x = -0.25 / FS;
     double speed = 0.2;
@@ -89,7 +89,7 @@ TEST(an_event_ends_where_its_cycle_does_as_near_as_its_bounds_allow) {
 TEST(on_a_grid_cycles_are_those_of_the_way) {
     static const double grid[2] = {FS, 700.0};
     for (int fast = 0; fast < 2; fast++) {
-        locked_walk w = walk_on(KNURL_LOCKED, grid[0], grid[1], RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, grid[0], grid[1], RATE);
         double position[2] = {0.1, 0.2};
         double way = 0.0;
         double cycles = 0.0;
@@ -117,7 +117,7 @@ TEST(on_a_grid_cycles_are_those_of_the_way) {
 
 /* No place to go by, and one direction of ridges: the way again. */
 TEST(without_a_position_the_way_is_counted) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     const double velocity[2] = {-0.0625, 0.3};
     for (int k = 1; k < 1000; k++) { /* a sixteenth of a cycle a tick */
         CHECK_SAME(walk(&w, NULL, velocity), k % 16 < 8 ? A : -A);
@@ -128,7 +128,7 @@ TEST(without_a_position_the_way_is_counted) {
  * the ridge that the event has played: events begin at 1, 2, ... cycles. */
 TEST(after_a_stop_in_an_event_the_height_is_that_of_the_place) {
     for (int stop = 20; stop < 27; stop++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         double x = 0.00001;
         int rest = 0;
         for (int k = 0; k < 60; k++) {
@@ -149,7 +149,7 @@ TEST(after_a_stop_in_an_event_the_height_is_that_of_the_place) {
 /* The hand slows down from 200 to 85 Hz as an event of 5 ticks begins, at 1.05 cycles: as it is over the position has
  * got to 1.475, the last of the ridge that it has played. That is not felt as another ridge, the next one, at 2, is. */
 TEST(the_last_tenth_of_a_ridge_that_an_event_has_played_is_not_felt) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     double x = 0.0;
     int left = 0;
     for (int k = 0; x * FS + 0.25 < 3.0; k++) {
@@ -167,7 +167,7 @@ TEST(the_last_tenth_of_a_ridge_that_an_event_has_played_is_not_felt) {
 
 /* An event plays while the material gets a coarser grating: phases are counted anew, and the place decides. */
 TEST(events_of_a_grating_that_has_changed_hold_nothing_down) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     double x = 0.0123456;
     for (int k = 0; k < 200; k++) {
         const double speed = k < 40 ? 0.2 : 0.02;
@@ -185,7 +185,7 @@ TEST(events_of_a_grating_that_has_changed_hold_nothing_down) {
 TEST(s2_has_come_down_to_the_surface_within_one_event_of_a_stop) {
     for (int stop = 20; stop < 27; stop++) {
         knurl_grating_state s = {0};
-        const knurl_grating grating = {KNURL_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
+        const knurl_grating grating = {KNURL_METHOD_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
         for (int k = 0; k < 60; k++) {
             const double position[2] = {0.143e-3 * k, 0.0};
             const double velocity[2] = {k < stop ? 0.143 : 0.0, 0.0};
@@ -200,7 +200,7 @@ TEST(s2_has_come_down_to_the_surface_within_one_event_of_a_stop) {
  * that follow begin where the surface rises backwards. */
 TEST(a_reversal_crosses_the_same_ridges_again) {
     for (int turn = 20; turn < 40; turn++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         double x = 0.00001;
         int64_t events = 0;
         int over = 0; /* the event that was turned in */
@@ -224,7 +224,7 @@ TEST(a_reversal_crosses_the_same_ridges_again) {
 }
 
 TEST(amplitude_and_length_are_held_until_the_event_ends) {
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     uint64_t seed = 4;
     double x = 0.0;
     double amplitude = A;
@@ -253,7 +253,7 @@ TEST(amplitude_and_length_are_held_until_the_event_ends) {
 TEST(no_motion_makes_a_step_above_that_of_a_trough_to_a_crest) {
     uint64_t seed = 5;
     for (int run = 0; run < 20; run++) {
-        locked_walk w = walk_on(KNURL_LOCKED, run % 3 ? FS : 0.0, run % 3 == 1 ? 0.0 : 800.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, run % 3 ? FS : 0.0, run % 3 == 1 ? 0.0 : 800.0, RATE);
         double position[2] = {0.0, 0.0};
         double velocity[2] = {0.0, 0.0};
         w.grating.resolution = run % 2 ? 5e-5 : 0.0;
@@ -271,7 +271,7 @@ TEST(no_motion_makes_a_step_above_that_of_a_trough_to_a_crest) {
 
 /* S2's is higher because of its 400 Hz mix: crest (2 + 3 sqrt(1/2))/sqrt(13), trough (2 + 3 sqrt(2))/sqrt(13). */
 TEST(s2_steps_up_to_2_87_amplitudes) {
-    const knurl_grating grating = {KNURL_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_METHOD_S2, {0}, {FS, 0.0}, A, RATE, 0.0, 0.0};
     const double origin[2] = {0.0, 0.0};
     knurl_grating_state s = {0};
     uint64_t seed = 6;
@@ -292,7 +292,7 @@ TEST(s2_steps_up_to_2_87_amplitudes) {
 TEST(at_rest_on_an_edge_a_flickering_count_does_not_toggle_the_height) {
     const double count = 0.055e-3;
     for (int place = -20; place <= 20; place++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         uint64_t seed = 7;
         double first = 0.0;
         w.grating.resolution = count;
@@ -309,7 +309,7 @@ TEST(at_rest_on_an_edge_a_flickering_count_does_not_toggle_the_height) {
 /* 1 mm/s over 20 ridges, there and back: 18 ticks a count. */
 TEST(slowly_across_edges_each_of_them_toggles_once) {
     const double count = 0.055e-3;
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     int toggles = 0;
     w.grating.resolution = count;
     for (int k = 0; k < 40000; k++) {

@@ -35,7 +35,7 @@ static const double strange[] = {(double)NAN, (double)INFINITY, -(double)INFINIT
 
 TEST(velocities_that_are_no_numbers_pass) {
     for (size_t i = 0; i < COUNT_OF(strange) * COUNT_OF(strange) * 2; i++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, i % 2 ? 0.0 : 1e-300, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, i % 2 ? 0.0 : 1e-300, RATE);
         const double velocity[2] = {strange[i / 2 % COUNT_OF(strange)], strange[i / 2 / COUNT_OF(strange)]};
         const double start[2] = {0.0, 0.0};
         for (int k = 0; k < 50; k++) {
@@ -49,7 +49,7 @@ TEST(velocities_that_are_no_numbers_pass) {
 /* A count of cycles that was once no number would stay so. */
 TEST(on_a_grid_what_is_no_number_is_not_counted) {
     for (size_t i = 0; i < COUNT_OF(strange); i++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 800.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 800.0, RATE);
         const double bad[2] = {strange[i], 0.01};
         const double good[2] = {0.0625, 0.01};
         for (int k = 0; k < 20; k++) {
@@ -67,7 +67,7 @@ TEST(on_a_grid_what_is_no_number_is_not_counted) {
 TEST(positions_that_are_no_numbers_pass) {
     for (size_t i = 0; i < COUNT_OF(strange); i++) {
         for (int way = -1; way <= 1; way += 2) {
-            locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+            locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
             for (int k = 0; k < 50; k++) {
                 (void)walk_x(&w, k % 4 == 3 ? strange[i] : 1e-4 * k * way, 0.1 * (1 + k % 3) * way);
             }
@@ -81,7 +81,7 @@ TEST(a_seam_or_a_teleport_leaves_nothing_behind) {
     static const double jumps[] = {0.1, -0.1, 0.00037, -0.00037, 1234.5, -1234.5};
     for (size_t i = 0; i < 2 * COUNT_OF(jumps); i++) {
         const double speed = i % 2 ? 0.25 : 0.05;
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         w.grating.resolution = 0.055e-3;
         double x = 0.0123456;
         for (int k = 0; k < 400; k++) {
@@ -104,7 +104,7 @@ TEST(a_seam_or_a_teleport_leaves_nothing_behind) {
 TEST(saturation_leaves_no_debt) {
     static const double fast[] = {0.501, 0.7, 0.9, 1.0, 1.5, 7.25};
     for (size_t i = 0; i < COUNT_OF(fast); i++) {
-        locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
         double x = 0.0001;
         int64_t events = 0;
         for (int k = 0; k < 1500; k++) {
@@ -131,7 +131,7 @@ TEST(any_grating_at_any_rate_plays_finite_events) {
     for (size_t i = 0; i < COUNT_OF(rates) * COUNT_OF(frequencies) * COUNT_OF(crossovers); i++) {
         const double rate = rates[i % COUNT_OF(rates)];
         const double fs = frequencies[i / COUNT_OF(rates) % COUNT_OF(frequencies)];
-        locked_walk w = walk_on(KNURL_LOCKED, fs, 0.0, rate);
+        locked_walk w = walk_on(KNURL_METHOD_LOCKED, fs, 0.0, rate);
         w.grating.crossover_hz = crossovers[i / COUNT_OF(rates) / COUNT_OF(frequencies)];
         assert_int_equal(knurl_grating_check(&w.grating), KNURL_OK);
         const double lowest = w.grating.crossover_hz > 0.0 ? w.grating.crossover_hz : fmin(120.0, 0.25 * rate);
@@ -149,18 +149,18 @@ TEST(any_grating_at_any_rate_plays_finite_events) {
 TEST(a_change_of_method_plays_the_event_to_its_end) {
     uint64_t seed = 9;
     double x = 0.0;
-    locked_walk w = walk_on(KNURL_LOCKED, FS, 0.0, RATE);
+    locked_walk w = walk_on(KNURL_METHOD_LOCKED, FS, 0.0, RATE);
     w.grating.resolution = 0.055e-3;
     for (int k = 0; k < 20000; k++) {
         const double speed = random_between(&seed, 0.13, 0.36); /* below the 400 Hz mix, which is S2's */
         const int was_playing = w.state.playing;
         if (random_bits(&seed) % 16 == 0) {
-            w.grating.method = w.grating.method == KNURL_S2 ? KNURL_LOCKED : KNURL_S2;
+            w.grating.method = w.grating.method == KNURL_METHOD_S2 ? KNURL_METHOD_LOCKED : KNURL_METHOD_S2;
         }
         x += speed / RATE;
         (void)walk_x(&w, x, speed); /* checks each event's sum */
         assert_true(!was_playing || w.out.event != KNURL_NO_EVENT);
     }
-    w.grating.method = KNURL_LOCKED;
+    w.grating.method = KNURL_METHOD_LOCKED;
     check_recovery(&w);
 }

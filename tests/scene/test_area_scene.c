@@ -55,7 +55,7 @@ static double plain(double x) {
 
 TEST(on_a_plane_it_is_the_mean_along_x) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_AREA, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_AREA, FS, 0.0, A);
     check_strokes(&parts, plain);
 }
 
@@ -66,7 +66,7 @@ static double turned(double x) {
 
 TEST(an_orientation_turns_the_ridges) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_AREA, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_AREA, FS, 0.0, A);
     parts.material.orientation = asin(0.5);
     check_strokes(&parts, turned);
 }
@@ -100,7 +100,7 @@ TEST(where_uvs_stretch_it_is_the_mean_of_their_stripes) {
         s.uvs[2 * v + 1] = (float)p[1];
     }
     surface_parts parts = surface_mesh(&s);
-    set_grating(&parts, KNURL_AREA, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_AREA, FS, 0.0, A);
     check_strokes(&parts, cycles_stepped);
     shape_free(&s);
 }
@@ -109,7 +109,7 @@ TEST(where_uvs_stretch_it_is_the_mean_of_their_stripes) {
 TEST(contact_begins_with_its_highest_crest) {
     for (int i = 0; i < 2; i++) {
         surface_parts parts = surface_plane();
-        set_grating(&parts, KNURL_AREA, 1000.0, 0.0, A);
+        set_grating(&parts, KNURL_METHOD_AREA, 1000.0, 0.0, A);
         knurl_scene *scene = scene_of(&parts);
         configure_plainly(scene, 0);
         const double z = (i ? 1.58 : 1.56) * A;
@@ -129,7 +129,7 @@ TEST(contact_begins_with_its_highest_crest) {
 TEST(another_material_is_felt_at_once_over_the_same_way) {
     for (int change = 20; change < 30; change++) {
         surface_parts parts = surface_plane();
-        set_grating(&parts, KNURL_AREA, FS, 0.0, A);
+        set_grating(&parts, KNURL_METHOD_AREA, FS, 0.0, A);
         knurl_scene *scene = scene_of(&parts);
         configure_plainly(scene, 0);
         double fs = FS;
@@ -142,7 +142,7 @@ TEST(another_material_is_felt_at_once_over_the_same_way) {
             }
             if (k == change) {
                 fs = 0.7 * FS;
-                set_grating(&parts, KNURL_AREA, fs, 0.0, A);
+                set_grating(&parts, KNURL_METHOD_AREA, fs, 0.0, A);
                 assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
             }
         }
@@ -153,7 +153,7 @@ TEST(another_material_is_felt_at_once_over_the_same_way) {
 TEST(ridges_begun_are_the_events_that_are_counted) {
     surface_parts parts = surface_plane();
     knurl_hip_counts counts;
-    set_grating(&parts, KNURL_AREA, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_AREA, FS, 0.0, A);
     knurl_scene *scene = scene_of(&parts);
     configure_plainly(scene, 0);
     for (int k = 0; k < 400; k++) {

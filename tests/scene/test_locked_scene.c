@@ -115,7 +115,7 @@ static double cycles_turned(const double p[3]) {
 TEST(an_orientation_turns_the_ridges) {
     surface_parts parts = surface_plane();
     const double askew[3] = {0.8, 0.6, 0.0};
-    set_grating(&parts, KNURL_LOCKED, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_LOCKED, FS, 0.0, A);
     parts.material.orientation = asin(0.5);
     check_surface(&parts, start, along_x, cycles_turned, 0.06);
     check_surface(&parts, start, askew, cycles_turned, 0.06);
@@ -126,7 +126,7 @@ TEST(from_behind_as_well) {
     surface_parts parts = surface_plane();
     const double askew[3] = {0.8, 0.6, 0.0};
     parts.desc.double_sided = 1;
-    set_grating(&parts, KNURL_LOCKED, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_LOCKED, FS, 0.0, A);
     parts.material.orientation = asin(0.5);
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
@@ -171,7 +171,7 @@ TEST(sheared_uvs_of_a_flat_sheet_are_kept_step_with_as_a_plane) {
     const double diagonal[3] = {0.8, 0.6, 0.0};
     shape s = sheet(sheared, NULL);
     surface_parts parts = surface_mesh(&s);
-    set_grating(&parts, KNURL_LOCKED, FS, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_LOCKED, FS, 0.0, A);
     check_model(&parts, "plane");
     check_surface(&parts, start, along_x, cycles_sheared, 0.06);
     check_surface(&parts, start, diagonal, cycles_sheared, 0.05);
@@ -204,7 +204,7 @@ TEST(where_uvs_stretch_it_keeps_step_with_their_stripes) {
     const double from[3] = {-0.045, 0.004, -DEPTH};
     shape s = sheet(stepped, NULL);
     surface_parts parts = surface_mesh(&s);
-    set_grating(&parts, KNURL_LOCKED, 850.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_LOCKED, 850.0, 0.0, A);
     check_model(&parts, "mesh");
     check_surface(&parts, from, along_x, cycles_stepped, 0.09);
     shape_free(&s);

@@ -43,7 +43,7 @@ static shape curved_sheet(void) {
 TEST(lift_off_in_an_event_ends_it_and_the_touch_after_begins_anew) {
     shape curved = curved_sheet();
     for (int i = 0; i < 2 * 14; i++) {
-        surface_parts parts = grating_on(i % 2 ? &curved : NULL, KNURL_LOCKED);
+        surface_parts parts = grating_on(i % 2 ? &curved : NULL, KNURL_METHOD_LOCKED);
         knurl_scene *scene = scene_of(&parts);
         const int lift = 20 + i / 2;
         int64_t event = KNURL_NO_EVENT;
@@ -71,8 +71,8 @@ TEST(lift_off_in_an_event_ends_it_and_the_touch_after_begins_anew) {
 
 /* Two plates of other gratings side by side at one height: the second begins anew, and is as strong as it should be. */
 TEST(a_change_of_surface_in_an_event_begins_the_other_ones_anew) {
-    surface_parts left = grating_on(NULL, KNURL_LOCKED);
-    surface_parts right = grating_on(NULL, KNURL_LOCKED);
+    surface_parts left = grating_on(NULL, KNURL_METHOD_LOCKED);
+    surface_parts right = grating_on(NULL, KNURL_METHOD_LOCKED);
     knurl_scene *scene = empty_scene(1);
     left.desc.position[0] = -0.05;
     right.desc.position[0] = 0.05;
@@ -107,7 +107,7 @@ TEST(a_change_of_surface_in_an_event_begins_the_other_ones_anew) {
 /* What the material becomes in an event of 5 ticks, and what is then felt. */
 static void change_in_an_event(int32_t method, double fs, double amplitude, int given) {
     for (int change = 20; change < 26; change++) {
-        surface_parts parts = grating_on(NULL, KNURL_LOCKED);
+        surface_parts parts = grating_on(NULL, KNURL_METHOD_LOCKED);
         knurl_scene *scene = scene_of(&parts);
         double sum = 0.0;
         int64_t event = KNURL_NO_EVENT;
@@ -127,25 +127,25 @@ static void change_in_an_event(int32_t method, double fs, double amplitude, int 
             at_change = k <= change ? event : at_change;
             assert_true(over || event == at_change || k <= change);
             assert_true(!over || fabs(out.height) <= 1.4142135623730951 * amplitude * (1.0 + 1e-12));
-            assert_true(!over || method == KNURL_LOCKED || method == KNURL_S2 || fabs(out.height) == amplitude);
+            assert_true(!over || method == KNURL_METHOD_LOCKED || method == KNURL_METHOD_S2 || fabs(out.height) == amplitude);
             if (k == change) {
                 set_grating(&parts, method, fs, 0.0, amplitude);
                 assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
             }
         }
-        assert_true(over && (amplitude > 0.0 ? method == KNURL_S1 || event > at_change : event == KNURL_NO_EVENT));
+        assert_true(over && (amplitude > 0.0 ? method == KNURL_METHOD_S1 || event > at_change : event == KNURL_NO_EVENT));
         knurl_scene_destroy(scene);
     }
 }
 
 TEST(a_change_of_material_waits_for_the_events_end) {
     for (int given = 0; given < 2; given++) {
-        change_in_an_event(KNURL_LOCKED, FS, 0.3 * A, given);
-        change_in_an_event(KNURL_LOCKED, 0.7 * FS, A, given);
-        change_in_an_event(KNURL_LOCKED, 1.9 * FS, 0.5 * A, given);
-        change_in_an_event(KNURL_S2, FS, A, given);
-        change_in_an_event(KNURL_S1, FS, A, given);
-        change_in_an_event(KNURL_LOCKED, 0.0, 0.0, given); /* smooth */
+        change_in_an_event(KNURL_METHOD_LOCKED, FS, 0.3 * A, given);
+        change_in_an_event(KNURL_METHOD_LOCKED, 0.7 * FS, A, given);
+        change_in_an_event(KNURL_METHOD_LOCKED, 1.9 * FS, 0.5 * A, given);
+        change_in_an_event(KNURL_METHOD_S2, FS, A, given);
+        change_in_an_event(KNURL_METHOD_S1, FS, A, given);
+        change_in_an_event(KNURL_METHOD_LOCKED, 0.0, 0.0, given); /* smooth */
     }
 }
 
@@ -200,8 +200,8 @@ TEST(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it) {
     static const double x[3] = {1.0, 0.0, 0.0};
     static const double up[3] = {0.0, 0.0, 1.0};
     shape curved = curved_sheet();
-    surface_parts plane = grating_on(NULL, KNURL_LOCKED);
-    surface_parts mesh = grating_on(&curved, KNURL_LOCKED);
+    surface_parts plane = grating_on(NULL, KNURL_METHOD_LOCKED);
+    surface_parts mesh = grating_on(&curved, KNURL_METHOD_LOCKED);
     check_flicker(&plane, x, up, 1.0, 1);
     check_flicker(&plane, x, up, 1.0, 7);
     check_flicker(&mesh, x, up, 1.0, 1);
@@ -213,7 +213,7 @@ TEST(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it) {
 TEST(at_rest_on_an_edge_of_a_turned_plane_as_well) {
     const double x[3] = {sqrt(1.0 / 3.0), sqrt(1.0 / 3.0), sqrt(1.0 / 3.0)};
     const double normal[3] = {-sqrt(0.5), 0.0, sqrt(0.5)};
-    surface_parts plane = grating_on(NULL, KNURL_LOCKED);
+    surface_parts plane = grating_on(NULL, KNURL_METHOD_LOCKED);
     double rotation[9];
     double y[3];
     cross3(normal, x, y);
@@ -243,7 +243,7 @@ TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
         s.uvs[2 * v] = at + 2.0f * fmaxf(-0.01f, fminf(0.01f, at));
         s.uvs[2 * v + 1] = s.positions[3 * v + 1];
     }
-    surface_parts dense = grating_on(&s, KNURL_LOCKED);
+    surface_parts dense = grating_on(&s, KNURL_METHOD_LOCKED);
     check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 1);
     check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 7);
     shape_free(&s);
@@ -253,7 +253,7 @@ TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
 TEST(slowly_from_an_encoder_each_edge_toggles_once) {
     shape curved = curved_sheet();
     for (int i = 0; i < 2; i++) {
-        surface_parts parts = grating_on(i ? &curved : NULL, KNURL_LOCKED);
+        surface_parts parts = grating_on(i ? &curved : NULL, KNURL_METHOD_LOCKED);
         knurl_scene *scene = scene_of(&parts);
         double last = 0.0;
         int toggles = 0;
@@ -278,7 +278,7 @@ TEST(slowly_from_an_encoder_each_edge_toggles_once) {
  */
 TEST(on_a_mesh_with_tangents_alone_the_way_is_counted) {
     shape curved = curved_sheet();
-    surface_parts parts = grating_on(&curved, KNURL_LOCKED);
+    surface_parts parts = grating_on(&curved, KNURL_METHOD_LOCKED);
     float *tangents = calloc(4 * (size_t)curved.vertex_count, sizeof *tangents);
     assert_non_null(tangents);
     for (uint32_t v = 0; v < curved.vertex_count; v++) {
@@ -316,7 +316,7 @@ TEST(on_a_mesh_with_tangents_alone_the_way_is_counted) {
 TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
     static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
     for (int fast = 0; fast < 2; fast++) {
-        surface_parts parts = grating_on(NULL, KNURL_LOCKED);
+        surface_parts parts = grating_on(NULL, KNURL_METHOD_LOCKED);
         knurl_scene *scene = scene_of(&parts);
         const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
         const double way[3] = {fast ? 0.025 : 0.005, 0.0, 0.0};

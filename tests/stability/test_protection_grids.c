@@ -10,7 +10,7 @@
 #define CALM 0.0005
 
 static const char *const grips[] = {"loose", "light", "medium", "firm"};
-static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA}; /* first: flat */
+static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA}; /* first: flat */
 
 typedef struct counts {
     int cells, runaways, stopped, calm, changed, shaky, shaky_changed;

@@ -53,8 +53,8 @@ TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL
 static const char *const devices[] = {"preset=touch", "preset=falcon"};
 static const double most[] = {1020.0, 3000.0}; /* N/m: what their makers promise */
 static const char *const grips[] = {"loose", "light", "medium", "firm"};
-static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_S1, KNURL_S2, KNURL_LOCKED,
-                                  KNURL_AREA}; /* the first: a flat wall */
+static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED,
+                                  KNURL_METHOD_AREA}; /* the first: a flat wall */
 static const double speeds[] = {0.01, 0.05, 0.1, 0.3};
 
 /* Runs raw, and where that is calm with the controller: the same forces. Returns 1 where it was calm. */

@@ -25,7 +25,7 @@ static inline area_walk area_on(double fsx, double fsy, double rate) {
     w.grating.spatial_frequency[1] = fsy;
     w.grating.amplitude = A;
     w.grating.update_rate_hz = rate;
-    w.grating.method = KNURL_AREA;
+    w.grating.method = KNURL_METHOD_AREA;
     assert_int_equal(knurl_grating_check(&w.grating), KNURL_OK);
     return w;
 }

@@ -50,10 +50,10 @@ static const gd_property properties[] = {
 
 static const gd_constant_row constants[] = {
     {"Method", "METHOD_DEFAULT", KNURL_METHOD_DEFAULT},
-    {"Method", "METHOD_S1", KNURL_S1},
-    {"Method", "METHOD_S2", KNURL_S2},
-    {"Method", "METHOD_LOCKED", KNURL_LOCKED},
-    {"Method", "METHOD_AREA", KNURL_AREA},
+    {"Method", "METHOD_S1", KNURL_METHOD_S1},
+    {"Method", "METHOD_S2", KNURL_METHOD_S2},
+    {"Method", "METHOD_LOCKED", KNURL_METHOD_LOCKED},
+    {"Method", "METHOD_AREA", KNURL_METHOD_AREA},
 };
 
 const gd_class grating_class = {

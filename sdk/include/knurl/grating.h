@@ -17,7 +17,7 @@ extern "C" {
  * - LOCKED: above a crossover frequency, balanced events whose lengths keep step with the surface; below it, the height
  *   at the position.
  * - AREA: the mean height over the distance moved since the last tick; near f_h/2 LOCKED's events. */
-enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3, KNURL_AREA = 4 };
+enum { KNURL_METHOD_DEFAULT = 0, KNURL_METHOD_S1 = 1, KNURL_METHOD_S2 = 2, KNURL_METHOD_LOCKED = 3, KNURL_METHOD_AREA = 4 };
 
 /** No event is being played: S1 always, S2 while idle, LOCKED below its crossover, AREA before its first ridge. */
 #define KNURL_NO_EVENT (-1)
@@ -35,7 +35,7 @@ enum { KNURL_METHOD_DEFAULT = 0, KNURL_S1 = 1, KNURL_S2 = 2, KNURL_LOCKED = 3, K
 
 /** A grating's parameters; filled in by the caller, constant while it is played. */
 typedef struct knurl_grating {
-    int32_t method;              /**< KNURL_S1, KNURL_S2, KNURL_LOCKED or KNURL_AREA */
+    int32_t method;              /**< KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED or KNURL_METHOD_AREA */
     uint32_t reserved[3];        /**< 0 */
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
@@ -78,7 +78,7 @@ typedef struct knurl_grating_output {
     uint64_t reserved;         /**< 0 */
 } knurl_grating_output;
 
-/** Checks a grating's parameters, so that knurl_grating_step() need not. Replaces KNURL_METHOD_DEFAULT by KNURL_LOCKED.
+/** Checks a grating's parameters, so that knurl_grating_step() need not. Replaces KNURL_METHOD_DEFAULT by KNURL_METHOD_LOCKED.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
 

@@ -14,7 +14,7 @@
 static const struct {
     int32_t method;
     const char *name;
-} methods[] = {{KNURL_S1, "S1"}, {KNURL_S2, "S2"}, {KNURL_LOCKED, "locked"}, {KNURL_AREA, "area"}};
+} methods[] = {{KNURL_METHOD_S1, "S1"}, {KNURL_METHOD_S2, "S2"}, {KNURL_METHOD_LOCKED, "locked"}, {KNURL_METHOD_AREA, "area"}};
 
 const char *knurl_method_name(int32_t method) {
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -68,12 +68,12 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "crossover: expected 0 or a finite number >= 1 (Hz), found %g Hz",
                           grating->crossover_hz);
     }
-    if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_AREA) {
+    if (grating->method < KNURL_METHOD_DEFAULT || grating->method > KNURL_METHOD_AREA) {
         return knurl_fail(KNURL_ERROR_UNKNOWN,
-                          "method: expected KNURL_S1, KNURL_S2, KNURL_LOCKED or KNURL_AREA, found %d",
+                          "method: expected KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED or KNURL_METHOD_AREA, found %d",
                           (int)grating->method);
     }
-    grating->method = grating->method == KNURL_METHOD_DEFAULT ? KNURL_LOCKED : grating->method;
+    grating->method = grating->method == KNURL_METHOD_DEFAULT ? KNURL_METHOD_LOCKED : grating->method;
     return KNURL_OK;
 }
 
@@ -122,7 +122,7 @@ double knurl_grating_mixed_height(const knurl_grating_state *state) {
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
     knurl_grating_input input = {{0.0, 0.0}, {0.0, 0.0}, position != NULL};
-    if (KNURL_UNLIKELY(!grating || !state || !velocity || !output || (!position && grating->method == KNURL_S1))) {
+    if (KNURL_UNLIKELY(!grating || !state || !velocity || !output || (!position && grating->method == KNURL_METHOD_S1))) {
         return;
     }
     for (int i = 0; i < 2; i++) {

@@ -66,7 +66,7 @@ static inline void knurl_grating_follow(const knurl_grating *grating, knurl_grat
     knurl_grating_copy(grating, &g);
     out.event = output->event;
     out.saturated = output->saturated;
-    if (g.method == KNURL_LOCKED) {
+    if (g.method == KNURL_METHOD_LOCKED) {
         output->height = knurl_locked_step(&g, state, position, velocity, frequency, &out);
         output->event = out.event;
     } else {
@@ -95,17 +95,17 @@ static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating
     output->event = KNURL_NO_EVENT;
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
     output->reserved = 0;
-    if (grating->method >= KNURL_LOCKED) { /* or AREA */
+    if (grating->method >= KNURL_METHOD_LOCKED) { /* or AREA */
         knurl_grating_follow(grating, state, input, output);
     } else if (state->playing ||
-               (grating->method == KNURL_S2 && knurl_grating_begins_s2(grating, state, speed2, frequency))) {
+               (grating->method == KNURL_METHOD_S2 && knurl_grating_begins_s2(grating, state, speed2, frequency))) {
         output->height = state->event.kind == KNURL_EVENT_MIXED /* also one that another method began */
                              ? knurl_grating_mixed_height(state)
                              : knurl_vibration_event_level(&state->event, state->next_tick);
         output->event = state->event_count - 1;
         state->next_tick++;
         state->playing = state->next_tick < state->event.length;
-    } else if (grating->method == KNURL_S1) {
+    } else if (grating->method == KNURL_METHOD_S1) {
         const double position[2] = {input->position[0], input->position[1]};
         const double fs[2] = {grating->spatial_frequency[0], grating->spatial_frequency[1]};
         output->height = knurl_grating_s1(position, fs, grating->amplitude);

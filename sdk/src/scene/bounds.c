@@ -24,11 +24,11 @@ double knurl_bounds_stiffness(const knurl_bounds *bounds, double damping) {
 
 double knurl_swing(int32_t method) {
     switch (method) {
-    case KNURL_S1:
+    case KNURL_METHOD_S1:
         return 2.0; /* +A, -A */
-    case KNURL_LOCKED:
+    case KNURL_METHOD_LOCKED:
         return 2.41421356237309505; /* +A of an even event, -sqrt(2) A at 3 ticks */
-    case KNURL_AREA:
+    case KNURL_METHOD_AREA:
         return 3.14159265358979324; /* 1/sinc(1/2) either way */
     default:
         return 2.87444560869411535; /* the mix: (2 + 3 sqrt(1/2))/sqrt(13) and -(2 + 3 sqrt(2))/sqrt(13) */

@@ -85,7 +85,7 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     const knurl_material_desc *m = on->material;
     const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
     knurl_shape_facts facts;
-    if (m->method == KNURL_S2 || has_axis) { /* S2 counts metres */
+    if (m->method == KNURL_METHOD_S2 || has_axis) { /* S2 counts metres */
         return;
     }
     knurl_shape_get_facts(&surface->shape, &facts);

@@ -6,7 +6,7 @@
 /* How far the crests of each method stand above the surface, in amplitudes: S1 and LOCKED (T3's events without the mix)
  * never leave A; S2's 400 Hz mix reaches (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"); AREA 1/sinc(1/2). */
 static double crest(int32_t method) {
-    return method == KNURL_S2 ? 1.1431 : method == KNURL_AREA ? 1.57079632679489662 : 1.0;
+    return method == KNURL_METHOD_S2 ? 1.1431 : method == KNURL_METHOD_AREA ? 1.57079632679489662 : 1.0;
 }
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
@@ -49,7 +49,7 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (m.method == KNURL_S1 && !smooth && !has_coordinates) {
+    if (m.method == KNURL_METHOD_S1 && !smooth && !has_coordinates) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
     }

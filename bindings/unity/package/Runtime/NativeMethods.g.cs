@@ -635,7 +635,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "6225821655fb4324";
+        internal const string Interface = "0c73e23fbb23b22b";
 
         internal const string Version = "0.3.0";
 
@@ -723,17 +723,17 @@ namespace Knurl
         internal const int KNURL_ERROR_SYSTEM = -11;
         internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
         internal const int KNURL_ERROR_CANCELLED = -13;
-        internal const int KNURL_T1 = 1;
-        internal const int KNURL_T2 = 2;
-        internal const int KNURL_T3 = 3;
+        internal const int KNURL_WAVE_T1 = 17;
+        internal const int KNURL_WAVE_T2 = 18;
+        internal const int KNURL_WAVE_T3 = 19;
         internal const int KNURL_EVENT_EVEN = 0;
         internal const int KNURL_EVENT_ODD = 1;
         internal const int KNURL_EVENT_MIXED = 2;
         internal const int KNURL_METHOD_DEFAULT = 0;
-        internal const int KNURL_S1 = 1;
-        internal const int KNURL_S2 = 2;
-        internal const int KNURL_LOCKED = 3;
-        internal const int KNURL_AREA = 4;
+        internal const int KNURL_METHOD_S1 = 1;
+        internal const int KNURL_METHOD_S2 = 2;
+        internal const int KNURL_METHOD_LOCKED = 3;
+        internal const int KNURL_METHOD_AREA = 4;
         internal const int KNURL_VELOCITY_AUTO = 0;
         internal const int KNURL_VELOCITY_DIFFERENCE = 1;
         internal const int KNURL_VELOCITY_FOAW = 2;
