@@ -8,13 +8,14 @@
 
 #define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0, 0}
 #define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1, 0}
-#define HIPS(name, shape, triangles, hips) {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, hips, BENCH_WARM, 0, 0}
+#define HIPS(name, shape, triangles, hips)                                                                             \
+    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, hips, BENCH_WARM, 0, 0}
 #define PACED(name, shape, triangles, pace, thrashes)                                                                  \
     {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, 1, pace, 0, thrashes}
 #define MESH(name, triangles)                                                                                          \
-    WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, triangles),                                                       \
-        WARM(name "_locked", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_LOCKED, triangles),                                     \
-        WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_METHOD_S2, triangles),                                           \
+    WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, triangles),                                                \
+        WARM(name "_bandlimited", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, triangles),                    \
+        WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_METHOD_S2, triangles),                                    \
         WARM(name "_friction", BENCH_MESH, BENCH_FRICTIONAL, KNURL_METHOD_S2, triangles)
 
 /* Names stay from release to release: what a name times does not change. Without a suffix: S2, the velocity given. */
@@ -23,17 +24,16 @@ const bench_case bench_cases[] = {
     FOAW("motion_foaw", BENCH_FOAW, 0, 0, 0),
     WARM("grating_S1", BENCH_GRATING, 0, KNURL_METHOD_S1, 0),
     WARM("grating_S2", BENCH_GRATING, 0, KNURL_METHOD_S2, 0),
-    WARM("grating_locked", BENCH_GRATING, 0, KNURL_METHOD_LOCKED, 0),
-    WARM("grating_area", BENCH_GRATING, 0, KNURL_METHOD_AREA, 0),
+    WARM("grating_bandlimited", BENCH_GRATING, 0, KNURL_METHOD_BANDLIMITED, 0),
     WARM("plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
-    WARM("plane_locked", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_LOCKED, 0),
-    FOAW("plane_foaw", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_LOCKED, 0),
+    WARM("plane_bandlimited", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 0),
+    FOAW("plane_foaw", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 0),
     WARM("plane_smooth", BENCH_PLANE, BENCH_SMOOTH, KNURL_METHOD_S2, 0),
     WARM("plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, KNURL_METHOD_S2, 0),
     MESH("mesh_1k", 1000),
     MESH("mesh_10k", 10000),
     MESH("mesh_100k", 100000),
-    FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_LOCKED, 100000),
+    FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 100000),
     MESH("mesh_1m", 1000000),
     WARM("mesh_10m", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, 10000000),
     WARM("surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, KNURL_METHOD_S2, 0),

@@ -140,7 +140,7 @@ static void fill_structs(fixture *f) {
     w->device_functions.write = write_none;
     w->grating.spatial_frequency[0] = 1000.0;
     w->grating.update_rate_hz = 1000.0;
-    w->grating.method = KNURL_METHOD_LOCKED;
+    w->grating.method = KNURL_METHOD_BANDLIMITED;
     w->session_desc.device = "fake";
     knurl_workspace_init(&w->workspace);
     NEED_OK(knurl_vibration_event_init(5.0, 1e-4, &w->vibration_event));

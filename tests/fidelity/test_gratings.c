@@ -157,7 +157,7 @@ TEST(s2_freezes_for_the_event_of_its_first_tick) {
     /* 1 mm/s on 2 mm: 2 s; the hand then runs at 250 mm/s and crosses 125 cycles/s that are not played */
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         const size_t ticks = (size_t)(2.5 * rates[i]);
-        const knurl_grating grating = {KNURL_METHOD_S2, {0}, {500.0, 0.0}, 1.0, rates[i], 0.0, 0.0};
+        const knurl_grating grating = {KNURL_METHOD_S2, {0}, {500.0, 0.0}, 1.0, rates[i], 0.0};
         study_motion *motion = calloc(ticks, sizeof *motion);
         study_scan scan;
         assert_non_null(motion);

@@ -69,8 +69,8 @@ TEST(bench_reads_what_the_appendix_says) {
     study_signal first = {0};
     for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
         study_signal measured = bench_signal(method, 3.0, 1.0);
-        assert_true(study_dominant(&measured, &lines[method - 1]));
-        nets[method - 1] = study_net(&measured);
+        assert_true(study_dominant(&measured, &lines[method - KNURL_WAVE_T1]));
+        nets[method - KNURL_WAVE_T1] = study_net(&measured);
         if (method == KNURL_WAVE_T3) {
             pcc = study_pcc(&first, &measured);
         }

@@ -337,8 +337,8 @@ TEST(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event) {
 }
 
 TEST(default_method_is_resolved_to_locked) {
-    assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_LOCKED);
-    assert_int_equal(make_grating(KNURL_METHOD_LOCKED, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_LOCKED);
+    assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_BANDLIMITED);
+    assert_int_equal(make_grating(KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_BANDLIMITED);
     assert_int_equal(make_grating(KNURL_METHOD_S1, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_S1);
     assert_int_equal(make_grating(KNURL_METHOD_S2, 0.0, 0.0, 0.0, 1.0).method, KNURL_METHOD_S2);
     assert_int_equal(make_grating(KNURL_METHOD_S2, 1.0, 0.0, 0.0, 100000.0).method, KNURL_METHOD_S2);
@@ -355,15 +355,11 @@ TEST(unknown_methods_are_refused_with_a_sentence) {
 }
 
 TEST(bad_gratings_are_refused_and_left_as_they_were) {
-    static const double bad[][6] = {/* fsx, fsy, amplitude, rate, resolution, crossover */
+    static const double bad[][5] = {/* fsx, fsy, amplitude, rate, resolution */
                                     {-1.0, 0.0, 1.0, 1000.0},
-                                    {1.0, 0.0, 1.0, 1000.0, -1e-9, 0.0},
-                                    {1.0, 0.0, 1.0, 1000.0, (double)NAN, 0.0},
-                                    {1.0, 0.0, 1.0, 1000.0, (double)INFINITY, 0.0},
-                                    {1.0, 0.0, 1.0, 1000.0, 0.0, -1.0},
-                                    {1.0, 0.0, 1.0, 1000.0, 0.0, 0.99},
-                                    {1.0, 0.0, 1.0, 1000.0, 0.0, (double)NAN},
-                                    {1.0, 0.0, 1.0, 1000.0, 0.0, (double)INFINITY},
+                                    {1.0, 0.0, 1.0, 1000.0, -1e-9},
+                                    {1.0, 0.0, 1.0, 1000.0, (double)NAN},
+                                    {1.0, 0.0, 1.0, 1000.0, (double)INFINITY},
                                     {0.0, -1.0, 1.0, 1000.0},
                                     {(double)NAN, 0.0, 1.0, 1000.0},
                                     {0.0, (double)INFINITY, 1.0, 1000.0},
@@ -374,15 +370,14 @@ TEST(bad_gratings_are_refused_and_left_as_they_were) {
                                     {1.0, 1.0, 1.0, 1e9},
                                     {1.0, 1.0, 1.0, (double)NAN}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        knurl_grating grating = {
-            KNURL_METHOD_DEFAULT, {0}, {bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], bad[i][4], bad[i][5]};
+        knurl_grating grating = {KNURL_METHOD_DEFAULT, {0}, {bad[i][0], bad[i][1]}, bad[i][2], bad[i][3], bad[i][4]};
         CHECK_REFUSED(knurl_grating_check(&grating), KNURL_ERROR_ARGUMENT, grating);
     }
 }
 
 TEST(names_of_methods_go_both_ways) {
-    static const char *const names[] = {"S1", "S2", "locked", "area"};
-    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA};
+    static const char *const names[] = {"S1", "S2", "bandlimited"};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     int32_t method = 77;
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         assert_string_equal(knurl_method_name(methods[i]), names[i]);
@@ -391,16 +386,16 @@ TEST(names_of_methods_go_both_ways) {
     }
     assert_null(knurl_method_name(KNURL_METHOD_DEFAULT));
     assert_null(knurl_method_name(-1));
-    assert_null(knurl_method_name(5));
+    assert_null(knurl_method_name(4));
 }
 
 TEST(unknown_names_are_refused_with_the_known_ones) {
-    static const char *const names[] = {"", "s2", "S3", "S22", "S", "lock", "Locked"};
+    static const char *const names[] = {"", "s2", "S3", "S22", "S", "band", "Bandlimited"};
     int32_t method = 77;
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         CHECK_REFUSED(knurl_method_from_name(names[i], &method), KNURL_ERROR_UNKNOWN, method);
         assert_non_null(strstr(knurl_error_message(), "S1"));
         assert_non_null(strstr(knurl_error_message(), "S2"));
-        assert_non_null(strstr(knurl_error_message(), "locked"));
+        assert_non_null(strstr(knurl_error_message(), "bandlimited"));
     }
 }

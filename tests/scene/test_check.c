@@ -105,12 +105,11 @@ TEST(a_workspace_that_magnifies_makes_walls_stiffer) {
     assert_int_equal(check.exceeded, KNURL_LIMIT_STABILITY | KNURL_LIMIT_STIFFNESS);
 }
 
-/* Peaks: S1 2, locked 1 + sqrt 2, area 2/sinc(1/2), S2 (2 + 3 sqrt(1/2) + 2 + 3 sqrt 2)/sqrt 13. */
+/* Peaks: S1 2, bandlimited 8/pi, S2 (2 + 3 sqrt(1/2) + 2 + 3 sqrt 2)/sqrt 13. */
 TEST(amplitude_is_held_against_the_methods_highest_swing) {
     const double swings[][2] = {{KNURL_METHOD_S1, 2.0},
                                 {KNURL_METHOD_S2, (4.0 + 3.0 * (sqrt(0.5) + sqrt(2.0))) / sqrt(13.0)},
-                                {KNURL_METHOD_LOCKED, 1.0 + sqrt(2.0)},
-                                {KNURL_METHOD_AREA, 3.14159265358979324}};
+                                {KNURL_METHOD_BANDLIMITED, 8.0 / 3.14159265358979324}};
     for (size_t i = 0; i < COUNT_OF(swings); i++) {
         setting s = plain();
         s.parts.material.stiffness = 1000.0;

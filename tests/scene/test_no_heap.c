@@ -332,8 +332,8 @@ TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
 
 TEST(estimators_and_gratings_ask_for_nothing) {
     knurl_velocity velocities[3];
-    knurl_grating gratings[2] = {{KNURL_METHOD_S1, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0},
-                                 {KNURL_METHOD_S2, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0}};
+    knurl_grating gratings[2] = {{KNURL_METHOD_S1, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0},
+                                 {KNURL_METHOD_S2, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0}};
     knurl_grating_state states[2];
     memset(states, 0, sizeof states);
     assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, 0.055e-3, 1000.0, &velocities[0]), KNURL_OK);

@@ -61,7 +61,7 @@ TEST(s1_follows_equations_9_and_11_at_points) {
 }
 
 TEST(cycles_tell_where_on_the_grating) {
-    surface_parts parts = grating_plane(KNURL_METHOD_LOCKED, 1000.0, 500.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_BANDLIMITED, 1000.0, 500.0);
     knurl_scene *scene = scene_of(&parts);
     knurl_tick_output out = tick_at(scene, 0.0123, -0.004, -0.001);
     CHECK_CLOSE(out.cycles[0], 12.3, 1e-12L);

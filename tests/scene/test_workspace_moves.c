@@ -263,7 +263,7 @@ static knurl_scene *stiff_wall(double scale) {
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.workspace = &workspace;
     desc.clamp = 1;
-    set_grating(&parts, KNURL_METHOD_LOCKED, 1000.0, 0.0, 0.0002);
+    set_grating(&parts, KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, 0.0002);
     parts.material.stiffness = 5000.0;
     knurl_scene *scene = scene_of(&parts);
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);

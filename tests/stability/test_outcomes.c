@@ -91,7 +91,7 @@ TEST(the_reference_swings_as_a_spring_that_is_never_held) {
 }
 
 TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
-    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_LOCKED, KNURL_METHOD_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         lab_case c;
         lab_case_init(&c);

@@ -55,7 +55,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
     knurl_grating_input at = {{coordinates[0], coordinates[1]}, {out->velocity[0], out->velocity[1]}, 1};
     double steepest = 1.0;
-    if (m->method >= KNURL_METHOD_LOCKED) { /* or AREA; without a position they add up the velocity */
+    if (knurl_methods[m->method].follows_position) { /* without coordinates, by the sum of the velocity */
         double rates[2] = {at.velocity[0], at.velocity[1]}, most = 1.0;
         at.has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &most);
         at.velocity[0] = rates[0];

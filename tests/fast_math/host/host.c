@@ -223,8 +223,8 @@ int main(void) {
     give_bad_input();
     int failed = 0;
     for (int is_sheet = 0; is_sheet < 2; is_sheet++) {
-        failed |= stroke(KNURL_METHOD_S1, is_sheet) | stroke(KNURL_METHOD_S2, is_sheet) | stroke(KNURL_METHOD_LOCKED, is_sheet) |
-                  stroke(KNURL_METHOD_AREA, is_sheet);
+        failed |= stroke(KNURL_METHOD_S1, is_sheet) | stroke(KNURL_METHOD_S2, is_sheet) |
+                  stroke(KNURL_METHOD_BANDLIMITED, is_sheet);
     }
     return failed;
 }
