@@ -7,8 +7,8 @@
 
 #include <knurl/grating.h>
 
-#define BAND_CREST 1.27324      /* A: 4/pi, its highest height */
-#define BAND_EXACT 8e-8L        /* A: a cosine to 7e-9, 4/pi (1 + 3 + 5) times by the harmonics */
+#define BAND_CREST 1.27325      /* A: 4/pi, its highest height */
+#define BAND_EXACT 1.2e-5L      /* A: a cosine to 1.3e-6, by the harmonics up to 1 + 3 + 5 times */
 #define BAND_MEAN  (2.0 / 4000) /* A: how exact 4000 samples of a mean are */
 
 /** 0 at from, 1 at to: 3 u^2 - 2 u^3. */

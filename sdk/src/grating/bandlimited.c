@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: MIT */
 #include "grating/bandlimited.h"
 
-#include "base/finite.h"
+#include "base/base.h"
 #include "grating/phase.h"
 
 #include <math.h>
@@ -30,35 +30,34 @@
 /* On a grid: the other axis takes over if it crosses this many times as many ridges. */
 #define TAKE_OVER 1.1
 
-/* cos(2 pi phase) to 7e-9: sin(2 pi t) by the odd polynomial through Chebyshev's points of [-1/4, 1/4]. libm's differs
- * from library to library. */
-static double cosine(double phase) {
+/* cos(2 pi phase) to 1.3e-6: sin(2 pi t) by the odd polynomial through Chebyshev's points of [-1/4, 1/4]. libm's
+ * differs from library to library. */
+static inline double cosine(double phase) {
     const double t = 0.25 - fabs(phase - knurl_nearest_cycle(phase));
     const double x = t * t;
-    const double low = 6.283185280154406 - 41.34168061334649 * x;
-    const double high = 81.60247636892437 + x * (39.759827085616394 * x - 76.58117264428655);
-    return t * (low + x * x * high);
+    return t * ((6.283180513495809 - 41.33924613089626 * x) + x * x * (81.40800691799149 - 71.60768010669648 * x));
 }
 
 /* 0 at from, 1 at to, with no corner at either. */
 static double fade(double x, double from, double to) {
-    const double u = (x - from) / (to - from);
+    const double u = (x - from) * (1.0 / (to - from));
     const double z = u > 0.0 ? u < 1.0 ? u : 1.0 : 0.0;
     return z * z * (3.0 - 2.0 * z);
 }
 
-/* The first, third and fifth harmonic, in A; by cos 3a = c (4 c^2 - 3) and cos 5a = c (16 c^4 - 20 c^2 + 5). */
-static double harmonics(double phase, double d) {
+/* The first, third and fifth harmonic: with c = cos a, cos 3a = c (4 c^2 - 3) and cos 5a = c (16 c^4 - 20 c^2 + 5).
+ * Sorted by powers of c, so that what depends on d alone is ready before c is. */
+static inline double harmonics(double amplitude, double phase, double d) {
+    const double first = FUNDAMENTAL * amplitude;
     const double c = cosine(phase);
-    double sum = c;
-    if (3.0 * d < FADE_UNTIL) {
-        const double x = c * c;
-        const double third = c * (4.0 * x - 3.0);
-        const double fifth = c * (x * (16.0 * x - 20.0) + 5.0);
-        sum -= fade(3.0 * d, FADE_UNTIL, FADE_FROM) * (1.0 / 3.0) * third;
-        sum += fade(5.0 * d, FADE_UNTIL, FADE_FROM) * (1.0 / 5.0) * fifth;
+    if (3.0 * d >= FADE_UNTIL) {
+        return first * c;
     }
-    return FUNDAMENTAL * sum;
+    const double third = first * fade(3.0 * d, FADE_UNTIL, FADE_FROM);
+    const double fifth = first * fade(5.0 * d, FADE_UNTIL, FADE_FROM);
+    const double of_3 = -4.0 / 3.0 * third - 4.0 * fifth;
+    const double x = c * c;
+    return c * ((first + third + fifth) + x * (of_3 + x * (16.0 / 5.0 * fifth)));
 }
 
 /* The integral of the square wave: a triangle, by how far the phase is from the middle of a trough or a crest. */
@@ -78,12 +77,6 @@ static double mean(double from, double to) {
     return height > 1.0 ? 1.0 : height > -1.0 ? height : -1.0;
 }
 
-/* m, moved in one tick; 0 if the velocity is not finite. */
-static double distance(double velocity, double rate) {
-    const double moved = velocity / rate;
-    return fabs(moved) < FARTHEST ? moved : 0.0;
-}
-
 /* Moves a tracked position by one tick's velocity, and no farther from the measured one than half a count, which is
  * where the true one is. So it is smooth in steady motion, never late and never more than half a count off, and it
  * stands still if an encoder flickers between two counts, because FOAW's velocity is 0 there. A second-order observer
@@ -94,6 +87,26 @@ static double track(double tracked, double moved, double measured, double count)
     const double low = measured - 0.5 * count;
     const double high = measured + 0.5 * count;
     return at > low ? at < high ? at : high : low;
+}
+
+/* The distance of one tick, m. */
+static double distance(double speed, double period) {
+    const double moved = speed * period;
+    return fabs(moved) < FARTHEST ? moved : 0.0;
+}
+
+/* Moves the position on by one tick. */
+static inline void follow(const knurl_grating *g, knurl_grating_state *s, knurl_along position, knurl_along velocity,
+                          double period, int32_t has_position) {
+    double *tracked = s->tracked;
+    if (has_position && (g->resolution == 0.0 || s->direction == 0)) {
+        tracked[0] = position.x;
+        tracked[1] = position.y;
+        return;
+    }
+    const double x = distance(velocity.x, period), y = distance(velocity.y, period);
+    tracked[0] = has_position ? track(tracked[0], x, position.x, g->resolution) : tracked[0] + x;
+    tracked[1] = has_position ? track(tracked[1], y, position.y, g->resolution) : tracked[1] + y;
 }
 
 /* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase goes on from where
@@ -112,40 +125,36 @@ static void choose_axis(const knurl_grating *g, knurl_grating_state *s, const do
     }
 }
 
-/* Moves on by one tick. Returns the phase before it; state->phase is the one after it. */
-static double move(const knurl_grating *g, knurl_grating_state *s, const knurl_grating_input *input) {
-    const double *fs = g->spatial_frequency;
-    choose_axis(g, s, input->velocity);
-    const double before = s->phase, speed = input->velocity[s->axis];
-    const int begins = s->direction == 0;
-    for (int i = 0; i < 2; i++) {
-        const double moved = distance(input->velocity[i], g->update_rate_hz);
-        const double measured = input->position[i];
-        s->tracked[i] = !input->has_position ? s->tracked[i] + moved
-                        : !begins            ? track(s->tracked[i], moved, measured, g->resolution)
-                                             : measured;
+double knurl_bandlimited_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                                knurl_along velocity, double period, int32_t has_position,
+                                knurl_grating_output *output) {
+    const double d = output->temporal_frequency * period;
+    const double *fs = grating->spatial_frequency;
+    int32_t axis = fs[0] > 0.0 ? 0 : 1;
+    if (KNURL_UNLIKELY(fs[0] > 0.0 && fs[1] > 0.0)) {
+        const double both[2] = {velocity.x, velocity.y};
+        choose_axis(grating, state, both);
+        axis = state->axis;
     }
-    s->phase = fs[s->axis] * s->tracked[s->axis] + s->offset;
-    s->direction = speed < 0.0 ? -1 : speed > 0.0 || begins ? 1 : s->direction;
-    return begins ? s->phase : before;
-}
-
-double knurl_bandlimited_height(const knurl_grating *grating, knurl_grating_state *state,
-                                const knurl_grating_input *input, knurl_grating_output *output) {
-    const double d = output->temporal_frequency / grating->update_rate_hz;
-    const double from = move(grating, state, input);
+    follow(grating, state, position, velocity, period, has_position);
+    const double speed = axis ? velocity.y : velocity.x;
+    const double phase = fs[axis] * state->tracked[axis] + state->offset;
+    const double from = state->direction == 0 ? phase : state->phase;
+    state->direction = speed < 0.0 ? -1 : speed > 0.0 || state->direction == 0 ? 1 : state->direction;
+    state->phase = phase;
+    const double amplitude = grating->amplitude;
     double height;
-    if (!(d < FADE_UNTIL)) {
-        height = state->sign > 0 ? -ALTERNATING : ALTERNATING;
-    } else if (d >= HARMONICS_FROM) {
-        height = harmonics(state->phase, d);
-    } else {
-        height = mean(from, state->phase);
-        if (d > MEAN_UNTIL) {
-            height += fade(d, MEAN_UNTIL, HARMONICS_FROM) * (harmonics(state->phase, d) - height);
+    if (d <= MEAN_UNTIL) {
+        height = amplitude * mean(from, phase);
+    } else if (d < FADE_UNTIL) {
+        height = harmonics(amplitude, phase, d);
+        if (d < HARMONICS_FROM) {
+            const double flat = amplitude * mean(from, phase);
+            height = flat + fade(d, MEAN_UNTIL, HARMONICS_FROM) * (height - flat);
         }
+    } else {
+        height = state->sign > 0 ? -ALTERNATING * amplitude : ALTERNATING * amplitude;
     }
-    height *= grating->amplitude;
     state->event_count += (height > 0.0) & (state->sign <= 0); /* no branch to mispredict */
     output->event = state->event_count - 1;
     return height;

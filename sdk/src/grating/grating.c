@@ -45,19 +45,19 @@ double knurl_grating_frequency(const double spatial_frequency[2], const double v
     if (!spatial_frequency || !velocity) {
         return 0.0;
     }
-    return knurl_grating_highest(spatial_frequency, velocity);
+    const knurl_along v = {velocity[0], velocity[1]};
+    return knurl_grating_highest(spatial_frequency, v);
 }
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
-    knurl_grating_input input = {{0.0, 0.0}, {0.0, 0.0}, position != NULL};
     if (KNURL_UNLIKELY(!grating || !state || !velocity || !output ||
                        (!position && grating->method == KNURL_METHOD_S1))) {
         return;
     }
-    for (int i = 0; i < 2; i++) {
-        input.position[i] = position ? position[i] : 0.0;
-        input.velocity[i] = velocity[i];
-    }
+    const knurl_grating_input input = {{position ? position[0] : 0.0, position ? position[1] : 0.0},
+                                       {velocity[0], velocity[1]},
+                                       1.0 / grating->update_rate_hz,
+                                       position != NULL};
     knurl_grating_run(grating, state, &input, output);
 }

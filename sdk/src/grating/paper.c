@@ -13,31 +13,34 @@ double knurl_grating_s1_line(double position, double spatial_frequency, double a
     return knurl_first_half(position * spatial_frequency) ? amplitude : -amplitude;
 }
 
+/* cos(2 pi p) is positive while p + 1/4 is in the first half of its cycle. */
+static double s1(double x, double y, const double spatial_frequency[2], double amplitude) {
+    const int along_x = knurl_first_half(x * spatial_frequency[0] + 0.25);
+    const int along_y = knurl_first_half(y * spatial_frequency[1] + 0.25);
+    return along_x == along_y ? amplitude : -amplitude;
+}
+
 double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
     if (!position || !spatial_frequency) {
         return 0.0;
     }
-    /* cos(2 pi p) is positive where p + 1/4 is in the first half of its cycle. */
-    const int x = knurl_first_half(position[0] * spatial_frequency[0] + 0.25);
-    const int y = knurl_first_half(position[1] * spatial_frequency[1] + 0.25);
-    return x == y ? amplitude : -amplitude;
+    return s1(position[0], position[1], spatial_frequency, amplitude);
 }
 
-double knurl_s1_height(const knurl_grating *grating, knurl_grating_state *state, const knurl_grating_input *input,
-                       knurl_grating_output *output) {
-    (void)state;
-    (void)output;
-    return knurl_grating_s1(input->position, grating->spatial_frequency, grating->amplitude);
+double knurl_s1_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                       knurl_along velocity, double period, int32_t has_position, knurl_grating_output *output) {
+    (void)state, (void)velocity, (void)period, (void)has_position, (void)output;
+    return s1(position.x, position.y, grating->spatial_frequency, grating->amplitude);
 }
 
 /* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */
-double knurl_s2_height(const knurl_grating *grating, knurl_grating_state *state, const knurl_grating_input *input,
-                       knurl_grating_output *output) {
-    const double *v = input->velocity;
+double knurl_s2_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                       knurl_along velocity, double period, int32_t has_position, knurl_grating_output *output) {
+    (void)position, (void)period, (void)has_position;
     const double ticks = grating->update_rate_hz / output->temporal_frequency; /* infinite across no ridge */
     const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
     state->moving = 0;
-    if (!(v[0] * v[0] + v[1] * v[1] >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+    if (!(velocity.x * velocity.x + velocity.y * velocity.y >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
         return 0.0;
     }
     state->moving = grating->resolution > 0.0;

@@ -8,9 +8,9 @@
 #include <math.h>
 
 /* How often ridges are crossed along x or along y, whichever is more often, Hz (Eq. 12). */
-static inline double knurl_grating_highest(const double spatial_frequency[2], const double velocity[2]) {
-    const double along_x = spatial_frequency[0] * fabs(velocity[0]);
-    const double along_y = spatial_frequency[1] * fabs(velocity[1]);
+static inline double knurl_grating_highest(const double spatial_frequency[2], knurl_along velocity) {
+    const double along_x = spatial_frequency[0] * fabs(velocity.x);
+    const double along_y = spatial_frequency[1] * fabs(velocity.y);
     return along_x > along_y ? along_x : along_y;
 }
 
@@ -24,16 +24,17 @@ static inline void knurl_grating_note_turn(knurl_grating_state *state, knurl_gra
 /* knurl_grating_step() without its checks. An event plays to its end, also one that another method began. */
 static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating_state *state,
                                      const knurl_grating_input *input, knurl_grating_output *output) {
-    const double *velocity = input->velocity;
-    const double speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-    const double frequency = knurl_grating_highest(grating->spatial_frequency, velocity);
+    const knurl_along v = input->velocity;
+    const double speed2 = v.x * v.x + v.y * v.y;
+    const double frequency = knurl_grating_highest(grating->spatial_frequency, v);
     output->spatial_frequency = speed2 > 0.0 ? frequency / sqrt(speed2) : 0.0;
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
     output->saturated = frequency > 0.5 * grating->update_rate_hz;
     output->reserved = 0;
     output->height = state->playing ? knurl_grating_play(state, output)
-                                    : knurl_methods[grating->method].height(grating, state, input, output);
+                                    : knurl_methods[grating->method].height(grating, state, input->position, v,
+                                                                            input->period, input->has_position, output);
     knurl_grating_note_turn(state, output);
 }
 
