@@ -55,15 +55,12 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     const knurl_along place = {coordinates[0], coordinates[1]};
     out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* no -0 where there are no ridges */
     out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
-    knurl_grating_input at = {place, velocity, hip->clock->period, 1};
-    double steepest = 1.0;
+    double rates[2] = {velocity.x, velocity.y}, steepest = 1.0;
+    int32_t has_position = 1;
     if (knurl_methods[m->method].follows_position) { /* without coordinates, by the sum of the velocity */
-        double rates[2] = {at.velocity.x, at.velocity.y}, most = 1.0;
-        at.has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &most);
-        at.velocity.x = rates[0];
-        at.velocity.y = rates[1];
-        steepest = most;
+        has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &steepest);
     }
+    const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
