@@ -60,7 +60,7 @@ typedef struct bench_case {
     const char *name;
     int shape;          /**< BENCH_FOAW to _WORST_PLANES */
     int finish;         /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
-    int32_t method;     /**< KNURL_S1, _S2, _LOCKED or _AREA */
+    int32_t method;     /**< KNURL_METHOD_ */
     uint32_t triangles; /**< BENCH_MESH: about as many; BENCH_CORNER: planes, 2 or 3 */
     uint32_t hips;      /**< HIPs that tick at once: the first is timed, the others are ticked in turn beside it */
     int pace;      /**< BENCH_WARM: as fast as they go; _PACED, _COLD: in a loop at 1 kHz, with and without dry ticks */

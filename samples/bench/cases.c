@@ -8,45 +8,45 @@
 
 #define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0, 0}
 #define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1, 0}
-#define HIPS(name, shape, triangles, hips) {name, shape, BENCH_TEXTURED, KNURL_S2, triangles, hips, BENCH_WARM, 0, 0}
+#define HIPS(name, shape, triangles, hips)                                                                             \
+    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, hips, BENCH_WARM, 0, 0}
 #define PACED(name, shape, triangles, pace, thrashes)                                                                  \
-    {name, shape, BENCH_TEXTURED, KNURL_S2, triangles, 1, pace, 0, thrashes}
+    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, 1, pace, 0, thrashes}
 #define MESH(name, triangles)                                                                                          \
-    WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_S2, triangles),                                                       \
-        WARM(name "_locked", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, triangles),                                     \
-        WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_S2, triangles),                                           \
-        WARM(name "_friction", BENCH_MESH, BENCH_FRICTIONAL, KNURL_S2, triangles)
+    WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, triangles),                                                \
+        WARM(name "_bandlimited", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, triangles),                    \
+        WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_METHOD_S2, triangles),                                    \
+        WARM(name "_friction", BENCH_MESH, BENCH_FRICTIONAL, KNURL_METHOD_S2, triangles)
 
 /* Names stay from release to release: what a name times does not change. Without a suffix: S2, the velocity given. */
 const bench_case bench_cases[] = {
-    WARM("empty", BENCH_EMPTY, 0, KNURL_S2, 0),
+    WARM("empty", BENCH_EMPTY, 0, KNURL_METHOD_S2, 0),
     FOAW("motion_foaw", BENCH_FOAW, 0, 0, 0),
-    WARM("grating_S1", BENCH_GRATING, 0, KNURL_S1, 0),
-    WARM("grating_S2", BENCH_GRATING, 0, KNURL_S2, 0),
-    WARM("grating_locked", BENCH_GRATING, 0, KNURL_LOCKED, 0),
-    WARM("grating_area", BENCH_GRATING, 0, KNURL_AREA, 0),
-    WARM("plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_S2, 0),
-    WARM("plane_locked", BENCH_PLANE, BENCH_TEXTURED, KNURL_LOCKED, 0),
-    FOAW("plane_foaw", BENCH_PLANE, BENCH_TEXTURED, KNURL_LOCKED, 0),
-    WARM("plane_smooth", BENCH_PLANE, BENCH_SMOOTH, KNURL_S2, 0),
-    WARM("plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, KNURL_S2, 0),
+    WARM("grating_S1", BENCH_GRATING, 0, KNURL_METHOD_S1, 0),
+    WARM("grating_S2", BENCH_GRATING, 0, KNURL_METHOD_S2, 0),
+    WARM("grating_bandlimited", BENCH_GRATING, 0, KNURL_METHOD_BANDLIMITED, 0),
+    WARM("plane", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
+    WARM("plane_bandlimited", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 0),
+    FOAW("plane_foaw", BENCH_PLANE, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 0),
+    WARM("plane_smooth", BENCH_PLANE, BENCH_SMOOTH, KNURL_METHOD_S2, 0),
+    WARM("plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, KNURL_METHOD_S2, 0),
     MESH("mesh_1k", 1000),
     MESH("mesh_10k", 10000),
     MESH("mesh_100k", 100000),
-    FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_LOCKED, 100000),
+    FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 100000),
     MESH("mesh_1m", 1000000),
-    WARM("mesh_10m", BENCH_MESH, BENCH_TEXTURED, KNURL_S2, 10000000),
-    WARM("surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
-    WARM("moving_1k", BENCH_MOVING_FIELD, BENCH_TEXTURED, KNURL_S2, 0),
-    WARM("crowded", BENCH_CROWD, BENCH_TEXTURED, KNURL_S2, 0),
-    WARM("corner_2_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_S2, 2),
-    WARM("corner_3_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_S2, 3),
-    WARM("moving", BENCH_MOVING, BENCH_TEXTURED, KNURL_S2, 0),
-    WARM("worst_reach_327k", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 327000),
-    WARM("worst_reach_2m", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_S1, 2000000),
-    WARM("worst_crowd", BENCH_WORST_CROWD, BENCH_TEXTURED, KNURL_S1, 20000),
-    WARM("worst_heap", BENCH_WORST_HEAP, BENCH_TEXTURED, KNURL_S1, 100000),
-    WARM("worst_planes", BENCH_WORST_PLANES, BENCH_TEXTURED, KNURL_S1, 0),
+    WARM("mesh_10m", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, 10000000),
+    WARM("surfaces_10k", BENCH_FIELD, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
+    WARM("moving_1k", BENCH_MOVING_FIELD, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
+    WARM("crowded", BENCH_CROWD, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
+    WARM("corner_2_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_METHOD_S2, 2),
+    WARM("corner_3_faces", BENCH_CORNER, BENCH_TEXTURED, KNURL_METHOD_S2, 3),
+    WARM("moving", BENCH_MOVING, BENCH_TEXTURED, KNURL_METHOD_S2, 0),
+    WARM("worst_reach_327k", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_METHOD_S1, 327000),
+    WARM("worst_reach_2m", BENCH_WORST_REACH, BENCH_TEXTURED, KNURL_METHOD_S1, 2000000),
+    WARM("worst_crowd", BENCH_WORST_CROWD, BENCH_TEXTURED, KNURL_METHOD_S1, 20000),
+    WARM("worst_heap", BENCH_WORST_HEAP, BENCH_TEXTURED, KNURL_METHOD_S1, 100000),
+    WARM("worst_planes", BENCH_WORST_PLANES, BENCH_TEXTURED, KNURL_METHOD_S1, 0),
     HIPS("two_hips", BENCH_MESH, 100000, 2),
     HIPS("eight_hips", BENCH_MESH, 100000, 8),
     HIPS("moving_1k_two_hips", BENCH_MOVING_FIELD, 0, 2), /* edits per second beside a HIP that always ticks */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 const char *wave_method_name(int32_t method) {
-    return method == KNURL_T1 ? "T1" : method == KNURL_T2 ? "T2" : "T3";
+    return method == KNURL_WAVE_T1 ? "T1" : method == KNURL_WAVE_T2 ? "T2" : "T3";
 }
 
 int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *out) {
@@ -27,7 +27,7 @@ int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *ou
         return tool_error(TOOL_USAGE, "%s: expected --method and --period-ms, found %s", argv[0],
                           method ? "no --period-ms" : "no --method");
     }
-    for (int32_t i = KNURL_T1; i <= KNURL_T3; i++) {
+    for (int32_t i = KNURL_WAVE_T1; i <= KNURL_WAVE_T3; i++) {
         id = strcmp(wave_method_name(i), method) == 0 ? i : id;
     }
     if (!id) {

@@ -11,7 +11,7 @@ typedef struct tool_wave {
     double period_s, amplitude, rate;
 } tool_wave;
 
-/* "T1", "T2" or "T3" for KNURL_T1 to KNURL_T3. */
+/* "T1", "T2" or "T3" for KNURL_WAVE_T1 to KNURL_WAVE_T3. */
 const char *wave_method_name(int32_t method);
 
 /* Reads --method, --period-ms, --amplitude, --rate and one option more. TOOL_OK or TOOL_USAGE. */

@@ -26,7 +26,7 @@ typedef struct help_command {
     const char *(*more)(void); /* or null: further details */
 } help_command;
 
-#define METHODS "S1|S2|locked|area"
+#define METHODS "S1|S2|bandlimited"
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}
 #define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}

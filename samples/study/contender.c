@@ -10,9 +10,13 @@
 #define PERIOD_M   0.001
 #define RESOLUTION 0.055e-3 /* the Touch's */
 
-const study_method study_methods[] = {
-    {"T1", KNURL_T1, 0, 0}, {"T2", KNURL_T2, 0, 0},         {"T3", KNURL_T3, 0, 0},     {"S1", KNURL_S1, 1, 0},
-    {"S2", KNURL_S2, 1, 1}, {"locked", KNURL_LOCKED, 1, 1}, {"area", KNURL_AREA, 1, 1}, {NULL, 0, 0, 0}};
+const study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
+                                      {"T2", KNURL_WAVE_T2, 0, 0},
+                                      {"T3", KNURL_WAVE_T3, 0, 0},
+                                      {"S1", KNURL_METHOD_S1, 1, 0},
+                                      {"S2", KNURL_METHOD_S2, 1, 1},
+                                      {"bandlimited", KNURL_METHOD_BANDLIMITED, 1, 1},
+                                      {NULL, 0, 0, 0}};
 
 static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
 
@@ -65,11 +69,11 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
 
 /* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
 static double cycles_of(study_rendering *r, const knurl_grating_output *output) {
-    if (study_plays_event(&r->grating, &r->state, output)) {
+    if (study_plays_event(&r->grating, output)) {
         const double cycles = r->state.event.kind == KNURL_EVENT_MIXED ? 2.4 : 1.0;
         return cycles / r->state.event.length;
     }
-    return r->grating.method != KNURL_S2 && output->turned ? 0.5 : 0.0;
+    return r->grating.method != KNURL_METHOD_S2 && output->turned ? 0.5 : 0.0;
 }
 
 double study_rendering_tick(study_rendering *r) {

@@ -13,7 +13,7 @@ enum { STUDY_IDEAL = 0, STUDY_DIFFERENCE = 1, STUDY_LOWPASS = 2, STUDY_FOAW = 3,
 
 typedef struct study_method {
     const char *name;
-    int32_t id;        /**< KNURL_T1 ... or KNURL_S1 ... */
+    int32_t id;        /**< KNURL_WAVE_T1 ... or KNURL_METHOD_S1 ... */
     int spatial;       /**< 1: scans a grating; 0: a temporal signal */
     int uses_velocity; /**< 1: there is one contender for each velocity estimate */
 } study_method;

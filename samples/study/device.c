@@ -38,7 +38,7 @@ static int measure_method(const bench_fixture *fixture, int method, device_row *
     study_signal command;
     study_line line;
     bench_reading reading;
-    if (knurl_wave_init(KNURL_T1 + method, row->period / BENCH_UPDATE_RATE, 1.0, BENCH_UPDATE_RATE, &wave) ||
+    if (knurl_wave_init(KNURL_WAVE_T1 + method, row->period / BENCH_UPDATE_RATE, 1.0, BENCH_UPDATE_RATE, &wave) ||
         !study_signal_of_wave(&wave, BENCH_UPDATE_RATE, &command)) {
         return 0;
     }
@@ -84,7 +84,7 @@ static void write_csv(FILE *csv, const bench_fixture *fixture, const device_row 
         out_number(csv, fixture->viscous);
         fputc(',', csv);
         out_number(csv, row->period);
-        fprintf(csv, ",%s", wave_method_name(KNURL_T1 + m));
+        fprintf(csv, ",%s", wave_method_name(KNURL_WAVE_T1 + m));
         for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
             fputc(',', csv);
             out_number(csv, cells[i]);
@@ -130,7 +130,7 @@ static void write_curves(json_writer *json, const device_row *rows) {
     static const char *const pairs[] = {"pcc_T1_T2", "pcc_T1_T3", "pcc_T2_T3"};
     const size_t stride = sizeof *rows / sizeof(double);
     for (int m = 0; m < 3; m++) {
-        json_open(json, wave_method_name(KNURL_T1 + m), '{');
+        json_open(json, wave_method_name(KNURL_WAVE_T1 + m), '{');
         json_numbers(json, "commanded", &rows[0].commanded[m], PERIODS, stride);
         json_numbers(json, "dominant", &rows[0].dominant[m], PERIODS, stride);
         json_numbers(json, "dominant_hz", &rows[0].frequency[m], PERIODS, stride);

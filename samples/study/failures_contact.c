@@ -26,7 +26,7 @@ static int make_scene(uint32_t without, knurl_scene **scene) {
 static int add_surface(knurl_scene *scene, knurl_surface_desc *desc, double amplitude, knurl_surface_id *id) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
-    material.method = KNURL_S1;
+    material.method = KNURL_METHOD_S1;
     material.stiffness = K;
     material.amplitude = amplitude;
     material.spatial_frequency[0] = amplitude > 0.0 ? 500.0 : 0.0;

@@ -9,7 +9,7 @@
 
 int failure_s1_pushes(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_S1, 1000.0 / 3.0, 300, &scan)) {
+    if (!failure_across(KNURL_METHOD_S1, 1000.0 / 3.0, 300, &scan)) {
         return 0;
     }
     *number = fabs(study_scan_net(&scan, 1.0, 2.0));
@@ -20,7 +20,7 @@ int failure_s1_pushes(const failure_sink *sink, double *number) {
 
 int failure_s1_silent(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_S1, 1000.0, 300, &scan)) {
+    if (!failure_across(KNURL_METHOD_S1, 1000.0, 300, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_dropout(&scan);
@@ -31,7 +31,7 @@ int failure_s1_silent(const failure_sink *sink, double *number) {
 
 int failure_s1_alias(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_S1, 900.0, 1000, &scan)) {
+    if (!failure_across(KNURL_METHOD_S1, 900.0, 1000, &scan)) {
         return 0;
     }
     *number = scan.played[scan.ticks]; /* cycles in a second */
@@ -42,7 +42,7 @@ int failure_s1_alias(const failure_sink *sink, double *number) {
 
 /* Through the cells' centres, where neither cosine's sign changes alone. */
 int failure_s1_diagonal(const failure_sink *sink, double *number) {
-    const knurl_grating grating = gratings_make(KNURL_S1, 1000.0, 1000.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S1, 1000.0, 1000.0);
     const double from[2] = {0.0, 0.0};
     const double velocity[2] = {0.05, 0.05};
     study_scan scan;
@@ -58,7 +58,7 @@ int failure_s1_diagonal(const failure_sink *sink, double *number) {
 /* Two edges in one tick are none. */
 int failure_s1_grid(const failure_sink *sink, double *number) {
     static const double start[2] = {FAILURE_START, 0.0};
-    const knurl_grating grating = gratings_make(KNURL_S1, 1000.0, 1000.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S1, 1000.0, 1000.0);
     *number = 0.0;
     for (int degrees = 1; degrees < 90; degrees++) {
         const double angle = degrees * PI / 180.0;
@@ -80,7 +80,7 @@ int failure_s1_grid(const failure_sink *sink, double *number) {
 /* From rest to 250 mm/s in half a second, over ridges of 2 mm. */
 int failure_s2_freezes(const failure_sink *sink, double *number) {
     enum { TICKS = 2600 };
-    const knurl_grating grating = gratings_make(KNURL_S2, 500.0, 0.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S2, 500.0, 0.0);
     study_motion *motion = calloc(TICKS, sizeof *motion);
     study_scan scan;
     double x = 0.0;
@@ -109,7 +109,7 @@ int failure_s2_freezes(const failure_sink *sink, double *number) {
 
 int failure_s2_drifts(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_S2, 1000.0 / (3.5 * (1.0 - 1e-9)), 3000, &scan)) {
+    if (!failure_across(KNURL_METHOD_S2, 1000.0 / (3.5 * (1.0 - 1e-9)), 3000, &scan)) {
         return 0;
     }
     *number = 100.0 * study_scan_drift(&scan);
@@ -121,7 +121,7 @@ int failure_s2_drifts(const failure_sink *sink, double *number) {
 /* v = vmax |sin(pi t)|, f_t up to 480 Hz on 1 mm. */
 int failure_s2_loses_step(const failure_sink *sink, double *number) {
     enum { TICKS = 10000 };
-    const knurl_grating grating = gratings_make(KNURL_S2, 1000.0, 0.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S2, 1000.0, 0.0);
     study_motion *motion = calloc(TICKS, sizeof *motion);
     study_scan scan;
     if (!motion) {
@@ -145,7 +145,7 @@ int failure_s2_loses_step(const failure_sink *sink, double *number) {
 /* At 20 Hz the hand stops one tick after an event has begun. */
 int failure_s2_outlives(const failure_sink *sink, double *number) {
     enum { TICKS = 80, STOP = 20 }; /* ticks; the first at rest */
-    const knurl_grating grating = gratings_make(KNURL_S2, 1000.0, 0.0);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S2, 1000.0, 0.0);
     study_motion motion[TICKS] = {{{0.0, 0.0}, {0.0, 0.0}}};
     study_scan scan;
     motion[STOP - 1].velocity[0] = 0.02;
@@ -166,7 +166,7 @@ int failure_s2_outlives(const failure_sink *sink, double *number) {
 /* Eq. 9 cuts the troughs off: at no depth only the crests are left. */
 int failure_grazed(const failure_sink *sink, double *number) {
     study_scan scan;
-    if (!failure_across(KNURL_S2, 1000.0 / 3.0, 300, &scan)) {
+    if (!failure_across(KNURL_METHOD_S2, 1000.0 / 3.0, 300, &scan)) {
         return 0;
     }
     *number = study_scan_net(&scan, 1.0, 0.0);

@@ -105,7 +105,7 @@ int failure_force_limit(const failure_sink *sink, double *number) {
     knurl_tick_input input;
     knurl_tick_output out;
     knurl_material_desc_init(&material, sizeof material);
-    material.method = KNURL_S1;
+    material.method = KNURL_METHOD_S1;
     material.stiffness = 700.0;
     material.amplitude = 0.0027;
     material.spatial_frequency[0] = 1000.0;

@@ -14,8 +14,8 @@ double study_event_cycles(const knurl_vibration_event *event) {
     return event->kind == KNURL_EVENT_MIXED ? MIX_CYCLES : 1.0;
 }
 
-int study_plays_event(const knurl_grating *grating, const knurl_grating_state *state, const knurl_grating_output *out) {
-    return out->event != KNURL_NO_EVENT && (grating->method != KNURL_AREA || state->next_tick > 0);
+int study_plays_event(const knurl_grating *grating, const knurl_grating_output *out) {
+    return out->event != KNURL_NO_EVENT && (grating->method == KNURL_METHOD_S2);
 }
 
 void study_motion_line(const double start[2], const double velocity[2], double update_rate_hz, study_motion *motion,
@@ -81,7 +81,7 @@ int study_scan_run(const knurl_grating *grating, const study_motion *motion, siz
         const int turned = turns(out.height, &last);
         scan->height[k] = out.height;
         scan->crossed[k + 1] = scan->crossed[k] + crossed_in_a_tick(grating, motion[k].velocity, crossed);
-        if (!study_plays_event(grating, &state, &out)) {
+        if (!study_plays_event(grating, &out)) {
             scan->played[k] += turned ? 0.5 : 0.0;
             scan->played[k + 1] = scan->played[k];
             scan->whole = k + 1;

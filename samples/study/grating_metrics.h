@@ -15,8 +15,8 @@ enum { STUDY_CROSSED_MAP = 0, STUDY_CROSSED_PATH = 1 };
 /** Cycles that an event of T3 counts as: 1, the six-tick mix 6/2.5 = 2.4. */
 double study_event_cycles(const knurl_vibration_event *event);
 
-/** Whether a tick was one of an event: AREA tells ridges where none plays. */
-int study_plays_event(const knurl_grating *grating, const knurl_grating_state *state, const knurl_grating_output *out);
+/** Whether a tick was one of an event: BANDLIMITED counts ridges and plays none. */
+int study_plays_event(const knurl_grating *grating, const knurl_grating_output *out);
 
 /** Where the HIP is at one tick. */
 typedef struct study_motion {

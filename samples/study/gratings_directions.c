@@ -19,7 +19,7 @@ typedef struct direction_row {
 
 /* cycles/m that S1 plays over 1 m at 0.1 m/s, from a start given in cycles; negative: no memory */
 static double s1_played(const double fs[2], const double start[2], const double direction[2]) {
-    const knurl_grating grating = gratings_make(KNURL_S1, fs[0], fs[1]);
+    const knurl_grating grating = gratings_make(KNURL_METHOD_S1, fs[0], fs[1]);
     const double from[2] = {start[0] / fs[0], start[1] / fs[1]};
     const double velocity[2] = {0.1 * direction[0], 0.1 * direction[1]};
     study_scan scan;
@@ -95,8 +95,8 @@ int gratings_directions(json_writer *json, gratings_summary *summary) {
 /* One cell of the map: S1's mean dropout over starts, S2's drift and dropout. */
 static int map_row(FILE *csv, const double fs[2], double angle, double speed) {
     const double velocity[2] = {speed * cos(angle * DEGREE), speed * sin(angle * DEGREE)};
-    const knurl_grating s1 = gratings_make(KNURL_S1, fs[0], fs[1]);
-    const knurl_grating s2 = gratings_make(KNURL_S2, fs[0], fs[1]);
+    const knurl_grating s1 = gratings_make(KNURL_METHOD_S1, fs[0], fs[1]);
+    const knurl_grating s2 = gratings_make(KNURL_METHOD_S2, fs[0], fs[1]);
     double dropout = 0.0;
     study_scan scan;
     for (int i = 0; i < 4; i++) {

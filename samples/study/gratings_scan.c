@@ -22,7 +22,7 @@ int gratings_scan_line(const knurl_grating *grating, const double start[2], cons
     if (motion) {
         study_motion_line(start, velocity, grating->update_rate_hz, motion, ticks);
         done = study_scan_run(grating, motion, ticks,
-                              grating->method == KNURL_S1 ? STUDY_CROSSED_MAP : STUDY_CROSSED_PATH, scan);
+                              grating->method == KNURL_METHOD_S1 ? STUDY_CROSSED_MAP : STUDY_CROSSED_PATH, scan);
     }
     free(motion);
     return done;

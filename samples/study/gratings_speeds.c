@@ -39,7 +39,7 @@ static int sweep(int32_t method, double first, double step, size_t count, double
 /* The drift at a period, from an integer number of events. 2: no memory, which no drift is */
 static double drift_at(double period_ticks) {
     study_scan scan;
-    if (!across(KNURL_S2, GRATINGS_RATE / period_ticks, 12000, &scan)) {
+    if (!across(KNURL_METHOD_S2, GRATINGS_RATE / period_ticks, 12000, &scan)) {
         return 2.0;
     }
     const double drift = study_scan_drift(&scan);
@@ -58,7 +58,7 @@ static void write_sweep(json_writer *json, const char *name, double (*rows)[3], 
 int gratings_speeds(json_writer *json, gratings_summary *summary) {
     static double s1[SPEEDS][3];
     static double s2[DRIFTS][3];
-    if (!sweep(KNURL_S1, 2.0, 2.0, SPEEDS, s1) || !sweep(KNURL_S2, 20.0, 0.5, DRIFTS, s2)) {
+    if (!sweep(KNURL_METHOD_S1, 2.0, 2.0, SPEEDS, s1) || !sweep(KNURL_METHOD_S2, 20.0, 0.5, DRIFTS, s2)) {
         return 0;
     }
     summary->drift_before = drift_at(3.5 * (1.0 - 1e-9));
@@ -104,7 +104,7 @@ static double twice_a_second(double t) {
 
 /* From rest on 2 mm: the curves. */
 static int freeze(json_writer *json, study_motion *motion, gratings_summary *summary) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2};
     move(from_rest, motion, STROKE_TICKS);
     json_open(json, "from_rest", '{');
     json_number(json, "spatial_frequency", 500);
@@ -144,7 +144,7 @@ int gratings_strokes(json_writer *json, gratings_summary *summary) {
     move(twice_a_second, motion, 10000);
     json_open(json, "twice_a_second", '[');
     for (int i = 0; i < 6; i++) {
-        const knurl_grating grating = gratings_make(i % 2 ? KNURL_S2 : KNURL_S1, 1000.0 / periods_mm[i / 2], 0.0);
+        const knurl_grating grating = gratings_make(i % 2 ? KNURL_METHOD_S2 : KNURL_METHOD_S1, 1000.0 / periods_mm[i / 2], 0.0);
         study_scan scan;
         if (!study_scan_run(&grating, motion, 10000, STUDY_CROSSED_PATH, &scan)) {
             return 0;
@@ -177,7 +177,7 @@ int gratings_depths(json_writer *json, gratings_summary *summary) {
     for (int i = 0; i < 4; i++) {
         study_scan scan;
         double trough = 0.0;
-        if (!across(KNURL_S2, GRATINGS_RATE / periods[i], 600, &scan)) {
+        if (!across(KNURL_METHOD_S2, GRATINGS_RATE / periods[i], 600, &scan)) {
             return 0;
         }
         for (size_t k = 0; k < DEPTHS; k++) {

@@ -42,7 +42,7 @@ static knurl_result add_surface(knurl_scene *scene, const wavy_sheet *sheet, dou
     } else {
         d.plane = &plane;
     }
-    m.method = KNURL_S2;
+    m.method = KNURL_METHOD_S2;
     m.spatial_frequency[0] = 1.0 / period;
     m.amplitude = HALF_CYCLES_AMPLITUDE;
     m.stiffness = HALF_CYCLES_STIFFNESS;

@@ -39,7 +39,7 @@ typedef struct lab_case {
     double damping;       /**< B: N s/m; default 0 */
     double amplitude;     /**< A: m; default 0: a flat wall */
     double period;        /**< m; default 0.002 */
-    int32_t method;       /**< KNURL_S1, ... */
+    int32_t method;       /**< KNURL_METHOD_S1, ... */
     uint32_t without;     /**< KNURL_PROTECT_; default all: raw */
     int32_t bilateral;    /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
     int32_t reserved;     /**< 0 */

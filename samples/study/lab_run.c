@@ -37,7 +37,7 @@ void lab_case_init(lab_case *c) {
                                .approach = 0.05,
                                .stiffness = 400.0,
                                .period = 0.002,
-                               .method = KNURL_S2,
+                               .method = KNURL_METHOD_S2,
                                .without = KNURL_PROTECT_ALL};
     *c = defaults;
 }

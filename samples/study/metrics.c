@@ -30,7 +30,7 @@ size_t study_whole_ticks(double period_ticks) {
 }
 
 static size_t actual_period(const knurl_wave *wave) {
-    if (wave->method == KNURL_T1) {
+    if (wave->method == KNURL_WAVE_T1) {
         return study_whole_ticks(wave->period_ticks);
     }
     size_t period = 1;

@@ -87,7 +87,7 @@ int preference_cells(int experiment, preference_cell cells[PREFERENCE_CELLS]) {
         const double period = p == 0 ? 2.5 : 2.0 * p + 1.0;
         vibration other;
         vibration t3;
-        if (!measure(experiment == 1 ? KNURL_T1 : KNURL_T2, period, &other) || !measure(KNURL_T3, period, &t3)) {
+        if (!measure(experiment == 1 ? KNURL_WAVE_T1 : KNURL_WAVE_T2, period, &other) || !measure(KNURL_WAVE_T3, period, &t3)) {
             return 0;
         }
         for (int i = 0; i < 4; i++) {
@@ -118,7 +118,7 @@ static int add_scan(preference_grating *g, int method, double speed, study_motio
     grating.spatial_frequency[0] = 1000.0 / g->period_mm;
     grating.amplitude = 1.0;
     grating.update_rate_hz = RATE;
-    grating.method = method == 0 ? KNURL_S1 : KNURL_S2;
+    grating.method = method == 0 ? KNURL_METHOD_S1 : KNURL_METHOD_S2;
     study_motion_line(start, velocity, RATE, motion, SCAN_TICKS);
     if (!study_scan_run(&grating, motion, SCAN_TICKS, STUDY_CROSSED_PATH, &scan)) {
         return 0;

@@ -16,12 +16,12 @@ static const char *const period_kinds[] = {"even", "odd", "odd", "mixed", "other
 /* The one or two square waves that a signal is the sum of: T2's are in the wave; the mixed case is Eq. 8's. 0 for T1,
  * and for a T3 event that is no mix. */
 static int parts_of(const knurl_wave *wave, knurl_vibration_event parts[2]) {
-    if (wave->method == KNURL_T2) {
+    if (wave->method == KNURL_WAVE_T2) {
         parts[0] = wave->parts[0];
         parts[1] = wave->parts[1];
         return wave->part_count;
     }
-    if (wave->method == KNURL_T3 && wave->parts[0].kind == KNURL_EVENT_MIXED) {
+    if (wave->method == KNURL_WAVE_T3 && wave->parts[0].kind == KNURL_EVENT_MIXED) {
         const double root = sqrt(13.0);
         return knurl_vibration_event_init(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
                        knurl_vibration_event_init(3.0, 3.0 * AMPLITUDE / root, &parts[1])
@@ -98,7 +98,7 @@ static int write_cell(json_writer *json, const knurl_wave *wave, size_t index) {
     }
     write_parts(json, wave);
     json_close(json, '}');
-    if (wave->method != KNURL_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
+    if (wave->method != KNURL_WAVE_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
         printf("T%d at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
                (int)wave->method, periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak, line.amplitude,
                line.frequency, signal.length);
@@ -116,7 +116,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     json_number(json, "amplitude", AMPLITUDE);
     json_open(json, "cells", '[');
     for (size_t p = 0; p < PERIODS; p++) {
-        for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+        for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
             knurl_wave wave;
             if (knurl_wave_init(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
                 write_cell(json, &wave, p)) {

@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-const stability_method stability_methods[] = {
-    {"flat", KNURL_METHOD_DEFAULT, 0}, {"S1", KNURL_S1, 1},     {"S2", KNURL_S2, 1},
-    {"locked", KNURL_LOCKED, 1},       {"area", KNURL_AREA, 1}, {NULL, 0, 0}};
+const stability_method stability_methods[] = {{"flat", KNURL_METHOD_DEFAULT, 0},
+                                              {"S1", KNURL_METHOD_S1, 1},
+                                              {"S2", KNURL_METHOD_S2, 1},
+                                              {"bandlimited", KNURL_METHOD_BANDLIMITED, 1},
+                                              {NULL, 0, 0}};
 
 #define TEXTURE_A 0.0002 /* m: in the maps of stiffness */
 #define FREEZE                                                                                                         \

@@ -25,8 +25,6 @@ int study_gratings(const char *folder);    /* figure 6 and section III */
 int study_preferences(const char *folder); /* figure 8 and Experiment 3 */
 int study_tradeoff(const char *folder);    /* cost against accuracy */
 int study_velocity(const char *folder);    /* the velocity estimators: what chooses the default */
-int study_locked(const char *folder);      /* the third spatial method beside the paper's; prints its tables */
-int study_area(const char *folder);        /* area on grids, and its worst case; prints its tables */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
 int study_transitions(const char *folder); /* turns, stops, lift-off, changes in an event; prints its table */
 int study_failures(const char *folder);    /* where methods fail; writes failures.md too */

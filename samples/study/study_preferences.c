@@ -79,7 +79,7 @@ static void write_experiment(json_writer *json, int experiment, const preference
            PREFERENCE_CELLS);
     json_open(json, NULL, '{');
     json_number(json, "experiment", experiment);
-    json_string(json, "other", wave_method_name(KNURL_T1 + experiment - 1));
+    json_string(json, "other", wave_method_name(KNURL_WAVE_T1 + experiment - 1));
     json_number(json, "preferred_cells", preferred);
     json_open(json, "cells", '{');
     json_numbers(json, "period_ticks", &cells[0].period_ticks, PREFERENCE_CELLS, stride);
@@ -109,7 +109,7 @@ static void write_gratings(json_writer *json, const preference_grating *g) {
     json_numbers(json, "period_mm", &g->period_mm, 3, stride);
     json_numbers(json, "preferred_s2_of_12", &g->preferred_s2, 3, stride);
     for (int m = 0; m < 2; m++) {
-        json_open(json, knurl_method_name(KNURL_S1 + m), '{');
+        json_open(json, knurl_method_name(KNURL_METHOD_S1 + m), '{');
         json_numbers(json, "push", &g->push[m], 3, stride);
         json_numbers(json, "spurious_share", &g->spurious[m], 3, stride);
         json_numbers(json, "dropout_share", &g->dropout[m], 3, stride);

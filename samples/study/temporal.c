@@ -123,7 +123,7 @@ static void write_point(json_writer *json, int tenths, const measured m[3]) {
             m[i].dominant.amplitude, 1e3 / m[i].dominant.frequency, m[i].net, m[i].rms, m[i].spurious,
             m[i].spurious_asked};
         const double window[] = {m[i].window_dominant.amplitude, 1e3 / m[i].window_dominant.frequency, m[i].window_net};
-        json_open(json, wave_method_name(KNURL_T1 + i), '{');
+        json_open(json, wave_method_name(KNURL_WAVE_T1 + i), '{');
         write_numbers(json, keys, values, 6);
         json_open(json, "papers_window", '{');
         write_numbers(json, window_keys, window, 3);
@@ -167,7 +167,7 @@ static void write_findings(json_writer *json, const findings *f) {
     for (int i = 0; i < 3; i++) {
         const double values[] = {f->worst_net[i],    f->worst_net_at[i],   f->false_net[i],
                                  f->false_net_at[i], f->least_dominant[i], f->least_dominant_at[i]};
-        json_open(json, wave_method_name(KNURL_T1 + i), '{');
+        json_open(json, wave_method_name(KNURL_WAVE_T1 + i), '{');
         write_numbers(json, keys, values, 6);
         json_close(json, '}');
         printf("T%d: largest net %.4f N", i + 1, f->worst_net[i]);
@@ -203,7 +203,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
         measured m[3];
         int done = 1;
         for (int i = 0; i < 3; i++) {
-            done = measure(KNURL_T1 + i, tenths, &m[i]) && done;
+            done = measure(KNURL_WAVE_T1 + i, tenths, &m[i]) && done;
         }
         for (int i = 0; done && i < 3; i++) {
             write_row(csv, tenths, m, i);

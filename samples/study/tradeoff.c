@@ -72,7 +72,7 @@ static int render(const study_contender *c, double frequency, study_signal *sign
     r.cycles_played = 0.0;
     for (size_t i = 0; heights && i < length; i++) {
         heights[i] = study_rendering_tick(&r);
-        if (c->method->id != KNURL_S1 && !r.state.playing) {
+        if (c->method->id != KNURL_METHOD_S1 && !r.state.playing) {
             end = i + 1;
         }
     }

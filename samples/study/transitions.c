@@ -19,7 +19,7 @@
 #define PHASES    10
 #define AFTER     45 /* ticks: before it comes to the other surface by itself */
 #define QUANTUM   0.055e-3
-#define METHODS   3
+#define METHODS   2
 
 enum { REVERSAL, STOP, LIFT_OFF, OTHER_SURFACE, OTHER_MATERIAL, FLICKER, FASTER, TRANSITIONS };
 
@@ -32,7 +32,7 @@ static const char *const names[TRANSITIONS] = {"reversal",
                                                "20 ticks at 470 Hz"};
 
 typedef struct outcome {
-    double settled; /* ms until the height is what it stays: 0 (S2), the position's (locked, area) */
+    double settled; /* ms until the height is what it stays: 0 (S2), the position's (bandlimited) */
     double step;    /* the largest change of height in a tick in contact, A */
     double left;    /* the largest sum of an event that was played to its end, A ticks */
     double force;   /* N: of the first tick after lift-off */
@@ -56,7 +56,7 @@ static void place(int transition, int tick, int happens, double *x, double *z, d
         *x -= step * (tick - happens);
     } else if (transition == LIFT_OFF && tick < happens + 5) {
         *z = 0.005;
-    } else if (transition == FASTER) { /* area's events take over */
+    } else if (transition == FASTER) {
         *speed = tick - happens < 20 ? FAST : SPEED;
         *x += (FAST - SPEED) / 1000.0 * (tick - happens < 20 ? tick - happens : 20);
     } else if (transition == FLICKER) { /* a quantum either side of the edge at EDGE/2 + 1/4 cycle */
@@ -114,11 +114,11 @@ typedef struct watch {
     knurl_surface_id surface; /* who leaves one has lifted off it */
 } watch;
 
-/* AREA tells ridges, most of which are no events that sum to nothing: is_area leaves the sums out. */
-static void judge(const knurl_tick_output *out, int since, int is_area, watch *w, outcome *o) {
+/* BANDLIMITED counts ridges, most of which are no events that sum to nothing: counts_ridges leaves the sums out. */
+static void judge(const knurl_tick_output *out, int since, int counts_ridges, watch *w, outcome *o) {
     if (out->contacts && w->contacts) {
         o->step = fmax(o->step, fabs(out->height - w->height) / AMPLITUDE);
-        if (!is_area && out->surface == w->surface && out->event != w->event && w->event != KNURL_NO_EVENT) {
+        if (!counts_ridges && out->surface == w->surface && out->event != w->event && w->event != KNURL_NO_EVENT) {
             o->left = fmax(o->left, fabs(w->sum) / AMPLITUDE);
         }
     }
@@ -150,7 +150,7 @@ static knurl_result run(int32_t method, int transition, int phase, FILE *csv, ou
         input.has_velocity = 1;
         result = transition == OTHER_MATERIAL && tick == happens ? change_material(scene, left, method) : KNURL_OK;
         result = result ? result : knurl_scene_tick(scene, 0, &input, &out);
-        judge(&out, tick - happens, method == KNURL_AREA, &w, o);
+        judge(&out, tick - happens, method == KNURL_METHOD_BANDLIMITED, &w, o);
         if (phase == 3 && tick >= happens - 20 && tick < happens + 40) {
             fprintf(csv, "%s,\"%s\",%d,", knurl_method_name(method), names[transition], tick - happens);
             out_number(csv, out.contacts ? out.height / AMPLITUDE : 0.0);
@@ -183,7 +183,7 @@ static void print_row(json_writer *json, int32_t method, int transition, const o
 }
 
 static int write_all(FILE *csv, json_writer *json, void *user) {
-    static const int32_t methods[METHODS] = {KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[METHODS] = {KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     (void)user;
     fputs("method,transition,tick,height\n", csv);
     json_string(json, "study", "transitions");

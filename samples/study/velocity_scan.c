@@ -144,7 +144,7 @@ static double run_steady(velocity_estimator *e, const hand *h, velocity_errors *
     p.grating.spatial_frequency[0] = 1.0 / VELOCITY_PERIOD;
     p.grating.amplitude = 1.0;
     p.grating.update_rate_hz = h->rate;
-    p.grating.method = KNURL_S2;
+    p.grating.method = KNURL_METHOD_S2;
     p.grating.resolution = h->resolution;
     for (int i = 0; i < end; i++) {
         x = steady(h, i, &truth);

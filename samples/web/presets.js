@@ -4,7 +4,7 @@ export const PRESETS = [
   {
     title: "S1 pushes",
     text: "At 333 Hz a cycle has three ticks, two of them up or two of them down. The net height is a third of the amplitude, " +
-      "and pushes; switch to locked, and it is gone.",
+      "and pushes; switch to bandlimited, and it is gone.",
     settings: { method: 1 }, half: 0.05, speed: 1 / 3,
   },
   {
@@ -22,7 +22,7 @@ export const PRESETS = [
   {
     title: "S2 plays other cycles than are crossed",
     text: "Just below 3.5 ticks a cycle the period is rounded to 3, and nothing makes up for it. " +
-      "Played cycles run 17 % ahead of crossed ones; locked keeps them together.",
+      "Played cycles run 17 % ahead of crossed ones; bandlimited keeps them together.",
     settings: { method: 2 }, half: 0.05, speed: 0.2862,
   },
   {
@@ -32,22 +32,16 @@ export const PRESETS = [
     settings: { method: 2 }, half: 0.04, speed: 0.3, eased: true,
   },
   {
-    title: "locked pushes a little below its crossover",
-    text: "Below 60 to 120 Hz locked follows the position, as S1 does. " +
-      "At 111 Hz a cycle has nine ticks, and the net height is a ninth of the amplitude.",
-    settings: { method: 3 }, half: 0.04, speed: 1 / 9,
+    title: "bandlimited wavers near half the update rate",
+    text: "At 480 Hz the samples beat with their image at 520 Hz. " +
+      "The level rises and falls forty times a second; at 4 kHz there is nothing of it.",
+    settings: { method: 3 }, half: 0.05, speed: 0.48,
   },
   {
-    title: "area wavers near half the update rate",
-    text: "At 450 Hz the samples beat with their image at 550 Hz. " +
-      "The level rises and falls a hundred times a second; at 4 kHz there is nothing of it.",
-    settings: { method: 4 }, half: 0.05, speed: 0.45,
-  },
-  {
-    title: "area is stronger or weaker by where it began",
-    text: "At 250 Hz a cycle is four whole ticks, and what folds back falls onto the ridges' own line. " +
-      "The level differs by up to 23 % from stroke to stroke.",
-    settings: { method: 4 }, half: 0.05, speed: 0.25,
+    title: "bandlimited plays half the update rate above it",
+    text: "700 Hz are crossed at 1000 ticks a second, and no tick can play them: 500 Hz are felt and heard. " +
+      "At 2 kHz they are played.",
+    settings: { method: 3 }, half: 0.05, speed: 0.7,
   },
   {
     title: "slow motion comes in bursts",

@@ -2,7 +2,7 @@
 import { PRESETS } from "./presets.js";
 import { $, scene, surface, tell } from "./page.js";
 
-const METHODS = ["locked", "S1", "S2", "locked", "area"];
+const METHODS = ["bandlimited", "S1", "S2", "bandlimited"];
 const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffness", 3, 1], ["friction", 4, 1]];
 const FEEL = ["method", ...SLIDERS.map(([id]) => id)];
 const SHARED = ["model", "surface", ...FEEL, "depth", "exaggeration", "rate", "resolution"];

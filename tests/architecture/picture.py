@@ -15,7 +15,7 @@ MODULES = {
     "scene": (172, 178, 928, 508, "surfaces, edits from other threads, and the tick"),
     "motion": (16, 456, 146, 540, "positions to speeds"),
     "contact": (172, 550, 752, 866, "where a HIP touches"),
-    "grating": (782, 550, 928, 650, "a height from a speed"),
+    "grating": (782, 550, 928, 666, "a height from a speed"),
     "vibration": (782, 690, 928, 774, "square waves in time"),
     "base": (16, 896, 928, 964, "used by all modules"),
 }

@@ -116,7 +116,7 @@ static int play_steps(int32_t method, double fps, double rate, double unsteady) 
 TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_steps(KNURL_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
+        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
     }
     assert_int_equal(failed, 0);
 }
@@ -124,7 +124,7 @@ TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
 TEST(so_it_is_where_frames_come_unevenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_steps(KNURL_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
+        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
     }
     assert_int_equal(failed, 0);
 }
@@ -144,7 +144,7 @@ TEST(what_frames_move_is_felt_evenly) {
         rig r;
         uint32_t seed = 1;
         const double fps = frame_rates[i];
-        set_up(&r, KNURL_S1, KNURL_SESSION_FRAMES);
+        set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_FRAMES);
         for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
             const double now = (frame + 0.2 * noise(&seed)) / fps;
             go_to(&r, now);
@@ -159,7 +159,7 @@ TEST(what_frames_move_is_felt_evenly) {
 /* A body that sleeps for two of three steps. */
 TEST(what_moves_more_seldom_than_its_clock_is_felt_evenly) {
     rig r;
-    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
         go_to(&r, (double)steps / 60.0);
         assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, (double)steps / 60.0), KNURL_OK);
@@ -173,7 +173,7 @@ TEST(what_moves_more_seldom_than_its_clock_is_felt_evenly) {
 /* Where the engine's clock begins does not matter, nor that it is told in a game that has run for days. */
 TEST(a_clock_may_begin_anywhere) {
     rig r;
-    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
         go_to(&r, (double)steps / 60.0);
         assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, 1e6 + (double)steps / 60.0), KNURL_OK);
@@ -186,7 +186,7 @@ TEST(a_clock_may_begin_anywhere) {
 TEST(a_stall_does_not_last) {
     rig r;
     double time = 0.0;
-    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; steps < 120; steps++) {
         time += steps == 60 ? 1.0 : 1.0 / 60.0;
         go_to(&r, time);
@@ -205,7 +205,7 @@ TEST(a_stall_does_not_last) {
 TEST(bad_clocks_are_refused) {
     rig r;
     const double position[3] = {0.0, 0.0, 0.0};
-    set_up(&r, KNURL_S1, KNURL_SESSION_STEPS);
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_CLOCKS, 0.0), KNURL_ERROR_ARGUMENT);
     check_message("clock");
     assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, NAN), KNURL_ERROR_ARGUMENT);
@@ -221,7 +221,7 @@ TEST(bad_clocks_are_refused) {
 TEST(a_game_whose_clock_runs_fast_is_followed) {
     rig r;
     double position[3] = {0.0, 0.0, 0.0};
-    set_up(&r, KNURL_S1, KNURL_SESSION_FRAMES);
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_FRAMES);
     for (int frame = 1; frame <= 720; frame++) {
         step(r.s, 4);
         position[2] = 0.0005 * frame / 720.0;

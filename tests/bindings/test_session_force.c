@@ -47,11 +47,11 @@ TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
     const knurl_session_desc desc = describe("fake", "");
     knurl_session *s = make_session();
     assert_int_equal(knurl_session_set_force(s, force), KNURL_ERROR_STATE);
-    assert_int_equal(knurl_session_vibrate(s, KNURL_T1, 100.0, 1.0, along, 1.0), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_session_vibrate(s, KNURL_WAVE_T1, 100.0, 1.0, along, 1.0), KNURL_ERROR_STATE);
     open_session(s, &desc);
     begin(s);
     assert_int_equal(knurl_session_set_force(s, force), KNURL_OK);
-    assert_int_equal(knurl_session_vibrate(s, KNURL_T1, 100.0, 1.0, along, 1.0), KNURL_OK);
+    assert_int_equal(knurl_session_vibrate(s, KNURL_WAVE_T1, 100.0, 1.0, along, 1.0), KNURL_OK);
     step(s, 4);
     CHECK_VECTOR(state_of(s).force, 0.5, 1.0, 0.0, 1e-9);
     knurl_session_close(s);

@@ -155,12 +155,12 @@ int main(void) {
     static const char *const kinds[KINDS] = {"plane", "mesh", "corner", "moving"};
     static const char *const methods[] = {"smooth", "S1", "S2", "locked", "area"};
     for (int kind = 0; kind < KINDS; kind++) {
-        for (int32_t method = 0; method <= KNURL_AREA; method++) {
+        for (int32_t method = 0; method <= KNURL_METHOD_BANDLIMITED; method++) {
             printf("%s %s %016" PRIx64 " %016" PRIx64 "\n", kinds[kind], methods[method], run_scene(kind, method, 0),
                    run_scene(kind, method, 1));
         }
     }
-    for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+    for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
         printf("T%d %016" PRIx64 "\n", (int)method, run_signal(method));
     }
     return 0;

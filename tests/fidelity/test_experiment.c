@@ -197,17 +197,17 @@ TEST(a_seed_makes_one_order_and_another_seed_another) {
 
 TEST(the_simulated_answerer_is_the_formula_it_says) {
     enum { DRAWS = 2000 };
-    const exp_trial trial = {1, 5, 1.05, {KNURL_T1, KNURL_T3}};
+    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}};
     double periods[3];
     double difference = 0.0;
     uint64_t noise = 1;
     int second = 0;
-    CHECK_CLOSE(exp_badness(KNURL_T1, 4, 1), 0.0L, 1e-4L);  /* even: neither a net force nor a false line */
-    CHECK_CLOSE(exp_badness(KNURL_T2, 3, 1), 1.0L, 1e-12L); /* no line where it should be */
-    CHECK_CLOSE(exp_badness(KNURL_T1, 3, 2) - exp_badness(KNURL_T1, 3, 1), 1.0L / 3.0L, 1e-9L); /* A/N */
+    CHECK_CLOSE(exp_badness(KNURL_WAVE_T1, 4, 1), 0.0L, 1e-4L);  /* even: neither a net force nor a false line */
+    CHECK_CLOSE(exp_badness(KNURL_WAVE_T2, 3, 1), 1.0L, 1e-12L); /* no line where it should be */
+    CHECK_CLOSE(exp_badness(KNURL_WAVE_T1, 3, 2) - exp_badness(KNURL_WAVE_T1, 3, 1), 1.0L / 3.0L, 1e-9L); /* A/N */
     exp_neighbours(trial.period, periods);
     for (int i = 0; i < 3; i++) {
-        difference += (exp_badness(KNURL_T1, periods[i], 1.05) - exp_badness(KNURL_T3, periods[i], 1.05)) / 3.0;
+        difference += (exp_badness(KNURL_WAVE_T1, periods[i], 1.05) - exp_badness(KNURL_WAVE_T3, periods[i], 1.05)) / 3.0;
     }
     for (int i = 0; i < DRAWS; i++) {
         second += exp_simulated_answer(exp_design_of(1), &trial, &noise);

@@ -11,10 +11,10 @@
 /* --- a trial, tick by tick --- */
 
 static long double paper_value(int32_t method, uint64_t tick, int64_t milliticks, long double amplitude) {
-    if (method == KNURL_T1) {
+    if (method == KNURL_WAVE_T1) {
         return amplitude * (long double)paper_square(tick, (uint64_t)milliticks, 1000);
     }
-    return method == KNURL_T2 ? paper_t2(tick, milliticks, amplitude) : paper_t3(tick, milliticks, amplitude);
+    return method == KNURL_WAVE_T2 ? paper_t2(tick, milliticks, amplitude) : paper_t3(tick, milliticks, amplitude);
 }
 
 /* Section IV-A4, as a list of when each vibration begins and ends, in ms. */
@@ -111,7 +111,7 @@ static exp_session begin(int32_t experiment, int32_t answers) {
 }
 
 TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
-    const exp_trial trial = {1, 2.5, 2.10, {KNURL_T3, KNURL_T1}};
+    const exp_trial trial = {1, 2.5, 2.10, {KNURL_WAVE_T3, KNURL_WAVE_T1}};
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     uint64_t beyond = 0;
@@ -130,7 +130,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
 }
 
 TEST(leaving_the_sphere_zeroes_the_force_and_begins_the_trial_anew) {
-    const exp_trial trial = {1, 5, 1.05, {KNURL_T1, KNURL_T3}};
+    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}};
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     device.move_at = 1500;

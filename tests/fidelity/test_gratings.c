@@ -45,7 +45,7 @@ TEST(s2_drifts_by_period_over_length) {
     } cases[] = {{3.5 - 1e-6, 3.0}, {3.5, 4.0},  {4.5 - 1e-6, 4.0},  {4.5, 5.0},   {2.25 - 1e-6, 2.0}, {2.25, 2.5},
                  {2.5, 2.5},        {2.75, 2.5}, {2.75 + 1e-6, 3.0}, {10.5, 11.0}, {2.0, 2.0},         {7.0, 7.0}};
     for (size_t i = 0; i < 2 * COUNT_OF(cases); i++) {
-        study_scan scan = across(KNURL_S2, rates[i % 2], cases[i / 2].period, 6000);
+        study_scan scan = across(KNURL_METHOD_S2, rates[i % 2], cases[i / 2].period, 6000);
         CHECK_CLOSE(study_scan_drift(&scan), cases[i / 2].period / cases[i / 2].length - 1.0, 1e-8L);
         study_scan_free(&scan);
     }
@@ -53,8 +53,8 @@ TEST(s2_drifts_by_period_over_length) {
 
 TEST(s2_drift_at_three_and_a_half_ticks_is_the_papers) {
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        study_scan below = across(KNURL_S2, rates[i], 3.5 - 1e-6, 6000);
-        study_scan at = across(KNURL_S2, rates[i], 3.5, 6000);
+        study_scan below = across(KNURL_METHOD_S2, rates[i], 3.5 - 1e-6, 6000);
+        study_scan at = across(KNURL_METHOD_S2, rates[i], 3.5, 6000);
         CHECK_CLOSE(study_scan_drift(&below), 1.0 / 6.0, 1e-6L);
         CHECK_CLOSE(study_scan_drift(&at), -0.125, 1e-8L);
         /* what is not played is dropped; what is played too much serves nothing */
@@ -72,7 +72,7 @@ TEST(s1_keeps_step_below_half_the_update_rate) {
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         for (int step = 0; step < 44; step++) {
             const double period = 2.03 * pow(1.07, step);
-            study_scan scan = across(KNURL_S1, rates[i], period, 5000);
+            study_scan scan = across(KNURL_METHOD_S1, rates[i], period, 5000);
             CHECK_CLOSE(study_scan_dropout(&scan), 0.0, 0.0L);
             assert_true(study_scan_phase_error(&scan) <=
                         0.5 + 1e-9 + 1.0 / period); /* an edge waits for the next tick */
@@ -84,7 +84,7 @@ TEST(s1_keeps_step_below_half_the_update_rate) {
 TEST(s1_is_silent_at_every_multiple_of_the_update_rate) {
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         for (int multiple = 1; multiple <= 4; multiple++) {
-            study_scan scan = across(KNURL_S1, rates[i], 1.0 / multiple, 4096);
+            study_scan scan = across(KNURL_METHOD_S1, rates[i], 1.0 / multiple, 4096);
             CHECK_SAME(study_scan_dropout(&scan), 1.0);
             CHECK_SAME(scan.played[scan.ticks], 0.0);
             study_scan_free(&scan);
@@ -96,7 +96,7 @@ TEST(s1_above_half_the_update_rate_plays_the_alias) {
     /* f_t between f_h/2 and f_h folds to f_h - f_t: that many cycles are played, the others drop out */
     static const double shares[] = {0.5625, 0.625, 0.75, 0.875, 0.9375};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
-        study_scan scan = across(KNURL_S1, 1000.0, 1.0 / shares[i], 16384);
+        study_scan scan = across(KNURL_METHOD_S1, 1000.0, 1.0 / shares[i], 16384);
         CHECK_CLOSE(scan.played[scan.ticks] / 16384.0, 1.0 - shares[i], 1e-4L);
         CHECK_CLOSE(study_scan_dropout(&scan), 1.0 - (1.0 - shares[i]) / shares[i], 1e-3L);
         study_scan_free(&scan);
@@ -110,8 +110,8 @@ TEST(cells_centres_on_a_diagonal_are_silent) {
         const double *fs = grids[i / 2];
         const double velocity[2] = {40.0 / fs[0], 40.0 / fs[1]};
         const double aside[2] = {0.1 / fs[0], 0.35 / fs[1]};
-        study_scan silent = scan_of(KNURL_S1, rates[i % 2], fs, start, velocity, 10000, STUDY_CROSSED_MAP);
-        study_scan heard = scan_of(KNURL_S1, rates[i % 2], fs, aside, velocity, 10000, STUDY_CROSSED_MAP);
+        study_scan silent = scan_of(KNURL_METHOD_S1, rates[i % 2], fs, start, velocity, 10000, STUDY_CROSSED_MAP);
+        study_scan heard = scan_of(KNURL_METHOD_S1, rates[i % 2], fs, aside, velocity, 10000, STUDY_CROSSED_MAP);
         CHECK_SAME(silent.played[10000], 0.0);
         CHECK_SAME(study_scan_dropout(&silent), 1.0);
         CHECK_CLOSE(heard.crossed[10000], 80.0 * 10000.0 / rates[i % 2], 1e-6L); /* fsx |vx| + fsy |vy| */
@@ -127,8 +127,8 @@ TEST(eq_11_crosses_as_eq_12_on_the_axes_and_twice_on_the_diagonal) {
         const double *fs = grids[g];
         const double velocities[3][2] = {{0.05, 0.0}, {0.0, 0.05}, {40.0 / fs[0], 40.0 / fs[1]}};
         for (int v = 0; v < 3; v++) {
-            study_scan map = scan_of(KNURL_S1, 1000.0, fs, start, velocities[v], 1000, STUDY_CROSSED_MAP);
-            study_scan path = scan_of(KNURL_S2, 1000.0, fs, start, velocities[v], 1000, STUDY_CROSSED_PATH);
+            study_scan map = scan_of(KNURL_METHOD_S1, 1000.0, fs, start, velocities[v], 1000, STUDY_CROSSED_MAP);
+            study_scan path = scan_of(KNURL_METHOD_S2, 1000.0, fs, start, velocities[v], 1000, STUDY_CROSSED_PATH);
             CHECK_CLOSE(map.crossed[1000] / path.crossed[1000], v == 2 ? 2.0 : 1.0, 1e-9L);
             study_scan_free(&map);
             study_scan_free(&path);
@@ -146,7 +146,7 @@ TEST(depth_that_one_sided_contact_needs) {
         const double period = cases[i / 2].period == 2.5 ? 6.0 : cases[i / 2].period;
         /* ticks at the trough: half of an even event, (N - 1)/2 of an odd one, one of the mix */
         const double ticks = cases[i / 2].period == 2.5 ? 1.0 : floor(0.5 * period);
-        study_scan scan = across(KNURL_S2, rates[i % 2], cases[i / 2].period, 600);
+        study_scan scan = across(KNURL_METHOD_S2, rates[i % 2], cases[i / 2].period, 600);
         CHECK_CLOSE(study_scan_net(&scan, 400.0, trough + 1e-3), 0.0, 1e-10L);
         CHECK_CLOSE(study_scan_net(&scan, 400.0, trough - 0.01), 400.0 * 0.01 * ticks / period, 1e-9L);
         study_scan_free(&scan);
@@ -157,7 +157,7 @@ TEST(s2_freezes_for_the_event_of_its_first_tick) {
     /* 1 mm/s on 2 mm: 2 s; the hand then runs at 250 mm/s and crosses 125 cycles/s that are not played */
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         const size_t ticks = (size_t)(2.5 * rates[i]);
-        const knurl_grating grating = {KNURL_S2, {0}, {500.0, 0.0}, 1.0, rates[i], 0.0, 0.0};
+        const knurl_grating grating = {KNURL_METHOD_S2, {0}, {500.0, 0.0}, 1.0, rates[i], 0.0};
         study_motion *motion = calloc(ticks, sizeof *motion);
         study_scan scan;
         assert_non_null(motion);
@@ -181,8 +181,8 @@ TEST(s2_is_balanced_where_s1_pushes) {
     } cases[] = {{3.0, 1.0 / 3.0}, {5.0, 0.2}, {2.5, 0.2}, {4.0, 0.0}};
     for (size_t i = 0; i < 2 * COUNT_OF(cases); i++) {
         const double rate = rates[i % 2];
-        study_scan s1 = across(KNURL_S1, rate, cases[i / 2].period, 600);
-        study_scan s2 = across(KNURL_S2, rate, cases[i / 2].period, 600);
+        study_scan s1 = across(KNURL_METHOD_S1, rate, cases[i / 2].period, 600);
+        study_scan s2 = across(KNURL_METHOD_S2, rate, cases[i / 2].period, 600);
         CHECK_CLOSE(fabs(study_scan_net(&s1, 1.0, 3.0)), cases[i / 2].net, 1e-12L);
         CHECK_CLOSE(study_scan_net(&s2, 1.0, 3.0), 0.0, 1e-12L);
         CHECK_CLOSE(study_scan_push(&s1, rate / cases[i / 2].period, 60.0 / rate), cases[i / 2].net, 1e-12L);
@@ -195,10 +195,10 @@ TEST(spurious_energy_of_three_ticks_is_a_quarter) {
     /* lines of a 3-tick wave go with 1/q^2 but for every third; the even ones hold a quarter of the sum. 1e-3: lines
      * are summed to 10 f_h only */
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        study_scan scan = across(KNURL_S2, rates[i], 3.0, 1200);
+        study_scan scan = across(KNURL_METHOD_S2, rates[i], 3.0, 1200);
         CHECK_CLOSE(study_scan_spurious(&scan, rates[i] / 3.0, 0.05), 0.25, 5e-3L);
         study_scan_free(&scan);
-        scan = across(KNURL_S2, rates[i], 4.0, 1200);
+        scan = across(KNURL_METHOD_S2, rates[i], 4.0, 1200);
         CHECK_CLOSE(study_scan_spurious(&scan, rates[i] / 4.0, 0.05), 0.0, 1e-6L);
         study_scan_free(&scan);
     }

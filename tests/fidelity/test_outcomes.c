@@ -67,14 +67,14 @@ TEST(bench_reads_what_the_appendix_says) {
     double nets[3];
     double pcc = 0.0;
     study_signal first = {0};
-    for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+    for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
         study_signal measured = bench_signal(method, 3.0, 1.0);
-        assert_true(study_dominant(&measured, &lines[method - 1]));
-        nets[method - 1] = study_net(&measured);
-        if (method == KNURL_T3) {
+        assert_true(study_dominant(&measured, &lines[method - KNURL_WAVE_T1]));
+        nets[method - KNURL_WAVE_T1] = study_net(&measured);
+        if (method == KNURL_WAVE_T3) {
             pcc = study_pcc(&first, &measured);
         }
-        if (method == KNURL_T1) {
+        if (method == KNURL_WAVE_T1) {
             first = measured;
         } else {
             study_signal_free(&measured);
@@ -96,7 +96,7 @@ TEST(bench_reads_what_the_appendix_says) {
 TEST(bench_passes_a_slow_square_less_the_dry_friction) {
     /* far below the resonance a force in a spring lacks at most the dry friction */
     study_line line;
-    study_signal measured = bench_signal(KNURL_T3, 200.0, 1.0);
+    study_signal measured = bench_signal(KNURL_WAVE_T3, 200.0, 1.0);
     assert_true(study_dominant(&measured, &line));
     CHECK_CLOSE(line.frequency, 5.0, 1e-9L);
     assert_true(line.amplitude > (1.0 - BENCH_COULOMB) * 4.0 / acos(-1.0) - 0.01 && line.amplitude < 1.2733);
@@ -113,7 +113,7 @@ TEST(bench_passes_what_a_mass_in_a_spring_and_damper_does) {
         const double passed = hypot(fixture.stiffness, w * fixture.damping) /
                               hypot(fixture.stiffness - BENCH_MASS * w * w, w * (fixture.damping + fixture.viscous));
         study_line line;
-        study_signal measured = bench_signal(KNURL_T3, periods[i], 3.0);
+        study_signal measured = bench_signal(KNURL_WAVE_T3, periods[i], 3.0);
         assert_true(study_dominant(&measured, &line));
         CHECK_CLOSE(line.amplitude / (12.0 / acos(-1.0) * passed), 1.0 - 0.5 * BENCH_COULOMB / 3.0,
                     0.5 * BENCH_COULOMB / 3.0 + 1e-3);

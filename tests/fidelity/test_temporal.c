@@ -62,11 +62,11 @@ static void check_dominant(int32_t method, double ticks, double amplitude, doubl
 /* Claim 1. */
 TEST(even_periods_have_the_ideal_fundamental_in_every_method) {
     for (int n = 2; n <= 34; n += 2) {
-        for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+        for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
             check_dominant(method, n, 4.0 / PI, n, 1e-12);
             for (size_t r = 0; r < COUNT_OF(rates); r++) {
                 CHECK_CLOSE(net_of(method, n, 1.0, rates[r]), 0.0, 1e-15);
-                CHECK_CLOSE(pcc_of(KNURL_T1, method, n, rates[r]), 1.0, 1e-12);
+                CHECK_CLOSE(pcc_of(KNURL_WAVE_T1, method, n, rates[r]), 1.0, 1e-12);
             }
         }
     }
@@ -76,11 +76,11 @@ TEST(even_periods_have_the_ideal_fundamental_in_every_method) {
 TEST(t1_nets_a_over_n_at_odd_periods_and_a_fifth_at_2_5) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int n = 3; n <= 35; n += 2) {
-            CHECK_CLOSE(net_of(KNURL_T1, n, 1.05, rates[r]), 1.05 / n, 1e-14);
+            CHECK_CLOSE(net_of(KNURL_WAVE_T1, n, 1.05, rates[r]), 1.05 / n, 1e-14);
         }
-        CHECK_CLOSE(net_of(KNURL_T1, 2.5, 1.05, rates[r]), 1.05 / 5.0, 1e-14);
+        CHECK_CLOSE(net_of(KNURL_WAVE_T1, 2.5, 1.05, rates[r]), 1.05 / 5.0, 1e-14);
         for (int i = 1; i < PERIODS; i++) { /* "as much as 1/3" */
-            assert_true(net_of(KNURL_T1, period_at(i), 1.0, rates[r]) <= 1.0 / 3.0 + 1e-14);
+            assert_true(net_of(KNURL_WAVE_T1, period_at(i), 1.0, rates[r]) <= 1.0 / 3.0 + 1e-14);
         }
     }
 }
@@ -88,8 +88,8 @@ TEST(t1_nets_a_over_n_at_odd_periods_and_a_fifth_at_2_5) {
 TEST(t2_and_t3_have_no_net_force) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int tenths = 20; tenths <= 350; tenths++) {
-            CHECK_CLOSE(net_of(KNURL_T2, tenths / 10.0, 1.0, rates[r]), 0.0, 1e-13);
-            CHECK_CLOSE(net_of(KNURL_T3, tenths / 10.0, 1.0, rates[r]), 0.0, 1e-13);
+            CHECK_CLOSE(net_of(KNURL_WAVE_T2, tenths / 10.0, 1.0, rates[r]), 0.0, 1e-13);
+            CHECK_CLOSE(net_of(KNURL_WAVE_T3, tenths / 10.0, 1.0, rates[r]), 0.0, 1e-13);
         }
     }
 }
@@ -98,7 +98,7 @@ TEST(t2_and_t3_have_no_net_force) {
 TEST(t1_and_t3_correlate_fully_at_every_whole_period) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int n = 2; n <= 35; n++) {
-            CHECK_CLOSE(pcc_of(KNURL_T1, KNURL_T3, n, rates[r]), 1.0, 1e-12);
+            CHECK_CLOSE(pcc_of(KNURL_WAVE_T1, KNURL_WAVE_T3, n, rates[r]), 1.0, 1e-12);
         }
     }
 }
@@ -107,10 +107,10 @@ TEST(t1_and_t3_correlate_fully_at_every_whole_period) {
  * four or six. */
 TEST(at_2_5_ticks_t2_and_t3_are_the_most_alike) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
-        CHECK_CLOSE(pcc_of(KNURL_T2, KNURL_T3, 2.5, rates[r]), 6.0 / 13.0, 1e-12);
+        CHECK_CLOSE(pcc_of(KNURL_WAVE_T2, KNURL_WAVE_T3, 2.5, rates[r]), 6.0 / 13.0, 1e-12);
         CHECK_CLOSE(6.0 / 13.0, 0.46, 0.005);
-        CHECK_CLOSE(pcc_of(KNURL_T1, KNURL_T2, 2.5, rates[r]), 0.0, 1e-12);
-        CHECK_CLOSE(pcc_of(KNURL_T1, KNURL_T3, 2.5, rates[r]), 0.0, 1e-12);
+        CHECK_CLOSE(pcc_of(KNURL_WAVE_T1, KNURL_WAVE_T2, 2.5, rates[r]), 0.0, 1e-12);
+        CHECK_CLOSE(pcc_of(KNURL_WAVE_T1, KNURL_WAVE_T3, 2.5, rates[r]), 0.0, 1e-12);
     }
 }
 
@@ -118,8 +118,8 @@ TEST(at_2_5_ticks_t2_and_t3_are_the_most_alike) {
 TEST(t2_shares_nothing_with_the_others_at_odd_periods) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int n = 3; n <= 35; n += 2) {
-            CHECK_CLOSE(pcc_of(KNURL_T1, KNURL_T2, n, rates[r]), 0.0, 1e-12);
-            CHECK_CLOSE(pcc_of(KNURL_T3, KNURL_T2, n, rates[r]), 0.0, 1e-12);
+            CHECK_CLOSE(pcc_of(KNURL_WAVE_T1, KNURL_WAVE_T2, n, rates[r]), 0.0, 1e-12);
+            CHECK_CLOSE(pcc_of(KNURL_WAVE_T3, KNURL_WAVE_T2, n, rates[r]), 0.0, 1e-12);
         }
     }
 }
@@ -127,7 +127,7 @@ TEST(t2_shares_nothing_with_the_others_at_odd_periods) {
 /* Claim 2, dominant component. (N + 1)/2 ticks of +A and (N - 1)/2 of -A, held: 4/pi cos(pi/2N). */
 TEST(t1_lies_below_the_ideal_by_a_cosine_at_odd_periods) {
     for (int n = 3; n <= 35; n += 2) {
-        check_dominant(KNURL_T1, n, 4.0 / PI * cos(PI / (2.0 * n)), n, 1e-12);
+        check_dominant(KNURL_WAVE_T1, n, 4.0 / PI * cos(PI / (2.0 * n)), n, 1e-12);
     }
 }
 
@@ -136,14 +136,14 @@ TEST(t3_is_t1_scaled_and_still_below_the_ideal) {
     for (int n = 3; n <= 35; n += 2) {
         const double expected = 4.0 / PI * cos(PI / (2.0 * n)) * n / sqrt((double)n * n - 1.0);
         assert_true(expected < 4.0 / PI);
-        check_dominant(KNURL_T3, n, expected, n, 1e-12);
+        check_dominant(KNURL_WAVE_T3, n, expected, n, 1e-12);
     }
 }
 
 /* Eqs. 3 and 4 at odd N: the part of N + 1 ticks has (N + 1)/sqrt(2 N^2 + 2) of A, and is the larger. */
 TEST(t2_is_dominated_by_the_even_period_above_odd_ones) {
     for (int n = 3; n <= 35; n += 2) {
-        check_dominant(KNURL_T2, n, 4.0 / PI * (n + 1.0) / sqrt(2.0 * n * n + 2.0), n + 1.0, 1e-12);
+        check_dominant(KNURL_WAVE_T2, n, 4.0 / PI * (n + 1.0) / sqrt(2.0 * n * n + 2.0), n + 1.0, 1e-12);
     }
 }
 
@@ -151,7 +151,7 @@ TEST(t2_is_below_the_ideal_at_every_period_that_is_not_even) {
     double period;
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int tenths = 20; tenths <= 350; tenths++) {
-            const double amplitude = dominant_of(KNURL_T2, tenths / 10.0, rates[r], &period);
+            const double amplitude = dominant_of(KNURL_WAVE_T2, tenths / 10.0, rates[r], &period);
             assert_true(tenths % 20 == 0 || amplitude < 4.0 / PI - 1e-6);
         }
     }
@@ -164,9 +164,9 @@ TEST(at_2_5_ticks_t2_is_the_nearest_to_the_ideal) {
     const double t1 = 0.8 * sin(0.6 * PI) / sin(0.2 * PI) * hold;
     const double t2 = 4.0 / PI * 3.0 / sqrt(13.0);
     const double t3 = 4.0 / PI * cos(PI / 6.0) * 3.0 / sqrt(8.0) * 3.0 / sqrt(13.0);
-    check_dominant(KNURL_T1, 2.5, t1, 2.5, 1e-12);
-    check_dominant(KNURL_T2, 2.5, t2, 2.0, 1e-12);
-    check_dominant(KNURL_T3, 2.5, t3, 3.0, 1e-12);
+    check_dominant(KNURL_WAVE_T1, 2.5, t1, 2.5, 1e-12);
+    check_dominant(KNURL_WAVE_T2, 2.5, t2, 2.0, 1e-12);
+    check_dominant(KNURL_WAVE_T3, 2.5, t3, 3.0, 1e-12);
     assert_true(t2 > t1 && t2 > t3 && t2 < 4.0 / PI);
 }
 
@@ -180,7 +180,7 @@ TEST(dominant_components_are_the_printed_ones) {
                  {5.0, {1.2109, 1.0594, 1.2359}, {5.0, 6.0, 5.0}}};
     for (size_t i = 0; i < COUNT_OF(cells); i++) {
         for (int m = 0; m < 3; m++) {
-            check_dominant(KNURL_T1 + m, cells[i].ticks, cells[i].amplitude[m], cells[i].period[m], 0.5e-4);
+            check_dominant(KNURL_WAVE_T1 + m, cells[i].ticks, cells[i].amplitude[m], cells[i].period[m], 0.5e-4);
         }
     }
 }
@@ -189,13 +189,13 @@ TEST(dominant_components_are_the_printed_ones) {
 TEST(a_square_wave_is_a_sinusoid_of_4_over_pi_or_of_root_2) {
     for (size_t r = 0; r < COUNT_OF(rates); r++) {
         for (int i = 0; i < PERIODS; i++) {
-            for (int32_t method = KNURL_T1; method <= KNURL_T3; method++) {
+            for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
                 study_signal signal = play(method, period_at(i), 0.7, rates[r]);
                 CHECK_CLOSE(sqrt(2.0) * study_rms(&signal), sqrt(2.0) * 0.7, 1e-13);
                 study_signal_free(&signal);
             }
         }
-        study_signal square = play(KNURL_T1, 20.0, 0.7, rates[r]);
+        study_signal square = play(KNURL_WAVE_T1, 20.0, 0.7, rates[r]);
         CHECK_CLOSE(study_line_amplitude(&square, 1), 4.0 / PI * 0.7, 1e-13);
         study_signal_free(&square);
     }

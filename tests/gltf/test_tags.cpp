@@ -20,7 +20,7 @@ TEST(nested_form_is_read) {
     assert_number(m.damping, 1.5);
     assert_number(m.friction, 0.3);
     assert_number(m.orientation, 0.25);
-    assert_int_equal(m.method, KNURL_S1);
+    assert_int_equal(m.method, KNURL_METHOD_S1);
 }
 
 TEST(flat_form_is_read) {
@@ -30,12 +30,12 @@ TEST(flat_form_is_read) {
     assert_near(m.spatial_frequency, {1000, 0}, 1e-12);
     assert_number(m.amplitude, 0.33985769748687744);
     assert_number(m.stiffness, 400);
-    assert_int_equal(m.method, KNURL_S2);
+    assert_int_equal(m.method, KNURL_METHOD_S2);
 }
 
 TEST(method_is_locked_and_the_rest_0_unless_said) {
     const knurl_material_desc m = material_of(quad());
-    assert_int_equal(m.method, KNURL_LOCKED);
+    assert_int_equal(m.method, KNURL_METHOD_BANDLIMITED);
     assert_number(m.damping, 0);
     assert_number(m.friction, 0);
     assert_number(m.orientation, 0);
@@ -43,7 +43,7 @@ TEST(method_is_locked_and_the_rest_0_unless_said) {
 
 TEST(every_method_is_read_by_its_name) {
     for (const auto &[name, method] :
-         {std::pair("S1", KNURL_S1), {"S2", KNURL_S2}, {"locked", KNURL_LOCKED}, {"area", KNURL_AREA}}) {
+         {std::pair("S1", KNURL_METHOD_S1), {"S2", KNURL_METHOD_S2}, {"bandlimited", KNURL_METHOD_BANDLIMITED}}) {
         File file = quad();
         file.materials = "{" + tag(R"("method":")" + std::string(name) + '"') + "}";
         assert_int_equal(material_of(file).method, method);
@@ -123,7 +123,7 @@ TEST(wrong_values_name_key_expected_and_found) {
     for (const char *value : {"1", "[1,0]", "[0,0,0]", "[1,0,0,0]", "[1,0,\"z\"]"})
         assert_tag_fails(with(R"("axis":)" + std::string(value)), {bars, "knurl.axis: expected an array of 3 numbers"});
     assert_tag_fails(with(R"("method":"S3")"),
-                     {bars, "knurl.method: expected 'S1', 'S2', 'locked' or 'area', found 'S3'"});
+                     {bars, "knurl.method: expected 'S1', 'S2' or 'bandlimited', found 'S3'"});
     assert_tag_fails(with(R"("method":2)"), {bars, "knurl.method: expected a string", "found 2"});
 }
 

@@ -116,7 +116,7 @@ TEST_WITH(a_paused_loop_sends_none_of_a_games_force, NULL, end_bench) {
 TEST_WITH(a_vibration_is_played_to_the_bit_along_its_direction, NULL, end_bench) {
     static const double along[3] = {0.0, 0.0, 5.0};
     begin(FREE);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 250.0, 1.0, along, 0.02), KNURL_OK);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 250.0, 1.0, along, 0.02), KNURL_OK);
     for (int k = 0; k < 20; k++) {
         step(1);
         CHECK_VECTOR(written_now(), 0.0, 0.0, k % 4 < 2 ? 1.0 : -1.0, 1e-12);
@@ -131,7 +131,7 @@ TEST_WITH(a_vibration_of_T3_ends_after_a_whole_event, NULL, end_bench) {
     double impulse = 0.0;
     uint64_t ticks = 0;
     begin(FREE);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 1000.0 / 3.0, 1.0, along, 0.01), KNURL_OK);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 1000.0 / 3.0, 1.0, along, 0.01), KNURL_OK);
     for (int k = 0; k < 30; k++) {
         step(1);
         impulse += written_now()[0];
@@ -144,10 +144,10 @@ TEST_WITH(a_vibration_of_T3_ends_after_a_whole_event, NULL, end_bench) {
 TEST_WITH(a_vibration_of_no_time_ends_the_one_that_plays, NULL, end_bench) {
     static const double along[3] = {0.0, 0.0, 1.0};
     begin(FREE);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T1, 100.0, 1.0, along, 10.0), KNURL_OK);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T1, 100.0, 1.0, along, 10.0), KNURL_OK);
     step(7);
     assert_true(vec3_length(written_now()) > 0.9);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T1, 100.0, 1.0, along, 0.0), KNURL_OK);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T1, 100.0, 1.0, along, 0.0), KNURL_OK);
     step(1);
     CHECK_VECTOR(written_now(), 0.0, 0.0, 0.0, 0.0);
 }
@@ -163,11 +163,11 @@ TEST_WITH(numbers_that_are_none_are_refused_and_change_nothing, NULL, end_bench)
     assert_int_equal(knurl_loop_set_gain(b.loop, -0.1), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_set_force(b.loop, nonsense), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_set_force(b.loop, much), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 100.0, 1.0, none, 1.0), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 100.0, 1.0, nonsense, 1.0), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 501.0, 1.0, up, 1.0), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 100.0, NAN, up, 1.0), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 100.0, 1.0, up, -1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, none, 1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, nonsense, 1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 501.0, 1.0, up, 1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, NAN, up, 1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, up, -1.0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, 9, 100.0, 1.0, up, 1.0), KNURL_ERROR_UNKNOWN);
     step(1);
     CHECK_VECTOR(written_now(), 0.0, 2.0, 0.0, 1e-9);
@@ -187,7 +187,7 @@ TEST_WITH(a_force_callback_adds_forces_itself_and_has_the_gain, NULL, end_bench)
     b.desc.force_callback = push;
     bench_create(&b);
     assert_int_equal(knurl_loop_set_force(b.loop, up), KNURL_ERROR_STATE);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 100.0, 1.0, up, 1.0), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, up, 1.0), KNURL_ERROR_STATE);
     assert_int_equal(knurl_loop_set_gain(b.loop, 0.5), KNURL_OK);
     step(60);
     CHECK_VECTOR(written_now(), 0.5, 0.0, 0.0, 1e-12);

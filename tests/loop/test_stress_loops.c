@@ -19,7 +19,7 @@ static const double lying[4] = {-0.70710678118654752, 0.0, 0.0, 0.70710678118654
 
 static surface_parts lying_plane(void) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0001);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0001);
     memcpy(parts.desc.rotation, lying, sizeof lying);
     return parts;
 }

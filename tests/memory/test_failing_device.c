@@ -258,7 +258,7 @@ static knurl_result steer_loop(void) {
     knurl_loop_heartbeat(loop);
     knurl_result result = knurl_loop_set_gain(loop, 0.5);
     result = result ? result : knurl_loop_set_force(loop, force);
-    result = result ? result : knurl_loop_vibrate(loop, KNURL_T3, 100.0, 0.1, force, 0.1);
+    result = result ? result : knurl_loop_vibrate(loop, KNURL_WAVE_T3, 100.0, 0.1, force, 0.1);
     (void)knurl_loop_wait(loop, 0.001);
     knurl_loop_request_stop(loop);
     return result;

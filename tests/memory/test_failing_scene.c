@@ -284,7 +284,7 @@ static knurl_result call_small_things(void) {
     (void)knurl_method_name(1);
     (void)knurl_method_from_name("S2", &method);
     (void)knurl_method_from_name("S3", &method);
-    (void)knurl_wave_init(KNURL_T3, 0.01, 1e-4, 1000.0, &wave);
+    (void)knurl_wave_init(KNURL_WAVE_T3, 0.01, 1e-4, 1000.0, &wave);
     (void)knurl_vibration_event_init(10.0, 1e-4, &event);
     (void)knurl_velocity_init(KNURL_VELOCITY_FOAW, 1e-5, 1000.0, &velocity);
     (void)knurl_result_string(KNURL_ERROR_MEMORY);

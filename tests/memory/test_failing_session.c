@@ -138,7 +138,7 @@ static knurl_result call_frame(void) {
     (void)knurl_session_set_clutch(session, 0);
     knurl_result result = knurl_session_set_gain(session, 0.5);
     result = result ? result : knurl_session_set_force(session, force);
-    result = result ? result : knurl_session_vibrate(session, KNURL_T3, 100.0, 0.1, force, 0.1);
+    result = result ? result : knurl_session_vibrate(session, KNURL_WAVE_T3, 100.0, 0.1, force, 0.1);
     result = result ? result : knurl_session_move_workspace(session, KNURL_SESSION_FRAMES, &workspace);
     return result ? result : knurl_session_move_surface(session, plate, &way, position, rotation);
 }

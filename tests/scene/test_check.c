@@ -52,7 +52,7 @@ static knurl_surface_check check_of(setting *s) {
 TEST(a_surface_within_its_limits_has_nothing_to_be_warned_of) {
     setting s = plain();
     s.parts.material.stiffness = 1999.0;
-    set_grating(&s.parts, KNURL_S2, 1000.0, 0.0, 0.0004);
+    set_grating(&s.parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0004);
     const knurl_surface_check check = check_of(&s);
     assert_int_equal(check.exceeded, 0);
     assert_string_equal(check.message, "");
@@ -105,12 +105,11 @@ TEST(a_workspace_that_magnifies_makes_walls_stiffer) {
     assert_int_equal(check.exceeded, KNURL_LIMIT_STABILITY | KNURL_LIMIT_STIFFNESS);
 }
 
-/* Peaks: S1 2, locked 1 + sqrt 2, area 2/sinc(1/2), S2 (2 + 3 sqrt(1/2) + 2 + 3 sqrt 2)/sqrt 13. */
+/* Peaks: S1 2, bandlimited 8/pi, S2 (2 + 3 sqrt(1/2) + 2 + 3 sqrt 2)/sqrt 13. */
 TEST(amplitude_is_held_against_the_methods_highest_swing) {
-    const double swings[][2] = {{KNURL_S1, 2.0},
-                                {KNURL_S2, (4.0 + 3.0 * (sqrt(0.5) + sqrt(2.0))) / sqrt(13.0)},
-                                {KNURL_LOCKED, 1.0 + sqrt(2.0)},
-                                {KNURL_AREA, 3.14159265358979324}};
+    const double swings[][2] = {{KNURL_METHOD_S1, 2.0},
+                                {KNURL_METHOD_S2, (4.0 + 3.0 * (sqrt(0.5) + sqrt(2.0))) / sqrt(13.0)},
+                                {KNURL_METHOD_BANDLIMITED, 8.0 / 3.14159265358979324}};
     for (size_t i = 0; i < COUNT_OF(swings); i++) {
         setting s = plain();
         s.parts.material.stiffness = 1000.0;
@@ -129,7 +128,7 @@ TEST(the_papers_amplitude_as_printed_is_beyond_a_touch) {
     setting s = plain();
     knurl_hip_desc_init(&s.hip, sizeof s.hip);
     s.parts.material.stiffness = 700.0;
-    set_grating(&s.parts, KNURL_S1, 1000.0, 0.0, 0.0027);
+    set_grating(&s.parts, KNURL_METHOD_S1, 1000.0, 0.0, 0.0027);
     const knurl_surface_check check = check_of(&s);
     assert_int_equal(check.exceeded, KNURL_LIMIT_AMPLITUDE | KNURL_LIMIT_HEAT);
     assert_non_null(strstr(check.message, "3.78 N"));
@@ -140,12 +139,12 @@ TEST(the_papers_amplitude_as_printed_is_beyond_a_touch) {
 
 TEST(ridges_finer_than_two_position_steps_are_told) {
     setting s = plain();
-    set_grating(&s.parts, KNURL_S2, 0.0, 5001.0, 1e-4);
+    set_grating(&s.parts, KNURL_METHOD_S2, 0.0, 5001.0, 1e-4);
     assert_int_equal(check_of(&s).exceeded, KNURL_LIMIT_PERIOD);
-    set_grating(&s.parts, KNURL_S2, 0.0, 4999.0, 1e-4);
+    set_grating(&s.parts, KNURL_METHOD_S2, 0.0, 4999.0, 1e-4);
     assert_int_equal(check_of(&s).exceeded, 0);
     s.workspace.scale = 2.0; /* two device steps are 0.4 mm here */
-    set_grating(&s.parts, KNURL_S2, 0.0, 2501.0, 1e-4);
+    set_grating(&s.parts, KNURL_METHOD_S2, 0.0, 2501.0, 1e-4);
     assert_int_equal(check_of(&s).exceeded, KNURL_LIMIT_PERIOD);
 }
 
@@ -154,7 +153,7 @@ TEST(clamp_keeps_walls_and_textures_within_their_limits) {
     for (uint32_t clamp = 0; clamp < 2; clamp++) {
         setting s = plain();
         s.parts.material.stiffness = 5000.0;
-        set_grating(&s.parts, KNURL_S1, 100.0, 0.0, 0.002);
+        set_grating(&s.parts, KNURL_METHOD_S1, 100.0, 0.0, 0.002);
         s.hip.clamp = clamp;
         s.hip.protections = 0;
         s.hip.resolution = 0.0;
@@ -189,7 +188,7 @@ TEST(every_limit_at_once_has_its_whole_sentence) {
     int lines = 1;
     s.parts.desc.name = "a surface that was given a very long name indeed";
     s.parts.material.stiffness = 123456.0;
-    set_grating(&s.parts, KNURL_S2, 123456.0, 0.0, 0.012345);
+    set_grating(&s.parts, KNURL_METHOD_S2, 123456.0, 0.0, 0.012345);
     const knurl_surface_check check = check_of(&s);
     const char *end = "lower spatial_frequency";
     assert_int_equal(check.exceeded, 31);

@@ -10,13 +10,13 @@ static knurl_scene *make_scene(knurl_surface_id *wall) {
     knurl_scene *scene = empty_scene(1);
     shape ball = shape_sphere(0.02, 3);
     surface_parts parts = surface_mesh(&ball);
-    set_grating(&parts, KNURL_LOCKED, 700.0, 0.0, 0.0002);
+    set_grating(&parts, KNURL_METHOD_BANDLIMITED, 700.0, 0.0, 0.0002);
     parts.material.friction = 0.3;
     parts.desc.axis[0] = 1.0;
     (void)add_surface(scene, &parts);
     shape_free(&ball);
     parts = surface_plane();
-    set_grating(&parts, KNURL_S2, 900.0, 0.0, 0.0003);
+    set_grating(&parts, KNURL_METHOD_S2, 900.0, 0.0, 0.0003);
     parts.desc.position[2] = 0.015;
     *wall = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);

@@ -92,7 +92,7 @@ static void change_in_mid_event(double new_fs, double new_amplitude) {
     knurl_vibration_event next;
     const double at[3] = {0.0, 0.0, -0.002};
     const double velocity[3] = {0.05, 0.0, 0.0};
-    set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = scene_of(&parts);
     assert_int_equal(knurl_vibration_event_init(20.0, 0.0005, &first), KNURL_OK);
     assert_int_equal(
@@ -109,7 +109,7 @@ static void change_in_mid_event(double new_fs, double new_amplitude) {
             assert_int_equal(out.event, k / 20);
         }
         if (k == 25) {
-            set_grating(&parts, KNURL_S2, new_fs, 0.0, new_amplitude);
+            set_grating(&parts, KNURL_METHOD_S2, new_fs, 0.0, new_amplitude);
             parts.material.stiffness = 800.0;
             assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
         }
@@ -130,11 +130,11 @@ TEST(event_plays_to_its_end_on_a_surface_turned_smooth) {
 /* A crest that grows under a HIP that hovers: in reach at the next tick. */
 TEST(material_with_higher_crests_reaches_further_at_the_next_tick) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0002);
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0002);
     knurl_scene *scene = scene_of(&parts);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
-    set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0010);
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0010);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0008);

@@ -25,10 +25,10 @@ static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, doubl
     return counts;
 }
 
-/* L metres over fs cycles/m cross 2 fs L half cycles. S1, LOCKED and AREA play each of them, give or take one at either
+/* L metres over fs cycles/m cross 2 fs L half cycles. S1 and BANDLIMITED play each of them, give or take one at either
  * end; S2 too where the period is a whole number of ticks (10 and 50). */
 TEST(a_stroke_crosses_two_fs_times_its_metres_and_plays_them) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     static const double speeds[] = {0.02, 0.1};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         for (size_t j = 0; j < COUNT_OF(speeds); j++) {
@@ -45,7 +45,7 @@ TEST(a_stroke_crosses_two_fs_times_its_metres_and_plays_them) {
 /* Eq. 12 on a grid: the faster of the two, here 2 x 500/m x 0.08 m along y against 2 x 1000/m x 0.02 m. */
 TEST(a_grid_counts_the_way_by_its_faster_axis) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_LOCKED, 1000.0, 500.0, A);
+    set_grating(&parts, KNURL_METHOD_BANDLIMITED, 1000.0, 500.0, A);
     const knurl_hip_counts counts = stroke(&parts, 0.04, 0.16, 0.5);
     CHECK_CLOSE(counts.half_cycles_crossed, 80.0, 1e-7);
     CHECK_CLOSE((double)counts.half_cycles_played, 80.0, 2.0);
@@ -53,10 +53,10 @@ TEST(a_grid_counts_the_way_by_its_faster_axis) {
 
 TEST(nothing_is_counted_across_the_ridges_nor_at_rest_nor_without_them) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_LOCKED, 1000.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, A);
     for (int i = 0; i < 3; i++) {
         if (i == 2) {
-            set_grating(&parts, KNURL_LOCKED, 1000.0, 0.0, 0.0);
+            set_grating(&parts, KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, 0.0);
         }
         const knurl_hip_counts counts = stroke(&parts, i == 2 ? 0.1 : 0.0, i == 0 ? 0.1 : 0.0, 0.5);
         CHECK_SAME(counts.half_cycles_crossed, 0.0L);
@@ -67,7 +67,7 @@ TEST(nothing_is_counted_across_the_ridges_nor_at_rest_nor_without_them) {
 
 TEST(in_the_air_nothing_is_crossed) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S1, 1000.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, A);
     knurl_scene *scene = scene_of(&parts);
     for (int k = 0; k < 500; k++) {
         (void)tick_moving(scene, (const double[3]){1e-4 * k, 0.0, 0.002}, (const double[3]){0.1, 0.0, 0.0});
@@ -80,7 +80,7 @@ TEST(in_the_air_nothing_is_crossed) {
 /* A step of a hand's: with amplitudes that jump to 0 between (S2 idles) no half cycle is counted twice. S2 plays whole
  * events of +A and -A: two half cycles each. */
 TEST(an_idle_height_of_0_is_no_half_cycle) {
-    const knurl_grating grating = {KNURL_S2, {0}, {1000.0, 0.0}, A, 1000.0, 0.0, 0.0};
+    const knurl_grating grating = {KNURL_METHOD_S2, {0}, {1000.0, 0.0}, A, 1000.0, 0.0};
     knurl_grating_state at;
     knurl_grating_output out;
     unsigned turns = 0;
@@ -134,7 +134,7 @@ TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
         shape s = uneven_sheet(ratios[i]);
         surface_parts parts = surface_mesh(&s);
         knurl_surface_info info;
-        set_grating(&parts, KNURL_LOCKED, 0.0, 700.0, A);
+        set_grating(&parts, KNURL_METHOD_BANDLIMITED, 0.0, 700.0, A);
         const knurl_surface_check check = check_of(&parts, &info);
         if (ratios[i] == 1.0) {
             CHECK_VECTOR(info.stretch_y, 1.0, 1.0, 1.0, 1e-6);
@@ -143,9 +143,9 @@ TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
             assert_true(info.stretch_y[2] > 2.0 * info.stretch_y[0] && info.stretch_y[0] > 0.0);
             assert_true((check.exceeded & KNURL_LIMIT_STRETCH) != 0);
             assert_non_null(strstr(check.message, "its uvs stretch: the 700/m along v are felt as"));
-            parts.material.method = KNURL_S2; /* which counts metres */
+            parts.material.method = KNURL_METHOD_S2; /* which counts metres */
             assert_int_equal(check_of(&parts, &info).exceeded & KNURL_LIMIT_STRETCH, 0);
-            set_grating(&parts, KNURL_LOCKED, 700.0, 0.0, A); /* across it there is nothing to stretch */
+            set_grating(&parts, KNURL_METHOD_BANDLIMITED, 700.0, 0.0, A); /* across it there is nothing to stretch */
             assert_null(strstr(check_of(&parts, &info).message, "along v"));
         }
         shape_free(&s);

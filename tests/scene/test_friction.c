@@ -247,7 +247,7 @@ TEST(lifted_off_it_is_forgotten) {
 /* S1: at x = 0 on a crest, at 5 mm in a trough; the anchor's load is the depth alone. */
 TEST(height_does_not_load_it) {
     surface_parts parts = rough_plane(MU);
-    set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0005);
     knurl_scene *scene = pressed(&parts, DEPTH);
     knurl_tick_output out = tick_at(scene, 0.001, 0.0, -DEPTH);
     CHECK_VECTOR(out.force, -MU * K * DEPTH, 0.0, K * (DEPTH + 0.0005), TOL);
@@ -272,7 +272,7 @@ TEST(damping_does_not_load_it) {
 
 TEST(friction_leaves_the_normal_force_alone) {
     surface_parts parts = rough_plane(0.0);
-    set_grating(&parts, KNURL_S2, 700.0, 300.0, 0.0004);
+    set_grating(&parts, KNURL_METHOD_S2, 700.0, 300.0, 0.0004);
     parts.material.damping = 0.7;
     knurl_scene *without = pressed(&parts, DEPTH);
     parts.material.friction = 0.8;
@@ -300,7 +300,7 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
     shape ball = shape_sphere(0.03, 3);
     for (int mesh = 0; mesh < 2; mesh++) {
         surface_parts parts = mesh ? surface_mesh(&ball) : surface_plane();
-        set_grating(&parts, KNURL_S2, 900.0, 0.0, 0.0003);
+        set_grating(&parts, KNURL_METHOD_S2, 900.0, 0.0, 0.0003);
         parts.desc.axis[0] = 1.0;
         parts.desc.position[2] = mesh ? -0.03 : 0.0;
         parts.material.damping = 0.4;

@@ -148,7 +148,7 @@ TEST(a_squeeze_ramps_the_fall_that_follows_it_and_no_later_one) {
 /* The same strokes with and without protections: 2.5, 3 and 5 ticks a cycle at the largest amplitude that keeps within
  * max_force, pressed in at 0.1 m/s, lifted, tapped. */
 TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     static const double speeds[] = {0.4, 1.0 / 3.0, 0.2, 0.05, 0.01}; /* m/s; 1000 cycles/m */
     for (size_t m = 0; m < COUNT_OF(methods); m++) {
         for (size_t v = 0; v < COUNT_OF(speeds); v++) {
@@ -157,7 +157,7 @@ TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {
                 surface_parts parts = wall(K);
                 knurl_hip_desc hip = guarded(i ? KNURL_PROTECT_ALL : 0);
                 hip.continuous_force = (double)INFINITY;
-                set_grating(&parts, methods[m], 1000.0, 0.0, 3.3 / ((methods[m] == KNURL_AREA ? 3.1416 : 2.8745) * K));
+                set_grating(&parts, methods[m], 1000.0, 0.0, 3.3 / (2.8745 * K));
                 scenes[i] = scene_with(&parts, &hip);
             }
             for (int tick = 0; tick < TICKS; tick++) {

@@ -45,7 +45,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
     surface_parts parts = wide_plane();
     knurl_vibration_event event;
     knurl_surface_id id;
-    set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = stood_on(&parts, &id);
     const pose end = at_height(0.02, 0.0, 0.0);
     assert_int_equal(knurl_vibration_event_init(10.0, 0.0005, &event), KNURL_OK);
@@ -72,7 +72,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
 TEST(surface_that_goes_with_the_hip_plays_none) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    set_grating(&parts, KNURL_S2, 1000.0, 500.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 500.0, 0.0005);
     parts.material.damping = 5.0;
     knurl_scene *scene = stood_on(&parts, &id);
     const pose end = at_height(0.04, 0.02, 0.01);
@@ -213,7 +213,7 @@ TEST(arrival_is_exactly_at_the_target) {
         const pose from = random_pose(&seed);
         const pose to = random_pose(&seed);
         surface_parts parts = wide_plane();
-        set_grating(&parts, KNURL_S1, 300.0, 170.0, 0.0005);
+        set_grating(&parts, KNURL_METHOD_S1, 300.0, 170.0, 0.0005);
         place(&parts, &to);
         knurl_scene *there = scene_of(&parts);
         place(&parts, &from);

@@ -56,7 +56,7 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         surface_parts parts = wide_plane();
         knurl_surface_id id;
-        set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0005);
+        set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
         knurl_scene *scene = stood_on(&parts, &id);
         const pose end = at_height(cases[i].x, 0.0, cases[i].z);
         move_to(scene, id, &end, 0.0);

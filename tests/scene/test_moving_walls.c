@@ -234,9 +234,9 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
 
 TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
     for (int friction = 0; friction < 2; friction++) {
-        compare_gliding(KNURL_S2, (const double[3]){0.23, 0.11, -0.003}, 0.4 * friction);
-        compare_gliding(KNURL_S2, (const double[3]){-0.31, 0.03, 0.004}, 0.4 * friction);
-        compare_gliding(KNURL_S1, (const double[3]){0.1701, -0.2303, -0.005}, 0.4 * friction);
+        compare_gliding(KNURL_METHOD_S2, (const double[3]){0.23, 0.11, -0.003}, 0.4 * friction);
+        compare_gliding(KNURL_METHOD_S2, (const double[3]){-0.31, 0.03, 0.004}, 0.4 * friction);
+        compare_gliding(KNURL_METHOD_S1, (const double[3]){0.1701, -0.2303, -0.005}, 0.4 * friction);
     }
 }
 

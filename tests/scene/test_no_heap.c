@@ -151,7 +151,7 @@ static void add_and_remove(knurl_scene *scene, int segment) {
         surface_parts ramp = surface_plane();
         ramp.desc.rotation[1] = 0.02;
         ramp.desc.rotation[3] = sqrt(1.0 - 0.0004);
-        add_touched(scene, &ramp, KNURL_S2, 0.045);
+        add_touched(scene, &ramp, KNURL_METHOD_S2, 0.045);
     } else {
         assert_int_equal(knurl_scene_remove_surface(scene, knurl_scene_get_surface(scene, 2)), KNURL_OK);
     }
@@ -181,17 +181,17 @@ static const struct stroked {
     double friction;
     int handovers; /* from one surface straight to another, at least */
 } scenes[] = {
-    {"plane and mesh, S1", add_plane_and_mesh, NULL, KNURL_S1, 0, 0.0, 0},
-    {"plane and mesh, S2", add_plane_and_mesh, NULL, KNURL_S2, 0, 0.0, 0},
-    {"friction", add_plane_and_mesh, NULL, KNURL_S2, 0, 0.4, 0},
-    {"all that a scene can model", add_plane_and_mesh, NULL, KNURL_S2, KNURL_FULL_ALL, 0.4, 0},
-    {"surfaces that move", add_plane_and_mesh, move_both, KNURL_S2, 0, 0.0, 0},
-    {"surfaces that move, friction", add_plane_and_mesh, move_both, KNURL_S2, 0, 0.4, 0},
-    {"surfaces that come and go", add_plane_and_mesh, add_and_remove, KNURL_S2, 0, 0.0, 0},
-    {"materials that change", add_plane_and_mesh, change_materials, KNURL_S2, 0, 0.0, 0},
-    {"tiles", add_tiles, NULL, KNURL_S2, 0, 0.0, 100},
-    {"tiles, friction", add_tiles, NULL, KNURL_S1, 0, 0.4, 100},
-    {"tiles, every one looked at in every tick", add_tiles, NULL, KNURL_S2, KNURL_FULL_SEARCH, 0.0, 100},
+    {"plane and mesh, S1", add_plane_and_mesh, NULL, KNURL_METHOD_S1, 0, 0.0, 0},
+    {"plane and mesh, S2", add_plane_and_mesh, NULL, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"friction", add_plane_and_mesh, NULL, KNURL_METHOD_S2, 0, 0.4, 0},
+    {"all that a scene can model", add_plane_and_mesh, NULL, KNURL_METHOD_S2, KNURL_FULL_ALL, 0.4, 0},
+    {"surfaces that move", add_plane_and_mesh, move_both, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"surfaces that move, friction", add_plane_and_mesh, move_both, KNURL_METHOD_S2, 0, 0.4, 0},
+    {"surfaces that come and go", add_plane_and_mesh, add_and_remove, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"materials that change", add_plane_and_mesh, change_materials, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"tiles", add_tiles, NULL, KNURL_METHOD_S2, 0, 0.0, 100},
+    {"tiles, friction", add_tiles, NULL, KNURL_METHOD_S1, 0, 0.4, 100},
+    {"tiles, every one looked at in every tick", add_tiles, NULL, KNURL_METHOD_S2, KNURL_FULL_SEARCH, 0.0, 100},
 };
 
 /* Committed, FOAW at the Touch's resolution. */
@@ -212,7 +212,7 @@ static knurl_scene *make_scene(const struct stroked *what) {
     hip.delay = 4.0;
     hip.heat_time = 0.5;
     hip.continuous_force = 0.2;
-    hip.clamp = what->method == KNURL_S1;
+    hip.clamp = what->method == KNURL_METHOD_S1;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     return scene;
@@ -271,7 +271,7 @@ static void check_stroke(const knurl_scene *scene, const struct stroked *what, c
     assert_in_range(counts.contact_ticks, TICKS / 5, TICKS * 4 / 5);
     assert_int_equal(counts.non_finite_ticks, TICKS / 1000);
     assert_true(counts.heat_ticks + counts.entry_ticks + counts.slew_ticks + counts.passivity_ticks > 0);
-    assert_true((counts.events > 100) == (what->method == KNURL_S2));
+    assert_true((counts.events > 100) == (what->method == KNURL_METHOD_S2));
     assert_true(s->handovers >= what->handovers);
     if (what->friction > 0.0) {
         assert_true(s->dragged > TICKS / 10);
@@ -332,8 +332,8 @@ TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
 
 TEST(estimators_and_gratings_ask_for_nothing) {
     knurl_velocity velocities[3];
-    knurl_grating gratings[2] = {{KNURL_S1, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0},
-                                 {KNURL_S2, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0, 0.0}};
+    knurl_grating gratings[2] = {{KNURL_METHOD_S1, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0},
+                                 {KNURL_METHOD_S2, {0}, {1000.0, 500.0}, 0.0003, 1000.0, 0.0}};
     knurl_grating_state states[2];
     memset(states, 0, sizeof states);
     assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, 0.055e-3, 1000.0, &velocities[0]), KNURL_OK);

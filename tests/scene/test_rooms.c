@@ -222,7 +222,7 @@ static void visit_room(uint64_t seed, int form, int moving, int presses, tally *
     surface_parts parts = surface_plane();
     if (random_integer(&random, 0, 3) == 0) {
         v.amplitude = 0.0002;
-        set_grating(&parts, KNURL_S1, 500.0, 0.0, v.amplitude);
+        set_grating(&parts, KNURL_METHOD_S1, 500.0, 0.0, v.amplitude);
     }
     v.scene = empty_scene(1);
     v.surfaces.reversed = form == ONE_REVERSED ? (uint32_t)seed : 0;

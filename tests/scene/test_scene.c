@@ -163,7 +163,8 @@ TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
-    for (parts.material.method = KNURL_METHOD_DEFAULT; parts.material.method <= KNURL_AREA; parts.material.method++) {
+    for (parts.material.method = KNURL_METHOD_DEFAULT; parts.material.method <= KNURL_METHOD_BANDLIMITED;
+         parts.material.method++) {
         (void)add_surface(scene, &parts);
         assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     }
@@ -176,7 +177,7 @@ TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
 TEST(materials_out_of_range_are_refused_by_name) {
     surface_parts good = surface_plane();
     surface_parts bad;
-    set_grating(&good, KNURL_S2, 500.0, 300.0, 0.0005);
+    set_grating(&good, KNURL_METHOD_S2, 500.0, 300.0, 0.0005);
     struct {
         double *value;
         const char *name;
@@ -272,9 +273,9 @@ TEST(mesh_needs_a_direction_and_s1_coordinates) {
     parts.mesh.uvs = NULL;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "axis");
     parts.mesh.tangents = tangents;
-    set_grating(&parts, KNURL_S2, 500.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S2, 500.0, 0.0, 0.0005);
     const knurl_surface_id id = add_surface(scene, &parts); /* S2 needs a direction only */
-    set_grating(&parts, KNURL_S1, 500.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S1, 500.0, 0.0, 0.0005);
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "S1");
     CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_ARGUMENT, id);
     check_message("uvs or an axis");

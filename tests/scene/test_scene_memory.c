@@ -195,7 +195,7 @@ TEST(info_tells_what_a_plane_came_to_be) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
-    assert_int_equal(material.method, KNURL_LOCKED); /* the default, resolved */
+    assert_int_equal(material.method, KNURL_METHOD_BANDLIMITED); /* the default, resolved */
     CHECK_VECTOR(info.bounds_min, -0.02, 0.0, 0.47, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.02, 0.0, 0.53, 1e-12);
     CHECK_VECTOR(info.anchor, 0.0, 0.0, 0.5, 1e-12);

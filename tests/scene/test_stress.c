@@ -59,7 +59,7 @@ static surface_parts numbered(int which, uint64_t number) {
     parts.desc.position[0] = which;
     parts.material.stiffness = stiffness_of(number);
     if (which == FELT) {
-        set_grating(&parts, KNURL_S1, 100.0, 0.0, 1e-6 * stiffness_of(number)); /* a crest at its middle */
+        set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 1e-6 * stiffness_of(number)); /* a crest at its middle */
     }
     return parts;
 }

@@ -47,7 +47,7 @@ TEST(s1_follows_equations_9_and_11_at_points) {
         {-0.2, 0.0, 1}, {-0.3, 0.0, -1}, {0.0, 0.4, 1},  {0.0, 0.6, -1},   {0.0, -0.6, -1}, {0.3, 0.6, 1},
         {0.8, 1.4, -1}, {0.3, 1.4, 1},   {0.3, 1.6, -1}, {-9.3, -8.1, -1}, {12.6, 9.0, 1},
     };
-    surface_parts parts = grating_plane(KNURL_S1, 1000.0, 500.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 500.0);
     knurl_scene *scene = scene_of(&parts);
     for (size_t i = 0; i < COUNT_OF(points); i++) {
         const double height = A * points[i].sign;
@@ -61,7 +61,7 @@ TEST(s1_follows_equations_9_and_11_at_points) {
 }
 
 TEST(cycles_tell_where_on_the_grating) {
-    surface_parts parts = grating_plane(KNURL_LOCKED, 1000.0, 500.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_BANDLIMITED, 1000.0, 500.0);
     knurl_scene *scene = scene_of(&parts);
     knurl_tick_output out = tick_at(scene, 0.0123, -0.004, -0.001);
     CHECK_CLOSE(out.cycles[0], 12.3, 1e-12L);
@@ -80,7 +80,7 @@ TEST(cycles_tell_where_on_the_grating) {
 
 /* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, above f_h/2. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
-    surface_parts parts = grating_plane(KNURL_S2, fs, 0.5 * fs);
+    surface_parts parts = grating_plane(KNURL_METHOD_S2, fs, 0.5 * fs);
     knurl_scene *scene = empty_scene(1);
     knurl_hip_desc hip;
     knurl_workspace workspace;
@@ -121,7 +121,7 @@ TEST(s2_at_constant_speed_plays_t3_events) {
 }
 
 TEST(s2_at_rest_is_the_plain_surface) {
-    surface_parts parts = grating_plane(KNURL_S2, 1000.0, 0.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S2, 1000.0, 0.0);
     knurl_scene *scene = scene_of(&parts);
     const double position[3] = {0.0, 0.0, -0.002};
     static const double still[3][3] = {{0.0, 0.0, 0.0}, {0.00099, 0.0, 0.0}, {0.0, 0.2, 0.0}}; /* or along its ridges */
@@ -134,7 +134,7 @@ TEST(s2_at_rest_is_the_plain_surface) {
 }
 
 TEST(contact_begins_at_the_crest_without_a_jump) {
-    surface_parts parts = grating_plane(KNURL_S1, 1000.0, 0.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 0.0);
     knurl_scene *scene = scene_of(&parts);
     double last = 0.0;
     for (int k = 0; k <= 200; k++) { /* down onto a crest in steps of 0.01 mm, from 0.2 mm above it */
@@ -152,7 +152,7 @@ TEST(contact_begins_at_the_crest_without_a_jump) {
 
 /* S2's highest crest is that of the 400 Hz mix, (2 + 3 sqrt(1/2))/sqrt(13) A = 1.143 A. */
 TEST(contact_with_s2_begins_at_its_highest_crest) {
-    surface_parts parts = grating_plane(KNURL_S2, 1000.0, 0.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S2, 1000.0, 0.0);
     knurl_scene *scene = scene_of(&parts);
     const double crest = (2.0 + 3.0 * sqrt(0.5)) / sqrt(13.0) * A;
     const double velocity[3] = {0.4, 0.0, 0.0};
@@ -167,7 +167,7 @@ TEST(contact_with_s2_begins_at_its_highest_crest) {
 }
 
 TEST(damping_acts_along_the_normal_and_never_pulls) {
-    surface_parts parts = grating_plane(KNURL_S1, 1000.0, 0.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 0.0);
     parts.material.damping = 5.0;
     knurl_scene *scene = scene_of(&parts);
     const double pressed[3] = {0.0, 0.0, -0.001};      /* on a crest: 0.6 N */
@@ -224,13 +224,13 @@ static void compare_poses(surface_parts *parts, uint64_t seed) {
 TEST(surface_elsewhere_feels_the_same) {
     shape box = shape_box((const double[3]){0.05, 0.05, 0.01}, 0);
     for (uint64_t i = 1; i <= 8; i++) {
-        surface_parts plane = grating_plane(i % 2 ? KNURL_S1 : KNURL_S2, 900.0, 400.0);
+        surface_parts plane = grating_plane(i % 2 ? KNURL_METHOD_S1 : KNURL_METHOD_S2, 900.0, 400.0);
         plane.material.orientation = 0.3 * (double)i;
         plane.material.damping = 0.5;
         plane.desc.double_sided = i > 4;
         compare_poses(&plane, i);
         surface_parts mesh = surface_mesh(&box);
-        set_grating(&mesh, i % 2 ? KNURL_S1 : KNURL_S2, 900.0, 400.0, A);
+        set_grating(&mesh, i % 2 ? KNURL_METHOD_S1 : KNURL_METHOD_S2, 900.0, 400.0, A);
         mesh.desc.axis[0] = 0.8;
         mesh.desc.axis[1] = 0.6;
         compare_poses(&mesh, 10 + i);
@@ -279,7 +279,7 @@ static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
         sheet.uvs[2 * v + 1] = 2.0f * (mirror_v ? 1.0f - sheet.uvs[2 * v + 1] : sheet.uvs[2 * v + 1]);
     }
     surface_parts parts = surface_mesh(&sheet);
-    set_grating(&parts, KNURL_S1, 310.0, 170.0, A);
+    set_grating(&parts, KNURL_METHOD_S1, 310.0, 170.0, A);
     parts.material.orientation = orientation;
     knurl_scene *scene = scene_of(&parts);
     uint64_t seed = 9;
@@ -316,7 +316,7 @@ TEST(s1_by_uvs_stretches_with_them) {
         sheet.uvs[2 * v] = v % 3 == 0 ? 0.0f : v % 3 == 1 ? 1.0f : 3.0f;
     }
     surface_parts parts = surface_mesh(&sheet);
-    set_grating(&parts, KNURL_S1, 300.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_S1, 300.0, 0.0, A);
     knurl_scene *scene = scene_of(&parts);
     for (int k = 0; k < 1000; k++) {
         const double x = -0.0499 + 9.97e-5 * k;
@@ -332,7 +332,7 @@ TEST(s1_by_uvs_stretches_with_them) {
 
 /* Touched from behind it is the same surface, turned over about its x. */
 TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
-    surface_parts parts = grating_plane(KNURL_S1, 310.0, 170.0);
+    surface_parts parts = grating_plane(KNURL_METHOD_S1, 310.0, 170.0);
     parts.material.orientation = 0.7;
     parts.desc.double_sided = 1;
     knurl_scene *behind = scene_of(&parts);

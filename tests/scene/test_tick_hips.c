@@ -10,7 +10,7 @@
 
 static surface_parts s2_plane(void) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S2, 1000.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, A);
     return parts;
 }
 
@@ -226,7 +226,7 @@ TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
 static knurl_scene *stack_of_planes(int count, int double_sided, double amplitude) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    set_grating(&parts, KNURL_S1, 100.0, 0.0, amplitude);
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, amplitude);
     parts.desc.double_sided = (uint32_t)double_sided;
     for (int i = 0; i < count; i++) { /* 0.1 mm apart, the uppermost last */
         parts.desc.position[2] = -0.0001 * (count - 1 - i);
@@ -270,7 +270,7 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
     surface_parts plane = surface_plane();
     knurl_scene *scene = empty_scene(1);
     parts.desc.axis[0] = 1.0;
-    set_grating(&plane, KNURL_S1, 100.0, 0.0, 0.001);
+    set_grating(&plane, KNURL_METHOD_S1, 100.0, 0.0, 0.001);
     for (int i = 0; i < 4; i++) {
         (void)add_surface(scene, &plane);
     }
@@ -444,7 +444,7 @@ static void *read_snapshots(void *argument) {
 
 TEST(snapshots_read_by_another_thread_are_whole) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S1, 1000.0, 0.0, A);
+    set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, A);
     knurl_scene *scene = scene_of(&parts);
     reader r = {scene, 0, 0, 0};
     pthread_t thread;

@@ -43,7 +43,7 @@ static shape heap_of_triangles(uint32_t count) {
 static surface_parts surface_shape(const shape *s, double amplitude) {
     surface_parts parts = surface_mesh(s);
     parts.desc.axis[0] = 1.0;
-    set_grating(&parts, KNURL_S1, amplitude > 0.0 ? 100.0 : 0.0, 0.0, amplitude);
+    set_grating(&parts, KNURL_METHOD_S1, amplitude > 0.0 ? 100.0 : 0.0, 0.0, amplitude);
     return parts;
 }
 
@@ -180,7 +180,7 @@ TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
 TEST(a_surface_that_holds_has_room_before_crests) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = empty_scene(1);
-    set_grating(&parts, KNURL_S1, 100.0, 0.0, 0.0005);
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0005);
     for (int i = 0; i < 6; i++) {
         parts.desc.position[2] = -5e-5 * (5 - i);
         (void)add_surface(scene, &parts);

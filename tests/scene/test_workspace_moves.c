@@ -107,7 +107,7 @@ TEST(a_workspace_that_jumps_touches_nothing_on_its_way) {
 /* 1 mm ridges under a hand that stands still, in a workspace that passes at 100 mm/s: 100 ridges a second. */
 TEST(ridges_are_felt_at_the_workspaces_speed) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S1, 1000.0, 0.0, 0.0002);
+    set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, 0.0002);
     knurl_scene *scene = scene_of(&parts);
     const knurl_workspace to = at(0.02, 0.0, 0.0);
     (void)tick_at(scene, 0.0, 0.0, -0.001);
@@ -263,7 +263,7 @@ static knurl_scene *stiff_wall(double scale) {
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.workspace = &workspace;
     desc.clamp = 1;
-    set_grating(&parts, KNURL_LOCKED, 1000.0, 0.0, 0.0002);
+    set_grating(&parts, KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, 0.0002);
     parts.material.stiffness = 5000.0;
     knurl_scene *scene = scene_of(&parts);
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);

@@ -20,14 +20,14 @@ static const runaway runaways[] = {
     {"preset=falcon", "light", KNURL_METHOD_DEFAULT, 2850.0, 0.0, 0.3},
     {"preset=falcon", "loose", KNURL_METHOD_DEFAULT, 1757.0, 0.0, 0.25},
     {"preset=falcon", "loose", KNURL_METHOD_DEFAULT, 1500.0, 0.0, 0.3},
-    {"preset=falcon", "loose", KNURL_S1, 3000.0, 0.0002, 0.25},
-    {"preset=falcon", "loose", KNURL_S1, 3000.0, 0.0002, 0.126}, /* at a quarter of the texture's frequency */
-    {"preset=falcon", "loose", KNURL_S2, 3000.0, 0.0002, 0.25},
-    {"preset=falcon", "loose", KNURL_LOCKED, 3000.0, 0.0002, 0.25},
+    {"preset=falcon", "loose", KNURL_METHOD_S1, 3000.0, 0.0002, 0.25},
+    {"preset=falcon", "loose", KNURL_METHOD_S1, 3000.0, 0.0002, 0.126}, /* at a quarter of the texture's frequency */
+    {"preset=falcon", "loose", KNURL_METHOD_S2, 3000.0, 0.0002, 0.25},
+    {"preset=falcon", "loose", KNURL_METHOD_BANDLIMITED, 3000.0, 0.0002, 0.25},
     {"preset=touch&coulomb=0", "loose", KNURL_METHOD_DEFAULT, 1020.0, 0.0, 0.0},
-    {"preset=touch&coulomb=0", "loose", KNURL_S1, 1020.0, 0.0002, 0.1},
-    {"preset=touch&coulomb=0", "loose", KNURL_S2, 1020.0, 0.0002, 0.1},
-    {"preset=touch&coulomb=0", "loose", KNURL_LOCKED, 1020.0, 0.0002, 0.1},
+    {"preset=touch&coulomb=0", "loose", KNURL_METHOD_S1, 1020.0, 0.0002, 0.1},
+    {"preset=touch&coulomb=0", "loose", KNURL_METHOD_S2, 1020.0, 0.0002, 0.1},
+    {"preset=touch&coulomb=0", "loose", KNURL_METHOD_BANDLIMITED, 1020.0, 0.0002, 0.1},
 };
 
 static inline lab_case runaway_case(const runaway *r, uint32_t without) {

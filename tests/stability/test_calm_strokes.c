@@ -100,7 +100,7 @@ static void check_strokes(int moves) {
         const char *device;
         double stiffness;
     } devices[] = {{"fake", 1020.0}, {"fake:?preset=falcon&tremor=0.00002", 1500.0}};
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     static const double speeds[] = {0.03, 0.1, 0.25};
     static double with[TICKS][3];
     static double without[TICKS][3];

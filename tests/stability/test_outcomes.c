@@ -55,7 +55,7 @@ TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
         c.speed = speeds[i];
         c.device = "preset=ideal&viscous=0.5";
         c.amplitude = 0.0001;
-        c.method = KNURL_S1;
+        c.method = KNURL_METHOD_S1;
         const lab_result r = run(&c);
         double sum = 0.0;
         for (int n = 1; n * speeds[i] / c.period < 500.0; n += 2) {
@@ -91,7 +91,7 @@ TEST(the_reference_swings_as_a_spring_that_is_never_held) {
 }
 
 TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
-    static const int32_t methods[] = {KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA};
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         lab_case c;
         lab_case_init(&c);
@@ -108,7 +108,7 @@ TEST(a_grating_within_the_bounds_vibrates_as_it_asks_by_every_method) {
 TEST(a_grating_that_is_too_shallow_to_be_felt_is_a_rest) {
     lab_case c;
     lab_case_init(&c);
-    c.method = KNURL_S1;
+    c.method = KNURL_METHOD_S1;
     c.amplitude = 0.00001;
     c.speed = 0.1;
     const lab_result r = run(&c);

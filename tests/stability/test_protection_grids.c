@@ -10,7 +10,9 @@
 #define CALM 0.0005
 
 static const char *const grips[] = {"loose", "light", "medium", "firm"};
-static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_S1, KNURL_S2, KNURL_LOCKED, KNURL_AREA}; /* first: flat */
+static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, KNURL_METHOD_S2,
+                                  KNURL_METHOD_BANDLIMITED}; /* first: flat */
+#define METHODS (int)COUNT_OF(methods)
 
 typedef struct counts {
     int cells, runaways, stopped, calm, changed, shaky, shaky_changed;
@@ -94,15 +96,15 @@ TEST_WITH(on_ridges_of_0_4_mm_every_runaway_is_stopped, NULL, drop_signals) {
     const int rows = fine ? 9 : 3;
     const int columns = fine ? 12 : 4;
     counts n = {0};
-    for (int i = 0; i < 20 * rows * columns; i += SUITE_SANITIZED ? 7 : 1) {
+    for (int i = 0; i < 4 * METHODS * rows * columns; i += SUITE_SANITIZED ? 7 : 1) {
         lab_case c;
         lab_case_init(&c);
         c.device = "preset=falcon";
         c.grip = lab_grip_named(grips[i % 4]);
-        c.method = methods[i / 4 % 5];
+        c.method = methods[i / 4 % METHODS];
         c.amplitude = c.method == KNURL_METHOD_DEFAULT ? 0.0 : 0.0002;
-        c.stiffness = 1500.0 + 1500.0 * (i / 20 % rows) / (rows - 1);
-        c.speed = 0.06 + 0.24 * (i / 20 / rows) / (columns - 1);
+        c.stiffness = 1500.0 + 1500.0 * (i / (4 * METHODS) % rows) / (rows - 1);
+        c.speed = 0.06 + 0.24 * (i / (4 * METHODS) / rows) / (columns - 1);
         judge(&c, &n);
     }
     tell_counts(&n);
@@ -121,18 +123,18 @@ static const double speeds[] = {0.02, 0.05, 0.09, 0.14, 0.2, 0.28, 0.4};
  * sixth of the runaway's. */
 TEST_WITH(on_high_ridges_five_in_six_runaways_are_stopped, NULL, drop_signals) {
     counts n = {0};
-    for (int i = 0; i < 2 * 4 * 5 * 3 * 7 * 5; i += getenv("KNURL_LONG") ? 1 : SUITE_SANITIZED ? 131 : 13) {
+    for (int i = 0; i < 2 * 4 * METHODS * 3 * 7 * 5; i += getenv("KNURL_LONG") ? 1 : SUITE_SANITIZED ? 131 : 13) {
         const int device = i % 2;
-        const int method = i / 8 % 5;
-        const int level = i / 40 % 3;
+        const int method = i / 8 % METHODS;
+        const int level = i / (8 * METHODS) % 3;
         lab_case c;
         lab_case_init(&c);
         c.device = devices[device];
         c.grip = lab_grip_named(grips[i / 2 % 4]);
         c.method = methods[method];
         c.amplitude = method == 0 ? 0.0 : amplitudes[level];
-        c.speed = speeds[i / 120 % 7];
-        c.stiffness = most_stiffness[device] * (0.2 + 0.2 * (i / 840 % 5));
+        c.speed = speeds[i / (24 * METHODS) % 7];
+        c.stiffness = most_stiffness[device] * (0.2 + 0.2 * (i / (168 * METHODS) % 5));
         if (method > 0 || level == 0) { /* a flat wall once */
             judge(&c, &n);
         }

@@ -8,28 +8,28 @@ static const char *const contract[] = {"empty",
                                        "motion_foaw",
                                        "grating_S1",
                                        "grating_S2",
-                                       "grating_locked",
-                                       "grating_area",
+                                       "grating_bandlimited",
+
                                        "plane",
-                                       "plane_locked",
+                                       "plane_bandlimited",
                                        "plane_foaw",
                                        "plane_smooth",
                                        "plane_friction",
                                        "mesh_1k",
-                                       "mesh_1k_locked",
+                                       "mesh_1k_bandlimited",
                                        "mesh_1k_smooth",
                                        "mesh_1k_friction",
                                        "mesh_10k",
-                                       "mesh_10k_locked",
+                                       "mesh_10k_bandlimited",
                                        "mesh_10k_smooth",
                                        "mesh_10k_friction",
                                        "mesh_100k",
-                                       "mesh_100k_locked",
+                                       "mesh_100k_bandlimited",
                                        "mesh_100k_smooth",
                                        "mesh_100k_friction",
                                        "mesh_100k_foaw",
                                        "mesh_1m",
-                                       "mesh_1m_locked",
+                                       "mesh_1m_bandlimited",
                                        "mesh_1m_smooth",
                                        "mesh_1m_friction",
                                        "mesh_10m",
@@ -121,8 +121,7 @@ TEST(one_case_is_told_with_all_its_fields) {
 }
 
 TEST(each_kind_of_case_runs) {
-    static const char *const names[] = {"empty",      "motion_foaw",    "grating_S1",
-                                        "grating_S2", "grating_locked", "grating_area"};
+    static const char *const names[] = {"empty", "motion_foaw", "grating_S1", "grating_S2", "grating_bandlimited"};
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         check_run(names[i], "20", 20.0, 0.0);
     }
@@ -132,7 +131,7 @@ TEST(each_kind_of_case_runs) {
 TEST(each_scene_is_touched_in_every_tick) {
     static const char *const names[] = {"plane_smooth",
                                         "plane_friction",
-                                        "plane_locked",
+                                        "plane_bandlimited",
                                         "plane_foaw",
                                         "mesh_1k",
                                         "mesh_1k_smooth",

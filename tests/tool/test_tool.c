@@ -201,7 +201,7 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
     CHECK_SAME(json_number_of(p.out, "triangles"), 2.0L);
     CHECK_SAME(json_number_of(p.out, "skipped"), 0.0L);
     CHECK_SAME(json_number_of(p.out, "mean"), 1.0L);
-    assert_non_null(strstr(p.out, "\"method\": \"locked\""));
+    assert_non_null(strstr(p.out, "\"method\": \"bandlimited\""));
     assert_non_null(strstr(p.out, "[1000, 0]"));
     process_free(&p);
 }

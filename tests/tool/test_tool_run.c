@@ -136,11 +136,11 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
     check_no_leftovers();
 }
 
-/* By S1, whose height is looked up at the proxy, by S2, and by locked, which does both; over a rim too: the sweep's
+/* By S1, whose height is looked up at the proxy, by S2, and by bandlimited; over a rim too: the sweep's
  * strokes are longer than a bar.
  */
 TEST(the_full_model_feels_the_same) {
-    static const char *const methods[] = {"S1", "S2", "locked"};
+    static const char *const methods[] = {"S1", "S2", "bandlimited"};
     static const char *const devices[] = {"fake:?resolution=0", "fake", "fake:?resolution=0"};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         process reduced = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method",

@@ -32,7 +32,7 @@ static void wait_ms(long ms) {
 
 static void serve_page(const char *page) {
     surface_parts plane = surface_plane();
-    set_grating(&plane, KNURL_S1, 700.0, 0.0, 0.0002);
+    set_grating(&plane, KNURL_METHOD_S1, 700.0, 0.0, 0.0002);
     plane.desc.name = "a \"plate\"";
     scene = empty_scene(1);
     (void)add_surface(scene, &plane);

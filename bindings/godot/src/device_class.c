@@ -421,9 +421,9 @@ static const gd_signal_row signals[] = {
     {"fault", 2, {{"code", INT, NULL}, {"text", STRING, NULL}}},
 };
 
-static const gd_constant_row constants[] = {{"Vibration", "VIBRATION_T1", KNURL_T1},
-                                            {"Vibration", "VIBRATION_T2", KNURL_T2},
-                                            {"Vibration", "VIBRATION_T3", KNURL_T3},
+static const gd_constant_row constants[] = {{"Vibration", "VIBRATION_T1", KNURL_WAVE_T1},
+                                            {"Vibration", "VIBRATION_T2", KNURL_WAVE_T2},
+                                            {"Vibration", "VIBRATION_T3", KNURL_WAVE_T3},
 #define FAULT_ROW(code, number, name, text, unit) {"Fault", &#code[sizeof "KNURL_" - 1], number},
                                             KNURL_FAULTS(FAULT_ROW)
 #undef FAULT_ROW

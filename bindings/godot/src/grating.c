@@ -44,16 +44,15 @@ static const gd_property properties[] = {
     NUMBER(damping, 0.0, 10.0, 0.01, "or_greater,suffix:N s/m"),
     NUMBER(friction, 0.0, 2.0, 0.01, "or_greater"),
     NUMBER(orientation, -360.0, 360.0, 0.1, "radians_as_degrees"),
-    {"method", GDEXTENSION_VARIANT_TYPE_INT, offsetof(grating, method), 0.0, 4.0, 1.0, "Default,S1,S2,Locked,Area",
+    {"method", GDEXTENSION_VARIANT_TYPE_INT, offsetof(grating, method), 0.0, 3.0, 1.0, "Default,S1,S2,Bandlimited",
      GD_HINT_ENUM, NULL, NULL, changed},
 };
 
 static const gd_constant_row constants[] = {
     {"Method", "METHOD_DEFAULT", KNURL_METHOD_DEFAULT},
-    {"Method", "METHOD_S1", KNURL_S1},
-    {"Method", "METHOD_S2", KNURL_S2},
-    {"Method", "METHOD_LOCKED", KNURL_LOCKED},
-    {"Method", "METHOD_AREA", KNURL_AREA},
+    {"Method", "METHOD_S1", KNURL_METHOD_S1},
+    {"Method", "METHOD_S2", KNURL_METHOD_S2},
+    {"Method", "METHOD_BANDLIMITED", KNURL_METHOD_BANDLIMITED},
 };
 
 const gd_class grating_class = {

@@ -14,7 +14,7 @@ typedef struct grating {
     double damping;             /* N s/m */
     double friction;
     double orientation;  /* rad */
-    int64_t method;      /* KNURL_METHOD_DEFAULT, KNURL_S1, ... */
+    int64_t method;      /* KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, ... */
     uint64_t changed_at; /* grating_changes at its latest change */
 } grating;
 

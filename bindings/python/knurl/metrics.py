@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from ._library import check, ffi, lib
 
 _LONGEST = 200000 # ticks of an actual period that is looked for
-_METHODS = {"T1": "KNURL_T1", "T2": "KNURL_T2", "T3": "KNURL_T3"}
+_METHODS = {"T1": "KNURL_WAVE_T1", "T2": "KNURL_WAVE_T2", "T3": "KNURL_WAVE_T3"}
 
 
 def _values_of(values: ArrayLike, name: str = "values") -> np.ndarray:
@@ -27,7 +27,7 @@ def _whole_ticks(period: float) -> int:
 
 
 def _actual_period(wave: Any) -> int:
-    if wave.method == lib.KNURL_T1:
+    if wave.method == lib.KNURL_WAVE_T1:
         return _whole_ticks(wave.period_ticks)
     period = 1
     for part in wave.parts[0:wave.part_count]:

@@ -29,7 +29,7 @@ def _rows(values: ArrayLike, columns: int, kind: str, what: str) -> np.ndarray:
 
 @dataclass
 class Material:
-    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "locked", "area", or None."""
+    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", or None."""
 
     stiffness: float = 400.0
     spatial_frequency: Tuple[float, float] = (0.0, 0.0)

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "8ea19b107512eccd"
+#define KNURL_UNITY_INTERFACE "62ff5df8ce699bad"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -40,27 +40,25 @@
     FIELD(knurl_wave, part_count, "part_count", 84, 4) \
     FIELD(knurl_wave, above_nyquist, "above_nyquist", 88, 4) \
     FIELD(knurl_wave, reserved, "reserved", 92, 4) \
-    STRUCT(knurl_grating, 64) \
+    STRUCT(knurl_grating, 56) \
     FIELD(knurl_grating, method, "method", 0, 4) \
     FIELD(knurl_grating, reserved, "reserved", 4, 12) \
     FIELD(knurl_grating, spatial_frequency, "spatial_frequency", 16, 16) \
     FIELD(knurl_grating, amplitude, "amplitude", 32, 8) \
     FIELD(knurl_grating, update_rate_hz, "update_rate_hz", 40, 8) \
     FIELD(knurl_grating, resolution, "resolution", 48, 8) \
-    FIELD(knurl_grating, crossover_hz, "crossover_hz", 56, 8) \
     STRUCT(knurl_grating_state, 112) \
     FIELD(knurl_grating_state, event, "event", 0, 32) \
     FIELD(knurl_grating_state, event_count, "event_count", 32, 8) \
     FIELD(knurl_grating_state, next_tick, "next_tick", 40, 4) \
     FIELD(knurl_grating_state, playing, "playing", 44, 4) \
-    FIELD(knurl_grating_state, phase, "phase", 48, 8) \
-    FIELD(knurl_grating_state, played, "played", 56, 8) \
-    FIELD(knurl_grating_state, held, "held", 64, 8) \
-    FIELD(knurl_grating_state, direction, "direction", 72, 4) \
-    FIELD(knurl_grating_state, moving, "moving", 76, 4) \
-    FIELD(knurl_grating_state, sign, "sign", 80, 4) \
-    FIELD(knurl_grating_state, axis, "axis", 84, 4) \
-    FIELD(knurl_grating_state, across, "across", 88, 8) \
+    FIELD(knurl_grating_state, moving, "moving", 48, 4) \
+    FIELD(knurl_grating_state, sign, "sign", 52, 4) \
+    FIELD(knurl_grating_state, tracked, "tracked", 56, 16) \
+    FIELD(knurl_grating_state, phase, "phase", 72, 8) \
+    FIELD(knurl_grating_state, offset, "offset", 80, 8) \
+    FIELD(knurl_grating_state, axis, "axis", 88, 4) \
+    FIELD(knurl_grating_state, direction, "direction", 92, 4) \
     FIELD(knurl_grating_state, reserved, "reserved", 96, 16) \
     STRUCT(knurl_grating_output, 48) \
     FIELD(knurl_grating_output, height, "height", 0, 8) \

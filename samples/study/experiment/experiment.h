@@ -22,7 +22,7 @@ enum { EXP_KEYBOARD = 0, EXP_BUTTONS = 1, EXP_SIMULATED = 2 };
 /* One experiment: a rival and our method, compared at periods x amplitudes. */
 typedef struct exp_design {
     int32_t experiment;      /* 1, 2 or 3 */
-    int32_t methods[2];      /* the rival (KNURL_T1, T2 or S1), then the paper's proposal (KNURL_T3 or S2) */
+    int32_t methods[2];      /* the rival (KNURL_WAVE_T1, T2 or S1), then the paper's proposal (KNURL_WAVE_T3 or S2) */
     const char *names[2];    /* "T1", "T3" */
     const double *periods;   /* ms; in experiment 3 the spatial periods, mm */
     uint32_t period_count;   /* 12, 12, 3 */

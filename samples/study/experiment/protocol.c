@@ -8,9 +8,9 @@ static const double temporal_periods[] = {23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3
 static const double spatial_periods[] = {0.5, 1, 2};
 
 static const exp_design designs[] = {
-    {1, {KNURL_T1, KNURL_T3}, {"T1", "T3"}, temporal_periods, 12, {1.05, 2.10}, 3, 48, "ms", "N"},
-    {2, {KNURL_T2, KNURL_T3}, {"T2", "T3"}, temporal_periods, 12, {0.35, 0.70}, 3, 48, "ms", "N"},
-    {3, {KNURL_S1, KNURL_S2}, {"S1", "S2"}, spatial_periods, 3, {0.27, 2.7}, 1, 3, "mm", "mm"}};
+    {1, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {"T1", "T3"}, temporal_periods, 12, {1.05, 2.10}, 3, 48, "ms", "N"},
+    {2, {KNURL_WAVE_T2, KNURL_WAVE_T3}, {"T2", "T3"}, temporal_periods, 12, {0.35, 0.70}, 3, 48, "ms", "N"},
+    {3, {KNURL_METHOD_S1, KNURL_METHOD_S2}, {"S1", "S2"}, spatial_periods, 3, {0.27, 2.7}, 1, 3, "mm", "mm"}};
 
 const exp_design *exp_design_of(int32_t experiment) {
     return experiment >= 1 && experiment <= 3 ? &designs[experiment - 1] : NULL;

@@ -40,10 +40,10 @@ static double grating_badness(int32_t method, const exp_trial *trial, double sti
     int count = 0;
     for (int speed = 10; speed <= 250; speed += 10, count++) { /* mm/s */
         double period = 1e3 * trial->period / speed;
-        if (method == KNURL_S2) {
+        if (method == KNURL_METHOD_S2) {
             period = period < 2.25 ? 2.0 : period <= 2.75 ? 2.5 : floor(period + 0.5);
         }
-        sum += exp_badness(method == KNURL_S1 ? KNURL_T1 : KNURL_T3, period, stiffness_n_per_mm * trial->amplitude);
+        sum += exp_badness(method == KNURL_METHOD_S1 ? KNURL_WAVE_T1 : KNURL_WAVE_T3, period, stiffness_n_per_mm * trial->amplitude);
     }
     return sum / count;
 }

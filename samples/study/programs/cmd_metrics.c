@@ -14,7 +14,7 @@
 /* This signal beside the other methods' at the same period. */
 static void print_correlations(json_writer *json, const tool_wave *asked, const study_signal *signal) {
     json_open(json, "pcc", '{');
-    for (int32_t i = KNURL_T1; i <= KNURL_T3; i++) {
+    for (int32_t i = KNURL_WAVE_T1; i <= KNURL_WAVE_T3; i++) {
         knurl_wave wave;
         study_signal other;
         if (knurl_wave_init(i, asked->period_s, asked->amplitude, asked->rate, &wave) ||

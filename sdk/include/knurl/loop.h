@@ -147,8 +147,8 @@ KNURL_API knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain);
  * thread] */
 KNURL_API knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]);
 
-/** Adds a vibration to the force, starting with the next tick; it replaces one that plays. method: KNURL_T1, KNURL_T2
- * or KNURL_T3 (a T3 vibration ends after a complete event). frequency_hz: 0.1 to half the update rate. amplitude: 0 to
+/** Adds a vibration to the force, starting with the next tick; it replaces one that plays. method: KNURL_WAVE_T1, KNURL_WAVE_T2
+ * or KNURL_WAVE_T3 (a T3 vibration ends after a complete event). frequency_hz: 0.1 to half the update rate. amplitude: 0 to
  * 1000 N. direction: scene axes, any length > 0. seconds: 0 to 3600; 0 ends the vibration that plays. The sum passes
  * the HIP's protections, except that the slew limit lets the vibration's own steps through. Errors:
  * KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_STATE (the loop has a force callback). [game thread]

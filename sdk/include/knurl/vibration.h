@@ -10,8 +10,9 @@
 extern "C" {
 #endif
 
-/** The paper's temporal methods: T1 samples the square wave, T2 mixes two even periods, T3 balances odd periods. */
-enum { KNURL_T1 = 1, KNURL_T2 = 2, KNURL_T3 = 3 };
+/** The paper's temporal methods: T1 samples the square wave, T2 mixes two even periods, T3 balances odd periods. None of
+ * these numbers is a spatial method's (KNURL_METHOD_), so that one given for the other is refused. */
+enum { KNURL_WAVE_T1 = 17, KNURL_WAVE_T2 = 18, KNURL_WAVE_T3 = 19 };
 
 /** The kinds of T3 events. MIXED is the paper's 400 Hz case, 2.5 ticks per cycle. */
 enum { KNURL_EVENT_EVEN = 0, KNURL_EVENT_ODD = 1, KNURL_EVENT_MIXED = 2 };
@@ -32,7 +33,7 @@ typedef struct knurl_wave {
     double period_ticks; /**< the period that is played (T1) or approached (T2, T3), in ticks, >= 2 */
     double amplitude;    /**< half peak to peak of the square wave asked for; the signal's RMS at integer periods */
     knurl_vibration_event parts[2]; /**< T3: one event, repeated; T2: one or two even events, summed */
-    int32_t method;                 /**< KNURL_T1, KNURL_T2 or KNURL_T3 */
+    int32_t method;                 /**< KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3 */
     int32_t part_count;             /**< 0 for T1 */
     uint32_t above_nyquist;         /**< 1: the period asked for was below 2 ticks and is played as 2 */
     uint32_t reserved;              /**< 0 */
@@ -48,7 +49,7 @@ KNURL_API knurl_result knurl_vibration_event_init(double period_ticks, double am
 KNURL_API double knurl_vibration_event_height(const knurl_vibration_event *event, int32_t index) KNURL_NONBLOCKING;
 
 /** Prepares a temporal signal (Algorithms 1-6; Eqs. 1-8).
- * method: KNURL_T1, KNURL_T2 or KNURL_T3. period_s: (0, 10] s. amplitude: finite, >= 0, in the unit of the output (N).
+ * method: KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3. period_s: (0, 10] s. amplitude: finite, >= 0, in the unit of the output (N).
  * update_rate_hz: 1 to 100,000 Hz. wave: caller's.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,

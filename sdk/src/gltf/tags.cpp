@@ -91,13 +91,21 @@ void read_axis(Tag &tag, const Entry &entry) {
     tag.axis = axis;
 }
 
+/// The methods' names as a sentence lists them: 'S1', 'S2' or 'bandlimited'.
+std::string method_names() {
+    std::string names;
+    for (int32_t i = 1; const char *name = knurl_method_name(i); ++i)
+        names += (i == 1 ? "'" : knurl_method_name(i + 1) ? ", '" : " or '") + std::string(name) + "'";
+    return names;
+}
+
 void read_method(Tag &tag, const Entry &entry) {
     const std::string *name = entry.value.text();
     if (name == nullptr)
-        entry.refuse("a string: 'S1', 'S2', 'locked' or 'area'");
+        entry.refuse(("a string: " + method_names()).c_str());
     int32_t method = KNURL_METHOD_DEFAULT;
     if (knurl_method_from_name(name->c_str(), &method) != KNURL_OK)
-        entry.refuse("'S1', 'S2', 'locked' or 'area'");
+        entry.refuse(method_names().c_str());
     tag.method = method;
 }
 

@@ -8,10 +8,15 @@
  * that no compiler folds the two. */
 #define KNURL_WHOLE 6755399441055744.0 /* 3 * 2^51 */
 
-/* floor(), which is a call where a compiler may not take SSE4.1 for granted. Exact to 2^51; beyond, where a double has
- * no phase left, some whole number near it, and what is not finite stays so. */
+/* The nearest whole number. Exact to 2^51; beyond, a double has no phase left, and this is some whole number near it. A
+ * number that is not finite stays so. */
+static inline double knurl_nearest_cycle(double phase) {
+    return (phase + KNURL_WHOLE) - KNURL_WHOLE;
+}
+
+/* floor(), which is a call unless a compiler may use SSE4.1. */
 static inline double knurl_whole_cycles(double phase) {
-    const double nearest = (phase + KNURL_WHOLE) - KNURL_WHOLE;
+    const double nearest = knurl_nearest_cycle(phase);
     return nearest > phase ? nearest - 1.0 : nearest;
 }
 

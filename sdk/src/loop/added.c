@@ -50,7 +50,7 @@ knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]) {
 /* A vibration of T3 ends after a whole event, whose impulse is zero. */
 static uint64_t ticks_of(const knurl_wave *wave, double seconds, double rate) {
     const uint64_t ticks = (uint64_t)ceil(seconds * rate);
-    const uint64_t event = wave->method == KNURL_T3 ? (uint64_t)wave->parts[0].length : 1;
+    const uint64_t event = wave->method == KNURL_WAVE_T3 ? (uint64_t)wave->parts[0].length : 1;
     return (ticks + event - 1) / event * event;
 }
 

@@ -33,7 +33,4 @@ double knurl_bounds_stiffness(const knurl_bounds *bounds, double damping) KNURL_
 /* m: the largest amplitude at a stiffness (N/m, scene): its swing within max_force, its rms within the continuous. */
 double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int32_t method) KNURL_NONBLOCKING;
 
-/* From the lowest trough to the highest crest of a method, in amplitudes (paper, "Peaks"). */
-double knurl_swing(int32_t method) KNURL_NONBLOCKING;
-
 #endif

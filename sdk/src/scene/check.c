@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "contact/mesh_query.h"
+#include "grating/methods.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -55,7 +56,7 @@ static void check_wall(const inspection *on) {
 static void check_texture(const inspection *on, double stiffness) {
     char sentence[256];
     const double rms = stiffness * on->material->amplitude;
-    const double swing = rms * knurl_swing(on->material->method);
+    const double swing = rms * knurl_methods[on->material->method].swing;
     const double *fs = on->material->spatial_frequency;
     const double period = 1.0 / fmax(fs[0], fs[1]);
     char advice[64];
@@ -85,7 +86,7 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     const knurl_material_desc *m = on->material;
     const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
     knurl_shape_facts facts;
-    if (m->method == KNURL_S2 || has_axis) { /* S2 counts metres */
+    if (!knurl_methods[m->method].follows_position || has_axis) {
         return;
     }
     knurl_shape_get_facts(&surface->shape, &facts);

@@ -41,7 +41,8 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
 /* The grating's share of this tick. over: velocity in the shape's frame. coordinates: the frame's. Functions that are
  * not inlined are given copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
-                                double coordinates[2], const knurl_wall *wall, knurl_contact_force *out) {
+                                knurl_along velocity, double coordinates[2], const knurl_wall *wall,
+                                knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
     knurl_grating_state *state = &c->candidate->grating;
     if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
@@ -51,17 +52,15 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         return;
     }
     knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
-    out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* no -0 where there are no ridges */
-    out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
-    knurl_grating_input at = {{coordinates[0], coordinates[1]}, {out->velocity[0], out->velocity[1]}, 1};
-    double steepest = 1.0;
-    if (m->method >= KNURL_LOCKED) { /* or AREA; without a position they add up the velocity */
-        double rates[2] = {at.velocity[0], at.velocity[1]}, most = 1.0;
-        at.has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &most);
-        at.velocity[0] = rates[0];
-        at.velocity[1] = rates[1];
-        steepest = most;
+    const knurl_along place = {coordinates[0], coordinates[1]};
+    out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* no -0 where there are no ridges */
+    out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
+    double rates[2] = {velocity.x, velocity.y}, steepest = 1.0;
+    int32_t has_position = 1;
+    if (knurl_methods[m->method].follows_position) { /* without coordinates, by the sum of the velocity */
+        has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &steepest);
     }
+    const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
@@ -104,9 +103,10 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     double over[3], x[3], y[3], coordinates[2] = {0.0, 0.0};
     relative_velocity(hip, c, over);
     knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
-    out->velocity[0] = vec3_dot(over, x);
-    out->velocity[1] = vec3_dot(over, y);
-    play_grating(hip, c, over, coordinates, wall, out);
+    const knurl_along velocity = {vec3_dot(over, x), vec3_dot(over, y)};
+    out->velocity[0] = velocity.x;
+    out->velocity[1] = velocity.y;
+    play_grating(hip, c, over, velocity, coordinates, wall, out);
     wall->height = out->grating.height;
     vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
     if (c->record->material.friction > 0.0) {

@@ -2,12 +2,7 @@
 #include "scene/record.h"
 
 #include "base/base.h"
-
-/* How far the crests of each method stand above the surface, in amplitudes: S1 and LOCKED (T3's events without the mix)
- * never leave A; S2's 400 Hz mix reaches (2 + 3 sqrt(1/2))/sqrt(13) = 1.143 A (paper, "Peaks"); AREA 1/sinc(1/2). */
-static double crest(int32_t method) {
-    return method == KNURL_S2 ? 1.1431 : method == KNURL_AREA ? 1.57079632679489662 : 1.0;
-}
+#include "grating/methods.h"
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
     const knurl_material_desc defaults = {.stiffness = 400.0};
@@ -49,14 +44,15 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (m.method == KNURL_S1 && !smooth && !has_coordinates) {
+    if (knurl_methods[m.method].needs_position && !smooth && !has_coordinates) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "method: S1 needs surface coordinates: expected uvs or an axis, found neither");
+                          "method: %s needs surface coordinates: expected uvs or an axis, found neither",
+                          knurl_method_name(m.method));
     }
     record->material = m;
     record->cos_sin[0] = cos(m.orientation);
     record->cos_sin[1] = sin(m.orientation);
-    record->reach = smooth ? 0.0 : m.amplitude * crest(m.method);
+    record->reach = smooth ? 0.0 : m.amplitude * knurl_methods[m.method].crest;
     record->is_smooth = smooth;
     record->is_oriented = record->cos_sin[1] != 0.0 || record->cos_sin[0] != 1.0;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;

@@ -28,8 +28,8 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
     if (KNURL_IS_NULL(wave)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (method != KNURL_T1 && method != KNURL_T2 && method != KNURL_T3) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_T1, KNURL_T2 or KNURL_T3, found %d",
+    if (method != KNURL_WAVE_T1 && method != KNURL_WAVE_T2 && method != KNURL_WAVE_T3) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3, found %d",
                           (int)method);
     }
     if (!(knurl_is_finite(period_s) && period_s > 0.0 && period_s <= 10.0)) {
@@ -48,9 +48,9 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
     made.above_nyquist = ticks < 2.0;
     made.period_ticks = ticks < 2.0 ? 2.0 : ticks;
     knurl_result result = KNURL_OK;
-    if (method == KNURL_T2) {
+    if (method == KNURL_WAVE_T2) {
         result = init_mix(&made);
-    } else if (method == KNURL_T3) {
+    } else if (method == KNURL_WAVE_T3) {
         made.part_count = 1;
         result = knurl_vibration_event_init(made.period_ticks, amplitude, &made.parts[0]);
     }
@@ -79,7 +79,7 @@ double knurl_wave_value(const knurl_wave *wave, uint64_t tick) {
     if (!wave) {
         return 0.0;
     }
-    if (wave->method == KNURL_T1) {
+    if (wave->method == KNURL_WAVE_T1) {
         return sample(wave, tick);
     }
     double value = 0.0;

@@ -306,7 +306,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
         knurl_loop *loop = NULL;
         knurl_device *device = open_at(1000.0);
         parts.plane.half_extents[0] = 0.3; /* also where the jump leads to */
-        set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0003);
+        set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
         knurl_scene *scene = scene_of(&parts);
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
@@ -344,7 +344,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
 /* The tick that says so itself: nothing is felt, nothing of the time before is left. */
 TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     surface_parts parts = surface_plane();
-    set_grating(&parts, KNURL_S2, 1000.0, 0.0, 0.0003);
+    set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
     knurl_scene *scene = scene_of(&parts);
     knurl_tick_output out;
     knurl_tick_input away;

@@ -63,7 +63,7 @@ static knurl_result try_surface(const knurl_material_desc *material, const doubl
 static knurl_result try_vertex(double value) {
     float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     knurl_mesh_desc mesh;
-    const knurl_material_desc material = good_material(KNURL_S1);
+    const knurl_material_desc material = good_material(KNURL_METHOD_S1);
     knurl_surface_desc surface;
     knurl_scene *scene = NULL;
     positions[4] = (float)value;
@@ -96,7 +96,7 @@ static void give_bad_input(void) {
     for (size_t i = 0; i < BAD_COUNT; i++) {
         const double bad = from_bits(bad_bits[i]);
         double *fields[7];
-        knurl_material_desc material = good_material(KNURL_S1);
+        knurl_material_desc material = good_material(KNURL_METHOD_S1);
         fields[0] = &material.spatial_frequency[0];
         fields[1] = &material.spatial_frequency[1];
         fields[2] = &material.amplitude;
@@ -105,11 +105,11 @@ static void give_bad_input(void) {
         fields[5] = &material.friction;
         fields[6] = &material.orientation;
         for (int k = 0; k < 7; k++) {
-            material = good_material(KNURL_S1);
+            material = good_material(KNURL_METHOD_S1);
             *fields[k] = bad;
             tell("material", 10 * (size_t)k + i, try_surface(&material, origin));
         }
-        material = good_material(KNURL_S1);
+        material = good_material(KNURL_METHOD_S1);
         const double position[3] = {0.0, bad, 0.0};
         tell("position", i, try_surface(&material, position));
         tell("vertex", i, try_vertex(bad));
@@ -122,7 +122,7 @@ static void give_bad_input(void) {
         workspace.origin[2] = bad;
         tell("origin", i, try_hip(&workspace, 1000.0));
         knurl_wave wave;
-        tell("wave", i, knurl_wave_init(KNURL_T2, 0.01, bad, 1000.0, &wave));
+        tell("wave", i, knurl_wave_init(KNURL_WAVE_T2, 0.01, bad, 1000.0, &wave));
         knurl_velocity velocity;
         tell("velocity", i, knurl_velocity_init(KNURL_VELOCITY_FOAW, bad, 1000.0, &velocity));
     }
@@ -223,8 +223,8 @@ int main(void) {
     give_bad_input();
     int failed = 0;
     for (int is_sheet = 0; is_sheet < 2; is_sheet++) {
-        failed |= stroke(KNURL_S1, is_sheet) | stroke(KNURL_S2, is_sheet) | stroke(KNURL_LOCKED, is_sheet) |
-                  stroke(KNURL_AREA, is_sheet);
+        failed |= stroke(KNURL_METHOD_S1, is_sheet) | stroke(KNURL_METHOD_S2, is_sheet) |
+                  stroke(KNURL_METHOD_BANDLIMITED, is_sheet);
     }
     return failed;
 }

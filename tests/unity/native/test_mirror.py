@@ -125,8 +125,8 @@ class MirrorTest(unittest.TestCase):
         self.expect_stale("knurl_clock_sleep_until_ns(double deadline_ns, IntPtr user)")
 
     def test_an_edited_mirror_is_noticed(self):
-        self.change(CS, "internal const int KNURL_LOCKED = 3;", "internal const int KNURL_LOCKED = 2;")
-        self.expect_stale("+        internal const int KNURL_LOCKED = 3;")
+        self.change(CS, "internal const int KNURL_METHOD_BANDLIMITED = 3;", "internal const int KNURL_METHOD_BANDLIMITED = 2;")
+        self.expect_stale("+        internal const int KNURL_METHOD_BANDLIMITED = 3;")
 
     def test_anything_mirrored_changes_the_interfaces_digits(self):
         digits = self.mirror.generate()["layout"].split('"')[1]

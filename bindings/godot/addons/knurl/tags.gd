@@ -4,7 +4,7 @@ extends RefCounted
 ## is told as Knurl's own loader tells it: which object, which key, what was expected, what was
 ## found.
 
-const METHODS: Dictionary = {"S1": 1, "S2": 2, "locked": 3, "area": 4}
+const METHODS: Dictionary = {"S1": 1, "S2": 2, "bandlimited": 3}
 const KEYS: Array[String] = [
 	"version",
 	"spatial_frequency",
@@ -121,11 +121,11 @@ func _read_entry(tag: Tag, prefix: String, key: String, value: Variant) -> void:
 			_read_axis(tag, at, value)
 		"method":
 			if not value is String:
-				_refuse_value(at, "a string: 'S1', 'S2', 'locked' or 'area'", value)
+				_refuse_value(at, "a string: 'S1', 'S2' or 'bandlimited'", value)
 			elif METHODS.has(value):
 				tag.values[key] = METHODS[value]
 			else:
-				_refuse_value(at, "'S1', 'S2', 'locked' or 'area'", value)
+				_refuse_value(at, "'S1', 'S2' or 'bandlimited'", value)
 		_:
 			_refuse(
 				at,

@@ -24,8 +24,8 @@ namespace Knurl.Editing
             new GUIContent("Orientation (rad)", "Turns the grating's x and y counter-clockwise about the normal, " +
                 "seen from outside"),
             new GUIContent("Method", "S1 looks the height up at the position; S2 plays balanced events at the " +
-                "frequency that the velocity asks for; Locked, the default, plays them in step with the surface; Area " +
-                "gives the mean of the ridges passed since the last tick"),
+                "frequency that the velocity asks for; Bandlimited, the default, plays of the ridges' harmonics those " +
+                "that the update rate can carry, in step with the surface"),
         };
 
         public override void OnInspectorGUI()

@@ -4,7 +4,7 @@ namespace Knurl
     /// <summary>How ridges are rendered. The numbers are those of Knurl's C interface.</summary>
     public enum GratingMethod
     {
-        /// <summary>Leaves it to Knurl: as <see cref="Locked"/>.</summary>
+        /// <summary>Leaves it to Knurl: as <see cref="Bandlimited"/>.</summary>
         Default = 0,
 
         /// <summary>Looks the height up at the position. Exact at low speeds; at high ones ridges are missed, and the
@@ -15,11 +15,8 @@ namespace Knurl
         /// the surface.</summary>
         S2 = 2,
 
-        /// <summary>Plays balanced events that keep step with the surface.</summary>
-        Locked = 3,
-
-        /// <summary>Gives the mean of the ridges passed since the last tick. Steady at any speed, and the same ridges
-        /// backwards; half a tick late.</summary>
-        Area = 4
+        /// <summary>Plays of the ridges' harmonics those that the update rate can carry, in step with the surface. No
+        /// false tones, no mean force.</summary>
+        Bandlimited = 3
     }
 }

@@ -30,7 +30,7 @@ namespace Knurl
         [SerializeField, Tooltip("Turns the grating's x and y counter-clockwise about the normal. rad")]
         float orientation;
 
-        [SerializeField, Tooltip("How ridges are rendered. Default: as Locked.")]
+        [SerializeField, Tooltip("How ridges are rendered. Default: as Bandlimited.")]
         GratingMethod method = GratingMethod.Default;
 
         [NonSerialized] long version; // counts anew when scripts are loaded anew, as Changes does

@@ -62,8 +62,7 @@ namespace Knurl
         /// <summary>Ticks in contact.</summary>
         public long ContactTicks;
 
-        /// <summary>Vibration events started (methods S2 and Locked; Locked starts none at low speed), with method
-        /// Area ridges begun.</summary>
+        /// <summary>Vibration events started (method S2) or ridges begun (Bandlimited).</summary>
         public long Events;
 
         /// <summary>Ridges and grooves that the HIP passed, with every method, not rounded.</summary>

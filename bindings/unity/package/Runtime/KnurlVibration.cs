@@ -5,12 +5,12 @@ namespace Knurl
     public enum KnurlVibration
     {
         /// <summary>A sampled square wave: its mean need not be zero.</summary>
-        T1 = 1,
+        T1 = 17,
 
         /// <summary>Two even periods mixed: the frequency is exact.</summary>
-        T2 = 2,
+        T2 = 18,
 
         /// <summary>Whole events whose impulse is zero: it pushes nobody's hand away.</summary>
-        T3 = 3
+        T3 = 19
     }
 }

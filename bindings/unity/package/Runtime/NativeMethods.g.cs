@@ -79,7 +79,6 @@ namespace Knurl
         public double amplitude;
         public double update_rate_hz;
         public double resolution;
-        public double crossover_hz;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -89,14 +88,13 @@ namespace Knurl
         public long event_count;
         public int next_tick;
         public int playing;
-        public double phase;
-        public double played;
-        public double held;
-        public int direction;
         public int moving;
         public int sign;
+        public fixed double tracked[2];
+        public double phase;
+        public double offset;
         public int axis;
-        public double across;
+        public int direction;
         public fixed ulong reserved[2];
     }
 
@@ -635,7 +633,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "8ea19b107512eccd";
+        internal const string Interface = "62ff5df8ce699bad";
 
         internal const string Version = "0.3.0";
 
@@ -696,7 +694,6 @@ namespace Knurl
         internal const int KNURL_VERSION_PATCH = 0;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
-        internal const double KNURL_LOCKED_CROSSOVER_HZ = 120.0;
         internal const int KNURL_FOAW_WINDOW = 15;
         internal const int KNURL_FOAW_STRIDE_MAX = 10;
         internal const double KNURL_VELOCITY_LOWPASS_HZ = 20.0;
@@ -723,17 +720,16 @@ namespace Knurl
         internal const int KNURL_ERROR_SYSTEM = -11;
         internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
         internal const int KNURL_ERROR_CANCELLED = -13;
-        internal const int KNURL_T1 = 1;
-        internal const int KNURL_T2 = 2;
-        internal const int KNURL_T3 = 3;
+        internal const int KNURL_WAVE_T1 = 17;
+        internal const int KNURL_WAVE_T2 = 18;
+        internal const int KNURL_WAVE_T3 = 19;
         internal const int KNURL_EVENT_EVEN = 0;
         internal const int KNURL_EVENT_ODD = 1;
         internal const int KNURL_EVENT_MIXED = 2;
         internal const int KNURL_METHOD_DEFAULT = 0;
-        internal const int KNURL_S1 = 1;
-        internal const int KNURL_S2 = 2;
-        internal const int KNURL_LOCKED = 3;
-        internal const int KNURL_AREA = 4;
+        internal const int KNURL_METHOD_S1 = 1;
+        internal const int KNURL_METHOD_S2 = 2;
+        internal const int KNURL_METHOD_BANDLIMITED = 3;
         internal const int KNURL_VELOCITY_AUTO = 0;
         internal const int KNURL_VELOCITY_DIFFERENCE = 1;
         internal const int KNURL_VELOCITY_FOAW = 2;

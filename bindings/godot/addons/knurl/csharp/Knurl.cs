@@ -31,9 +31,9 @@ namespace Knurl
         /// <summary>Coefficient of dry friction across the surface.</summary>
         public double Friction { get { return Object.Get("friction").AsDouble(); } set { Object.Set("friction", value); } }
 
-        /// <summary>How ridges are rendered. Default: as Locked. S1 looks the height up at the position; S2 plays
-        /// balanced events at the frequency that the velocity asks for; Locked plays such events in step with the
-        /// surface; Area gives the mean of the ridges passed since the last tick.</summary>
+        /// <summary>How ridges are rendered. Default: as Bandlimited. S1 looks the height up at the position; S2 plays
+        /// balanced events at the frequency that the velocity asks for; Bandlimited plays of the ridges' harmonics
+        /// those that the update rate can carry, in step with the surface.</summary>
         public long Method { get { return Object.Get("method").AsInt64(); } set { Object.Set("method", value); } }
 
         /// <summary>Turns the grating's x and y counter-clockwise about the normal, in radians.</summary>
@@ -49,7 +49,7 @@ namespace Knurl
     /// <summary>Method of KnurlGrating.</summary>
     public enum KnurlGratingMethod : long
     {
-        /// <summary>As METHOD_LOCKED.</summary>
+        /// <summary>As METHOD_BANDLIMITED.</summary>
         Default = 0,
 
         /// <summary>The height at the position.</summary>
@@ -58,11 +58,8 @@ namespace Knurl
         /// <summary>Balanced events at the frequency that the velocity asks for.</summary>
         S2 = 2,
 
-        /// <summary>Such events, in step with the surface.</summary>
-        Locked = 3,
-
-        /// <summary>The mean of the ridges passed since the last tick.</summary>
-        Area = 4,
+        /// <summary>The harmonics that the update rate can carry, in step with the surface.</summary>
+        Bandlimited = 3,
     }
 
     /// <summary>Makes the mesh of its parent felt.</summary>
@@ -343,13 +340,13 @@ namespace Knurl
     public enum KnurlDeviceVibration : long
     {
         /// <summary>A sampled square wave: its mean need not be zero.</summary>
-        T1 = 1,
+        T1 = 17,
 
         /// <summary>Two even periods mixed: the frequency is exact.</summary>
-        T2 = 2,
+        T2 = 18,
 
         /// <summary>Whole events whose impulse is zero: it pushes nobody's hand away.</summary>
-        T3 = 3,
+        T3 = 19,
     }
 
     /// <summary>Fault of KnurlDevice.</summary>

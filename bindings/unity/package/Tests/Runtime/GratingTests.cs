@@ -44,10 +44,9 @@ namespace Knurl.Tests
         public void MethodsHaveTheNumbersOfC()
         {
             Assert.AreEqual(NativeMethods.KNURL_METHOD_DEFAULT, (int)GratingMethod.Default);
-            Assert.AreEqual(NativeMethods.KNURL_S1, (int)GratingMethod.S1);
-            Assert.AreEqual(NativeMethods.KNURL_S2, (int)GratingMethod.S2);
-            Assert.AreEqual(NativeMethods.KNURL_LOCKED, (int)GratingMethod.Locked);
-            Assert.AreEqual(NativeMethods.KNURL_AREA, (int)GratingMethod.Area);
+            Assert.AreEqual(NativeMethods.KNURL_METHOD_S1, (int)GratingMethod.S1);
+            Assert.AreEqual(NativeMethods.KNURL_METHOD_S2, (int)GratingMethod.S2);
+            Assert.AreEqual(NativeMethods.KNURL_METHOD_BANDLIMITED, (int)GratingMethod.Bandlimited);
             Assert.AreEqual(0, (int)GratingMethod.Default);
         }
 

@@ -1,0 +1,35 @@
+/* A spatial method: all that other code asks about it. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_METHOD_H
+#define KNURL_SRC_METHOD_H
+
+#include <knurl/grating.h>
+
+/* Along a surface's x and y. By value it stays in registers: what was just stored as two numbers and is loaded as one
+ * vector costs a tick a third of its time. */
+typedef struct knurl_along {
+    double x, y;
+} knurl_along;
+
+/* Where a HIP is on a grating, and how fast it moves there. */
+typedef struct knurl_grating_input {
+    knurl_along position; /* m; not used unless has_position */
+    knurl_along velocity; /* m/s */
+    double period;        /* s, 1/f_h: a division less a tick */
+    int32_t has_position;
+} knurl_grating_input;
+
+/* The height of this tick, m, if no event is playing. output: set up, but for the height; a method may set `event`. */
+typedef double knurl_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                            knurl_along velocity, double period, int32_t has_position,
+                            knurl_grating_output *output) KNURL_NONBLOCKING;
+
+typedef struct knurl_method {
+    const char *name;
+    knurl_height *height;
+    double crest;             /* A: the highest height */
+    double swing;             /* A: from the lowest height to the highest */
+    int32_t follows_position; /* 1: ridges are at surface coordinates; 0: counted in metres along the path */
+    int32_t needs_position;   /* 1: cannot do without surface coordinates */
+} knurl_method;
+
+#endif

@@ -1,0 +1,52 @@
+/* The paper's methods: S1 (Eqs. 10, 11) and S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
+#include "grating/paper.h"
+
+#include "grating/phase.h"
+#include "grating/play.h"
+#include "vibration/ticks.h"
+
+double knurl_grating_mixed_height(const knurl_grating_state *state) {
+    return knurl_vibration_event_value(&state->event, state->next_tick);
+}
+
+double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
+    return knurl_first_half(position * spatial_frequency) ? amplitude : -amplitude;
+}
+
+/* cos(2 pi p) is positive while p + 1/4 is in the first half of its cycle. */
+static double s1(double x, double y, const double spatial_frequency[2], double amplitude) {
+    const int along_x = knurl_first_half(x * spatial_frequency[0] + 0.25);
+    const int along_y = knurl_first_half(y * spatial_frequency[1] + 0.25);
+    return along_x == along_y ? amplitude : -amplitude;
+}
+
+double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
+    if (!position || !spatial_frequency) {
+        return 0.0;
+    }
+    return s1(position[0], position[1], spatial_frequency, amplitude);
+}
+
+double knurl_s1_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                       knurl_along velocity, double period, int32_t has_position, knurl_grating_output *output) {
+    (void)state, (void)velocity, (void)period, (void)has_position, (void)output;
+    return s1(position.x, position.y, grating->spatial_frequency, grating->amplitude);
+}
+
+/* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */
+double knurl_s2_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
+                       knurl_along velocity, double period, int32_t has_position, knurl_grating_output *output) {
+    (void)position, (void)period, (void)has_position;
+    const double ticks = grating->update_rate_hz / output->temporal_frequency; /* infinite across no ridge */
+    const double least = state->moving ? 0.5 * KNURL_S2_DEADBAND : KNURL_S2_DEADBAND;
+    state->moving = 0;
+    if (!(velocity.x * velocity.x + velocity.y * velocity.y >= least * least) || !(ticks <= KNURL_MAX_PERIOD_TICKS)) {
+        return 0.0;
+    }
+    state->moving = grating->resolution > 0.0;
+    /* below a tick, however fast, it is played as 2 */
+    knurl_vibration_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
+    state->next_tick = 0;
+    state->event_count++;
+    return knurl_grating_play(state, output);
+}
