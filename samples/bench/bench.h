@@ -63,12 +63,10 @@ typedef struct bench_case {
     int32_t method;     /**< KNURL_METHOD_ */
     uint32_t triangles; /**< BENCH_MESH: about as many; BENCH_CORNER: planes, 2 or 3 */
     uint32_t hips;      /**< HIPs that tick at once: the first is timed, the others are ticked in turn beside it */
-    int pace;      /**< BENCH_WARM: as fast as they go; _PACED, _COLD: in a loop at 1 kHz, with and without dry ticks */
+    int paced;          /**< 1: in a loop at 1 kHz; 0: as fast as they go */
     int estimates; /**< 1: positions in a device's counts, from which FOAW estimates the velocity; 0: it is given */
     int thrashes;  /**< 1: another thread writes over the caches meanwhile; paced ones only */
 } bench_case;
-
-enum { BENCH_WARM, BENCH_PACED, BENCH_COLD };
 
 /** 1: for want of time or memory it runs only where it is asked for by its name. */
 static inline int bench_is_on_request(const bench_case *c) {

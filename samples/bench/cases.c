@@ -6,12 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 0, 0}
-#define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, BENCH_WARM, 1, 0}
-#define HIPS(name, shape, triangles, hips)                                                                             \
-    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, hips, BENCH_WARM, 0, 0}
-#define PACED(name, shape, triangles, pace, thrashes)                                                                  \
-    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, 1, pace, 0, thrashes}
+#define WARM(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, 0, 0, 0}
+#define FOAW(name, shape, finish, method, triangles) {name, shape, finish, method, triangles, 1, 0, 1, 0}
+#define HIPS(name, shape, triangles, hips) {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, hips, 0, 0, 0}
+#define PACED(name, shape, triangles, thrashes)                                                                        \
+    {name, shape, BENCH_TEXTURED, KNURL_METHOD_S2, triangles, 1, 1, 0, thrashes}
 #define MESH(name, triangles)                                                                                          \
     WARM(name, BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_S2, triangles),                                                \
         WARM(name "_bandlimited", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, triangles),                    \
@@ -50,14 +49,10 @@ const bench_case bench_cases[] = {
     HIPS("two_hips", BENCH_MESH, 100000, 2),
     HIPS("eight_hips", BENCH_MESH, 100000, 8),
     HIPS("moving_1k_two_hips", BENCH_MOVING_FIELD, 0, 2), /* edits per second beside a HIP that always ticks */
-    PACED("paced_plane", BENCH_PLANE, 0, BENCH_PACED, 0),
-    PACED("paced_plane_cold", BENCH_PLANE, 0, BENCH_COLD, 0),
-    PACED("paced_plane_thrashed", BENCH_PLANE, 0, BENCH_PACED, 1),
-    PACED("paced_plane_thrashed_cold", BENCH_PLANE, 0, BENCH_COLD, 1),
-    PACED("paced_mesh_100k", BENCH_MESH, 100000, BENCH_PACED, 0),
-    PACED("paced_mesh_100k_cold", BENCH_MESH, 100000, BENCH_COLD, 0),
-    PACED("paced_mesh_100k_thrashed", BENCH_MESH, 100000, BENCH_PACED, 1),
-    PACED("paced_mesh_100k_thrashed_cold", BENCH_MESH, 100000, BENCH_COLD, 1),
+    PACED("paced_plane", BENCH_PLANE, 0, 0),
+    PACED("paced_plane_thrashed", BENCH_PLANE, 0, 1),
+    PACED("paced_mesh_100k", BENCH_MESH, 100000, 0),
+    PACED("paced_mesh_100k_thrashed", BENCH_MESH, 100000, 1),
     {NULL, 0, 0, 0, 0, 0, 0, 0, 0}};
 
 /* What one case ticks. */
@@ -226,7 +221,7 @@ static size_t time_beside_others(subject *s, size_t ticks, knurl_result *failed)
 }
 
 static size_t default_ticks(const bench_case *c) {
-    return c->pace != BENCH_WARM ? BENCH_PACED_TICKS : BENCH_TICKS;
+    return c->paced ? BENCH_PACED_TICKS : BENCH_TICKS;
 }
 
 int bench_start(bench *b) {
@@ -263,7 +258,7 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     const size_t ticks = b->ticks > 0.0 ? (size_t)b->ticks : default_ticks(c);
     size_t count = 0;
     if (!failed && !*b->interrupted) {
-        if (c->pace != BENCH_WARM) {
+        if (c->paced) {
             failed = bench_pace(b, c, ticks, &count, &result->overruns);
         } else {
             count = c->hips > 1                ? time_beside_others(&s, ticks, &failed)
@@ -284,7 +279,7 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
         tell_shares(b, result);
         failed = bench_stage_reset(&b->stage, c); /* or the batches would begin with a jump through surfaces */
     }
-    if (!failed && c->pace == BENCH_WARM && c->hips == 1 && !is_moving(c)) {
+    if (!failed && !c->paced && c->hips == 1 && !is_moving(c)) {
         result->batch_ns = time_batches(&s, ticks);
     }
     return failed ? BENCH_FAILED : BENCH_DONE;

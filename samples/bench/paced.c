@@ -77,14 +77,13 @@ static knurl_result write_force(void *user, const double force[3]) {
     return KNURL_OK;
 }
 
-static knurl_result run(bench *b, const bench_case *c, stroked *s, knurl_device *device, double *overruns) {
+static knurl_result run(bench *b, stroked *s, knurl_device *device, double *overruns) {
     knurl_loop_stats stats;
     knurl_loop_desc d;
     knurl_loop_desc_init(&d, sizeof d);
     d.device = device;
     d.scene = b->stage.scene;
     d.update_rate_hz = BENCH_RATE;
-    d.dry_ticks = c->pace == BENCH_PACED;
     d.tick_limit = s->ticks;
     knurl_result result = knurl_loop_create(&d, &s->loop);
     result = result ? result : knurl_loop_start(s->loop);
@@ -119,7 +118,7 @@ knurl_result bench_pace(bench *b, const bench_case *c, size_t ticks, size_t *cou
         return result;
     }
     result = knurl_device_open_functions(&functions, &device);
-    result = result ? result : run(b, c, &s, device, overruns);
+    result = result ? result : run(b, &s, device, overruns);
     knurl_device_close(device);
     if (c->thrashes) {
         end_thrasher(&beside);

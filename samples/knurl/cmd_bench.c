@@ -97,7 +97,7 @@ static void print_result(json_writer *json, const row *r) {
     if (bench_is_worst(r->timed->shape)) {
         json_number(json, "visit_limit", r->result.visit_limit);
     }
-    if (r->timed->pace != BENCH_WARM) {
+    if (r->timed->paced) {
         json_number(json, "overruns", r->result.overruns);
     }
     json_close(json, '}');
@@ -154,7 +154,7 @@ static void print_table(const report *out) {
         if (bench_is_worst(r->timed->shape)) {
             say(stdout, "%-20s %.1f %% of the ticks met the limit of visits\n", "", 100.0 * t->visit_limit);
         }
-        if (r->timed->pace != BENCH_WARM) {
+        if (r->timed->paced) {
             say(stdout, "%-20s %.0f overruns\n", "", t->overruns);
         }
     }

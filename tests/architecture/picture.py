@@ -26,7 +26,7 @@ MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene
 
 # Box: its middle, its top, its width, its title, the line below it, the units in it.
 BOXES = {
-    "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick", "scene/dry_tick"]),
+    "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick"]),
     "edits": (330, 206, 180, "edits, questions", "from other threads",
               ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
                "scene/walk"]),

@@ -79,7 +79,6 @@ static void play(record *into, uint64_t steps) {
     if (steps == 0) {
         rig_run(&r);
         assert_true(rig_stats(&r).overruns > 10);
-        CHECK_SAME(rig_stats(&r).dry_tick_ns.max, 0.0L); /* only by the system's clock */
     }
     assert_int_equal(into->count, TICKS);
     rig_destroy(&r);
@@ -379,45 +378,4 @@ TEST_WITH(only_the_fake_device_takes_strokes_and_traces, NULL, end_rig) {
     rig_init(&r);
     CHECK_REFUSED(knurl_fake_set_stroke(&r.device, &stroke), KNURL_ERROR_UNSUPPORTED, stroke);
     CHECK_REFUSED(knurl_fake_set_trace(&r.device, row, 1), KNURL_ERROR_UNSUPPORTED, row);
-}
-
-/* On a thread and by the system's clock, along the plate; positions are the device's count of reads, so that forces do
- * not depend on when it is read. */
-static knurl_loop_stats play_in_real_time(record *into, uint32_t dry_ticks) {
-    knurl_scene *scene = make_scene(1);
-    memset(into, 0, sizeof *into);
-    rig_init(&r);
-    r.desc.clock = NULL;
-    r.desc.scene = scene;
-    r.desc.force_callback = NULL;
-    r.desc.tick_callback = take;
-    r.desc.user = into;
-    r.desc.tick_limit = 60;
-    r.desc.dry_ticks = dry_ticks;
-    rig_create(&r);
-    rig_run(&r);
-    const knurl_loop_stats stats = rig_stats(&r);
-    rig_destroy(&r);
-    knurl_scene_destroy(scene);
-    assert_int_equal(r.reads, 60 + 20);  /* and the ramp's: the device itself is read for no dry cycle */
-    assert_int_equal(r.writes, 60 + 20); /* nor written to */
-    return stats;
-}
-
-TEST_WITH(dry_ticks_are_run_by_default_and_change_no_force, NULL, end_rig) {
-    static record with, without;
-    const knurl_loop_stats dry = play_in_real_time(&with, 1);
-    const knurl_loop_stats plain = play_in_real_time(&without, 0);
-    rig_init(&r);
-    assert_int_equal(r.desc.dry_ticks, 1);
-    assert_true(dry.dry_tick_ns.max > 0.0);
-    CHECK_SAME(plain.dry_tick_ns.max, 0.0L);
-    assert_true(with.outputs[5].contacts == 1);
-    check_same_record(&with, &without);
-}
-
-TEST_WITH(dry_ticks_are_on_or_off, NULL, end_rig) {
-    rig_init(&r);
-    r.desc.dry_ticks = 2;
-    CHECK_REFUSED(knurl_loop_create(&r.desc, &r.loop), KNURL_ERROR_ARGUMENT, r.loop);
 }

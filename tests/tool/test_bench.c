@@ -48,13 +48,9 @@ static const char *const contract[] = {"empty",
                                        "eight_hips",
                                        "moving_1k_two_hips",
                                        "paced_plane",
-                                       "paced_plane_cold",
                                        "paced_plane_thrashed",
-                                       "paced_plane_thrashed_cold",
                                        "paced_mesh_100k",
-                                       "paced_mesh_100k_cold",
-                                       "paced_mesh_100k_thrashed",
-                                       "paced_mesh_100k_thrashed_cold"};
+                                       "paced_mesh_100k_thrashed"};
 
 /* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
 static const char *only_case(const char *json, const char *name) {
@@ -146,10 +142,8 @@ TEST(each_scene_is_touched_in_every_tick) {
                                         "eight_hips",
                                         "moving_1k_two_hips",
                                         "paced_plane",
-                                        "paced_plane_cold",
                                         "paced_plane_thrashed",
-                                        "paced_mesh_100k",
-                                        "paced_mesh_100k_cold"};
+                                        "paced_mesh_100k"};
     for (size_t i = 0; i < COUNT_OF(names); i += SUITE_SANITIZED ? 4 : 1) {
         check_run(names[i], "600", 600.0, 1.0);
     }
@@ -195,7 +189,7 @@ TEST(an_unknown_case_is_refused_with_the_list) {
         (void)strncat(names, contract[i], sizeof names - strlen(names) - 1);
     }
     assert_non_null(strstr(p.err, names)); /* all of them, no others */
-    check_refused(&p, 2, "--case|empty|paced_mesh_100k_thrashed_cold|found 'mesh_2k'", "an unknown case");
+    check_refused(&p, 2, "--case|empty|paced_mesh_100k_thrashed|found 'mesh_2k'", "an unknown case");
 }
 
 TEST(wrong_ticks_are_refused) {

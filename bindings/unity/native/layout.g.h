@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "62ff5df8ce699bad"
+#define KNURL_UNITY_INTERFACE "8eb15f8b68ec8f88"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -309,7 +309,7 @@
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \
     FIELD(knurl_clock, user, "user", 16, 8) \
-    STRUCT(knurl_loop_desc, 112) \
+    STRUCT(knurl_loop_desc, 104) \
     FIELD(knurl_loop_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_loop_desc, hip, "hip", 4, 4) \
     FIELD(knurl_loop_desc, device, "device", 8, 8) \
@@ -325,13 +325,11 @@
     FIELD(knurl_loop_desc, protections, "protections", 88, 4) \
     FIELD(knurl_loop_desc, reconnect, "reconnect", 92, 4) \
     FIELD(knurl_loop_desc, heartbeat_s, "heartbeat_s", 96, 8) \
-    FIELD(knurl_loop_desc, dry_ticks, "dry_ticks", 104, 4) \
-    FIELD(knurl_loop_desc, reserved, "reserved", 108, 4) \
     STRUCT(knurl_percentiles, 24) \
     FIELD(knurl_percentiles, p50, "p50", 0, 8) \
     FIELD(knurl_percentiles, p99, "p99", 8, 8) \
     FIELD(knurl_percentiles, max, "max", 16, 8) \
-    STRUCT(knurl_loop_stats, 144) \
+    STRUCT(knurl_loop_stats, 120) \
     FIELD(knurl_loop_stats, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_loop_stats, state, "state", 4, 4) \
     FIELD(knurl_loop_stats, ticks, "ticks", 8, 8) \
@@ -346,7 +344,6 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    FIELD(knurl_loop_stats, dry_tick_ns, "dry_tick_ns", 120, 24) \
     STRUCT(knurl_stroke_report, 24) \
     FIELD(knurl_stroke_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_report, is_outside, "is_outside", 4, 4) \

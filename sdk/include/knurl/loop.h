@@ -51,13 +51,6 @@ typedef struct knurl_loop_desc {
     uint32_t reconnect;       /**< 1: search for a lost device four times a second; default 0: the loop ends */
     double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force ramps down to zero, until the next
                              call; 0 (default): no heartbeat is needed */
-    uint32_t dry_ticks; /**< 1 (default): before the device is read, the loop runs a cycle at the latest position, on
-                             copies of itself, the HIP and the device, and discards the result. This loads code and
-                             data into the cache: from position to force then takes 0.3 us instead of 0.7 on a plane,
-                             0.4 instead of 1.2 on 100,000 triangles (medians; 99th percentiles 1.5 and 3.2, 2.4 and
-                             5.0), and the cycle 1 to 2 us longer (stats.dry_tick_ns).
-                             Only with a scene and the system's clock; skipped in late cycles. 0: off */
-    uint32_t reserved;  /**< 0 */
 } knurl_loop_desc;
 
 /** Percentiles of a duration, ns. */
@@ -92,7 +85,6 @@ typedef struct knurl_loop_stats {
     uint64_t absences;           /**< cycles without a tick: the device was lost or had no valid position */
     uint32_t absent;             /**< 1: the latest cycle was without a tick */
     uint32_t paused;             /**< 1: paused */
-    knurl_percentiles dry_tick_ns; /**< the dry cycles (knurl_loop_desc); within 3 %; 0 without any */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */

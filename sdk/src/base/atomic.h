@@ -4,8 +4,6 @@
 
 #include "base/finite.h"
 
-#include <stddef.h>
-
 #define knurl_load_relaxed(p)     __atomic_load_n((p), __ATOMIC_RELAXED)
 #define knurl_load_acquire(p)     __atomic_load_n((p), __ATOMIC_ACQUIRE)
 #define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)
@@ -31,15 +29,5 @@ static inline void knurl_store_float(float *to, float value) {
 
 /* For counters with one writer and any number of readers. */
 #define knurl_count_up(p) knurl_store_relaxed((p), knurl_load_relaxed(p) + 1)
-
-/* Brings a part of an object, from one byte up to another, into the cache, for a tick that is about to use it; no other
- * thread may write to it but by atomics. Loads, not prefetches: of so many, some would still be under way then. */
-static inline void knurl_fetch(const void *object, size_t from, size_t to) {
-    const char *bytes = object;
-    for (size_t at = from; at < to; at += 64) { /* a cache's line */
-        (void)knurl_load_relaxed(&bytes[at]);
-    }
-    (void)knurl_load_relaxed(&bytes[to - 1]); /* what begins within a line ends in one more */
-}
 
 #endif

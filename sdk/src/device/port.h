@@ -38,15 +38,6 @@ int knurl_port_is_lost(const knurl_device *device);
 /* Zeroes the force of a device that the loop found to be lost, reports the fault and marks it. [any thread] */
 void knurl_port_lose(knurl_device *device);
 
-/* The scratch device of dry cycles (loop/dry.c), which stands for `device`: it reads the position that was set, and
- * discards forces. Null: no memory. Freed by knurl_port_free_dry(), which takes null. [game thread] */
-knurl_device *knurl_port_make_dry(const knurl_device *device);
-void knurl_port_free_dry(knurl_device *scratch);
-
-/* Sets the position (m) that the scratch device reads next, and loads what the next read and write of `device` use into
- * the cache. [haptic thread] */
-void knurl_port_begin_dry(knurl_device *scratch, const knurl_device *device, const double position[3]);
-
 /* Puts a fault on the device's event ring (KNURL_FAULT_). [any thread, without waiting] */
 void knurl_port_report(knurl_device *device, int32_t code, double value);
 

@@ -111,13 +111,6 @@ static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     loop->was_overrun = overrun;
 }
 
-/* In cycles that are not late, before the device is read. */
-static void run_dry(knurl_loop *loop) {
-    if (loop->dry && loop->has_position && !knurl_load_relaxed(&loop->paused) && !knurl_loop_at_end(loop)) {
-        knurl_loop_run_dry(loop);
-    }
-}
-
 static int32_t state_at_end(const knurl_loop *loop) {
     return loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE;
 }
@@ -135,9 +128,6 @@ void knurl_loop_haptic_thread(void *argument) {
         const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
         knurl_loop_pass_time(loop, loop->pace.woke_at);
         note_lateness(loop, late, overrun);
-        if (!overrun) {
-            run_dry(loop);
-        }
         if (!knurl_loop_cycle(loop)) {
             break;
         }
@@ -157,9 +147,6 @@ uint32_t knurl_loop_serve(void *argument) {
     } else {
         const double late = fmax(0.0, (double)(now - loop->served_at) - period);
         note_lateness(loop, (int64_t)late, late > 0.5 * period);
-        if (late <= 0.5 * period) {
-            run_dry(loop);
-        }
     }
     loop->served_at = now;
     knurl_loop_pass_time(loop, now);

@@ -149,10 +149,6 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "knurl_loop_desc: expected heartbeat_s 0 to 3600 s and reconnect 0 or 1, found %g and %u",
                           d->heartbeat_s, (unsigned)d->reconnect);
     }
-    if (d->dry_ticks > 1) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.dry_ticks: expected 0 or 1, found %u",
-                          (unsigned)d->dry_ticks);
-    }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.clock: expected both functions, found null");
     }
@@ -160,11 +156,8 @@ static knurl_result check(const knurl_loop_desc *d) {
 }
 
 void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size) {
-    const knurl_loop_desc defaults = {.update_rate_hz = 1000.0,
-                                      .ramp_s = 0.02,
-                                      .watchdog_s = 0.05,
-                                      .protections = KNURL_PROTECT_HEAT,
-                                      .dry_ticks = 1};
+    const knurl_loop_desc defaults = {
+        .update_rate_hz = 1000.0, .ramp_s = 0.02, .watchdog_s = 0.05, .protections = KNURL_PROTECT_HEAT};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -224,11 +217,6 @@ static knurl_result make(const knurl_loop_desc *d, const knurl_hip_facts *facts,
     made->clock = d->clock ? *d->clock : system_clock;
     made->hip = d->scene ? &d->scene->hips[d->hip] : NULL;
     knurl_loop_init(made, facts);
-    const knurl_result result = knurl_loop_make_dry(made, facts);
-    if (result) {
-        free(made);
-        return result;
-    }
     *loop = made;
     return KNURL_OK;
 }
@@ -291,9 +279,8 @@ static void end_watchdog(knurl_loop *loop) {
 /* Returns 1 where the loop's own memory and its scene's are locked into RAM. */
 static int lock_memory(knurl_loop *loop) {
     const int own = knurl_system_lock_memory(loop, sizeof *loop);
-    const int dry = !loop->dry || knurl_system_lock_memory(loop->dry, sizeof *loop->dry);
     const int scene = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
-    return own && dry && scene;
+    return own && scene;
 }
 
 knurl_result knurl_loop_start(knurl_loop *loop) {
@@ -443,7 +430,6 @@ void knurl_loop_destroy(knurl_loop *loop) {
     }
     end_watchdog(loop);
     knurl_system_unlock_memory(loop, sizeof *loop);
-    knurl_loop_free_dry(loop);
     release(&loop->desc);
     knurl_handle_clear(&loop->handle);
     free(loop);
@@ -475,6 +461,5 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.absences = knurl_load_relaxed(&loop->absences);
     made.absent = knurl_load_relaxed(&loop->absent);
     made.paused = knurl_load_relaxed(&loop->paused);
-    made.dry_tick_ns = percentiles_of(&loop->dry_tick_ns);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

@@ -54,8 +54,7 @@ struct knurl_loop {
     uint32_t handle; /* KNURL_HANDLE_LOOP, first */
     knurl_loop_desc desc;
     knurl_clock clock;
-    knurl_hip *hip;        /* the scene's; null without a scene */
-    struct knurl_dry *dry; /* null: no dry cycles */
+    knurl_hip *hip; /* the scene's; null without a scene */
     knurl_thread *thread;
     knurl_thread *watchdog; /* the watchdog, and who looks for a lost device */
     knurl_pace pace;
@@ -75,8 +74,6 @@ struct knurl_loop {
     uint64_t since_heartbeat; /* ticks */
     int game_was_alive;
     int wanted; /* 1: not paused, and the game is alive */
-    int has_position;
-    double position[3]; /* the latest cycle's, device, m */
     knurl_loop_added added;
 
     /* atomics */
@@ -102,28 +99,14 @@ struct knurl_loop {
     uintptr_t watchdog_thread;
     uintptr_t process; /* that has these threads */
     knurl_histogram tick_ns;
-    knurl_histogram dry_tick_ns;
     knurl_histogram jitter_ns;
 };
-
-/* A scratch loop, with a scratch HIP and a scratch device (dry.c). */
-typedef struct knurl_dry {
-    knurl_loop loop;
-    knurl_hip hip;
-} knurl_dry;
 
 /* loop_tick.c: sets up a loop that is zeroed but for desc, hip and clock. */
 void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts);
 
 /* A tick: reads the device, makes a force, writes it. Returns 0 where the loop must end. [haptic thread] */
 int knurl_loop_tick(knurl_loop *loop);
-
-/* dry.c: makes what a loop's dry cycles need, where it has any. Errors: KNURL_ERROR_MEMORY. */
-knurl_result knurl_loop_make_dry(knurl_loop *loop, const knurl_hip_facts *facts);
-void knurl_loop_free_dry(knurl_loop *loop);
-
-/* Does on a scratch loop what the tick that follows will do, and loads what that will use. [haptic thread] */
-void knurl_loop_run_dry(knurl_loop *loop);
 
 /* heat.c: what the motors warm up by. */
 

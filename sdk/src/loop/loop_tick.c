@@ -110,7 +110,6 @@ static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
     knurl_count_up(&loop->cycles);
     knurl_store_relaxed(&loop->absent, 1u);
-    loop->has_position = 0;
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
     knurl_loop_add_heat(loop, 0.0);
@@ -141,8 +140,6 @@ int knurl_loop_tick(knurl_loop *loop) {
         return run_without_position(loop, result);
     }
     memset(&output, 0, sizeof output);
-    vec3_copy(sample.position, loop->position);
-    loop->has_position = 1;
     const int64_t before = loop->clock.now_ns(loop->clock.user);
     make_force(loop, &sample, &output);
     const int64_t after = loop->clock.now_ns(loop->clock.user);

@@ -48,18 +48,9 @@ void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
 /* 1: its owner has destroyed it. [any thread] */
 int knurl_scene_is_destroyed(const knurl_scene *scene);
 
-/* The tick of one of the scene's HIPs, or of a scratch HIP. The scene is committed. added: or null. */
+/* The tick of one of the scene's HIPs. The scene is committed. added: or null. */
 void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
                     knurl_tick_output *output) KNURL_NONBLOCKING;
-
-/* dry_tick.c. Makes a scratch HIP: a copy that touches nothing, whose contacts share no memory with the HIP's. [game
- * thread, while the HIP does not tick] */
-void knurl_hip_init_dry(const knurl_hip *hip, knurl_hip *scratch);
-
-/* Around a tick of the scratch HIP, on the HIP's thread. Begin: loads what the HIP's next tick uses into the cache, and
- * puts the scratch HIP to the same time and workspace; end: edits may free again what the tick read. */
-void knurl_hip_begin_dry(knurl_scene *scene, knurl_hip *hip, knurl_hip *scratch) KNURL_NONBLOCKING;
-void knurl_hip_end_dry(knurl_hip *hip) KNURL_NONBLOCKING;
 
 /* Fills in what a claimed HIP's description leaves open from the loop and its device, and clears the HIP's state except
  * for the heat. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */

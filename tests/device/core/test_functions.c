@@ -252,31 +252,6 @@ TEST(it_is_started_before_it_is_read) {
     }
 }
 
-/* --- a scratch device for dry cycles stands for it --- */
-
-TEST(a_scratch_device_reads_what_it_was_set_and_moves_no_motor) {
-    for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        const double force[3] = {1.0, -2.0, 3.0};
-        knurl_device *device = home_open(&h, blocking);
-        knurl_device *scratch = knurl_port_make_dry(device);
-        assert_non_null(scratch);
-        for (int i = 0; i < 50; i++) {
-            const double position[3] = {0.1 * i, 0.0, -0.2 * i}; /* faster than a hand */
-            knurl_device_sample sample;
-            knurl_port_begin_dry(scratch, device, position);
-            assert_int_equal(knurl_device_read(scratch, &sample), KNURL_OK);
-            assert_memory_equal(sample.position, position, sizeof position);
-            assert_int_equal(knurl_device_write(scratch, force), KNURL_OK);
-        }
-        assert_int_equal(knurl_device_is_halted(scratch), 0);
-        knurl_port_free_dry(scratch);
-        assert_int_equal(next_code(device, 0), 0);
-        knurl_device_close(device);
-        CHECK_SAME(h.strongest, 0.0L);
-    }
-    knurl_port_free_dry(NULL);
-}
-
 /* --- a loop over it --- */
 
 static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {

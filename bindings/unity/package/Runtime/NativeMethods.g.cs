@@ -469,8 +469,6 @@ namespace Knurl
         public uint protections;
         public uint reconnect;
         public double heartbeat_s;
-        public uint dry_ticks;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -498,7 +496,6 @@ namespace Knurl
         public ulong absences;
         public uint absent;
         public uint paused;
-        public knurl_percentiles dry_tick_ns;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -633,7 +630,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "62ff5df8ce699bad";
+        internal const string Interface = "8eb15f8b68ec8f88";
 
         internal const string Version = "0.3.0";
 
