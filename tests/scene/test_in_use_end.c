@@ -105,6 +105,62 @@ TEST(a_closed_device_gets_no_force_any_more_whatever_its_loop_does) {
     check_all_gone();
 }
 
+/* Not only by the loop's next cycle, or the I/O thread's next exchange. */
+TEST(a_close_returns_once_the_force_is_zero) {
+    static const struct {
+        int state;
+        uint32_t blocking;
+    } table[] = {{IDLE, 0}, {STEPPED, 0}, {RUNNING, 0}, {RUNNING, 1}, {ENDED, 0}, {ENDED, 1}};
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        for (int turn = 0; turn < (table[i].state == RUNNING ? 10 : 1); turn++) {
+            set_up(table[i].blocking);
+            bring_to(table[i].state);
+            knurl_device_close(s.device);
+            assert_true(motor() == 0.0);
+            for (int k = 0; k < 5; k++) {
+                sleep_ns(1000000);
+                assert_true(motor() == 0.0);
+            }
+            knurl_loop_destroy(s.loop);
+            knurl_scene_destroy(s.scene);
+            check_all_gone();
+        }
+    }
+}
+
+static void close_at_50(const knurl_tick_output *output, void *user) {
+    double *left = user;
+    if (output->tick == 50) {
+        *left = motor();
+        knurl_device_close(s.device);
+        left[1] = motor();
+    }
+}
+
+/* Which nobody else could zero meanwhile. */
+TEST(a_close_on_the_haptic_thread_as_well) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        double forces[2] = {0.0, 1.0};
+        knurl_loop_desc desc;
+        set_up(blocking);
+        knurl_loop_destroy(s.loop);
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.device = s.device;
+        desc.scene = s.scene;
+        desc.watchdog_s = 0.0;
+        desc.tick_callback = close_at_50;
+        desc.user = forces;
+        assert_int_equal(knurl_loop_create(&desc, &s.loop), KNURL_OK);
+        assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
+        assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+        CHECK_CLOSE(forces[0], 0.4, 0.01);
+        CHECK_SAME(forces[1], 0.0L);
+        knurl_loop_destroy(s.loop);
+        knurl_scene_destroy(s.scene);
+        check_all_gone();
+    }
+}
+
 TEST(of_two_loops_on_a_destroyed_scene_the_last_one_frees_it) {
     static home other;
     knurl_loop *second = NULL;

@@ -224,10 +224,11 @@ KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device)
  * [game thread] */
 KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device);
 
-/** Zeroes the force for good and closes the device; null is allowed. A loop that uses the device ends by itself, and
- * the device is freed by that loop's knurl_loop_destroy(); what a caller's own device needs must last until its
- * `close` was called. The handle must not be used any more. [game thread, or any while no other thread uses the
- * device; not the haptic thread of a device that no loop has] */
+/** Zeroes the force for good and closes the device; null is allowed. The force is zero on return. (A device in use is
+ * waited for: a period of its loop, or a transfer; if one of these hangs, no longer than 50 ms.) A loop that uses the
+ * device ends by itself, and the device is freed by that loop's knurl_loop_destroy(); what a caller's own device needs
+ * must last until its `close` was called. The handle must not be used any more. [game thread, or any while no other
+ * thread uses the device; not the haptic thread of a device that no loop has] */
 KNURL_API void knurl_device_close(knurl_device *device);
 
 /** Lists the connected devices, and for each kind of which none is connected, why and what to do. Fills at most

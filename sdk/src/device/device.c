@@ -4,12 +4,16 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/system.h"
 #include "base/vec3.h"
 
 #include <string.h>
 
 /* A force that was limited to the maximum already may exceed it by rounding; it is sent unchanged. */
 #define ROUNDING 1e-15
+
+/* ns that a close waits for a thread to send the zero: some periods of the slowest loop. */
+#define CLOSE_NS 50000000
 
 /* s: the shortest gap that a position is checked against. Devices that deliver positions at 1 kHz move in steps when
  * they are read faster. */
@@ -31,12 +35,32 @@ static void close_now(knurl_device *device) {
     device->driver->close(device);
 }
 
+/* Of a device in use, returns once its force is zero. A loop's haptic thread or an I/O thread sends that zero; if this
+ * is the haptic thread, or there is none (the loop is stepped), it is sent here. */
+static void await_zero(knurl_device *device, uint32_t use) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    const int is_here = !(use & KNURL_DEVICE_THREAD) || knurl_load_acquire(&device->thread) == knurl_system_thread_id();
+    const int64_t until = knurl_system_now_ns() + CLOSE_NS;
+    while (!__atomic_load_n(&device->quiet, __ATOMIC_SEQ_CST) && !knurl_load_acquire(&device->lost) &&
+           knurl_system_now_ns() < until) {
+        if (is_here && !device->link) {
+            (void)knurl_device_write(device, none);
+            return;
+        }
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 200000);
+    }
+}
+
 /* Closed by the owner or by the loop that uses it, whichever comes last. */
 void knurl_device_close(knurl_device *device) {
     if (!device || KNURL_BAD_HANDLE(device, DEVICE)) {
         return;
     }
-    (void)__atomic_fetch_or(&device->halted, KNURL_HALTED | KNURL_HALTED_FOR_GOOD, __ATOMIC_ACQ_REL);
+    (void)__atomic_fetch_or(&device->halted, KNURL_HALTED | KNURL_HALTED_FOR_GOOD, __ATOMIC_SEQ_CST);
+    const uint32_t use = knurl_load_acquire(&device->use);
+    if (use & KNURL_DEVICE_LOOP) { /* before the loop can see that it was closed, and free it */
+        await_zero(device, use);
+    }
     if (__atomic_fetch_or(&device->use, KNURL_DEVICE_CLOSED, __ATOMIC_ACQ_REL) == 0) {
         close_now(device);
     }
@@ -50,6 +74,10 @@ void knurl_device_release(knurl_device *device) {
 
 void knurl_device_claim_thread(knurl_device *device) {
     (void)__atomic_fetch_or(&device->use, KNURL_DEVICE_THREAD, __ATOMIC_ACQ_REL);
+}
+
+void knurl_device_enter_thread(knurl_device *device) {
+    knurl_store_release(&device->thread, knurl_system_thread_id());
 }
 
 knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use) {

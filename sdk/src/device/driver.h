@@ -80,6 +80,7 @@ struct knurl_device {
     knurl_events events;
     knurl_motor_heat motors; /* a thread that starts a loop reads it, one that ends it writes it */
     /* atomics */
+    uintptr_t thread; /* the haptic thread of the latest loop that has started one */
     uint32_t use;     /* KNURL_DEVICE_ bits */
     uint32_t halted;  /* KNURL_HALTED bits */
     uint32_t lost;    /* 1: only reopen() may call the driver */
@@ -117,7 +118,7 @@ knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use)
 uint32_t knurl_device_must_be_zero(void);
 
 /* Called before and after sending a force, on the sending thread. The device is not quiet from before a force is sent
- * until a zero was sent. While the process ends every force becomes zero. */
+ * until a zero was sent. While the device is halted or the process ends every force becomes zero. */
 void knurl_device_before_force(knurl_device *device, double force[3]);
 void knurl_device_after_force(knurl_device *device, const double force[3]);
 

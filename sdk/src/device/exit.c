@@ -24,14 +24,14 @@ static int is_zero(const double force[3]) {
     return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
-/* A sending thread clears `quiet`, then reads `reasons`; the ending thread sets `reasons`, then reads `quiet`. So at
- * least one of the two sees the other's store. */
+/* A sending thread clears `quiet`, then reads `reasons` and `halted`; a thread that ends the process or closes the
+ * device sets one of these, then reads `quiet`. So at least one of the two sees the other's store. */
 void knurl_device_before_force(knurl_device *device, double force[3]) {
     if (!is_zero(force)) {
         if (knurl_load_relaxed(&device->quiet)) { /* only this thread writes it */
             __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
         }
-        if (knurl_device_must_be_zero()) {
+        if (knurl_device_must_be_zero() || __atomic_load_n(&device->halted, __ATOMIC_SEQ_CST)) {
             force[0] = force[1] = force[2] = 0.0;
         }
     }

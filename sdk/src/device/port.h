@@ -17,8 +17,9 @@ knurl_result knurl_device_claim(knurl_device *device);
 /* Ends the claim; closes the device if its owner did meanwhile. [not the haptic thread] */
 void knurl_device_release(knurl_device *device);
 
-/* The loop is about to start its haptic thread. */
+/* The loop is about to start its haptic thread; and the calling thread is it now. */
 void knurl_device_claim_thread(knurl_device *device);
+void knurl_device_enter_thread(knurl_device *device);
 
 /* 1: its owner has closed it. [any thread] */
 int knurl_device_is_closed(const knurl_device *device);

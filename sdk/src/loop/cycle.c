@@ -121,6 +121,7 @@ void knurl_loop_haptic_thread(void *argument) {
     int overrun;
     (void)knurl_error_message(); /* allocates this thread's storage now */
     knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
+    knurl_device_enter_thread(loop->desc.device);
     knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
     knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
     knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
@@ -144,6 +145,7 @@ uint32_t knurl_loop_serve(void *argument) {
     if (loop->served_at == 0) {
         (void)knurl_error_message(); /* as on a haptic thread of ours */
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
+        knurl_device_enter_thread(loop->desc.device);
     } else {
         const double late = fmax(0.0, (double)(now - loop->served_at) - period);
         note_lateness(loop, (int64_t)late, late > 0.5 * period);
