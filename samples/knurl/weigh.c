@@ -65,6 +65,7 @@ knurl_result weigh(knurl_device *device, double *height, double *newtons) {
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
     desc.force_callback = hold;
+    desc.protections |= KNURL_PROTECT_SLEW;
     desc.user = &w;
     desc.update_rate_hz = RATE;
     desc.tick_limit = (uint64_t)(WEIGH_SECONDS * RATE);

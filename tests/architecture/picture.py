@@ -35,7 +35,7 @@ BOXES = {
     "candidates": (363, 372, 108, "candidates", "what may be met", ["scene/candidate", "scene/candidates", "scene/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["scene/contact_update"]),
     "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["scene/force_law"]),
-    "guard": (738, 372, 108, "guard", "first and last", ["scene/guard"]),
+    "guard": (738, 372, 108, "guard", "first and last", ["scene/guard", "scene/last_stage"]),
     "snapshot": (863, 372, 108, "snapshot", "for other threads", ["scene/snapshot"]),
     "limits": (738, 456, 190, "wall, passivity, bounds, heat", "nothing runs away or burns",
                ["scene/wall", "scene/passivity", "scene/bounds", "scene/heat", "scene/hip_facts"]),

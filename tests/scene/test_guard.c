@@ -119,32 +119,6 @@ TEST(after_lift_off_the_force_is_zero_at_once) {
     knurl_scene_destroy(scene);
 }
 
-/* 400 N are asked for, far above max_force, so that the slew limit is at work in every tick. */
-TEST(a_squeeze_ramps_the_fall_that_follows_it_and_no_later_one) {
-    static const struct {
-        int held; /* ticks between the squeeze and the fall */
-        double after;
-    } table[] = {{0, 2.64}, {1, 0.0}, {20, 0.0}};
-    for (size_t i = 0; i < COUNT_OF(table); i++) {
-        surface_parts parts = wall(K);
-        const knurl_hip_desc hip = guarded(0);
-        knurl_scene *scene = scene_with(&parts, &hip);
-        knurl_guard *guard = &scene->hips[0].guard;
-        double force[3] = {0.0, 0.0, 0.0};
-        for (int tick = 0; tick < 10 + table[i].held; tick++) {
-            uint32_t flags = tick == 9 ? KNURL_TICK_SQUEEZED : 0;
-            force[2] = 400.0;
-            knurl_guard_begin(guard, 0.0);
-            CHECK_CLOSE(knurl_guard_limit(guard, 0.0, force, &flags), fmin(3.3, 0.66 * (tick + 1)), 1e-12);
-        }
-        uint32_t flags = 0;
-        force[2] = 0.0;
-        knurl_guard_begin(guard, 0.0);
-        CHECK_CLOSE(knurl_guard_limit(guard, 0.0, force, &flags), table[i].after, 1e-12);
-        knurl_scene_destroy(scene);
-    }
-}
-
 /* The same strokes with and without protections: 2.5, 3 and 5 ticks a cycle at the largest amplitude that keeps within
  * max_force, pressed in at 0.1 m/s, lifted, tapped. */
 TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {

@@ -46,8 +46,10 @@ typedef struct knurl_loop_desc {
                             A haptic thread that wakes 50 ms late or more zeroes it in any case, reports it
                             (KNURL_FAULT_GAP) and ramps */
     const knurl_clock *clock; /**< copied; null: the system's */
-    uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default), or 0 to ignore the device's
-                                   continuous_force. A scene's HIP has its own */
+    uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default), without it the device's
+                                   continuous_force is ignored; KNURL_PROTECT_SLEW: the force grows and turns at most
+                                   by max_force in 5 ms (default: its jumps may be a texture). A scene's HIP has its own
+                                   */
     uint32_t reconnect;       /**< 1: search for a lost device four times a second; default 0: the loop ends */
     double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force ramps down to zero, until the next
                              call; 0 (default): no heartbeat is needed */
@@ -81,7 +83,8 @@ typedef struct knurl_loop_stats {
     uint64_t heat_ticks;         /**< force callback: ticks whose force was shortened because the motors are warm (for a
                                       scene see knurl_hip_counts) */
     double heat;                 /**< heat of the device's motors: 0 is cold, 1 as warm as continuous_force makes them
-                                      in the long run; above 1 only without KNURL_PROTECT_HEAT */
+                                      in the long run; above 1 only without KNURL_PROTECT_HEAT, or if the HIP was given
+                                      a larger continuous_force */
     uint64_t absences;           /**< cycles without a tick: the device was lost or had no valid position */
     uint32_t absent;             /**< 1: the latest cycle was without a tick */
     uint32_t paused;             /**< 1: paused */

@@ -63,8 +63,8 @@ typedef struct knurl_surface_desc {
 /** The protections of a HIP, all on by default. Studies switch single ones off. */
 enum {
     KNURL_PROTECT_ENTRY = 1,     /**< entry ramp: the depth in Eq. 9 grows at most at KNURL_ENTRY_SPEED_MAX */
-    KNURL_PROTECT_SLEW = 2,      /**< the force grows at most at slew_rate, except for the texture's own steps; after
-                                      KNURL_TICK_SQUEEZED it also falls at most so fast */
+    KNURL_PROTECT_SLEW = 2,      /**< the device's force grows and turns at most at slew_rate, except for the texture's
+                                      own steps; after KNURL_TICK_SQUEEZED it also falls at most so fast */
     KNURL_PROTECT_HEAT = 4,      /**< the force is reduced towards continuous_force as the motors warm up */
     KNURL_PROTECT_PASSIVITY = 8, /**< a wall that makes the hand oscillate is softened */
     KNURL_PROTECT_ALL = 15
@@ -101,8 +101,9 @@ typedef struct knurl_hip_desc {
                                   loop's device says, without one 1 */
     double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
                                   device says, without one the Touch's */
-    double slew_rate;        /**< N/s: the fastest change of the force, except for the texture's own steps and where it
-                                  falls (unless after KNURL_TICK_SQUEEZED); 0 (default): max_force within 5 ms */
+    double slew_rate;        /**< N/s: the fastest change of the force in device axes, except for the texture's own
+                                  steps and a fall (unless after KNURL_TICK_SQUEEZED): it is measured from the latest
+                                  force, made as short as the new one. 0 (default): max_force within 5 ms */
     uint32_t protections;    /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
     uint32_t clamp;          /**< 1: stiffness and amplitude are clamped to the limits of knurl_scene_check_surface();
                                   default 0: rendered as asked for */
@@ -177,7 +178,7 @@ typedef struct knurl_tick_input {
     double attenuation;    /**< the share of the force that the caller will not send: 0 (default): none of it is
                                 withheld; 1, anything outside 0 to 1, or NaN: all. It applies to the force that the
                                 device can play, before the slew limit; outputs, counts and heat are of the rest. While
-                                it is 1, depths restart at 0, as on entry */
+                                it is 1, the force is 0 whatever came before, and depths restart at 0, as on entry */
     uint32_t paused;       /**< 1: the HIP's position and velocity are reported, but nothing is touched: contacts end,
                                 the force is 0, and the next tick counts as the first */
     uint32_t reserved[9];  /**< 0 */

@@ -125,7 +125,6 @@ const knurl_added_force *knurl_loop_next_added(knurl_loop_added *a, knurl_added_
 }
 
 double knurl_loop_move_gain(knurl_loop_added *a, double step) {
-    const double wanted = knurl_load_double(&a->gain);
-    a->gain_now += fmin(fmax(wanted - a->gain_now, -step), step);
+    a->gain_now = knurl_loop_approach(a->gain_now, knurl_load_double(&a->gain), step);
     return a->gain_now;
 }

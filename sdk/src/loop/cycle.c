@@ -32,10 +32,12 @@ static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     double scene_force[3];
     vec3_scale(gain, loop->force, force);
     vec3_scale(gain, loop->scene_force, scene_force);
-    knurl_loop_add_heat(loop, gain);
     if (loop->desc.scene) {
         knurl_scene_publish_force(loop->desc.scene, loop->desc.hip, scene_force, force);
+    } else {
+        knurl_last_stage_note(loop->last, force);
     }
+    knurl_loop_tell_heat(loop);
 }
 
 void knurl_loop_publish_zero_force(knurl_loop *loop) {

@@ -4,51 +4,30 @@
 
 #include "base/atomic.h"
 #include "base/vec3.h"
-#include "scene/scene.h"
 
 #include <math.h>
 
-void knurl_loop_init_heat(knurl_loop *loop, const knurl_hip_facts *facts) {
-    knurl_hip_facts square = *facts;
-    square.continuous_force = 1.0;
-    knurl_heat_init(&loop->motors, &square);
-    loop->motors.excess = 0.0;
-    knurl_heat_init(&loop->heat, facts);
-    if (!(loop->desc.protections & KNURL_PROTECT_HEAT)) {
-        loop->heat.excess = 0.0;
-    }
-}
-
-static void set_heat(knurl_loop *loop) {
-    knurl_heat_set(&loop->heat, loop->motors.theta);
-    knurl_store_double(&loop->theta, loop->heat.theta);
+void knurl_loop_tell_heat(knurl_loop *loop) {
+    knurl_store_double(&loop->theta, loop->last->heat.square * loop->per_force);
 }
 
 void knurl_loop_begin_heat(knurl_loop *loop) {
     const knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
     knurl_motor_heat_recall(loop->desc.device);
-    loop->motors.theta = motors->square;
+    loop->last->heat.square = motors->square;
     if (motors->now == loop->clock.now_ns && motors->user == loop->clock.user) { /* the same clock */
         const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - motors->at);
-        knurl_heat_hold(&loop->motors, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
+        knurl_heat_hold(&loop->last->heat, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
     }
-    set_heat(loop);
-    if (loop->desc.scene) {
-        knurl_scene_set_heat(loop->desc.scene, loop->desc.hip, loop->motors.theta);
-    }
+    knurl_loop_tell_heat(loop);
 }
 
 void knurl_loop_end_heat(knurl_loop *loop) {
     knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
-    motors->square = loop->motors.theta;
+    motors->square = loop->last->heat.square;
     motors->at = loop->clock.now_ns(loop->clock.user);
     motors->now = loop->clock.now_ns;
     motors->user = loop->clock.user;
-}
-
-void knurl_loop_add_heat(knurl_loop *loop, double share) {
-    knurl_heat_add(&loop->motors, share * share * vec3_dot(loop->force, loop->force));
-    set_heat(loop);
 }
 
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
@@ -60,9 +39,6 @@ void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
     }
     const int halted = knurl_device_is_halted(loop->desc.device) != 0;
     const double force2 = halted ? 0.0 : vec3_dot(loop->force, loop->force);
-    knurl_heat_hold(&loop->motors, force2, missed);
-    set_heat(loop);
-    if (loop->desc.scene) {
-        knurl_scene_hold_force(loop->desc.scene, loop->desc.hip, force2, missed);
-    }
+    knurl_heat_hold(&loop->last->heat, force2, missed);
+    knurl_loop_tell_heat(loop);
 }

@@ -138,10 +138,10 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "and %g",
                           d->ramp_s, d->watchdog_s);
     }
-    if (d->protections & ~(uint32_t)KNURL_PROTECT_HEAT) {
+    if (d->protections & ~(uint32_t)(KNURL_PROTECT_HEAT | KNURL_PROTECT_SLEW)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_loop_desc.protections: expected 0 or KNURL_PROTECT_HEAT (a scene's HIP has its own), "
-                          "found %#x",
+                          "knurl_loop_desc.protections: expected bits of KNURL_PROTECT_HEAT and KNURL_PROTECT_SLEW (a "
+                          "scene's HIP has its own), found %#x",
                           (unsigned)d->protections);
     }
     if (!knurl_is_within(d->heartbeat_s, 0.0, 3600.0) || d->reconnect > 1) {

@@ -12,6 +12,8 @@
 #include <knurl/loop.h>
 #include <knurl/vibration.h>
 
+#include <math.h>
+
 /* An absolute-deadline rhythm (pace.c). */
 typedef struct knurl_pace {
     knurl_clock clock;
@@ -58,14 +60,14 @@ struct knurl_loop {
     knurl_thread *thread;
     knurl_thread *watchdog; /* the watchdog, and who looks for a lost device */
     knurl_pace pace;
-    double force[3];       /* the latest, as sent, device axes, N */
-    double scene_force[3]; /* the same in scene axes; 0 without a scene */
-    double gain;           /* 0..1 on the next force: ramps up again after a halt */
-    double max_force;      /* N: the device's */
-    knurl_heat motors;     /* the device's, in N^2; never limited */
-    knurl_heat heat;       /* the same, of its continuous force, and what a callback's force is limited by */
-    int64_t cycle_at;      /* ns: the latest cycle of a thread; 0: none */
-    uint64_t ramp_step;    /* done, of the ramp at the end */
+    double force[3];        /* the latest, as sent, device axes, N */
+    double scene_force[3];  /* the same in scene axes; 0 without a scene */
+    double gain;            /* 0..1 on the next force: ramps up again after a halt */
+    knurl_last_stage *last; /* what the force passes, and what knows how warm the motors are: the HIP's, or `own` */
+    knurl_last_stage own;   /* a force callback's */
+    double per_force;       /* 1/N^2: of the device's continuous force */
+    int64_t cycle_at;       /* ns: the latest cycle of a thread; 0: none */
+    uint64_t ramp_step;     /* done, of the ramp at the end */
     int was_overrun;
     int was_halted;    /* the device, when the latest tick's force was made */
     int is_lost;       /* for good */
@@ -87,7 +89,7 @@ struct knurl_loop {
     uint64_t overruns;
     uint64_t watchdog_trips;
     uint64_t heat_ticks;
-    double theta;        /* heat's */
+    double theta;        /* heat of the motors */
     uint64_t heartbeats; /* of the game */
     uint64_t absences;
     uint32_t absent;
@@ -108,15 +110,12 @@ void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts);
 /* A tick: reads the device, makes a force, writes it. Returns 0 where the loop must end. [haptic thread] */
 int knurl_loop_tick(knurl_loop *loop);
 
-/* heat.c: what the motors warm up by. */
-
-/* The device's motors: a loop begins with how warm the latest one left them, cooled by the clock since. */
-void knurl_loop_init_heat(knurl_loop *loop, const knurl_hip_facts *facts);
+/* heat.c: a loop begins with how warm the device's latest one left the motors, cooled by the clock since. */
 void knurl_loop_begin_heat(knurl_loop *loop);
 void knurl_loop_end_heat(knurl_loop *loop);
 
-/* loop->force was sent for a tick, or `share` (0 to 1) of it. */
-void knurl_loop_add_heat(knurl_loop *loop, double share);
+/* For knurl_loop_get_stats(): after a tick, or a force that was sent without one. */
+void knurl_loop_tell_heat(knurl_loop *loop);
 
 /* A cycle begins: the motors' heat advances by the periods that were missed. */
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
@@ -129,6 +128,12 @@ static inline int knurl_loop_adds(const knurl_loop_added *a) {
     return knurl_load_acquire(&a->force_sequence) != a->force_seen ||
            knurl_load_acquire(&a->cue_sequence) != a->cue_seen || a->has_force || a->cue_tick < a->cue.ticks ||
            a->latest != 0.0;
+}
+
+/* A ramp's next value on the way to `to`. What rounding left over of the steps before takes no step more: a tick too
+ * late. */
+static inline double knurl_loop_approach(double value, double to, double step) {
+    return fabs(to - value) <= step + 1e-9 ? to : value + copysign(step, to - value);
 }
 
 /* The game's gain in this tick, on its way to the one that was set; it changes by `step` at most. */

@@ -12,8 +12,9 @@
 void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts) {
     loop->gain = loop->added.gain = loop->added.gain_now = 1.0;
     loop->game_was_alive = loop->wanted = 1;
-    loop->max_force = facts->max_force;
-    knurl_loop_init_heat(loop, facts);
+    loop->per_force = 1.0 / (facts->continuous_force * facts->continuous_force);
+    loop->last = loop->hip ? &loop->hip->last : &loop->own;
+    knurl_last_stage_init(&loop->own, loop->desc.protections, 0.0, facts);
 }
 
 static void report(knurl_loop *loop, int32_t code, double value) {
@@ -57,26 +58,24 @@ static double next_gain(knurl_loop *loop, int paused) {
         report(loop, KNURL_FAULT_RESUMED, 0.0);
     }
     if (!loop->wanted) {
-        gain = fmax(0.0, gain - step);
+        gain = knurl_loop_approach(gain, 0.0, step);
     }
-    loop->gain = loop->wanted ? fmin(1.0, gain + step) : gain;
+    loop->gain = loop->wanted ? knurl_loop_approach(gain, 1.0, step) : gain;
     return gain;
 }
 
-/* Calls the caller's function and limits its force to what the motors can do now, before any ramp. */
-static void call_back(knurl_loop *loop, const knurl_device_sample *sample) {
+/* Takes the caller's force, and limits it as a scene's. */
+static void call_back(knurl_loop *loop, const knurl_device_sample *sample, double game_gain, int paused) {
+    uint32_t flags = 0;
     memset(loop->force, 0, sizeof loop->force);
     loop->desc.force_callback(loop->ticks, sample, loop->force, loop->desc.user);
-    const double length = vec3_length(loop->force);
-    const double most = fmin(loop->max_force, knurl_heat_limit(&loop->heat));
-    if (!(length <= most)) {
-        const double share = knurl_is_finite(length) ? most / length : 0.0;
-        if (most < loop->max_force && share > 0.0) {
-            knurl_count_up(&loop->heat_ticks);
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            loop->force[axis] = share > 0.0 ? share * loop->force[axis] : 0.0;
-        }
+    const double gain = game_gain * next_gain(loop, paused); /* a halt may have come meanwhile */
+    const double length = knurl_last_stage_limit(loop->last, gain, 0.0, loop->force, &flags);
+    if (!knurl_is_finite(length)) {
+        memset(loop->force, 0, sizeof loop->force);
+        knurl_last_stage_note(loop->last, loop->force);
+    } else if (flags & KNURL_TICK_HEAT) {
+        knurl_count_up(&loop->heat_ticks);
     }
 }
 
@@ -99,8 +98,7 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
         vec3_copy(output->device_force, loop->force);
         vec3_copy(output->force, loop->scene_force);
     } else {
-        call_back(loop, sample);
-        vec3_scale(game_gain * next_gain(loop, paused), loop->force, loop->force);
+        call_back(loop, sample, game_gain, paused);
     }
 }
 
@@ -112,14 +110,16 @@ static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
-    knurl_loop_add_heat(loop, 0.0);
-    if (loop->desc.scene) {
+    if (!loop->desc.scene) {
+        knurl_last_stage_note(loop->last, loop->force);
+    } else {
         knurl_tick_input input;
         knurl_tick_output output;
         memset(&input, 0, sizeof input);
         input.absent = 1;
         knurl_hip_tick(loop->desc.scene, loop->hip, &input, NULL, &output);
     }
+    knurl_loop_tell_heat(loop);
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
         (void)knurl_device_write(loop->desc.device, loop->force); /* zero; for drivers without a thread that would write
                                                                      it */
@@ -147,7 +147,7 @@ int knurl_loop_tick(knurl_loop *loop) {
     if (loop->was_halted && result == KNURL_OK) {
         knurl_device_release_halt(loop->desc.device);
     }
-    knurl_loop_add_heat(loop, 1.0);
+    knurl_loop_tell_heat(loop);
     knurl_histogram_add(&loop->tick_ns, after - before);
     if (loop->desc.scene && loop->desc.tick_callback) {
         loop->desc.tick_callback(&output, loop->desc.user);

@@ -110,7 +110,8 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.workspace = *d->workspace;
     }
     made.facts = facts;
-    made.guard.heat = hip->guard.heat; /* motors do not cool because a scene is set up */
+    made.last.heat.square = hip->last.heat.square; /* motors do not cool because a scene is set up */
+    knurl_last_stage_init(&made.last, d->protections, d->slew_rate, &facts);
     knurl_guard_init(&made.guard, d, &facts);
     knurl_hip_set_scale(&made, made.workspace.scale);
     for (int i = 0; i < 9; i++) {

@@ -5,6 +5,7 @@
 #include "scene/contact_update.h"
 #include "scene/guard.h"
 #include "scene/hip_workspace.h"
+#include "scene/last_stage.h"
 #include "scene/snapshot.h"
 
 /* A force that a game adds to what surfaces give, in one tick. */
@@ -23,6 +24,7 @@ typedef struct knurl_hip {
     knurl_workspace workspace;
     knurl_velocity velocity;
     knurl_guard guard;
+    knurl_last_stage last;
     knurl_hip_counts counts;
     knurl_published published; /* read by any thread, without the lock */
     knurl_hip_desc given;      /* as configured; what it leaves open a loop fills in */

@@ -61,9 +61,4 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3],
                                const double device_force[3]) KNURL_NONBLOCKING;
 
-/* Sets the heat of the HIP's motors (N^2, see knurl_heat_get()), or advances it by a number of missed ticks at a
- * constant squared force (N^2). On the haptic thread, or while there is none (motors.c). */
-void knurl_scene_set_heat(knurl_scene *scene, uint32_t hip, double square);
-void knurl_scene_hold_force(knurl_scene *scene, uint32_t hip, double force2, double ticks) KNURL_NONBLOCKING;
-
 #endif

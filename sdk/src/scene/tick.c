@@ -1,8 +1,7 @@
 /* The tick: a device position in, a device force out. Read knurl_scene_tick(), at the end, first. Steps: read the HIP;
  * update contacts (broad phase, candidates, contact); compute forces (grating, Eq. 9, friction) between the guard's
- * protections; convert to device axes; publish. Nothing called from here uses the heap, a lock, a system call, a clock,
- * a log or a file.
- * SPDX-License-Identifier: MIT */
+ * protections; convert the sum to device axes; the last stage; publish. Nothing called from here uses the heap, a lock,
+ * a system call, a clock, a log or a file. SPDX-License-Identifier: MIT */
 #include "scene/force_law.h"
 #include "scene/scene.h"
 
@@ -145,11 +144,34 @@ static inline double render_contact(knurl_hip *hip, const knurl_active_contact *
 
 /* 1 where nothing is in contact, no force is added and the latest tick's was 0: there is nothing to limit. */
 static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
-    const double *force = hip->guard.force;
+    const double *force = hip->last.force;
     return hip->contacts.active_count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
-/* Sums all contacts' forces and what the game adds, and limits the sum (N, scene). Returns its length. */
+/* Turns the sum of all forces into device axes and limits it there: a workspace that turns must not make the device's
+ * force jump. Returns its length, N. */
+static inline double send_force(knurl_hip *hip, double steps, const double force[3], knurl_tick_output *out) {
+    const knurl_workspace *w = &hip->workspace;
+    double sent[3];
+    if (KNURL_LIKELY(!hip->is_rotated)) {
+        vec3_copy(force, sent);
+        const double length = knurl_last_stage_limit(&hip->last, hip->guard.gain, steps, sent, &out->flags);
+        vec3_copy(sent, out->force);
+        vec3_copy(sent, out->device_force);
+        return length;
+    }
+    knurl_workspace_vector_to_device(w, force, sent);
+    vec3_copy(sent, out->device_force);
+    vec3_copy(force, out->force);
+    const double length = knurl_last_stage_limit(&hip->last, hip->guard.gain, steps, sent, &out->flags);
+    if (vec3_distance2(sent, out->device_force) > 0.0) { /* else turning it back would only round it */
+        vec3_copy(sent, out->device_force);
+        mat3_mul(w->rotation, sent, out->force);
+    }
+    return length;
+}
+
+/* Sums all contacts' forces and what the game adds (N, scene), and sends the sum. Returns its length. */
 static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
     double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
@@ -160,15 +182,14 @@ static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, 
         vec3_madd(force, 1.0, added->force, force);
         steps += added->step;
     }
-    const double length = knurl_guard_limit(&hip->guard, steps, force, &out->flags);
-    vec3_copy(force, out->force);
-    return length;
+    return send_force(hip, steps, force, out);
 }
 
 /* No force, no contact, a first tick next. */
 static void end_contacts(knurl_hip *hip) {
+    const double none[3] = {0.0, 0.0, 0.0};
     knurl_contacts_reset(&hip->contacts);
-    knurl_guard_reset(&hip->guard);
+    knurl_last_stage_note(&hip->last, none);
 }
 
 /* After invalid input or results: zero output, contacts end, the next tick counts as the first. */
@@ -196,7 +217,8 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
     double length = 0.0;
     if (is_at_rest(hip, added)) {
-        knurl_heat_add(&hip->guard.heat, 0.0);
+        vec3_copy(out->force, out->device_force);
+        knurl_heat_add(&hip->last.heat, 0.0);
     } else {
         length = sum_forces(hip, added, out);
     }
@@ -208,11 +230,6 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         out->flags |= KNURL_TICK_CONTACT;
     } else {
         clear_contact_output(out);
-    }
-    if (hip->is_rotated) {
-        knurl_workspace_vector_to_device(&hip->workspace, out->force, out->device_force);
-    } else {
-        vec3_copy(out->force, out->device_force);
     }
     knurl_contacts_keep(&hip->contacts, out->hip);
     return length;
@@ -240,7 +257,7 @@ void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *
         reset(hip, input->absent ? KNURL_TICK_ABSENT : KNURL_TICK_NOT_FINITE, output);
     }
     knurl_epoch_unpin(&hip->pinned);
-    hip->counts.heat = hip->guard.heat.theta;
+    hip->counts.heat = knurl_heat_theta(&hip->last.heat);
     knurl_counts_add(&hip->counts, output, force);
     knurl_snapshot_publish(&hip->published, output, &hip->counts);
 }
