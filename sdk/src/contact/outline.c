@@ -276,6 +276,8 @@ static void simplify(outline *o, double limit, const char **why) {
         *why = overlapping;
     } else if (o->count > KNURL_OUTLINE_EDGES) {
         *why = too_many;
+    } else if (o->count < 3) { /* straightened away */
+        *why = "mesh: its outline is finer than a plane's may be off";
     }
 }
 
