@@ -200,10 +200,9 @@ TEST(the_normal_at_the_closest_point_is_the_fronts) {
     shape_free(&box);
 }
 
-/* 1e300: its square is no number any more, and no surface was found. */
 TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, here[3] = {0.0, 0.0, 0.0};
-    static const double beyond[3] = {0.0, 0.0, 1e300}, far[3] = {0.0, 0.0, 1e30};
+    static const double beyond[3] = {0.0, 0.0, 1e300}, far[3] = {0.0, 0.0, 1e9};
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
     knurl_surface_point found;
@@ -214,11 +213,11 @@ TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     assert_string_equal(knurl_error_message(), "radius: expected more than 0 m, found nan");
     CHECK_REFUSED(knurl_scene_find_closest(scene, beyond, (double)INFINITY, &found), KNURL_ERROR_ARGUMENT, found);
     assert_string_equal(knurl_error_message(),
-                        "position: expected numbers from -1.2e+30 to 1.2e+30 (m), found [0, 0, 1e+300]");
+                        "position: expected numbers from -1e+09 to 1e+09 m, found [0, 0, 1e+300]");
     assert_int_equal(knurl_scene_find_closest(scene, here, (double)INFINITY, &found), KNURL_OK);
     assert_int_equal(knurl_scene_find_closest(scene, far, (double)INFINITY, &found), KNURL_OK);
     assert_true(found.surface != 0);
-    CHECK_CLOSE(found.distance / 1e30, 1.0, 1e-12);
+    CHECK_CLOSE(found.distance / 1e9, 1.0, 1e-12);
     knurl_scene_destroy(scene);
 }
 
@@ -364,8 +363,7 @@ TEST(a_ray_is_cast_with_numbers_in_range) {
     knurl_surface_point_init(&found, sizeof found);
     CHECK_REFUSED(knurl_scene_cast_ray(scene, nowhere, here, &found), KNURL_ERROR_ARGUMENT, found);
     CHECK_REFUSED(knurl_scene_cast_ray(scene, here, beyond, &found), KNURL_ERROR_ARGUMENT, found);
-    assert_string_equal(knurl_error_message(),
-                        "to: expected numbers from -1.2e+30 to 1.2e+30 (m), found [0, 0, -1e+31]");
+    assert_string_equal(knurl_error_message(), "to: expected numbers from -1e+09 to 1e+09 m, found [0, 0, -1e+31]");
     assert_int_equal(knurl_scene_cast_ray(scene, here, here, &found), KNURL_OK);
     assert_true(found.surface == 0);
     knurl_scene_destroy(scene);

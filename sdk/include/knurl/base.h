@@ -112,6 +112,11 @@ KNURL_API const char *knurl_version_string(void);
 /** The same as a number: 10000 major + 100 minor + patch, for example 300 for 0.3.0. [any thread] */
 KNURL_API uint32_t knurl_version_number(void);
 
+/** m: the greatest coordinate in a scene: of meshes and planes, positions, workspaces, points that are asked about; of
+ * a HIP |x| + |y| + |z|. There a double still tells 0.0001 mm apart, and nothing that a tick computes overflows. The
+ * float32 coordinates of a mesh tell millimetres apart up to 10 km only: see KNURL_FAR. */
+#define KNURL_COORDINATE_MAX 1000000000.0
+
 /** A caller's memory functions, used for all memory of a scene; loops, devices and the glTF loader's own work use
  * malloc. Both are called on the thread that calls a function of the scene: the one that creates or destroys it, and
  * every thread that edits it, one at a time. Never in a tick. */

@@ -13,7 +13,7 @@ extern "C" {
 typedef struct knurl_plane_desc {
     uint32_t struct_size;   /**< set by knurl_plane_desc_init() */
     uint32_t reserved;      /**< 0 */
-    double half_extents[2]; /**< m along the surface's x and y, > 0, finite; default 0.05 */
+    double half_extents[2]; /**< m along the surface's x and y, 1e-9 to KNURL_COORDINATE_MAX; default 0.05 */
 } knurl_plane_desc;
 
 /** A triangle mesh in the surface's own frame; the front of a triangle is where its corners run counter-clockwise. All
@@ -21,11 +21,12 @@ typedef struct knurl_plane_desc {
 typedef struct knurl_mesh_desc {
     uint32_t struct_size;   /**< set by knurl_mesh_desc_init() */
     uint32_t vertex_count;  /**< vertices in each array, 3 to 2^28 */
-    const float *positions; /**< x, y, z per vertex: m, at most 1.2e30 (so that sums stay finite in float32).
-                                 knurl_scene_check_surface() warns beyond 1e6 */
-    const float *tangents;  /**< x, y, z, w per vertex (w is not used), or null: the surface's x direction */
-    const float *uvs; /**< u, v per vertex, at most 1.2e30, or null: surface coordinates; also the x direction where
-                         there are no tangents */
+    const float *positions; /**< x, y, z per vertex: m, within KNURL_COORDINATE_MAX. knurl_scene_check_surface() warns
+                                 beyond 1e6 */
+    const float *tangents;  /**< x, y, z, w per vertex (w is not used), each within KNURL_COORDINATE_MAX, or null: the
+                                 surface's x direction */
+    const float *uvs; /**< u, v per vertex, each within KNURL_COORDINATE_MAX, or null: surface coordinates; also the x
+                         direction where there are no tangents */
     const uint32_t *indices; /**< three per triangle, each below vertex_count; or null for 0, 1, 2, ... */
     uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 where indices is null */
 } knurl_mesh_desc;

@@ -55,7 +55,7 @@ KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
  * The format is recognised by content; the name must end in .gltf or .glb. External buffers are read only from the
  * file's own folder or below it, also through symbolic links. Nodes that show the same accessors with the same scale
  * and axis share one shape (knurl_surface_desc.shape_of). Limits: JSON nested 32 deep, node trees 1024 deep,
- * coordinates of 1.2e30 m; names are cut to 255 bytes.
+ * coordinates of KNURL_COORDINATE_MAX, with transforms; names are cut to 255 bytes.
  *
  * Errors: KNURL_ERROR_FULL (a limit of the budget, named), KNURL_ERROR_CANCELLED, KNURL_ERROR_IO, KNURL_ERROR_FORMAT
  * (file, object and key are named), KNURL_ERROR_UNSUPPORTED (a required extension, another glTF version, a skin or

@@ -60,17 +60,17 @@ KNURL_API void knurl_velocity_reset(knurl_velocity *velocity) KNURL_NONBLOCKING;
 
 /** Device to scene: scene = origin + rotation * scale * device. */
 typedef struct knurl_workspace {
-    double origin[3];   /**< scene position of the device's origin, m */
+    double origin[3];   /**< scene position of the device's origin, m, within KNURL_COORDINATE_MAX */
     double rotation[9]; /**< device axes in the scene: a row-major rotation matrix (right-handed, orthonormal) */
-    double scale;       /**< scene metres per device metre, > 0. At the device a wall of K N/m has K * scale */
+    double scale;       /**< scene metres per device metre, 1e-9 to 1e9. At the device a wall of K N/m has K * scale */
     double reserved[3]; /**< 0 */
 } knurl_workspace;
 
 /** Sets the identity: origin 0, no rotation, scale 1. [any thread] */
 KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
 
-/** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT: not finite, scale <= 0, or a rotation that is off orthonormal
- * by more than 1e-6. [any thread] */
+/** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT: origin or scale beyond its range, or a rotation that is off
+ * orthonormal by more than 1e-6. [any thread] */
 KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
 
 /** A device position (m) in the scene (m). [any thread; allowed in a tick] */

@@ -32,8 +32,8 @@ typedef uint64_t knurl_surface_id;
 typedef struct knurl_material_desc {
     uint32_t struct_size;        /**< set by knurl_material_desc_init() */
     int32_t method;              /**< KNURL_METHOD_; DEFAULT is BANDLIMITED */
-    double spatial_frequency[2]; /**< fsx, fsy: cycles/m along the surface's x and y, >= 0; [0, 0] is smooth */
-    double amplitude;            /**< A: m, half peak to peak of the square wave, >= 0 */
+    double spatial_frequency[2]; /**< fsx, fsy: cycles/m along the surface's x and y, 0 to 1e9; [0, 0] is smooth */
+    double amplitude;            /**< A: m, half peak to peak of the square wave, 0 to 1e6 */
     double stiffness;            /**< K: N/m, > 0 */
     double damping;              /**< B: N s/m along the normal, >= 0 */
     double friction;             /**< Coulomb coefficient mu, >= 0. The HIP drags a point of the surface by a spring of
@@ -50,10 +50,11 @@ typedef struct knurl_surface_desc {
     const knurl_plane_desc *plane;       /**< exactly one of plane, mesh and shape_of */
     const knurl_mesh_desc *mesh;         /**< exactly one of plane, mesh and shape_of */
     const knurl_material_desc *material; /**< required */
-    double position[3];                  /**< the surface's origin in the scene, m */
+    double position[3];                  /**< the surface's origin in the scene, m, within KNURL_COORDINATE_MAX */
     double rotation[4];                  /**< surface to scene: unit quaternion x, y, z, w */
-    double axis[3];                      /**< the grating's x in the surface's frame (any length); 0, 0, 0: a plane's x,
-                                              a mesh's tangents, else its uvs. With an axis, surface coordinates are
+    double axis[3];                      /**< the grating's x in the surface's frame (any length, each within
+                                              KNURL_COORDINATE_MAX); 0, 0, 0: a plane's x, a mesh's tangents, else its
+                                              uvs. With an axis, surface coordinates are
                                               metres from the surface's origin along it */
     knurl_surface_id shape_of;           /**< a surface of this scene whose shape and axis this one shares, instead of a
                                               plane or mesh of its own. The shape is stored once, until its last user is
@@ -84,26 +85,27 @@ typedef struct knurl_hip_desc {
     uint32_t struct_size;    /**< set by knurl_hip_desc_init() */
     int32_t velocity_method; /**< KNURL_VELOCITY_; default AUTO */
     double update_rate_hz;   /**< KNURL_UPDATE_RATE_MIN to _MAX; 0 (default): the loop's, without one 1000 */
-    double resolution;       /**< the device's position quantum, m; negative (default): as the loop's device says,
-                                  without one 0.055e-3 (Touch) */
-    double max_force;        /**< N; longer forces are shortened to it, and to the loop's device's; 0 (default): as the
-                                  loop's device says, without one 3.3 (Touch) */
+    double resolution; /**< the device's position quantum, 1e-9 to 0.01 m; 0: not quantised; negative (default): as
+                            the loop's device says, without one 0.055e-3 (Touch) */
+    double max_force;  /**< 0.01 to 1e6 N; longer forces are shortened to it, and to the loop's device's; 0
+                            (default): as the loop's device says, without one 3.3 (Touch) */
     const knurl_workspace *workspace; /**< device to scene; null (default): no rotation, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
-    double continuous_force; /**< N that the motors can hold for ever; 0 (default): as the loop's device says, without
-                                  one 0.88 (Touch); INFINITY: no limit but max_force */
-    double heat_time;        /**< s: time constant of the motors' warming; 0 (default): as the loop's device says,
-                                  without one the Touch's */
-    double viscous;          /**< N s/m: the device's viscous friction, for knurl_scene_check_surface() and the
-                                  passivity controller; negative (default): as the loop's device says, without one the
+    double continuous_force; /**< 0.01 to 1000 N that the motors can hold for ever; 0 (default): as the loop's device
+                                  says, without one 0.88 (Touch); INFINITY: no limit but max_force */
+    double heat_time;        /**< time constant of the motors' warming, 0.001 to 1e6 s; 0 (default): as the loop's
+                                  device says, without one the Touch's */
+    double viscous;          /**< the device's viscous friction, 0 to 1000 N s/m, for knurl_scene_check_surface() and
+                                  the passivity controller; negative (default): as the loop's device says, without one the
                                   Touch's */
     double delay;            /**< ticks from a force written to a force felt, 0 to 16; negative (default): as the
                                   loop's device says, without one 1 */
-    double max_stiffness;    /**< N/m: the stiffest wall that the device's maker promises; 0 (default): as the loop's
-                                  device says, without one the Touch's */
-    double slew_rate;        /**< N/s: the fastest change of the force in device axes, except for the texture's own
-                                  steps and a fall (unless after KNURL_TICK_SQUEEZED): it is measured from the latest
-                                  force, made as short as the new one. 0 (default): max_force within 5 ms */
+    double max_stiffness;    /**< the stiffest wall that the device's maker promises, 1 to 1e9 N/m; INFINITY: none; 0
+                                  (default): as the loop's device says, without one the Touch's */
+    double slew_rate;        /**< the fastest change of the force in device axes, 0.01 to 1e9 N/s, except for the
+                                  texture's own steps and a fall (unless after KNURL_TICK_SQUEEZED): it is measured from
+                                  the latest force, made as short as the new one. INFINITY: any; 0 (default): max_force
+                                  within 5 ms */
     uint32_t protections;    /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
     uint32_t clamp;          /**< 1: stiffness and amplitude are clamped to the limits of knurl_scene_check_surface();
                                   default 0: rendered as asked for */
@@ -189,7 +191,8 @@ enum {
     KNURL_TICK_CONTACT = 1,        /**< the HIP is in contact: a surface is nearer than its grating's crests are high */
     KNURL_TICK_FORCE_LIMIT = 2,    /**< the force was shortened to max_force */
     KNURL_TICK_ABOVE_NYQUIST = 4,  /**< f_t is above f_h/2: the grating is too fine at this speed for the update rate */
-    KNURL_TICK_NOT_FINITE = 8,     /**< an input or a result was NaN or infinite: the force is 0 and all contacts end */
+    KNURL_TICK_NOT_FINITE = 8,     /**< the HIP is beyond KNURL_COORDINATE_MAX or faster than 1e15 m/s, or an input or a
+                                        result was NaN or infinite: the force is 0 and all contacts end */
     KNURL_TICK_CONTACTS_FULL = 16, /**< more surfaces were in contact than KNURL_CONTACTS_MAX */
     KNURL_TICK_ENTRY = 32,         /**< the entry ramp limited a depth */
     KNURL_TICK_SLEW = 64,          /**< the slew rate limited the force */
@@ -204,9 +207,10 @@ enum {
                                         may begin late, or at a point that is not the nearest */
 };
 
-/** The output of one tick, in scene axes unless a field says otherwise. Of several contacts the deepest is reported. */
+/** The output of one tick, in scene axes unless a field says otherwise; every number is finite. Of several contacts the
+ * deepest is reported. */
 typedef struct knurl_tick_output {
-    double device_force[3]; /**< the force for the device: device axes, N, limited, always finite */
+    double device_force[3]; /**< the force for the device: device axes, N, limited */
     double force[3];        /**< the same in scene axes, N */
     double hip[3];          /**< HIP position, m */
     double hip_velocity[3]; /**< m/s */
@@ -296,12 +300,12 @@ KNURL_API knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_sur
 KNURL_API knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
                                                 const knurl_material_desc *material);
 
-/** Moves a surface's origin to `position` (m) and rotates it to `rotation` (unit quaternion x, y, z, w), both in scene
- * axes, at constant speed over `seconds` (0 to 10; pass the game's frame time). Then it stays until moved again. The
- * motion is felt: velocities are relative to the surface. With 0 seconds it jumps: what lies on the way is not
- * touched, and a HIP that it held is tested again as on a first tick. Time advances with ticks: without ticks the
- * motion waits; before the commit it is done at once.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
+/** Moves a surface's origin to `position` (m, within KNURL_COORDINATE_MAX) and rotates it to `rotation` (unit
+ * quaternion x, y, z, w), both in scene axes, at constant speed over `seconds` (0 to 10; pass the game's frame time).
+ * Then it stays until moved again. The motion is felt: velocities are relative to the surface. With 0 seconds it jumps:
+ * what lies on the way is not touched, and a HIP that it held is tested again as on a first tick. Time advances with
+ * ticks: without ticks the motion waits; before the commit it is done at once. Errors: KNURL_ERROR_ARGUMENT,
+ * KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                                  const double rotation[4], double seconds);
 
@@ -334,17 +338,17 @@ typedef struct knurl_surface_point {
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_surface_point_init(knurl_surface_point *point, uint32_t size);
 
-/** Finds the point of all surfaces, as they stand now, that is closest to `position` (scene axes, m, up to 1.2e30), up
- * to `radius` (m, > 0) away. Gratings do not count. Takes longer the more surfaces there are; other editing threads
- * wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
+/** Finds the point of all surfaces, as they stand now, that is closest to `position` (scene axes, m, within
+ * KNURL_COORDINATE_MAX), up to `radius` (m, > 0) away. Gratings do not count. Takes longer the more surfaces there are;
+ * other editing threads wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
                                                 knurl_surface_point *point);
 
-/** Finds the point where the straight line from `from` to `to` (scene axes, m, up to 1.2e30) first goes through a
- * surface, as surfaces stand now: through its front or, where it is double-sided, through either side. Gratings do not
- * count. point->distance is measured from `from`. A line that ends on a surface does not go through it. Takes longer
- * the more surfaces there are; other editing threads wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but
- * the haptic] */
+/** Finds the point where the straight line from `from` to `to` (scene axes, m, within KNURL_COORDINATE_MAX) first goes
+ * through a surface, as surfaces stand now: through its front or, where it is double-sided, through either side.
+ * Gratings do not count. point->distance is measured from `from`. A line that ends on a surface does not go through it.
+ * Takes longer the more surfaces there are; other editing threads wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT.
+ * [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3], const double to[3],
                                             knurl_surface_point *point);
 

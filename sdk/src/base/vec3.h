@@ -77,14 +77,19 @@ static inline void vec3_make_tangent(const double n[3], double a[3]) {
     vec3_madd(a, -vec3_dot(a, n), n, a);
 }
 
-/* 1 where all three are finite, and not so large that their sum is not. */
-static inline int vec3_finite(const double a[3]) {
-    return knurl_is_finite(fabs(a[0]) + fabs(a[1]) + fabs(a[2]));
+/* |x| + |y| + |z| */
+static inline double vec3_sum(const double a[3]) {
+    return fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
 }
 
-/* The same of two vectors. */
-static inline int vec3_finite_both(const double a[3], const double b[3]) {
-    return knurl_is_finite(fabs(a[0]) + fabs(a[1]) + fabs(a[2]) + fabs(b[0]) + fabs(b[1]) + fabs(b[2]));
+/* 1 where all three are finite, and not so large that their sum is not. */
+static inline int vec3_finite(const double a[3]) {
+    return knurl_is_finite(vec3_sum(a));
+}
+
+/* 1 where each is from -most to most. */
+static inline int vec3_within(const double a[3], double most) {
+    return fabs(a[0]) <= most && fabs(a[1]) <= most && fabs(a[2]) <= most;
 }
 
 /* Any unit vector at right angles to the unit vector n. */

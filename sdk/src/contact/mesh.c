@@ -3,16 +3,12 @@
 
 #include "base/vec3.h"
 
-/* m: sums and differences of such numbers, and squares in double precision, are finite (FAR_AWAY in scene/surface.c).
- */
-#define COORDINATE_MAX 1.2e30
-
 static knurl_result check_floats(const float *values, uint64_t count, const char *what, uint32_t width) {
     for (uint64_t i = 0; i < count; i++) {
-        if (!knurl_is_within((double)values[i], -COORDINATE_MAX, COORDINATE_MAX)) {
-            return knurl_fail(KNURL_ERROR_ARGUMENT,
-                              "mesh.%s: expected finite numbers from -1.2e30 to 1.2e30, found %g at vertex %llu", what,
-                              (double)values[i], (unsigned long long)(i / width));
+        if (!(fabs((double)values[i]) <= KNURL_COORDINATE_MAX)) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT, "mesh.%s: expected numbers from %g to %g, found %g at vertex %llu",
+                              what, -KNURL_COORDINATE_MAX, KNURL_COORDINATE_MAX, (double)values[i],
+                              (unsigned long long)(i / width));
         }
     }
     return KNURL_OK;

@@ -163,9 +163,9 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
 }
 
 static knurl_result check_extent(const char *key, double value) {
-    if (!(value >= KNURL_EXTENT_MIN && knurl_is_finite(value))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a finite number, at least 1e-9 (m), found %g", key,
-                          value);
+    if (!(value >= KNURL_EXTENT_MIN && value <= KNURL_COORDINATE_MAX)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected %g to %g m, found %g", key, KNURL_EXTENT_MIN,
+                          KNURL_COORDINATE_MAX, value);
     }
     return KNURL_OK;
 }

@@ -14,9 +14,6 @@ namespace {
 constexpr double unit_tolerance = 1e-2;
 constexpr double affine_tolerance = 1e-6;
 
-// m: what knurl_mesh_desc takes.
-constexpr double coordinate_max = 1.2e30;
-
 // A volume this small beside its sides' product is lost in float32 positions.
 constexpr double flat_tolerance = 1e-9;
 
@@ -61,8 +58,8 @@ std::string shown(double value) {
     return text;
 }
 
-bool is_finite(const glm::dvec3 &v) {
-    return knurl_is_finite(v.x) && knurl_is_finite(v.y) && knurl_is_finite(v.z);
+bool is_in_range(double coordinate) {
+    return std::fabs(coordinate) <= KNURL_COORDINATE_MAX;
 }
 
 glm::dvec3 at(const std::vector<float> &values, size_t i) {
@@ -100,7 +97,11 @@ Frame Placement::frame(uint32_t node) {
     const glm::dmat3 linear(matrix);
     Frame frame{glm::dvec3(matrix[3]), glm::dquat(1.0, 0.0, 0.0, 0.0), linear, glm::determinant(linear) < 0.0};
     const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    const bool finite = is_finite(frame.position) && knurl_is_finite(volume);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!is_in_range(frame.position[axis]))
+            refuse(node_label(model_, node), "its transform puts it at " + shown(frame.position[axis]) +
+                                                 " m: expected within " + shown(KNURL_COORDINATE_MAX) + " m");
+    const bool finite = knurl_is_finite(volume);
     if (!finite || !(std::fabs(glm::determinant(linear)) > flat_tolerance * volume))
         refuse(node_label(model_, node),
                finite ? "its transform flattens the mesh: expected a scale without 0" : "its transform is not finite");
@@ -130,10 +131,10 @@ void bake(Geometry &geometry, const Frame &frame, const std::string &where, cons
     for (size_t i = 0; i + 2 < geometry.positions.size(); i += 3) {
         const glm::dvec3 p = frame.bake * at(geometry.positions, i);
         for (int axis = 0; axis < 3; ++axis)
-            if (!knurl_is_within(p[axis], -coordinate_max, coordinate_max))
+            if (!is_in_range(p[axis]))
                 refuse(where, "POSITION (" + positions + "): its used vertex " + std::to_string(i / 3) +
-                                  ": expected within 1.2e30 m with the node's transform, found " + shown(p[axis]) +
-                                  " m");
+                                  ": expected within " + shown(KNURL_COORDINATE_MAX) +
+                                  " m with the node's transform, found " + shown(p[axis]) + " m");
         put(geometry.positions, i, p);
     }
     for (size_t i = 0; i + 3 < geometry.tangents.size(); i += 4) {

@@ -2,6 +2,7 @@
 #include <knurl/motion.h>
 
 #include "base/handle.h"
+#include "base/range.h"
 #include "base/vec3.h"
 
 #include <string.h>
@@ -21,13 +22,11 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
     }
     const double *r = workspace->rotation;
     double cross[3];
-    if (!vec3_finite(workspace->origin)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.origin: expected finite numbers (m), found [%g, %g, %g]",
-                          workspace->origin[0], workspace->origin[1], workspace->origin[2]);
-    }
-    if (!(workspace->scale > 0.0 && knurl_is_finite(workspace->scale))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.scale: expected a finite number > 0, found %g",
-                          workspace->scale);
+    static const knurl_field scale = {"scale", offsetof(knurl_workspace, scale), {1e-9, 1e9, "", 0}};
+    knurl_result result = knurl_check_coordinates("workspace.origin", "m", workspace->origin);
+    result = result ? result : knurl_fields_check("workspace", &scale, 1, workspace);
+    if (result) {
+        return result;
     }
     const double *reserved = workspace->reserved;
     if (!(reserved[0] == 0.0 && reserved[1] == 0.0 &&

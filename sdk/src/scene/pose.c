@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+/* A motion within less than any tick has a speed that is a number. */
+#define LEAST_SECONDS 1e-9
+
 static void mat3_product(const double a[9], const double b[9], double out[9]) {
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
@@ -137,6 +140,7 @@ void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl
         motion->jumps++;
         return;
     }
+    seconds = knurl_max(seconds, LEAST_SECONDS);
     /* the body's rotation is the frame's without the local one */
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {

@@ -2,12 +2,20 @@
 #include "scene/record.h"
 
 #include "base/base.h"
+#include "base/range.h"
 #include "grating/methods.h"
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
     const knurl_material_desc defaults = {.stiffness = 400.0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
+
+/* Textures that a tick can play; what is stiffer than a number gives no force. */
+static const knurl_field fields[] = {
+    {"spatial_frequency[0]", offsetof(knurl_material_desc, spatial_frequency[0]), {0.0, 1e9, "cycles/m", 0}},
+    {"spatial_frequency[1]", offsetof(knurl_material_desc, spatial_frequency[1]), {0.0, 1e9, "cycles/m", 0}},
+    {"amplitude", offsetof(knurl_material_desc, amplitude), {0.0, 1e6, "m", 0}},
+};
 
 static knurl_result check_number(const char *key, const char *unit, double value, int zero_allowed) {
     if (!(knurl_is_finite(value) && (value > 0.0 || (zero_allowed && value == 0.0)))) {
@@ -24,6 +32,7 @@ static knurl_result check_material(knurl_material_desc *m) {
                              .update_rate_hz = 1000.0};
     knurl_result result = knurl_grating_check(&grating);
     m->method = grating.method;
+    result = result ? result : knurl_fields_check("knurl_material_desc", fields, sizeof fields / sizeof *fields, m);
     result = result ? result : check_number("stiffness", "N/m", m->stiffness, 0);
     result = result ? result : check_number("damping", "N s/m", m->damping, 1);
     result = result ? result : check_number("friction", "coefficient", m->friction, 1);

@@ -2,11 +2,9 @@
 #include "scene/surface.h"
 
 #include "base/base.h"
+#include "base/range.h"
 
 #include <string.h>
-
-/* Farther than any scene goes; sums of such numbers are still floats. */
-#define FAR_AWAY 1e30
 
 void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size) {
     const knurl_surface_desc defaults = {.rotation = {0.0, 0.0, 0.0, 1.0}};
@@ -16,9 +14,9 @@ void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size) {
 knurl_result knurl_surface_check_pose(const double position[3], const double rotation[4], knurl_pose *pose) {
     const double *q = rotation;
     const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!vec3_finite(position)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "position: expected finite numbers (m), found [%g, %g, %g]",
-                          position[0], position[1], position[2]);
+    const knurl_result result = knurl_check_coordinates("position", "m", position);
+    if (result) {
+        return result;
     }
     if (!(fabs(norm - 1.0) <= 1e-3)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -33,9 +31,9 @@ knurl_result knurl_surface_check_pose(const double position[3], const double rot
 }
 
 static knurl_result set_axis(const knurl_surface_desc *d, knurl_surface_data *surface) {
-    if (!vec3_finite(d->axis)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected finite numbers, found [%g, %g, %g]", d->axis[0],
-                          d->axis[1], d->axis[2]);
+    const knurl_result result = knurl_check_coordinates("axis", "", d->axis);
+    if (result) {
+        return result;
     }
     vec3_copy(d->axis, surface->axis);
     if (!(vec3_normalise(surface->axis) > 0.0)) {
@@ -137,9 +135,8 @@ void knurl_surface_bounds(const knurl_surface_data *surface, const knurl_motion 
 }
 
 static float round_down(double value) {
-    const double near = knurl_min(knurl_max(value, -FAR_AWAY), FAR_AWAY);
-    const float f = (float)near;
-    return (double)f > near ? nextafterf(f, -HUGE_VALF) : f;
+    const float f = (float)value;
+    return (double)f > value ? nextafterf(f, -HUGE_VALF) : f;
 }
 
 static float round_up(double value) {

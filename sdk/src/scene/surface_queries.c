@@ -3,22 +3,10 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "base/range.h"
 #include "contact/mesh_query.h"
 
 #include <string.h>
-
-/* m: as far out as a mesh's vertices may be. The square of a distance overflows far beyond it. */
-#define COORDINATE_MAX 1.2e30
-
-static knurl_result check_point(const char *name, const double p[3]) {
-    for (int axis = 0; axis < 3; axis++) {
-        if (!knurl_is_within(p[axis], -COORDINATE_MAX, COORDINATE_MAX)) {
-            return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected numbers from %g to %g (m), found [%g, %g, %g]", name,
-                              -COORDINATE_MAX, COORDINATE_MAX, p[0], p[1], p[2]);
-        }
-    }
-    return KNURL_OK;
-}
 
 /* The pose of a surface's own frame now; records keep that of its shape's. */
 static void find_pose(const knurl_scene *scene, const knurl_surface_data *surface, knurl_pose *pose) {
@@ -155,7 +143,7 @@ knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double pos
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(point)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    const knurl_result result = check_point("position", position);
+    const knurl_result result = knurl_check_coordinates("position", "m", position);
     if (result) {
         return result;
     }
@@ -216,8 +204,8 @@ knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3]
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(from) || KNURL_IS_NULL(to) || KNURL_IS_NULL(point)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_result result = check_point("from", from);
-    result = result ? result : check_point("to", to);
+    knurl_result result = knurl_check_coordinates("from", "m", from);
+    result = result ? result : knurl_check_coordinates("to", "m", to);
     if (result) {
         return result;
     }

@@ -12,6 +12,9 @@
 #include <stddef.h>
 #include <string.h>
 
+/* m/s: no way between two valid positions is faster, at any update rate. */
+#define SPEED_MAX 1e15
+
 /* What contacts add to. */
 static void begin_output(knurl_tick_output *out) {
     out->force[0] = out->force[1] = out->force[2] = 0.0;
@@ -89,7 +92,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         add_workspace_velocity(hip, out->hip, zoom, out->hip_velocity);
     }
     begin_output(out);
-    return vec3_finite_both(out->hip, out->hip_velocity);
+    return vec3_sum(out->hip) <= KNURL_COORDINATE_MAX && vec3_sum(out->hip_velocity) <= SPEED_MAX;
 }
 
 /* Reports one contact; of several the deepest. */

@@ -630,7 +630,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "8eb15f8b68ec8f88";
+        internal const string Interface = "74d658e1e1a5e3b3";
 
         internal const string Version = "0.3.0";
 
@@ -689,6 +689,7 @@ namespace Knurl
         internal const int KNURL_VERSION_MAJOR = 0;
         internal const int KNURL_VERSION_MINOR = 3;
         internal const int KNURL_VERSION_PATCH = 0;
+        internal const double KNURL_COORDINATE_MAX = 1000000000.0;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const int KNURL_FOAW_WINDOW = 15;
