@@ -11,9 +11,9 @@ MODULES = {
     "loop": (16, 72, 304, 146, "the 1 kHz thread: read, tick, write"),
     "audio": (316, 72, 474, 146, "a tick's sound"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
-    "device": (16, 178, 146, 440, "any device"),
+    "device": (16, 178, 146, 456, "any device"),
     "scene": (172, 178, 928, 508, "surfaces, edits from other threads, and the tick"),
-    "motion": (16, 456, 146, 540, "positions to speeds"),
+    "motion": (16, 472, 146, 556, "positions to speeds"),
     "contact": (172, 550, 752, 866, "where a HIP touches"),
     "grating": (782, 550, 928, 666, "a height from a speed"),
     "vibration": (782, 690, 928, 774, "square waves in time"),
@@ -21,7 +21,7 @@ MODULES = {
 }
 # Where the arrow between two modules stands: x, or y where they stand side by side. Boxes in a module have arrows of their
 # own to boxes in other modules.
-MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 466,
+MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 482,
                  ("scene", "grating"): 855, ("grating", "vibration"): 855}
 
 # Box: its middle, its top, its width, its title, the line below it, the units in it.

@@ -201,7 +201,7 @@ TEST(an_endless_continuous_force_is_no_limit) {
 
 static rig r;
 
-/* A rig's device tells nothing of heat: the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
+/* A rig's device tells the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
 TEST(a_callback_warms_the_same_motors) {
     const double ratio2 = 2.0 * 2.0 / (0.88 * 0.88);
     rig_init(&r);

@@ -50,7 +50,8 @@ static inline void rig_close(knurl_device *device) {
 
 static inline void rig_get_info(const knurl_device *device, knurl_device_info *info) {
     info->max_force = device->max_force;
-    info->resolution = 0.0;
+    info->continuous_force = 0.88; /* a Touch's */
+    info->heat_time = 60.0;
 }
 
 static inline knurl_result rig_start_device(knurl_device *device, double rate) {

@@ -12,24 +12,27 @@ extern "C" {
 
 typedef struct knurl_device knurl_device;
 
-/** Properties of a device. An output: set struct_size with knurl_device_info_init() first. Device frame, SI. */
+/** Properties of a device. An output: set struct_size with knurl_device_info_init() first. Device frame, SI. A device
+ * that tells a number beyond its range is not opened. */
 typedef struct knurl_device_info {
     uint32_t struct_size;
     uint32_t reserved;       /**< 0 */
     char name[64];           /**< for people */
-    double workspace_min[3]; /**< m */
-    double workspace_max[3]; /**< m */
-    double resolution;       /**< position quantum, m; 0: not quantised */
-    double max_force;        /**< N */
-    double delay;            /**< ticks from writing a force until it acts, beyond the tick itself */
-    double continuous_force; /**< N that the motors can hold indefinitely; INFINITY: no limit but max_force */
-    double heat_time;        /**< s: time constant of the motors' heating, > 0 */
-    double mass;             /**< kg: apparent mass at the grip, without the hand's */
-    double viscous;          /**< N s/m: the device's own viscous friction */
-    double coulomb;          /**< N: the device's own dry friction */
-    double max_stiffness;    /**< N/m: the stiffest wall that its maker specifies; INFINITY: not specified */
-    double max_damping;      /**< N s/m: the strongest damper that its maker specifies; INFINITY: not specified */
-    double native_rate;      /**< Hz: its own rate of position reports; 0: a new position at each read */
+    double workspace_min[3]; /**< m, within KNURL_COORDINATE_MAX; 0 with 0 in workspace_max: not known */
+    double workspace_max[3]; /**< m, workspace_min to KNURL_COORDINATE_MAX */
+    double resolution;       /**< position quantum, 1e-9 to 0.01 m; 0: not quantised */
+    double max_force;        /**< 0.01 to 1000 N */
+    double delay;            /**< 0 to 16 ticks from writing a force until it acts, beyond the tick itself */
+    double continuous_force; /**< 0.01 to 1000 N that the motors can hold indefinitely; INFINITY: no limit but
+                                  max_force */
+    double heat_time;        /**< time constant of the motors' heating, 0.001 to 1e6 s */
+    double mass;             /**< apparent mass at the grip, without the hand's, 0.001 to 10 kg; 0: not known */
+    double viscous;          /**< the device's own viscous friction, 0 to 1000 N s/m */
+    double coulomb;          /**< the device's own dry friction, 0 to 10 N */
+    double max_stiffness;    /**< the stiffest wall that its maker specifies, 1 to 1e9 N/m; INFINITY: not specified */
+    double max_damping;      /**< the strongest damper that its maker specifies, 0 to 1e4 N s/m; INFINITY: not
+                                  specified */
+    double native_rate;      /**< its own rate of position reports, 1 to 1e5 Hz; 0: a new position at each read */
 } knurl_device_info;
 
 /** One reading. Device frame: x right, y up, z towards the user. */
@@ -120,8 +123,9 @@ typedef struct knurl_device_functions {
                                takes the newest position and leaves the newest force. 0 (default): the haptic thread calls
                                them; nothing zeroes the force while it hangs */
     void *user;
-    /** Fills in the properties; `info` comes with defaults that specify nothing. Required, with max_force > 0. [any
-     * thread] */
+    /** Fills in the properties; `info` comes with defaults that specify nothing: heat_time 60 s, INFINITY in
+     * continuous_force, max_stiffness and max_damping, else 0. Required, with a max_force. Do not call
+     * knurl_device_info_init(). [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
     /** Prepares for this rate of reads; or null. Called first before any read; later also, where blocking, while the
      * I/O thread is reading. [game thread] */
@@ -237,7 +241,8 @@ KNURL_API void knurl_device_close(knurl_device *device);
  * waits for it, and its memory, are then never freed. [game thread] */
 KNURL_API uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity);
 
-/** Gets a device's properties. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+/** Gets a device's properties. Errors: KNURL_ERROR_ARGUMENT (also of a caller's device whose get_info now tells a
+ * number beyond its range). [any thread] */
 KNURL_API knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info);
 
 /** Gets a device's state. Errors: KNURL_ERROR_ARGUMENT. [any thread] */

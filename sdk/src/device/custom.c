@@ -2,7 +2,6 @@
 #include "base/base.h"
 #include "device/link.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,21 +41,11 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
                                                : KNURL_LINK_NOTHING;
 }
 
-/* The defaults, before the owner's get_info(): no limits. */
-static void ask_info(const knurl_device_functions *f, knurl_device_info *info) {
-    info->continuous_force = info->max_stiffness = info->max_damping = INFINITY;
-    info->heat_time = 60.0;
-    f->get_info(f->user, info);
-    info->name[sizeof info->name - 1] = '\0';
-    info->native_rate = f->blocking && !(info->native_rate > 0.0) ? 1000.0 : info->native_rate;
-}
-
-/* Hz: the I/O thread's rate. */
-static double rate_of(const custom *c) {
+/* Starts the I/O thread. */
+static knurl_result open_link(custom *c) {
     knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
-    ask_info(&c->functions, &info);
-    return info.native_rate >= 1.0 && info.native_rate <= 100000.0 ? info.native_rate : 1000.0;
+    const knurl_result result = knurl_device_ask(&c->base, &info);
+    return result ? result : knurl_link_open(&c->link, &c->base, exchange, info.native_rate);
 }
 
 static void custom_close(knurl_device *device) {
@@ -74,7 +63,9 @@ static void custom_close(knurl_device *device) {
 }
 
 static void custom_info(const knurl_device *device, knurl_device_info *info) {
-    ask_info(&((const custom *)(const void *)device)->functions, info);
+    const knurl_device_functions *f = &((const custom *)(const void *)device)->functions;
+    f->get_info(f->user, info);
+    info->native_rate = f->blocking && info->native_rate == 0.0 ? 1000.0 : info->native_rate;
 }
 
 static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
@@ -118,7 +109,7 @@ static knurl_result custom_reopen(knurl_device *device) {
     }
     const knurl_result result = c->functions.reopen(c->functions.user);
     c->has_latest = 0;
-    return result || !c->functions.blocking ? result : knurl_link_open(&c->link, device, exchange, rate_of(c));
+    return result || !c->functions.blocking ? result : open_link(c);
 }
 
 static const knurl_driver custom_driver = {
@@ -136,19 +127,13 @@ void knurl_device_functions_init(knurl_device_functions *functions, uint32_t siz
     knurl_desc_write(&defaults, sizeof defaults, functions, size);
 }
 
-static knurl_result check(const knurl_device_functions *f, knurl_device_info *info) {
+static knurl_result check(const knurl_device_functions *f) {
     if (!f->get_info || !f->read || !f->write) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "knurl_device_functions: expected get_info, read and write, found no %s",
                           !f->get_info ? "get_info"
                           : !f->read   ? "read"
                                        : "write");
-    }
-    knurl_device_info_init(info, sizeof *info);
-    ask_info(f, info);
-    if (!(info->max_force > 0.0 && knurl_is_finite(info->max_force))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_device_functions.get_info: expected max_force above 0 N, found %g N", info->max_force);
     }
     return KNURL_OK;
 }
@@ -158,10 +143,10 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_device_functions f;
-    knurl_device_info info = {0};
+    knurl_device_info info;
     knurl_device_functions_init(&f, sizeof f);
     knurl_result result = knurl_desc_read("knurl_device_functions", functions, &f, sizeof f);
-    result = result ? result : check(&f, &info);
+    result = result ? result : check(&f);
     if (result) {
         return result;
     }
@@ -170,14 +155,15 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
         return knurl_fail(KNURL_ERROR_MEMORY, "device: could not get %u bytes", (unsigned)sizeof *made);
     }
     knurl_device_init(&made->base, &custom_driver);
-    made->base.max_force = info.max_force;
     made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;
-    if (!f.motors_known) {
+    result = knurl_device_ask(&made->base, &info);
+    made->base.max_force = result ? 0.0 : info.max_force;
+    if (!result && !f.motors_known) {
         knurl_motor_check_init(&made->base.motor_check, info.max_force);
     }
-    result = knurl_device_start(&made->base, 1000.0);
-    result = result || !f.blocking ? result : knurl_link_open(&made->link, &made->base, exchange, rate_of(made));
+    result = result ? result : knurl_device_start(&made->base, 1000.0);
+    result = result || !f.blocking ? result : open_link(made);
     if (result) {
         free(made);
         return result;

@@ -19,11 +19,6 @@
  * they are read faster. */
 #define LEAST_GAP 0.002
 
-void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
-    const knurl_device_info defaults = {0};
-    knurl_desc_write(&defaults, sizeof defaults, info, size);
-}
-
 void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
     const knurl_device_status defaults = {0};
     knurl_desc_write(&defaults, sizeof defaults, status, size);
@@ -117,9 +112,8 @@ knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_device_info made;
-    knurl_device_info_init(&made, sizeof made);
-    device->driver->get_info(device, &made);
-    const knurl_result result = knurl_desc_return("knurl_device_info", &made, sizeof made, info);
+    knurl_result result = knurl_device_ask(device, &made);
+    result = result ? result : knurl_desc_return("knurl_device_info", &made, sizeof made, info);
     if (!result) {
         knurl_desc_end_text(info, offsetof(knurl_device_info, name),
                             offsetof(knurl_device_info, name) + sizeof info->name);
@@ -155,13 +149,15 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
-/* Discards earlier positions. */
-static void begin_check(knurl_device *device) {
+/* Checks its properties and discards earlier positions. */
+static knurl_result begin_check(knurl_device *device) {
     knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
-    device->driver->get_info(device, &info);
-    memset(&device->check, 0, sizeof device->check);
-    device->check.least_gap = info.native_rate > 0.0 ? fmax(LEAST_GAP, 2.0 / info.native_rate) : LEAST_GAP;
+    const knurl_result result = knurl_device_ask(device, &info);
+    if (!result) {
+        memset(&device->check, 0, sizeof device->check);
+        device->check.least_gap = info.native_rate > 0.0 ? fmax(LEAST_GAP, 2.0 / info.native_rate) : LEAST_GAP;
+    }
+    return result;
 }
 
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
@@ -186,13 +182,13 @@ knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and is not to be found",
                           device->driver->uri);
     }
-    const knurl_result result = device->driver->start ? device->driver->start(device, update_rate_hz) : KNURL_OK;
+    knurl_result result = begin_check(device);
+    result = result || !device->driver->start ? result : device->driver->start(device, update_rate_hz);
     if (!result) {
         if (device->link) {
             knurl_link_start(device->link, update_rate_hz);
         }
         device->period = 1.0 / update_rate_hz;
-        begin_check(device);
         if (device->motor_check.is_on) {
             knurl_motor_check_start(&device->motor_check, device->period);
         }
@@ -346,9 +342,9 @@ knurl_result knurl_device_reopen(knurl_device *device) {
     if (!device->driver->reopen) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    const knurl_result result = device->driver->reopen(device);
+    knurl_result result = device->driver->reopen(device);
+    result = result ? result : begin_check(device);
     if (!result) {
-        begin_check(device);
         knurl_events_report(&device->events, KNURL_FAULT_RECONNECTED, 0.0);
         knurl_store_release(&device->lost, 0u);
     }

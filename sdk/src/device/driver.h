@@ -27,6 +27,7 @@ typedef struct knurl_driver {
     knurl_result (*open)(const char *options, knurl_device **device);
     /* The force has been set to zero, or is now; ends with knurl_device_free(). */
     void (*close)(knurl_device *device);
+    /* info: no limits but max_force, which is 0. */
     void (*get_info)(const knurl_device *device, knurl_device_info *info);
     /* Null if the driver adds nothing to the common fields. */
     void (*get_status)(const knurl_device *device, knurl_device_status *status);
@@ -100,6 +101,10 @@ static inline void knurl_device_free(knurl_device *device) {
     knurl_handle_clear(&device->handle);
     free(device);
 }
+
+/* Its properties, checked: a number that is out of its range must not reach a limit, a protection or a period. Errors:
+ * KNURL_ERROR_ARGUMENT (which, expected, found). */
+knurl_result knurl_device_ask(const knurl_device *device, knurl_device_info *info);
 
 /* The end of a driver's open(): starts its device at 1 kHz, where `result` is KNURL_OK, and hands it out; else, and
  * where it does not start, closes it by the driver. */

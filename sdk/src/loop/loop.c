@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/range.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -115,6 +116,13 @@ static void watchdog_thread(void *argument) {
     }
 }
 
+static const knurl_field fields[] = {
+    {"update_rate_hz", offsetof(knurl_loop_desc, update_rate_hz), {KNURL_RANGE_RATE, 0}},
+    {"ramp_s", offsetof(knurl_loop_desc, ramp_s), {0.0, 1.0, "s", 0}},
+    {"watchdog_s", offsetof(knurl_loop_desc, watchdog_s), {0.0, 10.0, "s", 0}},
+    {"heartbeat_s", offsetof(knurl_loop_desc, heartbeat_s), {0.0, 3600.0, "s", 0}},
+};
+
 static knurl_result check(const knurl_loop_desc *d) {
     if (knurl_is_bad_handle(d->device, KNURL_HANDLE_DEVICE, "knurl_loop_desc.device") ||
         (d->scene && knurl_is_bad_handle(d->scene, KNURL_HANDLE_SCENE, "knurl_loop_desc.scene"))) {
@@ -128,15 +136,9 @@ static knurl_result check(const knurl_loop_desc *d) {
     if (d->scene && !knurl_load_acquire(&d->scene->committed)) {
         return knurl_fail(KNURL_ERROR_STATE, "knurl_loop_desc.scene: expected a committed scene, found an open one");
     }
-    if (!knurl_is_within(d->update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
-                          KNURL_UPDATE_RATE_MAX, d->update_rate_hz);
-    }
-    if (!knurl_is_within(d->ramp_s, 0.0, 1.0) || !knurl_is_within(d->watchdog_s, 0.0, 10.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_loop_desc: expected ramp_s 0 to 1 s and watchdog_s 0 to 10 s, found %g "
-                          "and %g",
-                          d->ramp_s, d->watchdog_s);
+    const knurl_result result = knurl_fields_check("knurl_loop_desc", fields, sizeof fields / sizeof *fields, d);
+    if (result) {
+        return result;
     }
     if (d->protections & ~(uint32_t)(KNURL_PROTECT_HEAT | KNURL_PROTECT_SLEW)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -144,10 +146,9 @@ static knurl_result check(const knurl_loop_desc *d) {
                           "scene's HIP has its own), found %#x",
                           (unsigned)d->protections);
     }
-    if (!knurl_is_within(d->heartbeat_s, 0.0, 3600.0) || d->reconnect > 1) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_loop_desc: expected heartbeat_s 0 to 3600 s and reconnect 0 or 1, found %g and %u",
-                          d->heartbeat_s, (unsigned)d->reconnect);
+    if (d->reconnect > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.reconnect: expected 0 or 1, found %u",
+                          (unsigned)d->reconnect);
     }
     if (d->clock && (!d->clock->now_ns || !d->clock->sleep_until_ns)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_loop_desc.clock: expected both functions, found null");
@@ -166,23 +167,18 @@ void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, stats, size);
 }
 
-/* Reads what the scene needs to know of the device. A driver without heat_time knows neither friction nor heat. */
+/* Reads what the scene needs to know of the device. */
 static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     const knurl_result result = knurl_device_get_info(d->device, &info);
-    *facts = knurl_touch;
-    facts->rate = d->update_rate_hz;
-    facts->resolution = info.resolution;
-    facts->max_force = info.max_force;
-    facts->delay = info.delay;
-    if (info.heat_time > 0.0) {
-        facts->continuous_force = info.continuous_force;
-        facts->heat_time = info.heat_time;
-        facts->viscous = info.viscous;
-        facts->max_stiffness = info.max_stiffness;
+    if (result) {
+        return result;
     }
-    return result || !d->scene ? result : knurl_scene_adopt_device(d->scene, d->hip, facts);
+    const knurl_hip_facts told = {d->update_rate_hz, info.resolution, info.max_force, info.continuous_force,
+                                  info.heat_time,    info.viscous,    info.delay,     info.max_stiffness};
+    *facts = told;
+    return d->scene ? knurl_scene_adopt_device(d->scene, d->hip, facts) : KNURL_OK;
 }
 
 /* Claims device and HIP for this loop alone. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */

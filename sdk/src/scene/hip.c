@@ -2,6 +2,7 @@
 #include "scene/hip.h"
 
 #include "base/base.h"
+#include "base/range.h"
 #include "base/vec3.h"
 
 #include <stddef.h>
@@ -15,20 +16,39 @@ void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
 
 const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 1.0, 1020.0};
 
+#define FIELD(field, range, kind)                                                                                      \
+    {                                                                                                                  \
+        #field, offsetof(knurl_hip_desc, field), {                                                                     \
+            range, kind                                                                                                \
+        }                                                                                                              \
+    }
+
+static const knurl_field fields[] = {
+    FIELD(update_rate_hz, KNURL_RANGE_RATE, KNURL_OR_ZERO),
+    FIELD(resolution, KNURL_RANGE_QUANTUM, KNURL_OR_ZERO | KNURL_OR_NEGATIVE),
+    FIELD(max_force, KNURL_RANGE_HIP_FORCE, KNURL_OR_ZERO),
+    FIELD(continuous_force, KNURL_RANGE_FORCE, KNURL_OR_ZERO | KNURL_OR_INFINITY),
+    FIELD(heat_time, KNURL_RANGE_HEAT_TIME, KNURL_OR_ZERO),
+    FIELD(viscous, KNURL_RANGE_VISCOUS, KNURL_OR_NEGATIVE),
+    FIELD(delay, KNURL_RANGE_DELAY, KNURL_OR_NEGATIVE),
+    FIELD(max_stiffness, KNURL_RANGE_STIFFNESS, KNURL_OR_ZERO | KNURL_OR_INFINITY),
+    FIELD(slew_rate, KNURL_RANGE_SLEW, KNURL_OR_ZERO | KNURL_OR_INFINITY),
+};
+
 static double above_zero(double given, double device) {
     return given > 0.0 ? given : device;
 }
 
 static double from_zero(double given, double device) {
-    return given < 0.0 ? device : given; /* NaN is refused later */
+    return given >= 0.0 ? given : device;
 }
 
-/* What the description says counts, then what the device says; but no force beyond `strongest` (N). */
+/* What the description says counts, then what the device says; but no force beyond `strongest` (N). Both are checked.
+ */
 static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest) {
-    const double max_force = d->max_force != 0.0 ? d->max_force : device->max_force; /* NaN is refused later */
-    const knurl_hip_facts made = {d->update_rate_hz != 0.0 ? d->update_rate_hz : device->rate,
+    const knurl_hip_facts made = {above_zero(d->update_rate_hz, device->rate),
                                   from_zero(d->resolution, device->resolution),
-                                  max_force > strongest ? strongest : max_force,
+                                  knurl_min(above_zero(d->max_force, device->max_force), strongest),
                                   above_zero(d->continuous_force, device->continuous_force),
                                   above_zero(d->heat_time, device->heat_time),
                                   from_zero(d->viscous, device->viscous),
@@ -37,21 +57,10 @@ static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *de
     return made;
 }
 
-static knurl_result check_protections(const knurl_hip_desc *d) {
-    const struct {
-        const char *name, *unit;
-        double value, least, most;
-    } numbers[] = {{"continuous_force", "N", d->continuous_force, 0.0, HUGE_VAL},
-                   {"heat_time", "s", d->heat_time, 0.0, 1e9},
-                   {"viscous", "N s/m", d->viscous, -HUGE_VAL, 1e9},
-                   {"delay", "ticks", d->delay, -HUGE_VAL, 16.0},
-                   {"max_stiffness", "N/m", d->max_stiffness, 0.0, HUGE_VAL},
-                   {"slew_rate", "N/s", d->slew_rate, 0.0, HUGE_VAL}};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        if (!(numbers[i].value >= numbers[i].least && numbers[i].value <= numbers[i].most)) {
-            return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_hip_desc.%s: expected %g to %g %s, found %g",
-                              numbers[i].name, numbers[i].least, numbers[i].most, numbers[i].unit, numbers[i].value);
-        }
+static knurl_result check(const knurl_hip_desc *d) {
+    const knurl_result result = knurl_fields_check("knurl_hip_desc", fields, sizeof fields / sizeof *fields, d);
+    if (result) {
+        return result;
     }
     if (d->protections > KNURL_PROTECT_ALL || d->clamp > 1 || d->reserved != 0) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
@@ -59,19 +68,7 @@ static knurl_result check_protections(const knurl_hip_desc *d) {
                           "found %#x, %u, %u",
                           (unsigned)d->protections, (unsigned)d->clamp, (unsigned)d->reserved);
     }
-    return KNURL_OK;
-}
-
-static knurl_result check_facts(const knurl_hip_facts *facts) {
-    if (!knurl_is_within(facts->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "update rate: expected %g to %g Hz, found %g Hz", KNURL_UPDATE_RATE_MIN,
-                          KNURL_UPDATE_RATE_MAX, facts->rate);
-    }
-    if (!(facts->max_force > 0.0 && knurl_is_finite(facts->max_force))) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "max_force: expected a finite number > 0 (N), found %g",
-                          facts->max_force);
-    }
-    return KNURL_OK;
+    return d->workspace ? knurl_workspace_check(d->workspace) : KNURL_OK;
 }
 
 /* All of a HIP but its snapshot, which other threads read without the lock: it becomes that of a HIP before its first
@@ -92,15 +89,16 @@ void knurl_hip_set_scale(knurl_hip *hip, double scale) {
 knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest,
                               double time) {
     knurl_hip made;
+    knurl_result result = check(d);
+    if (result) {
+        return result;
+    }
     const knurl_hip_facts facts = settle(d, device, strongest);
     memset(&made, 0, sizeof made);
     made.given = *d;
     made.given.workspace = NULL; /* the caller's; kept by value below */
     made.rate = facts.rate;
-    knurl_result result = check_protections(d);
-    result = result ? result : check_facts(&facts);
-    result = result || !d->workspace ? result : knurl_workspace_check(d->workspace);
-    result = result ? result : knurl_velocity_init(d->velocity_method, facts.resolution, facts.rate, &made.velocity);
+    result = knurl_velocity_init(d->velocity_method, facts.resolution, facts.rate, &made.velocity);
     if (result) {
         return result;
     }

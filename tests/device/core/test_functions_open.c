@@ -142,9 +142,9 @@ static void count_close(knurl_device *device) {
     closes++;
 }
 
-static void tell_nothing(const knurl_device *device, knurl_device_info *info) {
+static void tell_one_newton(const knurl_device *device, knurl_device_info *info) {
     (void)device;
-    (void)info;
+    info->max_force = 1.0;
 }
 
 static void open_by(const knurl_driver *driver, knurl_result result, knurl_result expected) {
@@ -160,8 +160,9 @@ static void open_by(const knurl_driver *driver, knurl_result result, knurl_resul
 
 /* Its thread and its port are open by then. */
 TEST(a_driver_whose_device_cannot_be_opened_or_started_closes_it) {
-    static const knurl_driver starts = {.uri = "starts", .close = count_close, .get_info = tell_nothing};
-    static const knurl_driver fails = {.uri = "fails", .close = count_close, .start = refuse_to_start};
+    static const knurl_driver starts = {.uri = "starts", .close = count_close, .get_info = tell_one_newton};
+    static const knurl_driver fails = {
+        .uri = "fails", .close = count_close, .get_info = tell_one_newton, .start = refuse_to_start};
     open_by(&starts, KNURL_OK, KNURL_OK);
     open_by(&starts, KNURL_ERROR_ARGUMENT, KNURL_ERROR_ARGUMENT);
     open_by(&fails, KNURL_OK, KNURL_ERROR_DEVICE_LOST);

@@ -230,6 +230,7 @@ static knurl_link io;
 
 static void tell_io(const knurl_device *device, knurl_device_info *info) {
     (void)device;
+    info->max_force = 1.0;
     info->native_rate = 1000.0;
 }
 

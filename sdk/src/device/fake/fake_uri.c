@@ -3,19 +3,11 @@
 
 #include "device/number.h"
 
-#include <math.h>
 #include <string.h>
 
-typedef struct key {
-    const char *name;
-    const char *unit;
-    double least, greatest;
-    size_t offset;
-} key;
-
-static const key keys[] = {
-#define KNURL_FAKE_KEY(name, standard, least, greatest, unit, meaning)                                                 \
-    {#name, unit, least, greatest, offsetof(knurl_fake_settings, name)},
+static const knurl_field keys[] = {
+#define KNURL_FAKE_KEY(name, standard, range, kind, meaning)                                                           \
+    {#name, offsetof(knurl_fake_settings, name), {range, kind}},
     KNURL_FAKE_KEYS(KNURL_FAKE_KEY)
 #undef KNURL_FAKE_KEY
 };
@@ -38,25 +30,25 @@ const char *knurl_fake_preset_name(int32_t preset) {
 
 const char *knurl_fake_keys(void) {
     return "preset=touch \t" PRESET_WORDS "each of which sets all keys anew\n"
-#define KNURL_FAKE_LINE(name, standard, least, greatest, unit, meaning) #name "=" #standard " " unit "\t" meaning "\n"
+#define KNURL_FAKE_UNIT(least, greatest, unit) unit
+#define KNURL_FAKE_LINE(name, standard, range, kind, meaning)                                                          \
+    #name "=" #standard " " KNURL_FAKE_UNIT(range) "\t" meaning "\n"
         KNURL_FAKE_KEYS(KNURL_FAKE_LINE)
 #undef KNURL_FAKE_LINE
+#undef KNURL_FAKE_UNIT
             ;
 }
 
-static knurl_result set_value(const key *k, const char *text, size_t length, knurl_fake_settings *settings) {
+static knurl_result set_value(const knurl_field *key, const char *text, size_t length, knurl_fake_settings *settings) {
     double value = 0.0;
-    const int is_number = knurl_number(text, length, &value); /* whatever the host's locale */
-    const int real = k->offset != offsetof(knurl_fake_settings, delay) &&
-                     k->offset != offsetof(knurl_fake_settings, seed) &&
-                     k->offset != offsetof(knurl_fake_settings, exact);
-    if (!is_number || !knurl_is_within(value, k->least, k->greatest) || !(real || value == floor(value))) {
-        return knurl_fail(
-            KNURL_ERROR_ARGUMENT, "device fake: %s: expected a %snumber from %g to %.10g%s%s, found '%.*s'", k->name,
-            real ? "" : "whole ", k->least, k->greatest, k->unit[0] ? " " : "", k->unit, (int)length, text);
+    char expected[KNURL_RANGE_ROOM];
+    if (!knurl_number(text, length, &value) ||
+        !knurl_range_holds(&key->range, value)) { /* whatever the host's locale */
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected %s, found '%.*s'", key->name,
+                          knurl_range_text(&key->range, expected), (int)length, text);
     }
-    memcpy((char *)settings + k->offset, &value, sizeof value);
-    settings->resolution_named |= k->offset == offsetof(knurl_fake_settings, resolution);
+    memcpy((char *)settings + key->offset, &value, sizeof value);
+    settings->resolution_named |= key->offset == offsetof(knurl_fake_settings, resolution);
     return KNURL_OK;
 }
 
@@ -94,7 +86,7 @@ static knurl_result set_pairs(const char *text, knurl_fake_settings *settings) {
 
 static knurl_result set_preset(const char *text, size_t length, knurl_fake_settings *settings) {
     static const knurl_fake_settings defaults = {
-#define KNURL_FAKE_DEFAULT(name, standard, least, greatest, unit, meaning) standard,
+#define KNURL_FAKE_DEFAULT(name, standard, range, kind, meaning) standard,
         KNURL_FAKE_KEYS(KNURL_FAKE_DEFAULT)
 #undef KNURL_FAKE_DEFAULT
             0,

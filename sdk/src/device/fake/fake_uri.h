@@ -2,34 +2,46 @@
 #ifndef KNURL_SRC_FAKE_URI_H
 #define KNURL_SRC_FAKE_URI_H
 
-#include "base/finite.h"
+#include "base/range.h"
 
 #include <knurl/device.h>
 
-/* Every key of a fake URI but `preset`: name, default, least, greatest, unit, meaning. One table for parsing and for
- * the help. The defaults are the preset "touch" and nobody's hand in particular: a light grip on a stylus, soft enough
- * to be felt through, stiff enough to keep a 1 mm press, whose mass is counted as the device's. */
+/* Least, greatest and unit of what no device has. */
+#define KNURL_FAKE_HAND_MASS      0.0, 10.0, "kg"
+#define KNURL_FAKE_HAND_STIFFNESS 0.0, 10000.0, "N/m"
+#define KNURL_FAKE_HAND_DAMPING   0.0, 100.0, "N s/m"
+#define KNURL_FAKE_SIZE           0.001, 10.0, "m"
+#define KNURL_FAKE_TREMOR         0.0, 0.01, "m"
+#define KNURL_FAKE_FLAG           0.0, 1.0, ""
+#define KNURL_FAKE_SEED           0.0, 4294967295.0, ""
+#define KNURL_FAKE_TIME           0.0, 1e9, "s"
+
+/* Every key of a fake URI but `preset`: name, default, range, what else it may be (KNURL_OR_, KNURL_WHOLE), meaning.
+ * One table for parsing and for the help. The defaults are the preset "touch" and nobody's hand in particular: a light
+ * grip on a stylus, soft enough to be felt through, stiff enough to keep a 1 mm press, whose mass is counted as the
+ * device's. */
 #define KNURL_FAKE_KEYS(X)                                                                                             \
-    X(mass, 0.045, 0.001, 10.0, "kg", "the device's moving mass")                                                      \
-    X(viscous, 0.5, 0.0, 1000.0, "N s/m", "the device's viscous friction")                                             \
-    X(coulomb, 0.26, 0.0, 10.0, "N", "the device's dry friction")                                                      \
-    X(hand_mass, 0, 0.0, 10.0, "kg", "what of the hand moves with the device")                                         \
-    X(hand_stiffness, 700, 0.0, 10000.0, "N/m", "spring of the hand")                                                  \
-    X(hand_damping, 5, 0.0, 100.0, "N s/m", "damper of the hand")                                                      \
-    X(resolution, 0.000055, 0.0, 0.01, "m", "position quantum, 0 for none")                                            \
-    X(max_force, 3.3, 0.001, 1000.0, "N", "what the motors can do")                                                    \
-    X(continuous_force, 0.88, 0.0, 1000.0, "N", "what they can do for ever, 0 for max_force")                          \
-    X(heat_time, 60, 0.001, 1e6, "s", "time constant with which they warm up")                                         \
-    X(max_stiffness, 1020, 0.0, 1e9, "N/m", "the stiffest wall that is promised, 0 for no promise")                    \
-    X(delay, 1, 0.0, 16.0, "ticks", "from a force written to a force felt, a whole number")                            \
-    X(width, 0.160, 0.001, 10.0, "m", "workspace along x")                                                             \
-    X(height, 0.120, 0.001, 10.0, "m", "workspace along y")                                                            \
-    X(depth, 0.070, 0.001, 10.0, "m", "workspace along z")                                                             \
-    X(exact, 0, 0.0, 1.0, "", "1: exact motion, 0: four steps a tick where they are stable")                           \
-    X(tremor, 0.00002, 0.0, 0.01, "m", "rms of the hand's 10 Hz tremor")                                               \
-    X(seed, 1, 0.0, 4294967295.0, "", "of the tremor's noise, a whole number")                                         \
-    X(lose_at, 0, 0.0, 1e9, "s", "when the cable is pulled, until it is looked for; 0 for never")                      \
-    X(press_at, 0, 0.0, 1e9, "s", "when its button is pressed for 0.1 s; 0 for never")
+    X(mass, 0.045, KNURL_RANGE_MASS, 0, "the device's moving mass")                                                    \
+    X(viscous, 0.5, KNURL_RANGE_VISCOUS, 0, "the device's viscous friction")                                           \
+    X(coulomb, 0.26, KNURL_RANGE_COULOMB, 0, "the device's dry friction")                                              \
+    X(hand_mass, 0, KNURL_FAKE_HAND_MASS, 0, "what of the hand moves with the device")                                 \
+    X(hand_stiffness, 700, KNURL_FAKE_HAND_STIFFNESS, 0, "spring of the hand")                                         \
+    X(hand_damping, 5, KNURL_FAKE_HAND_DAMPING, 0, "damper of the hand")                                               \
+    X(resolution, 0.000055, KNURL_RANGE_QUANTUM, KNURL_OR_ZERO, "position quantum, 0 for none")                        \
+    X(max_force, 3.3, KNURL_RANGE_FORCE, 0, "what the motors can do")                                                  \
+    X(continuous_force, 0.88, KNURL_RANGE_FORCE, KNURL_OR_ZERO, "what they can do for ever, 0 for max_force")          \
+    X(heat_time, 60, KNURL_RANGE_HEAT_TIME, 0, "time constant with which they warm up")                                \
+    X(max_stiffness, 1020, KNURL_RANGE_STIFFNESS, KNURL_OR_ZERO,                                                       \
+      "the stiffest wall that is promised, 0 for no promise")                                                          \
+    X(delay, 1, KNURL_RANGE_DELAY, KNURL_WHOLE, "from a force written to a force felt, a whole number")                \
+    X(width, 0.160, KNURL_FAKE_SIZE, 0, "workspace along x")                                                           \
+    X(height, 0.120, KNURL_FAKE_SIZE, 0, "workspace along y")                                                          \
+    X(depth, 0.070, KNURL_FAKE_SIZE, 0, "workspace along z")                                                           \
+    X(exact, 0, KNURL_FAKE_FLAG, KNURL_WHOLE, "1: exact motion, 0: four steps a tick where they are stable")           \
+    X(tremor, 0.00002, KNURL_FAKE_TREMOR, 0, "rms of the hand's 10 Hz tremor")                                         \
+    X(seed, 1, KNURL_FAKE_SEED, KNURL_WHOLE, "of the tremor's noise, a whole number")                                  \
+    X(lose_at, 0, KNURL_FAKE_TIME, 0, "when the cable is pulled, until it is looked for; 0 for never")                 \
+    X(press_at, 0, KNURL_FAKE_TIME, 0, "when its button is pressed for 0.1 s; 0 for never")
 
 /* Every preset: name, what it is, and the keys in which it differs from the defaults.
  *
@@ -69,7 +81,7 @@
       "depth=1&exact=1&tremor=0")
 
 typedef struct knurl_fake_settings {
-#define KNURL_FAKE_FIELD(name, standard, least, greatest, unit, meaning) double name;
+#define KNURL_FAKE_FIELD(name, standard, range, kind, meaning) double name;
     KNURL_FAKE_KEYS(KNURL_FAKE_FIELD)
 #undef KNURL_FAKE_FIELD
     int32_t resolution_named; /* 1: the URI named it, so it holds for traces too */

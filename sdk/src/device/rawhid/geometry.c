@@ -13,18 +13,20 @@
 
 #define TWO_PI 6.283185307179586
 
-enum { REAL, WHOLE, HEX, SIGN };
+/* Kinds of numbers. */
+#define REAL  0
+#define WHOLE KNURL_WHOLE
+#define HEX   (KNURL_WHOLE | 16)
+#define SIGN  (KNURL_WHOLE | 32) /* not 0 */
 
 typedef struct key {
-    const char *name, *unit;
-    size_t offset;
-    double standard, least, greatest;
-    int kind;
+    knurl_field field;
+    double standard;
 } key;
 
 static const key keys[] = {
-#define KNURL_RAWHID_KEY(name, field, standard, least, greatest, unit, kind)                                           \
-    {#name, unit, offsetof(knurl_rawhid_geometry, field), standard, least, greatest, kind},
+#define KNURL_RAWHID_KEY(name, field, standard, range, kind)                                                           \
+    {{#name, offsetof(knurl_rawhid_geometry, field), {range, kind}}, standard},
     KNURL_RAWHID_KEYS(KNURL_RAWHID_KEY)
 #undef KNURL_RAWHID_KEY
 };
@@ -44,7 +46,7 @@ typedef struct word {
 } word;
 
 static void set(knurl_rawhid_geometry *geometry, const key *k, double value) {
-    memcpy((char *)geometry + k->offset, &value, sizeof value);
+    memcpy((char *)geometry + k->field.offset, &value, sizeof value);
 }
 
 void knurl_rawhid_geometry_init(knurl_rawhid_geometry *geometry) {
@@ -84,7 +86,7 @@ static knurl_result refuse_key(const spot *s, word name) {
     char known[768] = "name";
     for (size_t i = 0; i < KEY_COUNT; i++) {
         const size_t used = strlen(known);
-        (void)snprintf(known + used, sizeof known - used, ", %s", keys[i].name);
+        (void)snprintf(known + used, sizeof known - used, ", %s", keys[i].field.name);
     }
     return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: expected a key of %s; found '%.*s'", s->file, s->line, known,
                       shown(name), name.at);
@@ -106,14 +108,14 @@ static knurl_result set_name(const spot *s, word value, knurl_rawhid_geometry *g
 }
 
 static knurl_result set_number(const spot *s, const key *k, word text, knurl_rawhid_geometry *geometry) {
-    static const char *const kinds[] = {"a number", "a whole number", "a number (hexadecimal as 0x16c0)", "-1 or 1:"};
+    const knurl_range *range = &k->field.range;
+    char expected[KNURL_RANGE_ROOM];
     double value = 0.0;
-    const int good = knurl_number(text.at, text.length, &value) && value >= k->least && value <= k->greatest &&
-                     (k->kind == REAL || value == floor(value)) && (k->kind != SIGN || value != 0.0);
-    if (!good) {
-        return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: %s: expected %s from %g to %g%s%s, found '%.*s'", s->file,
-                          s->line, k->name, kinds[k->kind], k->least, k->greatest, k->unit[0] ? " " : "", k->unit,
-                          shown(text), text.at);
+    if (!knurl_number(text.at, text.length, &value) || !knurl_range_holds(range, value) ||
+        (range->kind == SIGN && value == 0.0)) {
+        return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: %s: expected %s%s, found '%.*s'", s->file, s->line,
+                          k->field.name, range->kind == SIGN ? "-1 or 1" : knurl_range_text(range, expected),
+                          range->kind == HEX ? " (hexadecimal as 0x16c0)" : "", shown(text), text.at);
     }
     set(geometry, k, value);
     return KNURL_OK;
@@ -128,7 +130,7 @@ static knurl_result set_line(spot *s, word line, knurl_rawhid_geometry *geometry
     const word name = trim(line.at, (size_t)(equals - line.at));
     const word value = trim(equals + 1, line.length - (size_t)(equals + 1 - line.at));
     size_t i = 0;
-    while (i < KEY_COUNT && !is_word(name, keys[i].name)) {
+    while (i < KEY_COUNT && !is_word(name, keys[i].field.name)) {
         i++;
     }
     if (i == KEY_COUNT && !is_word(name, "name")) {

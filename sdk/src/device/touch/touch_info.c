@@ -5,12 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* One positive number from HD times `unit`, or a known value where HD has none that is plausible. */
-static double ask(touch *t, hd_enum what, double unit, double most, double otherwise) {
+/* One number from HD times `unit`, or a known value where HD has none that is plausible. */
+static double ask(touch *t, hd_enum what, double unit, double least, double most, double otherwise) {
     double value = NAN;
     t->hd->get_doubles(what, &value);
     value *= unit;
-    return value > 0.0 && value <= most ? value : otherwise;
+    return value >= least && value <= most ? value : otherwise;
 }
 
 static void ask_workspace(touch *t) {
@@ -42,10 +42,11 @@ void touch_ask_info(touch *t) {
     (void)snprintf(t->title + used, sizeof t->title - used, "HD %.24s, driver %.24s)",
                    ask_string(t, HD_VERSION, "unknown"), ask_string(t, HD_DRIVER_VERSION, "unknown"));
     ask_workspace(t);
-    info->max_force = ask(t, HD_MAX_FORCE, 1.0, 100.0, 3.3); /* else the paper's and the data sheet's */
-    info->continuous_force = ask(t, HD_CONTINUOUS_FORCE, 1.0, info->max_force, fmin(0.88, info->max_force)); /* sheet */
-    info->max_stiffness = ask(t, HD_MAX_STIFFNESS, 1e3, 1e5, 1020.0); /* else the sheet's least, of z */
-    info->max_damping = ask(t, HD_MAX_DAMPING, 1e3, 1e3, INFINITY);
+    info->max_force = ask(t, HD_MAX_FORCE, 1.0, 0.1, 100.0, 3.3); /* else the paper's and the data sheet's */
+    info->continuous_force =                                      /* else the sheet's */
+        ask(t, HD_CONTINUOUS_FORCE, 1.0, 0.01, info->max_force, fmin(0.88, info->max_force));
+    info->max_stiffness = ask(t, HD_MAX_STIFFNESS, 1e3, 1.0, 1e5, 1020.0); /* else the sheet's least, of z */
+    info->max_damping = ask(t, HD_MAX_DAMPING, 1e3, 1e-3, 1e3, INFINITY);
     info->resolution = 0.055e-3; /* the paper, data sheet */
     info->mass = 0.045;          /* data sheet: apparent, at the tip */
     info->coulomb = 0.26;        /* data sheet: backdrive friction */
