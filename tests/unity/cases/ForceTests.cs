@@ -147,7 +147,7 @@ namespace Knurl.Tests
             long ticks = d.Ticks;
             Until(() => d.Ticks > ticks + 200, "the zoom would be over");
             Assert.That((d.HipPosition - at).magnitude, Is.LessThan(1e-3f), "about the HIP");
-            ExpectError("move: workspace.scale: expected a finite number > 0, found 0");
+            ExpectError("move: workspace.scale: expected 1e-09 to 1000000000, found 0");
             d.WorkspaceScale = 0f;
             Player.Frames(5);
             Assert.IsTrue(d.Running);
