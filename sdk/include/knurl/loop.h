@@ -133,7 +133,8 @@ KNURL_API void knurl_loop_pause(knurl_loop *loop);
 KNURL_API void knurl_loop_resume(knurl_loop *loop);
 
 /** Sets a gain for all forces that the loop sends, for a player's setting. gain: 0 to 1, initially 1. It is approached
- * by the ramp. At 0 no force is sent; contacts go on. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
+ * by the ramp, also while the device has no position. At 0 no force is sent; contacts go on. Errors:
+ * KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain);
 
 /** Adds a force to that of the scene's surfaces, until the next call. force: N, scene axes, at most 1000 N; zeros end

@@ -107,6 +107,7 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
 static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
     knurl_count_up(&loop->cycles);
+    (void)knurl_loop_move_gain(&loop->added, gain_step(loop)); /* or a gain of 0 would begin when there is a position */
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
