@@ -180,8 +180,9 @@ soak() {
     build release
     export KNURL_STRESS_SECONDS=60 KNURL_DEVICE_SECONDS=60 KNURL_LONG=10 KNURL_FUZZ=10 KNURL_FUZZ_FRAMES=20000000
     local name failed=()
-    for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks fidelity_locked \
-        stability_protection_grids weigh rooms failing_scene failing_gltf failing_device failing_session; do
+    for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks \
+        stability_protection_grids weigh rooms failing_scene failing_gltf failing_device failing_session conform \
+        conform_drivers; do
         echo "run: soak: $name"
         if ! with_progress "running $name" "build/soak-$name.log" "build/release/tests/test_$name"; then
             grep -E 'ERROR|LINE|FAILED' "build/soak-$name.log" >&2 || true

@@ -1,0 +1,29 @@
+/* Random trials of samples/conform at the write() of its own device, by one seed. KNURL_LONG: a hundred million ticks.
+ * SPDX-License-Identifier: MIT */
+#include "trial.h"
+
+#include "support/close.h"
+
+#include <stdlib.h>
+
+static judge j;
+
+TEST(no_game_brings_a_force_to_a_device_that_it_was_promised_not_to_get) {
+    const uint64_t wanted = getenv("KNURL_LONG") ? 100000000 : SUITE_SANITIZED ? 200000 : 2000000;
+    uint64_t ticks = 0;
+    for (uint64_t seed = 1; ticks < wanted; seed++) {
+        assert_int_equal(trial_run(&functions_subject, seed, &j, &ticks), 0);
+    }
+    int broken = 0;
+    for (int i = 0; i < JUDGE_COUNT; i++) {
+        const judge_breach *b = &j.breaches[i];
+        if (b->count > 0) {
+            print_error("%s: %d times, by up to %.3g, first after %s: conform --seed %d --seconds 0\n",
+                        judge_promises[i].sentence, (int)b->count, b->worst, b->after, (int)b->seed);
+            broken++;
+        }
+    }
+    assert_int_equal(broken, 0);
+    assert_true(j.contacts > j.ticks / 10); /* there was something to judge */
+    assert_true(j.squeezes > 20 || SUITE_SANITIZED);
+}
