@@ -437,4 +437,27 @@ TEST(the_clock_goes_on_while_the_machine_sleeps) {
     }
     assert_int_equal(status, 0);
 }
+
+static void check_priority(void *kept) {
+    struct sched_param parameters = {0};
+    int policy = SCHED_RR;
+    parameters.sched_priority = 3;
+    if (pthread_setschedparam(pthread_self(), policy, &parameters) != 0) {
+        return; /* not permitted */
+    }
+    const int is_realtime = knurl_system_make_realtime();
+    (void)pthread_getschedparam(pthread_self(), &policy, &parameters);
+    *(int *)kept = is_realtime && policy == SCHED_RR && parameters.sched_priority == 3 ? 1 : -1;
+}
+
+TEST(a_thread_that_runs_in_real_time_keeps_the_priority_that_it_has) {
+    int kept = 0;
+    knurl_thread *thread = knurl_system_start_thread(check_priority, &kept, 65536);
+    assert_non_null(thread);
+    knurl_system_join_thread(thread);
+    if (kept == 0) {
+        skip(); /* real-time scheduling is not permitted here */
+    }
+    assert_int_equal(kept, 1);
+}
 #endif

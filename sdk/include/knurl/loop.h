@@ -76,7 +76,7 @@ typedef struct knurl_loop_stats {
     uint64_t overruns;         /**< ticks more than half a period late. Missed ticks are not repeated: the loop goes on
                                     at the next whole period */
     uint64_t watchdog_trips;   /**< how often the watchdog zeroed the force */
-    uint32_t realtime;         /**< 1: the thread runs under SCHED_FIFO */
+    uint32_t realtime;         /**< 1: the thread that ticks runs under SCHED_FIFO, or (a Touch's) SCHED_RR */
     uint32_t memory_locked;    /**< 1: the scene and the loop's stack are locked into RAM */
     knurl_percentiles tick_ns; /**< duration of the scene's tick or the force callback; within 3 % */
     knurl_percentiles jitter_ns; /**< how late the thread woke up; within 3 % */

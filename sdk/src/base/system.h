@@ -69,7 +69,8 @@ void knurl_system_unload_library(knurl_library *library);
 /* Copies a function's address to *function, a pointer to a function pointer; 0 where there is none of that name. */
 int knurl_system_find_function(knurl_library *library, const char *name, void *function);
 
-/* Moves the calling thread to the real-time scheduler; 0 where that is not permitted. */
+/* Moves the calling thread to the real-time scheduler, unless it is there already (on POSIX systems it then keeps its
+ * priority); 0 where that is not permitted. */
 int knurl_system_make_realtime(void);
 
 /* Keeps pages in RAM; 0 where that is not permitted. */

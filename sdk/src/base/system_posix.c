@@ -144,7 +144,12 @@ uintptr_t knurl_system_thread_id(void) {
 
 int knurl_system_make_realtime(void) {
     struct sched_param parameters;
+    int policy = SCHED_OTHER;
     memset(&parameters, 0, sizeof parameters);
+    if (pthread_getschedparam(pthread_self(), &policy, &parameters) == 0 &&
+        (policy == SCHED_FIFO || policy == SCHED_RR)) {
+        return 1; /* another library's thread: its priority is its maker's choice */
+    }
     parameters.sched_priority = REALTIME_PRIORITY;
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }

@@ -148,6 +148,7 @@ uint32_t knurl_loop_serve(void *argument) {
         (void)knurl_error_message(); /* as on a haptic thread of ours */
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
         knurl_device_enter_thread(loop->desc.device);
+        knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
     } else {
         const double late = fmax(0.0, (double)(now - loop->served_at) - period);
         note_lateness(loop, (int64_t)late, late > 0.5 * period);

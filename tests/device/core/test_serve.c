@@ -24,11 +24,14 @@ typedef struct servo {
     int64_t lingers_ns;      /* in the tick that finds it lost */
     uint32_t changes_thread; /* 1: reopened, it has another one */
     uintptr_t inside;        /* the thread that is in a tick */
+    uintptr_t served_by;     /* the latest thread that was */
     double motor;
     uint32_t tells_loss; /* 1: called once more since it was unplugged */
 } servo;
 
 static servo s; /* set up anew by each test */
+
+int __wrap_knurl_system_make_realtime(void);
 
 static servo *servo_of(void *device) {
     return device;
@@ -42,7 +45,8 @@ static void serve_once(servo *self) {
     if (knurl_load_acquire(&self->unplugged) && self->tells_loss) {
         return;
     }
-    knurl_store_release(&self->inside, knurl_system_thread_id());
+    self->served_by = knurl_system_thread_id();
+    knurl_store_release(&self->inside, self->served_by);
     self->tells_loss = knurl_load_acquire(&self->unplugged);
     knurl_count_up(&self->ticks);
     if (!self->tick(self->argument)) {
@@ -222,6 +226,23 @@ TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, NULL, end) {
     CHECK_SAME(knurl_load_double(&s.motor), 0.0L);
     assert_int_equal(knurl_device_is_halted(&s.device), 1);
     assert_in_range(s.ticks, 219, 222);
+}
+
+static uintptr_t asked_for; /* the thread for which real-time rights were asked */
+
+int __wrap_knurl_system_make_realtime(void) {
+    asked_for = knurl_system_thread_id();
+    return 1;
+}
+
+TEST_WITH(real_time_rights_are_asked_for_the_servo_thread, NULL, end) {
+    begin();
+    asked_for = 0;
+    t.desc.tick_limit = 20;
+    start();
+    assert_int_equal(knurl_loop_wait(t.loop, 10.0), 1);
+    assert_int_equal(stats().realtime, 1);
+    assert_true(asked_for != 0 && asked_for == s.served_by);
 }
 
 TEST_WITH(it_cannot_be_stepped_and_only_at_its_own_rate, NULL, end) {

@@ -43,6 +43,12 @@ static simulated *current(void) {
     return used(hd.current == NONE ? HD_NO_DEVICE : (hd_device)hd.current);
 }
 
+/* As other people's drivers meet it: the device offers several styles, and a call calibrates by one of them. */
+static hd_enum styles_of(const simulated *d) {
+    const hd_enum set = (hd_enum)d->settings[STUB_STYLES];
+    return set ? set : HD_STYLE_AUTO | HD_STYLE_INKWELL;
+}
+
 /* --- devices --- */
 
 /* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in), or hang (in
@@ -290,7 +296,9 @@ void HD_CALL hdDisable(hd_enum what) {
 void HD_CALL hdGetIntegerv(hd_enum what, int32_t *values) {
     lock();
     const simulated *d = current();
-    if (what != HD_BUTTONS) {
+    if (d && what == HD_CALIBRATION_STYLE) {
+        *values = (int32_t)styles_of(d);
+    } else if (what != HD_BUTTONS) {
         misuse(0x0100);
     } else if (d) {
         *values = d->settings[STUB_RANDOM] > 0.0 ? (int32_t)(uint32_t)random_bits() : d->time > 1.0;
@@ -408,24 +416,21 @@ hd_enum HD_CALL hdCheckCalibration(void) {
 }
 #endif
 
-hd_enum HD_CALL hdCheckCalibrationStyle(void) {
-    lock();
-    const simulated *d = current();
-    const hd_enum style = d && d->settings[STUB_STYLE] > 0.0 ? (hd_enum)d->settings[STUB_STYLE] : HD_STYLE_ENCODER;
-    unlock();
-    return style;
-}
-
 void HD_CALL hdUpdateCalibration(hd_enum style) {
     lock();
     simulated *d = current();
     if (d) {
+        const int is_one = style == HD_STYLE_ENCODER || style == HD_STYLE_AUTO || style == HD_STYLE_INKWELL;
         if (d->in_frame) {
             misuse(0x0102);
         }
         d->answers[STUB_UPDATES]++;
         d->answers[STUB_LAST_STYLE] = style;
-        d->settings[STUB_CALIBRATION] = d->settings[STUB_MENDS] > 0.0 ? 0.0 : d->settings[STUB_CALIBRATION];
+        if (!is_one || !(style & styles_of(d))) {
+            push(0x0101, hd.current);
+        } else if (d->settings[STUB_MENDS] > 0.0) {
+            d->settings[STUB_CALIBRATION] = 0.0;
+        }
     }
     unlock();
 }

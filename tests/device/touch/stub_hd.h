@@ -17,8 +17,8 @@ enum {
     STUB_NAN,           /* 1: positions are no numbers */
     STUB_JUMP,          /* m added to x */
     STUB_CALIBRATION,   /* 0: calibrated, else what hdCheckCalibration() tells */
-    STUB_STYLE,         /* of calibration */
-    STUB_MENDS,         /* 1: hdUpdateCalibration() makes it calibrated */
+    STUB_STYLES,        /* a mask of the styles of calibration that it offers; 0 means: automatic and inkwell */
+    STUB_MENDS,         /* 1: hdUpdateCalibration() with one of these styles makes it calibrated */
     STUB_STROKE,        /* KNURL_STROKE_ of the hand at the next initialisation; 0: line */
     STUB_RANDOM,        /* 1: what is asked for is random, as are errors */
     STUB_TELLS_NOTHING, /* 1: knows none of its properties */

@@ -259,23 +259,34 @@ TEST_WITH(a_position_that_jumps_zeroes_the_force_until_it_is_believed, stub_by_h
 
 /* --- calibration --- */
 
-TEST_WITH(a_calibration_that_is_out_of_date_is_brought_up_to_date_with_the_devices_style, stub_by_hand, stub_check) {
-    bench b;
-    stub.set(STUB_DEFAULT, STUB_STYLE, 2.0); /* automatic */
-    stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
-    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);
-    start(&b, 0);
-    stub.turn(250);
-    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 1.0);
-    assert_true(stub.ask(STUB_DEFAULT, STUB_LAST_STYLE) == 2.0);
-    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 0);
-    CHECK_CLOSE(told(), 1.0, 1e-12);
-    end(&b);
+/* As the maker's example does: automatic before inkwell before encoder reset, of those that the device offers. */
+TEST_WITH(a_calibration_that_is_out_of_date_is_brought_up_to_date_by_the_best_style, stub_by_hand, stub_check) {
+    static const struct {
+        double styles, chosen;
+    } cases[] = {{1, 1}, {2, 2}, {3, 2}, {4, 4}, {5, 4}, {6, 2}, {7, 2}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        bench b;
+        stub.reset();
+        stub.set(0, STUB_BY_HAND, 1.0);
+        stub.set(STUB_DEFAULT, STUB_STYLES, cases[i].styles);
+        stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
+        stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);
+        start(&b, 0);
+        stub.turn(999);
+        if (stub.ask(STUB_DEFAULT, STUB_LAST_STYLE) != cases[i].chosen || b.push.ticks == 0) {
+            fail_msg("of %g: %g updates, the last with %g; %d ticks", cases[i].styles,
+                     stub.ask(STUB_DEFAULT, STUB_UPDATES), stub.ask(STUB_DEFAULT, STUB_LAST_STYLE), (int)b.push.ticks);
+        }
+        assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 1.0);
+        assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 0);
+        CHECK_CLOSE(told(), 1.0, 1e-12);
+        end(&b);
+    }
 }
 
 TEST_WITH(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_inkwell, stub_by_hand, stub_check) {
     bench b;
-    stub.set(STUB_DEFAULT, STUB_STYLE, 4.0); /* inkwell */
+    stub.set(STUB_DEFAULT, STUB_STYLES, 4.0); /* inkwell */
     stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5002);
     start(&b, 0);
     stub.turn(350);

@@ -30,6 +30,17 @@ TEST_WITH(the_tool_feels_the_demo_plate_on_a_touch, use_stub, NULL) {
     process_free(&p);
 }
 
+static int lacks_rights(const char *device) {
+    process p = RUN_TOOL("run", plate, "--device", device, "--seconds", "0.1");
+    const int lacks = strstr(p.err, "real-time scheduling is not permitted") != NULL;
+    process_free(&p);
+    return lacks;
+}
+
+TEST_WITH(real_time_rights_are_missed_on_a_touch_only_where_they_are_on_others, use_stub, NULL) {
+    assert_int_equal(lacks_rights("touch"), lacks_rights("fake"));
+}
+
 TEST_WITH(the_tool_says_so_when_the_touch_gets_lost, use_stub, NULL) {
     assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
     process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "5");

@@ -46,6 +46,7 @@ enum {
     HD_MODEL = 0x2501,
     HD_DRIVER_VERSION = 0x2502,
     HD_USABLE_WORKSPACE = 0x2551,  /* 6 doubles, mm: least x, y, z, greatest x, y, z */
+    HD_CALIBRATION_STYLE = 0x2555, /* an integer: a mask of HD_STYLE_, those that the device offers */
     HD_MAX_STIFFNESS = 0x2602,     /* N/mm */
     HD_MAX_FORCE = 0x2603,         /* N */
     HD_CONTINUOUS_FORCE = 0x2604,  /* N */
@@ -57,6 +58,7 @@ enum {
     HD_CALIBRATION_MANUAL = 0x5002 /* a person has to help */
 };
 
+/* Styles of calibration. hdUpdateCalibration() takes one of them. */
 enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
 
 /* Every function that is needed: field, symbol, what it returns, what it takes. All or none is loaded. */
@@ -75,7 +77,6 @@ enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
     X(get_string, hdGetString, const char *, (hd_enum what))                                                           \
     X(next_error, hdGetError, hd_error, (void))                                                                        \
     X(check_calibration, hdCheckCalibration, hd_enum, (void))                                                          \
-    X(calibration_style, hdCheckCalibrationStyle, hd_enum, (void))                                                     \
     X(update_calibration, hdUpdateCalibration, void, (hd_enum style))                                                  \
     X(start_scheduler, hdStartScheduler, void, (void))                                                                 \
     X(stop_scheduler, hdStopScheduler, void, (void))                                                                   \

@@ -119,6 +119,19 @@ static void in_turn(touch *t, hd_callback calls) {
     }
 }
 
+/* Of several styles that the device offers: the order of the maker's examples. 0: this version of HD does not tell. */
+static hd_enum choose_style(const hd_api *hd) {
+    static const hd_enum best_first[] = {HD_STYLE_AUTO, HD_STYLE_INKWELL, HD_STYLE_ENCODER};
+    int32_t offered = 0;
+    hd->get_integers(HD_CALIBRATION_STYLE, &offered);
+    for (size_t i = 0; i < sizeof best_first / sizeof *best_first; i++) {
+        if ((hd_enum)offered & best_first[i]) {
+            return best_first[i];
+        }
+    }
+    return 0;
+}
+
 static uint32_t HD_CALL prepare(void *user) {
     touch *t = user;
     t->hd->make_current(t->handle);
@@ -128,7 +141,7 @@ static uint32_t HD_CALL prepare(void *user) {
     if (!t->title[0]) { /* once: others may be reading it later */
         touch_ask_info(t);
     }
-    t->style = t->hd->calibration_style();
+    t->style = choose_style(t->hd);
     (void)touch_take_errors(t->hd, NULL); /* of what this version of HD does not tell */
     return HD_DONE;
 }

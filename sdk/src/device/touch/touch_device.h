@@ -31,7 +31,7 @@ struct touch {
     char name[KNURL_URI_ROOM];    /* as opened; "": the default device */
     char title[128];              /* for people: model and versions */
     knurl_device_info info;
-    hd_enum style;            /* of calibration */
+    hd_enum style;            /* of calibration, one; 0: none is known */
     uint32_t trouble;         /* the error that getting it ready brought, 0: none */
     uint32_t uses_scheduler;  /* 1: counted among its users */
     hd_scheduler_code task;   /* what it is scheduled as */

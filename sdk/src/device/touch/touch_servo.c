@@ -53,7 +53,7 @@ static void keep_calibration(touch *t) {
     }
     t->until_check = TOUCH_CHECK_FRAMES - 1;
     hd_enum state = t->hd->check_calibration();
-    if (state == HD_CALIBRATION_STALE) {
+    if (state == HD_CALIBRATION_STALE && t->style) {
         t->hd->update_calibration(t->style);
         state = t->hd->check_calibration();
     }
