@@ -19,6 +19,7 @@ enum {
     DOUBLE_JUMP,    /**< the position is 50 mm off from now on */
     DOUBLE_REFUSE,  /**< the device reports that it will not play the force (too warm, too strong) */
     DOUBLE_UNHOMED, /**< the device says that it does not know where it is */
+    DOUBLE_OFF,     /**< the device switches its forces off by itself, and says so */
     DOUBLE_FAULT_COUNT
 };
 

@@ -83,6 +83,12 @@ typedef struct knurl_device_listing {
       "the handle does not follow the force along z: a motor is wired or signed backwards; swap its two wires "        \
       "(or, in a caller's device, change its sign), and open the device again",                                        \
       "")                                                                                                              \
+    X(KNURL_FAULT_FORCE_OFF, 17, "force_off",                                                                          \
+      "the device has switched its forces off (1: by its force button, 2: it moved too fast, 3: it heard nothing for " \
+      "too long, 4: by a call of its library, 5: its cable was out, 6: its grip was let go, 7: its power supply is "   \
+      "out, 8: it is not ready, 0: for a reason that it does not tell); press its force button, or plug in its power " \
+      "supply",                                                                                                        \
+      "(cause)")                                                                                                       \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
@@ -90,6 +96,19 @@ enum {
 #define KNURL_FAULT_ENUMERATOR(code, number, name, text, unit) code = (number),
     KNURL_FAULTS(KNURL_FAULT_ENUMERATOR)
 #undef KNURL_FAULT_ENUMERATOR
+};
+
+/** Why a device has switched its forces off: the value of an event KNURL_FAULT_FORCE_OFF. */
+enum {
+    KNURL_FORCE_OFF_UNTOLD = 0,
+    KNURL_FORCE_OFF_BUTTON = 1,   /**< its force button */
+    KNURL_FORCE_OFF_VELOCITY = 2, /**< it moved faster than its controller allows */
+    KNURL_FORCE_OFF_WATCHDOG = 3, /**< its controller heard nothing for too long */
+    KNURL_FORCE_OFF_SOFTWARE = 4, /**< a call of its maker's library */
+    KNURL_FORCE_OFF_CABLE = 5,    /**< its cable was out */
+    KNURL_FORCE_OFF_DEADMAN = 6,  /**< its grip was let go */
+    KNURL_FORCE_OFF_POWER = 7,    /**< its power supply is out */
+    KNURL_FORCE_OFF_NOT_READY = 8 /**< its maker's service is not ready to move it */
 };
 
 /** A fault of a device, or its end. */

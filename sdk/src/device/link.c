@@ -26,7 +26,8 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
-    vec3_copy(is_late || knurl_load_acquire(&device->halted) ? none : newest, force);
+    const int is_off = knurl_load_relaxed(&link->is_off) || knurl_load_acquire(&device->halted);
+    vec3_copy(is_late || is_off ? none : newest, force);
     knurl_device_before_force(device, force);
 }
 
@@ -47,8 +48,13 @@ static void tell_silence(knurl_link *link, double seconds) {
 /* Acts on the outcome of an exchange. */
 static void judge(knurl_link *link, int outcome, int64_t now) {
     knurl_device *device = link->device;
-    if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION) {
+    const uint32_t is_off = outcome == KNURL_LINK_OFF;
+    if (is_off) {
+        knurl_device_halt(device);
+    }
+    if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION || is_off) {
         link->heard_at = now;
+        knurl_store_release(&link->is_off, is_off);
         knurl_store_release(&link->is_silent, 0u); /* the position has been posted */
     }
     const int64_t silence = now - link->heard_at;
@@ -125,7 +131,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     knurl_mailbox_init(&link->positions);
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);
-    link->has_sample = link->is_silent = link->is_late = link->is_unguarded = 0;
+    link->has_sample = link->is_silent = link->is_off = link->is_late = link->is_unguarded = 0;
     link->stale = link->watched = link->stuck = 0;
     link->cycles = 0;
     knurl_store_release(&link->stop, 0u);
@@ -153,6 +159,10 @@ void knurl_link_start(knurl_link *link, double update_rate_hz) {
 knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     if (knurl_load_acquire(&link->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
+    }
+    if (knurl_load_acquire(&link->is_off)) {
+        link->stuck = 0;
+        return KNURL_ERROR_DEVICE_NOT_READY;
     }
     const uint64_t cycles = knurl_load_relaxed(&link->cycles);
     link->stuck = cycles == link->watched ? link->stuck + 1 : 0;

@@ -14,8 +14,10 @@
 enum {
     KNURL_LINK_POSITION,    /* a position came */
     KNURL_LINK_NO_POSITION, /* the device answers without a position (reported by the driver) */
-    KNURL_LINK_NOTHING,     /* no answer in time */
-    KNURL_LINK_LOST         /* it is gone */
+    KNURL_LINK_OFF,     /* it answers that it plays no force now, or does not know where it is (reported): no earlier
+                           position holds, and no force goes out until a position comes */
+    KNURL_LINK_NOTHING, /* no answer in time */
+    KNURL_LINK_LOST     /* it is gone */
 };
 
 /* Sends a force (N, device axes, finite, at most max_force) and waits for a position, 5 ms at most. KNURL_LINK_. */
@@ -54,6 +56,7 @@ typedef struct knurl_link {
     uint32_t is_unguarded; /* reported */
     /* atomics */
     uint32_t is_silent; /* reported, by either thread */
+    uint32_t is_off;    /* the latest exchange ended by KNURL_LINK_OFF */
     uint32_t stop;
     uint32_t lost;
     uint64_t cycles;    /* of the I/O thread */

@@ -241,6 +241,7 @@ static const struct {
     {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "needs homing", ""},
     {KNURL_FAULT_UNGUARDED, 12, "unguarded", "guard process", ""},
     {KNURL_FAULT_GAP, 13, "gap", "stood still", "s"},
+    {KNURL_FAULT_FORCE_OFF, 17, "force_off", "force button", "(cause)"},
     {KNURL_FAULT_RESUMED, 32, "resumed", "no fault", ""},
     {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault", ""},
 };
@@ -258,7 +259,7 @@ TEST(every_fault_has_its_number_its_name_a_sentence_and_a_unit) {
 }
 
 TEST(codes_that_nobody_knows_have_texts_too) {
-    static const int32_t unknown[] = {0, -1, 17, 31, 34, INT32_MAX, INT32_MIN};
+    static const int32_t unknown[] = {0, -1, 18, 31, 34, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         assert_string_equal(knurl_fault_name(unknown[i]), "unknown");
         assert_string_equal(knurl_fault_unit(unknown[i]), "");

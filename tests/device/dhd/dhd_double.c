@@ -14,6 +14,7 @@ static int load(void) {
     if (!library || !knurl_system_find_function(library, "stub_dhd_reset", &dhd_stub.reset) ||
         !knurl_system_find_function(library, "stub_dhd_inject", &dhd_stub.inject) ||
         !knurl_system_find_function(library, "stub_dhd_ask", &dhd_stub.ask) ||
+        !knurl_system_find_function(library, "stub_dhd_set", &dhd_stub.set) ||
         !knurl_system_find_function(library, "stub_dhd_limp_since", &dhd_stub.limp_since) ||
         !knurl_system_find_function(library, "stub_dhd_opens", &dhd_stub.opens)) {
         (void)fprintf(stderr, "%s: %s\n", KNURL_TEST_STUB_DHD, library ? "not all functions are there" : why);
@@ -47,7 +48,7 @@ static void double_close(knurl_device *device) {
 /* The library hands out no bytes, and nothing is known of forces that it refuses. */
 const device_double dhd_double = {"dhd",
                                   1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
-                                      1u << DOUBLE_NAN | 1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED,
+                                      1u << DOUBLE_NAN | 1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED | 1u << DOUBLE_OFF,
                                   double_open,
                                   double_inject,
                                   double_limp_since,

@@ -1,6 +1,9 @@
-/* A library with the functions of Force Dimension's DHD that the driver needs, over a simulated omega.3. What stands
- * open in the public header is taken as worst for a driver: a force is held until the next one, unless the cable is
- * pulled (the header has a cause "USBDISCN" for forces that are off). SPDX-License-Identifier: MIT */
+/* A library with the functions of Force Dimension's DHD that the driver needs, over a simulated omega.3. Its rules are
+ * those of the public header and of the reference of its maker's Python counterpart (forcedimension_core): the
+ * controller is in its FORCE mode once forces were enabled, until its button, its velocity threshold, its watchdog or
+ * another call puts it into BRAKE mode; then it takes commands, returns 0 and plays none. The cause is of the latest
+ * time that forces went off, and stays afterwards. What stands open is taken as worst for a driver: a force is held
+ * until the next one, unless the cable is pulled (a cause "USBDISCN"). SPDX-License-Identifier: MIT */
 #include "stub_dhd.h"
 
 #include "base/system.h"
@@ -23,6 +26,7 @@ EXPORT void stub_dhd_inject(int fault);
 EXPORT void stub_dhd_ask(double force[3], double others[3]);
 EXPORT int64_t stub_dhd_limp_since(void);
 EXPORT int stub_dhd_opens(void);
+EXPORT void stub_dhd_set(int setting, int value);
 
 static struct {
     knurl_mutex mutex;
@@ -33,7 +37,10 @@ static struct {
     int opens;
     int error;
     int is_on; /* forces are enabled */
-    double force[3], others[3];
+    int settings[2];
+    int cause;       /* of the latest time that they went off */
+    double force[3]; /* that its motors play */
+    double others[3];
     int64_t limp_since;
     knurl_plant plant;
     knurl_hand hand;
@@ -111,11 +118,20 @@ static void move(void) {
 }
 
 static void play(double x, double y, double z) {
+    const double before =
+        sqrt(stub.force[0] * stub.force[0] + stub.force[1] * stub.force[1] + stub.force[2] * stub.force[2]);
+    stub.others[2] = fmax(stub.others[2], sqrt(x * x + y * y + z * z) - before);
     stub.force[0] = y; /* right */
     stub.force[1] = z; /* up */
     stub.force[2] = x; /* towards the user */
     const int is_limp = x == 0.0 && y == 0.0 && z == 0.0;
     stub.limp_since = !is_limp ? 0 : stub.limp_since ? stub.limp_since : stub.time.now_ns();
+}
+
+static void switch_off(int cause) {
+    play(0.0, 0.0, 0.0);
+    stub.is_on = 0;
+    stub.cause = cause;
 }
 
 int DHD_CALL dhdGetDeviceCount(void) {
@@ -135,20 +151,22 @@ int DHD_CALL dhdOpenID(char index) {
 int DHD_CALL dhdClose(char id) {
     lock();
     stub.opens--;
-    stub.is_on = 0;
-    play(0.0, 0.0, 0.0);
+    switch_off(4);
     return end(id == 5 ? 0 : DHD_ERROR_NO_DEVICE);
 }
 
 int DHD_CALL dhdEnableForce(unsigned char on, char id) {
     lock();
-    stub.is_on = on;
+    if (!on && stub.is_on) {
+        switch_off(4);
+    }
+    stub.is_on = on && stub.fault != DOUBLE_OFF;
     return end(id == 5 ? trouble() : DHD_ERROR_NO_DEVICE);
 }
 
 int DHD_CALL dhdGetSystemType(char id) {
     (void)id;
-    return DHD_OMEGA3;
+    return stub.settings[STUB_DHD_TYPE] ? stub.settings[STUB_DHD_TYPE] : DHD_OMEGA3;
 }
 
 const char *DHD_CALL dhdGetSystemName(char id) {
@@ -160,8 +178,13 @@ int DHD_CALL dhdGetStatus(int *status, char id) {
     lock();
     (void)id;
     memset(status, 0, 16 * sizeof *status);
+    status[0] = 1; /* POWER */
     status[DHD_STATUS_CONNECTED] = 1;
+    status[2] = 1; /* STARTED */
     status[DHD_STATUS_RESET] = stub.fault != DOUBLE_UNHOMED;
+    status[5] = stub.is_on;  /* FORCE */
+    status[6] = !stub.is_on; /* BRAKE */
+    status[14] = stub.cause; /* FORCEOFFCAUSE */
     return end(trouble());
 }
 
@@ -204,8 +227,9 @@ int DHD_CALL dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz
     const int error = trouble();
     if (!error && stub.is_on) {
         play(fx, fy, fz);
-        stub.others[0] = fabs(tx) + fabs(ty) + fabs(tz) + fabs(grip);
     }
+    stub.others[0] = fabs(tx) + fabs(ty) + fabs(tz) + fabs(grip);
+    stub.others[1] += !stub.is_on && (fx != 0.0 || fy != 0.0 || fz != 0.0);
     return end(error) ? -1 : 2; /* a motor is at its limit */
 }
 
@@ -219,10 +243,15 @@ const char *DHD_CALL dhdErrorGetLastStr(void) {
 
 void stub_dhd_inject(int fault) {
     lock();
-    stub.fault = fault;
     if (fault == DOUBLE_UNPLUG) {
         play(0.0, 0.0, 0.0);
+    } else if (fault == DOUBLE_OFF) {
+        switch_off(stub.settings[STUB_DHD_CAUSE] ? stub.settings[STUB_DHD_CAUSE] : 1);
+    } else if (stub.fault == DOUBLE_OFF) { /* its button is pressed again */
+        stub.is_on = 1;
     }
+    stub.fault = fault;
+    memset(stub.others, 0, sizeof stub.others);
     (void)end(0);
 }
 
@@ -238,6 +267,12 @@ int64_t stub_dhd_limp_since(void) {
     const int64_t since = stub.limp_since;
     (void)end(0);
     return since;
+}
+
+void stub_dhd_set(int setting, int value) {
+    lock();
+    stub.settings[setting] = value;
+    (void)end(0);
 }
 
 int stub_dhd_opens(void) {

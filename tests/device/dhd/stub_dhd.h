@@ -14,8 +14,15 @@ typedef struct stub_dhd_time {
  * 0.
  */
 typedef void (*stub_dhd_reset_function)(const stub_dhd_time *time, int strokes);
-typedef void (*stub_dhd_inject_function)(int fault);                      /**< DOUBLE_ */
-typedef void (*stub_dhd_ask_function)(double force[3], double limits[3]); /**< N, Knurl's axes; torques and grip */
+typedef void (*stub_dhd_inject_function)(int fault); /**< DOUBLE_ */
+
+/** What its motors play now (N, Knurl's axes), and: the sum of the torques and the gripper's force that it was told;
+ * how many forces it was told while it played none; the greatest rise of its force in one command (N). */
+typedef void (*stub_dhd_ask_function)(double force[3], double others[3]);
+
+/** What can be set: its system type, and why its forces go off at the next DOUBLE_OFF (as DHD_FORCEOFF_). */
+enum { STUB_DHD_TYPE, STUB_DHD_CAUSE };
+typedef void (*stub_dhd_set_function)(int setting, int value);
 typedef int64_t (*stub_dhd_limp_function)(void); /**< ns since when its motors get nothing; 0: they get something */
 typedef int (*stub_dhd_opens_function)(void);    /**< opened less closed */
 

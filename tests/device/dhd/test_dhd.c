@@ -6,6 +6,7 @@
 #include "base/system.h"
 
 #include <knurl/device.h>
+#include <knurl/loop.h>
 #include <stdlib.h>
 
 static knurl_result run(knurl_device *device, int ms, const double force[3], knurl_device_sample *sample) {
@@ -80,6 +81,93 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     assert_string_equal(info.name, "Force Dimension omega.3");
     CHECK_CLOSE(info.max_stiffness, 5000.0, 1e-9);
     dhd_double.close(device);
+}
+
+/* As the maker's header numbers them; a lambda.3 and .6, a sigma.3 and .6 are taken for their families' others. */
+TEST(every_type_is_known_by_its_force_and_stiffness) {
+    static const struct {
+        int type;
+        double max_force, max_stiffness;
+    } cases[] = {{33, 12, 5000},  {63, 20, 5000},  {104, 12, 4000}, {105, 12, 4000}, {106, 12, 4000},
+                 {107, 12, 4000}, {206, 12, 4000}, {108, 12, 4000}, {109, 12, 4000}, {131, 12, 4000},
+                 {132, 12, 4000}, {203, 12, 4000}, {60, 8, 3000},   {91, 8, 3000}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        knurl_device_info info;
+        knurl_device_sample sample;
+        knurl_device *device = open_released();
+        dhd_stub.set(STUB_DHD_TYPE, cases[i].type);
+        dhd_double.inject(DOUBLE_UNPLUG);
+        (void)run(device, 20, none, &sample);
+        dhd_double.close(device);
+        dhd_double.inject(DOUBLE_WELL);
+        assert_int_equal(knurl_device_open("dhd", &device), KNURL_OK);
+        knurl_device_info_init(&info, sizeof info);
+        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        if (info.max_force != cases[i].max_force || info.max_stiffness != cases[i].max_stiffness) {
+            fail_msg("type %d: %g N, %g N/m", cases[i].type, info.max_force, info.max_stiffness);
+        }
+        dhd_double.close(device);
+    }
+}
+
+static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[1] = 1.28;
+}
+
+/* Lets the loop run; how often this event came, and its value. */
+static int wait_and_count(knurl_device *device, int ms, int32_t code, double *value) {
+    knurl_device_event event;
+    int count = 0;
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + ms * INT64_C(1000000));
+    while (knurl_device_next_event(device, &event)) {
+        if (event.code == code) {
+            count++;
+            *value = event.value;
+        }
+    }
+    return count;
+}
+
+/* Its button, its velocity threshold, its watchdog, a call, the cable, the grip; and one that this version does not
+ * know. A rise of the ramp's: 1.28 N in 20 ms. */
+TEST(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_come_back_by_a_ramp) {
+    static const int causes[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}, {9, 0}};
+    for (size_t i = 0; i < COUNT_OF(causes); i++) {
+        double force[3];
+        double others[3];
+        double value = -1.0;
+        knurl_loop_desc desc;
+        knurl_loop *loop = NULL;
+        knurl_device *device = dhd_double.open();
+        knurl_loop_desc_init(&desc, sizeof desc);
+        desc.device = device;
+        desc.force_callback = pull;
+        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        (void)wait_and_count(device, 300, 0, &value);
+        dhd_stub.ask(force, others);
+        CHECK_CLOSE(force[1], 1.28, 1e-12);
+        dhd_stub.set(STUB_DHD_CAUSE, causes[i][0]);
+        dhd_double.inject(DOUBLE_OFF);
+        assert_int_equal(wait_and_count(device, 500, KNURL_FAULT_FORCE_OFF, &value), 1);
+        CHECK_SAME(value, (long double)causes[i][1]);
+        dhd_stub.ask(force, others);
+        if (others[1] > 11.0) { /* a look every 10 exchanges */
+            fail_msg("told %g forces that were not played", others[1]);
+        }
+        dhd_double.inject(DOUBLE_WELL);
+        assert_int_equal(wait_and_count(device, 200, KNURL_FAULT_RESUMED, &value), 1);
+        dhd_stub.ask(force, others);
+        CHECK_CLOSE(force[1], 1.28, 1e-12);
+        if (others[2] > 1.28 / 20.0 * 2.0) { /* two ticks may fall between two exchanges */
+            fail_msg("came back by %g N in one exchange", others[2]);
+        }
+        knurl_loop_destroy(loop);
+        dhd_double.close(device);
+    }
 }
 
 TEST(what_cannot_be_opened_says_why) {

@@ -52,6 +52,7 @@ static const struct {
     [DOUBLE_JUMP] = {"position jumps 50 mm, for good", {KNURL_FAULT_JUMP}},
     [DOUBLE_REFUSE] = {"refuses the force", {KNURL_FAULT_REFUSED}},
     [DOUBLE_UNHOMED] = {"has lost its place", {KNURL_FAULT_UNCALIBRATED}},
+    [DOUBLE_OFF] = {"switches its forces off", {KNURL_FAULT_FORCE_OFF}},
 };
 
 /* --- a try --- */

@@ -630,7 +630,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "74d658e1e1a5e3b3";
+        internal const string Interface = "f060ec815d476b22";
 
         internal const string Version = "0.3.0";
 
@@ -778,8 +778,18 @@ namespace Knurl
         internal const int KNURL_FAULT_BACKWARDS_X = 14;
         internal const int KNURL_FAULT_BACKWARDS_Y = 15;
         internal const int KNURL_FAULT_BACKWARDS_Z = 16;
+        internal const int KNURL_FAULT_FORCE_OFF = 17;
         internal const int KNURL_FAULT_RESUMED = 32;
         internal const int KNURL_FAULT_RECONNECTED = 33;
+        internal const int KNURL_FORCE_OFF_UNTOLD = 0;
+        internal const int KNURL_FORCE_OFF_BUTTON = 1;
+        internal const int KNURL_FORCE_OFF_VELOCITY = 2;
+        internal const int KNURL_FORCE_OFF_WATCHDOG = 3;
+        internal const int KNURL_FORCE_OFF_SOFTWARE = 4;
+        internal const int KNURL_FORCE_OFF_CABLE = 5;
+        internal const int KNURL_FORCE_OFF_DEADMAN = 6;
+        internal const int KNURL_FORCE_OFF_POWER = 7;
+        internal const int KNURL_FORCE_OFF_NOT_READY = 8;
         internal const int KNURL_STROKE_LINE = 1;
         internal const int KNURL_STROKE_SWEEP = 2;
         internal const int KNURL_STROKE_CIRCLE = 3;

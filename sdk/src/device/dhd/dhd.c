@@ -2,6 +2,7 @@
  * over a force and asks for a position. Read exchange() first. SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd.h"
 
+#include "device/dhd/rights.h"
 #include "device/drivers.h"
 #include "device/dynlib.h"
 #include "device/link.h"
@@ -16,10 +17,10 @@
 #include <string.h>
 
 #define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
-#define STATUS_CYCLES 100u   /* exchanges between two looks at the status */
+#define STATUS_CYCLES 10u    /* exchanges between two looks at the status: nobody presses a button twice in between */
 
-/* What each can do. Force, stiffness, damping and the workspace's radius: CHAI3D's cDeltaDevices; lambda.7: taken for a
- * sigma.7. A continuous force is not published: a third of the peak. */
+/* What each can do. Force, stiffness, damping and the workspace's radius: CHAI3D's cDeltaDevices; lambdas and the other
+ * sigmas: taken for a sigma.7. A continuous force is not published: a third of the peak. */
 static const struct {
     int type;
     double max_force, max_stiffness, max_damping, radius;
@@ -29,6 +30,9 @@ static const struct {
     {DHD_OMEGA7, 12.0, 5000.0, 30.0, 0.075}, {DHD_OMEGA7_LEFT, 12.0, 5000.0, 30.0, 0.075},
     {DHD_DELTA3, 20.0, 5000.0, 30.0, 0.15},  {DHD_DELTA6, 20.0, 5000.0, 30.0, 0.15},
     {DHD_SIGMA7, 12.0, 4000.0, 30.0, 0.09},  {DHD_SIGMA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
+    {DHD_SIGMA6, 12.0, 4000.0, 30.0, 0.09},  {DHD_SIGMA6_LEFT, 12.0, 4000.0, 30.0, 0.09},
+    {DHD_SIGMA3, 12.0, 4000.0, 30.0, 0.09},  {DHD_LAMBDA3, 12.0, 4000.0, 30.0, 0.09},
+    {DHD_LAMBDA6, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 30.0, 0.09},
     {DHD_LAMBDA7, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
     {DHD_FALCON, 8.0, 3000.0, 20.0, 0.04}, /* also the weakest: what another one is taken for */
 };
@@ -45,7 +49,7 @@ typedef struct dhd {
     char name[64];
     /* the I/O thread's */
     uint32_t until_status;
-    uint32_t is_unhomed;
+    int32_t trouble; /* KNURL_FAULT_, reported: why it plays no forces; 0: it does */
 } dhd;
 
 static dhd_api api;
@@ -83,12 +87,28 @@ static int is_gone(void) {
     return error == DHD_ERROR_COM || error == DHD_ERROR_NO_DEVICE || error == DHD_ERROR_NOT_AVAILABLE;
 }
 
-/* KNURL_LINK_POSITION where there may be one. */
+/* KNURL_FAULT_ by which it plays no forces, and for KNURL_FAULT_FORCE_OFF its cause; 0: it plays them. */
+static int32_t find_trouble(const int *status, int32_t *cause) {
+    *cause = 0;
+    if (!status[DHD_STATUS_RESET]) {
+        return KNURL_FAULT_UNCALIBRATED;
+    }
+    if (status[DHD_STATUS_FORCE]) {
+        return 0;
+    }
+    const int told = status[DHD_STATUS_FORCE_OFF_CAUSE];
+    const int is_known = told >= KNURL_FORCE_OFF_BUTTON && told <= KNURL_FORCE_OFF_DEADMAN;
+    *cause = !status[DHD_STATUS_POWER] ? KNURL_FORCE_OFF_POWER : is_known ? told : KNURL_FORCE_OFF_UNTOLD;
+    return KNURL_FAULT_FORCE_OFF;
+}
+
+/* KNURL_LINK_POSITION while it plays forces. */
 static int look_at_status(dhd *d) {
     int status[DHD_STATUS_ROOM] = {0};
+    int32_t cause = 0;
     if (d->until_status > 0) {
         d->until_status--;
-        return d->is_unhomed ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+        return d->trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
     }
     d->until_status = STATUS_CYCLES - 1;
     if (api.status(status, d->id) < 0) {
@@ -97,13 +117,13 @@ static int look_at_status(dhd *d) {
     if (!status[DHD_STATUS_CONNECTED]) {
         return KNURL_LINK_LOST;
     }
-    const uint32_t is_unhomed = !status[DHD_STATUS_RESET];
-    if (is_unhomed && !d->is_unhomed) {
+    const int32_t trouble = find_trouble(status, &cause);
+    if (trouble && trouble != d->trouble) {
         knurl_device_halt(&d->base);
-        knurl_events_report(&d->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
+        knurl_events_report(&d->base.events, trouble, cause);
     }
-    d->is_unhomed = is_unhomed;
-    return is_unhomed ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+    d->trouble = trouble;
+    return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
 }
 
 /* From the library's axes. Its rows are a matrix whose columns are the stylus' axes x, y, z. */
@@ -121,16 +141,19 @@ static void tell_orientation(dhd *d, double q[4]) {
     quaternion_from_axes(columns[1], columns[2], columns[0], q);
 }
 
+/* A device whose forces are off is told none: one that is switched on again plays at once what it is told. */
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     dhd *d = of(device);
     double x = NAN;
     double y = NAN;
     double z = NAN;
-    const int is_told = api.set_force(force[2], force[0], force[1], 0.0, 0.0, 0.0, 0.0, d->id) >= 0;
+    const int outcome = look_at_status(d);
+    const double share = outcome == KNURL_LINK_POSITION ? 1.0 : 0.0;
+    const int is_told =
+        api.set_force(share * force[2], share * force[0], share * force[1], 0.0, 0.0, 0.0, 0.0, d->id) >= 0;
     if (!is_told && is_gone()) {
         return KNURL_LINK_LOST;
     }
-    const int outcome = look_at_status(d);
     if (outcome != KNURL_LINK_POSITION) {
         return outcome;
     }
@@ -172,7 +195,11 @@ static void ask_what_it_is(dhd *d) {
 }
 
 static knurl_result connect(dhd *d) {
+    char why[256];
     const int count = api.count();
+    if (d->index >= count && knurl_usb_is_denied(DHD_USB_VENDOR, why, sizeof why)) {
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'dhd:%d': %s", d->index, why);
+    }
     if (d->index >= count) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST,
                           "device 'dhd:%d': found %d Force Dimension devices; plug it in, and its power supply as well",
@@ -184,7 +211,8 @@ static knurl_result connect(dhd *d) {
     }
     d->id = (char)id;
     d->is_open = 1;
-    d->until_status = d->is_unhomed = 0;
+    d->until_status = 0;
+    d->trouble = 0;
     ask_what_it_is(d);
     knurl_result result = api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
@@ -252,7 +280,9 @@ static void dhd_list(knurl_listings *listings) {
         knurl_listings_add(listings, uri, name, "%s", "");
     }
     if (count <= 0) {
-        knurl_listings_add(listings, "dhd", name, "none is connected: plug it in, and its power supply as well");
+        const int is_denied = knurl_usb_is_denied(DHD_USB_VENDOR, why, sizeof why);
+        knurl_listings_add(listings, "dhd", name, "%s",
+                           is_denied ? why : "none is connected: plug it in, and its power supply as well");
     }
 }
 

@@ -12,6 +12,8 @@
 #define DHD_CALL
 #endif
 
+#define DHD_USB_VENDOR 0x1451u
+
 /* Results of dhdGetSystemType(). */
 enum {
     DHD_OMEGA = 32,
@@ -25,12 +27,26 @@ enum {
     DHD_DELTA6 = 64,
     DHD_SIGMA7 = 104,
     DHD_SIGMA7_LEFT = 105,
+    DHD_SIGMA6 = 106, /* "33P" */
+    DHD_SIGMA6_LEFT = 107,
+    DHD_SIGMA3 = 206,
     DHD_LAMBDA7 = 108, /* 3.8 and later */
-    DHD_LAMBDA7_LEFT = 109
+    DHD_LAMBDA7_LEFT = 109,
+    DHD_LAMBDA6 = 131,
+    DHD_LAMBDA6_LEFT = 132,
+    DHD_LAMBDA3 = 203
 };
 
 /* Places in what dhdGetStatus() fills in. */
-enum { DHD_STATUS_CONNECTED = 1, DHD_STATUS_RESET = 3, DHD_STATUS_ROOM = 64 /* 16 in 3.7, more in later ones */ };
+enum {
+    DHD_STATUS_POWER = 0,
+    DHD_STATUS_CONNECTED = 1,
+    DHD_STATUS_RESET = 3,
+    DHD_STATUS_FORCE = 5,            /* the controller is in its force mode */
+    DHD_STATUS_FORCE_OFF_CAUSE = 14, /* of the latest time that it left it: KNURL_FORCE_OFF_BUTTON to _DEADMAN; it stays
+                                        when forces are on again */
+    DHD_STATUS_ROOM = 64             /* 16 in 3.7, more in later ones */
+};
 
 /* Result of dhdErrorGetLast() when the device is gone. */
 enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 };
