@@ -95,7 +95,9 @@ static void show_faults(const sample *s) {
     knurl_device_event event;
     while (knurl_device_next_event(s->device, &event)) {
         if (event.code != KNURL_FAULT_OVERRUN) {
-            printf("\n%s: %s\n", knurl_fault_name(event.code), knurl_fault_string(event.code));
+            const char *cause = knurl_fault_cause(event.code, event.value);
+            printf("\n%s: %s%s%s\n", knurl_fault_name(event.code), knurl_fault_string(event.code), *cause ? ": " : "",
+                   cause);
         }
     }
 }

@@ -48,8 +48,11 @@ void knurl_session_add_line(char *text, uint32_t size, const char *format, ...) 
 void knurl_session_fault_text(int32_t code, double value, char *text, uint32_t size) {
     const char *sentence = knurl_fault_string(code);
     const char *unit = knurl_fault_unit(code);
+    const char *cause = knurl_fault_cause(code, value);
     knurl_session_clear_text(text, size);
-    if (*unit) {
+    if (*cause) {
+        knurl_session_add_line(text, size, "%s: %s", sentence, cause);
+    } else if (*unit) {
         knurl_session_add_line(text, size, "%s (%g %s)", sentence, value, unit);
     } else {
         knurl_session_add_line(text, size, "%s", sentence);

@@ -22,14 +22,15 @@ void faults_show(faults *f, knurl_device *device, double simulated) {
             f->counts[event.code]++;
         }
         const char *unit = knurl_fault_unit(event.code);
+        const char *cause = knurl_fault_cause(event.code, event.value);
         if (event.code != KNURL_FAULT_OVERRUN) {
             char value[64] = "";
             if (*unit) {
                 (void)snprintf(value, sizeof value, " (%g %s)", event.value, unit);
             }
-            tool_tell("note", "after %.3f s: %s: %s%s",
+            tool_tell("note", "after %.3f s: %s: %s%s%s%s",
                       simulated >= 0.0 ? simulated : 1e-9 * (double)(event.time_ns - f->start_ns),
-                      knurl_fault_name(event.code), knurl_fault_string(event.code), value);
+                      knurl_fault_name(event.code), knurl_fault_string(event.code), *cause ? ": " : "", cause, value);
         }
     }
 }

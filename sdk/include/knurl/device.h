@@ -84,11 +84,7 @@ typedef struct knurl_device_listing {
       "(or, in a caller's device, change its sign), and open the device again",                                        \
       "")                                                                                                              \
     X(KNURL_FAULT_FORCE_OFF, 17, "force_off",                                                                          \
-      "the device has switched its forces off (1: by its force button, 2: it moved too fast, 3: it heard nothing for " \
-      "too long, 4: by a call of its library, 5: its cable was out, 6: its grip was let go, 7: its power supply is "   \
-      "out, 8: it is not ready, 0: for a reason that it does not tell); press its force button, or plug in its power " \
-      "supply",                                                                                                        \
-      "(cause)")                                                                                                       \
+      "the device has switched its forces off, and is told none until they are on again", "")                          \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
     X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
 
@@ -98,24 +94,31 @@ enum {
 #undef KNURL_FAULT_ENUMERATOR
 };
 
-/** Why a device has switched its forces off: the value of an event KNURL_FAULT_FORCE_OFF. */
+/** Why a device has switched its forces off, the value of an event KNURL_FAULT_FORCE_OFF: constant, number, sentence.
+ */
+#define KNURL_FORCE_OFF_CAUSES(X)                                                                                      \
+    X(KNURL_FORCE_OFF_UNTOLD, 0, "it does not tell why; press its force button, or open it again")                     \
+    X(KNURL_FORCE_OFF_BUTTON, 1, "by its force button; press it again")                                                \
+    X(KNURL_FORCE_OFF_VELOCITY, 2, "it moved faster than its controller allows; press its force button")               \
+    X(KNURL_FORCE_OFF_WATCHDOG, 3, "it heard nothing for too long; press its force button, or open it again")          \
+    X(KNURL_FORCE_OFF_SOFTWARE, 4, "by another call of its maker's library; press its force button, or open it again") \
+    X(KNURL_FORCE_OFF_CABLE, 5, "its cable was out; press its force button, or open it again")                         \
+    X(KNURL_FORCE_OFF_DEADMAN, 6, "its grip was let go; hold it, and press its force button")                          \
+    X(KNURL_FORCE_OFF_POWER, 7, "its power supply is out; plug it in")                                                 \
+    X(KNURL_FORCE_OFF_NOT_READY, 8, "its maker's service says that it is not ready; the Haply Hub shows why")
+
 enum {
-    KNURL_FORCE_OFF_UNTOLD = 0,
-    KNURL_FORCE_OFF_BUTTON = 1,   /**< its force button */
-    KNURL_FORCE_OFF_VELOCITY = 2, /**< it moved faster than its controller allows */
-    KNURL_FORCE_OFF_WATCHDOG = 3, /**< its controller heard nothing for too long */
-    KNURL_FORCE_OFF_SOFTWARE = 4, /**< a call of its maker's library */
-    KNURL_FORCE_OFF_CABLE = 5,    /**< its cable was out */
-    KNURL_FORCE_OFF_DEADMAN = 6,  /**< its grip was let go */
-    KNURL_FORCE_OFF_POWER = 7,    /**< its power supply is out */
-    KNURL_FORCE_OFF_NOT_READY = 8 /**< its maker's service is not ready to move it */
+#define KNURL_FORCE_OFF_ENUMERATOR(code, number, text) code = (number),
+    KNURL_FORCE_OFF_CAUSES(KNURL_FORCE_OFF_ENUMERATOR)
+#undef KNURL_FORCE_OFF_ENUMERATOR
 };
 
 /** A fault of a device, or its end. */
 typedef struct knurl_device_event {
     int64_t time_ns;   /**< when it was noticed, on a monotonic clock that goes on while the machine sleeps (Linux:
                             CLOCK_BOOTTIME) */
-    double value;      /**< how long, how far or how much, in knurl_fault_unit(code); else 0 */
+    double value;      /**< how long, how far or how much, in knurl_fault_unit(code); of KNURL_FAULT_FORCE_OFF a
+                            KNURL_FORCE_OFF_; else 0 */
     int32_t code;      /**< KNURL_FAULT_ */
     uint32_t reserved; /**< 0 */
 } knurl_device_event;
@@ -223,7 +226,8 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
  * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
  *   before the environment variable KNURL_DHD_LIBRARY and the usual names.
- * - inverse3, inverse3:ID: the first Haply Inverse3, or the one with this id, by its maker's service on this machine.
+ * - inverse3, inverse3:ID: the first Haply Inverse3, Inverse3x or Minverse, or the one with this id, by its maker's
+ *   service on this machine, whose filters may cut textures.
  *   ?port=N: the service's port, 1 to 65535; default 10001.
  *
  * falcon, rawhid, serial and a caller's functions check their motors, because one that is wired or signed backwards
@@ -276,6 +280,9 @@ KNURL_API uint32_t knurl_device_next_event(knurl_device *device, knurl_device_ev
 KNURL_API const char *knurl_fault_name(int32_t code);
 KNURL_API const char *knurl_fault_string(int32_t code);
 KNURL_API const char *knurl_fault_unit(int32_t code);
+
+/** The sentence of an event's cause, where its value is one; "" where it is none. Static, never null. [any thread] */
+KNURL_API const char *knurl_fault_cause(int32_t code, double value);
 
 /** Prepares for reads every 1/update_rate_hz; the fake device's simulated time restarts. A lost device is searched for
  * first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep; with an I/O

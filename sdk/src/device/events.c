@@ -94,3 +94,16 @@ const char *knurl_fault_string(int32_t code) {
 const char *knurl_fault_unit(int32_t code) {
     return faults[find(code)].unit;
 }
+
+const char *knurl_fault_cause(int32_t code, double value) {
+    static const char *const causes[] = {
+#define KNURL_CAUSE(constant, number, text) [number] = (text),
+        KNURL_FORCE_OFF_CAUSES(KNURL_CAUSE)
+#undef KNURL_CAUSE
+    };
+    const size_t count = sizeof causes / sizeof *causes;
+    if (code != KNURL_FAULT_FORCE_OFF) {
+        return "";
+    }
+    return value > 0.0 && value < (double)count ? causes[(size_t)value] : causes[KNURL_FORCE_OFF_UNTOLD];
+}

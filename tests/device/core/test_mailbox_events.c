@@ -241,7 +241,7 @@ static const struct {
     {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "needs homing", ""},
     {KNURL_FAULT_UNGUARDED, 12, "unguarded", "guard process", ""},
     {KNURL_FAULT_GAP, 13, "gap", "stood still", "s"},
-    {KNURL_FAULT_FORCE_OFF, 17, "force_off", "force button", "(cause)"},
+    {KNURL_FAULT_FORCE_OFF, 17, "force_off", "forces off", ""},
     {KNURL_FAULT_RESUMED, 32, "resumed", "no fault", ""},
     {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault", ""},
 };
@@ -264,5 +264,28 @@ TEST(codes_that_nobody_knows_have_texts_too) {
         assert_string_equal(knurl_fault_name(unknown[i]), "unknown");
         assert_string_equal(knurl_fault_unit(unknown[i]), "");
         assert_true(strlen(knurl_fault_string(unknown[i])) > 10);
+    }
+}
+
+TEST(why_a_device_has_switched_its_forces_off_has_a_sentence) {
+    static const struct {
+        double value;
+        const char *word;
+    } cases[] = {{KNURL_FORCE_OFF_UNTOLD, "does not tell"},
+                 {KNURL_FORCE_OFF_BUTTON, "force button"},
+                 {KNURL_FORCE_OFF_VELOCITY, "faster"},
+                 {KNURL_FORCE_OFF_WATCHDOG, "heard nothing"},
+                 {KNURL_FORCE_OFF_SOFTWARE, "library"},
+                 {KNURL_FORCE_OFF_CABLE, "cable"},
+                 {KNURL_FORCE_OFF_DEADMAN, "let go"},
+                 {KNURL_FORCE_OFF_POWER, "power supply"},
+                 {KNURL_FORCE_OFF_NOT_READY, "is not ready"},
+                 {9.0, "does not tell"},
+                 {-1.0, "does not tell"},
+                 {(double)NAN, "does not tell"},
+                 {1e300, "does not tell"}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        assert_non_null(strstr(knurl_fault_cause(KNURL_FAULT_FORCE_OFF, cases[i].value), cases[i].word));
+        assert_string_equal(knurl_fault_cause(KNURL_FAULT_REFUSED, cases[i].value), "");
     }
 }

@@ -630,7 +630,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "f060ec815d476b22";
+        internal const string Interface = "9a9c51811262ced5";
 
         internal const string Version = "0.3.0";
 
@@ -1086,6 +1086,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* knurl_fault_unit(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* knurl_fault_cause(int code, double value);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_device_start(knurl_device* device, double update_rate_hz);

@@ -400,9 +400,8 @@ namespace Knurl
         /// <summary>The handle does not follow the force along z: a motor is wired or signed backwards.</summary>
         BackwardsZ = 16,
 
-        /// <summary>The device has switched its forces off. The value is the cause: 1 its force button, 2 it moved too
-        /// fast, 3 it heard nothing for too long, 4 a call of its library, 5 its cable was out, 6 its grip was let go,
-        /// 7 its power supply is out, 8 it is not ready, 0 it does not tell.</summary>
+        /// <summary>The device has switched its forces off: its force button, its own limit or watchdog, no power
+        /// supply. The message tells which.</summary>
         ForceOff = 17,
 
         /// <summary>No fault: the force comes back, by the ramp.</summary>
