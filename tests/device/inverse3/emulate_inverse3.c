@@ -1,8 +1,8 @@
 /* emulate_inverse3 FAULT COMMAND...: runs COMMAND, in whose arguments PORT stands for the port of this machine at which
  * an emulated Haply Inverse Service answers, and exits with its code. The hand strokes along x, 1 mm below y = 0 at the
- * middle of the workspace. FAULT happens 0.1 s after a client has connected: none, unplugged, closed (the
- * service ends), mute, late (20 ms), garbage, long (70 KB). Others hold from the beginning: old (before 3.5), silent
- * (no first message), strange (a first message that is no JSON), two (another device is listed first).
+ * middle of the workspace. FAULT happens 0.1 s after a client has connected: none, unplugged, unpowered, closed
+ * (the service ends), mute, late (20 ms), garbage, long (70 KB). Others hold from the beginning: old (before 3.5),
+ * silent (no first message), strange (a first message that is no JSON), two (another device is listed first).
  * SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE
 
@@ -81,6 +81,9 @@ static int on_event(struct lws *wsi, enum lws_callback_reasons reason, void *use
         e.unanswered++;
         if (is_fault("unplugged") && !e.sim.is_gone) {
             inverse3_sim_unplug(&e.sim, seconds());
+        }
+        if (is_fault("unpowered") && !e.sim.is_unpowered) {
+            inverse3_sim_power(&e.sim, seconds(), 0);
         }
         if (is_fault("closed")) {
             return -1;

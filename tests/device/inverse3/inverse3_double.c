@@ -83,7 +83,10 @@ static int take(knurl_inverse3_message *message) {
 }
 
 static int channel_receive(void *self, int milliseconds, knurl_inverse3_message *message) {
-    const int64_t blocks = d.fault == DOUBLE_HANG && milliseconds > 0 ? 20000000 : (int64_t)milliseconds * 1000000;
+    knurl_system_mutex_lock(&d.mutex);
+    const int hangs = d.fault == DOUBLE_HANG && milliseconds > 0;
+    knurl_system_mutex_unlock(&d.mutex);
+    const int64_t blocks = hangs ? 20000000 : (int64_t)milliseconds * 1000000;
     const int64_t until = knurl_system_now_ns() + blocks;
     (void)self;
     int came = take(message);
@@ -125,6 +128,15 @@ const knurl_inverse3_service *inverse3_double_service(void) {
 
 inverse3_sim *inverse3_double_sim(void) {
     return &d.sim;
+}
+
+inverse3_sim *inverse3_double_take(void) {
+    knurl_system_mutex_lock(&d.mutex);
+    return &d.sim;
+}
+
+void inverse3_double_give_back(void) {
+    knurl_system_mutex_unlock(&d.mutex);
 }
 
 void inverse3_double_begin(void) {
@@ -170,6 +182,7 @@ static void double_inject(int fault) {
     d.fault = fault;
     d.sim.is_endless = fault == DOUBLE_NAN;
     d.sim.is_unhomed = fault == DOUBLE_UNHOMED;
+    inverse3_sim_power(&d.sim, seconds(), fault != DOUBLE_OFF);
     if (fault == DOUBLE_JUMP) {
         d.sim.jump = 0.05;
     } else if (fault == DOUBLE_UNPLUG) {
@@ -190,7 +203,8 @@ static int64_t double_limp_since(void) {
 const device_double inverse3_double = {"inverse3",
                                        1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
                                            1u << DOUBLE_LATE | 1u << DOUBLE_SHORT | 1u << DOUBLE_CORRUPT |
-                                           1u << DOUBLE_NAN | 1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED,
+                                           1u << DOUBLE_NAN | 1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED |
+                                           1u << DOUBLE_OFF,
                                        double_open,
                                        double_inject,
                                        double_limp_since,

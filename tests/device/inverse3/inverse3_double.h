@@ -13,6 +13,11 @@ knurl_device *inverse3_double_open(const char *options);
 
 /** What is simulated. Between inverse3_double_begin() or an opening, and the device's end. */
 inverse3_sim *inverse3_double_sim(void);
+
+/** The same while a device is open: the driver's thread waits until it is given back. */
+inverse3_sim *inverse3_double_take(void);
+void inverse3_double_give_back(void);
+
 void inverse3_double_begin(void);
 const knurl_inverse3_service *inverse3_double_service(void);
 

@@ -1,6 +1,8 @@
 /* The simulated Haply Inverse Service. SPDX-License-Identifier: MIT */
 #include "device/inverse3/inverse3_sim.h"
 
+#include "base/vec3.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -52,18 +54,20 @@ static void move(inverse3_sim *sim, double seconds) {
 }
 
 static void play(inverse3_sim *sim, double seconds, const double force[3]) {
+    const double rise = vec3_length(force) - vec3_length(sim->force);
+    sim->greatest_rise = fmax(sim->greatest_rise, rise);
     const int is_limp = force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
     sim->limp_since = !is_limp ? -1.0 : sim->limp_since >= 0.0 ? sim->limp_since : seconds;
     memcpy(sim->force, force, sizeof sim->force);
 }
 
 static const char config[] =
-    "\"config\":{\"type\":\"inverse3\",\"port\":\"COM12\",\"device_info\":{\"major_version\":7,\"minor_version\":4,"
+    "\"config\":{\"type\":\"%s\",\"port\":\"COM12\",\"device_info\":{\"major_version\":7,\"minor_version\":4,"
     "\"id\":\"049D\",\"device_type\":4,\"uuid\":\"0\"},\"gravity_compensation\":{\"enabled\":true,"
     "\"scaling_factor\":1.0},\"handedness\":\"right\",\"streaming_mode\":\"USB\",\"torque_scaling\":{\"enabled\":true},"
     "%s\"basis\":{\"permutation\":\"XYZ\"},\"mount\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},\"rotation\":{\"w\":1,"
     "\"x\":0,\"y\":0,\"z\":0},\"scale\":{\"x\":1,\"y\":1,\"z\":1}},\"filters\":{\"force_gate\":{\"gain\":0.3},"
-    "\"damping\":{\"scalar\":0.0}}},";
+    "\"damping\":{\"scalar\":%g}}},";
 
 /* Keys in the order of the documentation's example. */
 static const char state[] =
@@ -72,14 +76,29 @@ static const char state[] =
     "\"w\":1.0,\"x\":0.0,\"y\":0.0,\"z\":0.0},\"current_cursor_force\":{\"x\":0,\"y\":0,\"z\":0},"
     "\"control_domain\":\"cartesian\",\"control_mode\":\"idle\",\"transform\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},"
     "\"rotation\":{\"w\":1,\"x\":0,\"y\":0,\"z\":0},\"scale\":{\"x\":1,\"y\":1,\"z\":1}}},\"status\":{"
-    "\"calibrated\":%s,\"in_use\":false,\"power_supply\":true,\"ready\":true,\"started\":true}}";
+    "\"calibrated\":%s,\"in_use\":false,\"power_supply\":%s,\"ready\":%s,\"started\":true}}";
 
 /* The handle points 90 degrees to the left of where it does at rest: turned about z, which points up. Its button a is
- * pressed from the first second on. */
-static const char grip[] =
-    "\"wireless_verse_grip\":[{\"device_id\":\"61576\",\"state\":{\"orientation\":{\"w\":0.7071067811865476,\"x\":0.0,"
-    "\"y\":0.0,\"z\":0.7071067811865476},\"buttons\":{\"a\":%s,\"b\":false,\"c\":false},\"hall\":1,"
-    "\"battery_level\":0.9},\"status\":{\"awake\":true,\"connected\":true,\"ready\":true}}]";
+ * pressed from the first second on. A custom one has its maker's buttons and data as well. */
+#define TURNED "\"orientation\":{\"w\":0.7071067811865476,\"x\":0.0,\"y\":0.0,\"z\":0.7071067811865476}"
+
+static const char *const grips[] = {
+    [INVERSE3_SIM_WIRELESS] =
+        "\"wireless_verse_grip\":[{\"device_id\":\"61576\",\"state\":{" TURNED ",\"buttons\":{\"a\":%s,\"b\":false,"
+        "\"c\":false},\"hall\":1,\"battery_level\":0.9},\"status\":{\"awake\":true,\"connected\":true,\"ready\":true}}]",
+    [INVERSE3_SIM_WIRED] =
+        "\"verse_grip\":[{\"device_id\":\"61576\",\"state\":{\"button\":%s,\"hall\":1," TURNED "},\"status\":{}}]",
+    [INVERSE3_SIM_CUSTOM] =
+        "\"verse_grip\":[],\"wireless_verse_grip\":[],\"custom_verse_grip\":[{\"device_id\":\"1402\",\"state\":{"
+        "\"battery_voltage\":4.075,\"battery_level\":0.79,\"buttons\":{\"a\":%s,\"b\":false,\"c\":false},\"hall\":15," TURNED
+        ",\"transform\":{},\"transform_velocity\":{},\"extension_data\":[0,3,65,30,5,6,7,8,9,10,11,12]},\"status\":{"
+        "\"connected\":true,\"awake\":true,\"ready\":true}}]",
+    [INVERSE3_SIM_NO_GRIP] = "\"verse_grip\":[]",
+};
+
+static const char *truth(int is_true) {
+    return is_true ? "true" : "false";
+}
 
 static int put_device(const inverse3_sim *sim, const char *id, const double position[3], int is_first,
                       char text[INVERSE3_SIM_ROOM / 2]) {
@@ -89,11 +108,13 @@ static int put_device(const inverse3_sim *sim, const char *id, const double posi
         (void)snprintf(x, sizeof x, "%.17g", position[0]);
     }
     if (is_first) {
-        length += snprintf(text + length, INVERSE3_SIM_ROOM / 2 - (size_t)length, config,
-                           sim->is_old ? "" : "\"preset\":\"defaults\",");
+        length +=
+            snprintf(text + length, INVERSE3_SIM_ROOM / 2 - (size_t)length, config, sim->type ? sim->type : "inverse3",
+                     sim->is_old ? "" : "\"preset\":\"defaults\",", sim->damping);
     }
     return length + snprintf(text + length, INVERSE3_SIM_ROOM / 2 - (size_t)length, state, x, position[1], position[2],
-                             sim->is_unhomed ? "false" : "true");
+                             truth(!sim->is_unhomed), truth(!sim->is_unpowered),
+                             truth(!sim->is_not_ready && !sim->is_unpowered && !sim->is_unhomed));
 }
 
 static int say(inverse3_sim *sim, double seconds, int is_first, char text[INVERSE3_SIM_ROOM]) {
@@ -110,18 +131,21 @@ static int say(inverse3_sim *sim, double seconds, int is_first, char text[INVERS
     if (sim->has_second) {
         (void)put_device(sim, OTHER, elsewhere, is_first, other);
     }
-    if (!sim->is_gone) {
+    const int is_there = !sim->is_gone && sim->is_left_out == 0;
+    sim->is_left_out -= sim->is_left_out > 0;
+    if (is_there) {
         (void)put_device(sim, ID, position, is_first, device);
     }
     length = snprintf(text, INVERSE3_SIM_ROOM, "{\"session_id\":7,\"inverse3\":[%s%s%s],", other,
                       other[0] && device[0] ? "," : "", device);
-    length += snprintf(text + length, INVERSE3_SIM_ROOM - (size_t)length, grip,
-                       seconds - sim->begun_at > 1.0 ? "true" : "false");
+    length += snprintf(text + length, INVERSE3_SIM_ROOM - (size_t)length, grips[sim->grip],
+                       truth(seconds - sim->begun_at > 1.0));
     return length + snprintf(text + length, INVERSE3_SIM_ROOM - (size_t)length, "}");
 }
 
 int inverse3_sim_greet(inverse3_sim *sim, double seconds, char text[INVERSE3_SIM_ROOM]) {
     sim->is_centered = 0; /* a connection is a session with a configuration of its own */
+    sim->damping = 2.0;   /* as the Hub has it for all sessions that set none */
     return say(sim, seconds, 1, text);
 }
 
@@ -133,10 +157,17 @@ int inverse3_sim_hear(inverse3_sim *sim, double seconds, const char *message, ch
         /* NOLINTNEXTLINE(bugprone-unchecked-string-to-number-conversion,cert-err34-c): tests' locale */
         sscanf(set, "{\"vector\":{\"x\":%lf,\"y\":%lf,\"z\":%lf}}", &f[0], &f[1], &f[2]) == 3;
     move(sim, seconds);
-    if (strstr(message, "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"}}") && !sim->is_old) {
+    const char *configure = sim->is_old ? NULL : strstr(message, "\"configure\":{");
+    if (configure && strstr(configure, "\"preset\":{\"preset\":\"arm_front_centered\"}")) {
         sim->is_centered = 1;
     }
+    if (configure && strstr(configure, "\"damping\":{\"scalar\":0}")) {
+        sim->damping = 0.0;
+    }
     if (is_force && strstr(message, "\"device_id\":\"" ID "\"") && !sim->is_gone) {
+        sim->told_while_off += (sim->is_unpowered || sim->is_not_ready) && (f[0] != 0.0 || f[1] != 0.0 || f[2] != 0.0);
+        memcpy(sim->told, f, sizeof f);
+        memset(f, 0, sim->is_unpowered || sim->is_not_ready ? sizeof f : 0); /* its motors cannot */
         play(sim, seconds, f);
     } else if (is_force && strstr(message, "\"device_id\":\"" OTHER "\"")) {
         memcpy(sim->force_of_second, f, sizeof f);
@@ -148,4 +179,12 @@ void inverse3_sim_unplug(inverse3_sim *sim, double seconds) {
     static const double none[3] = {0.0, 0.0, 0.0};
     sim->is_gone = 1;
     play(sim, seconds, none);
+}
+
+void inverse3_sim_power(inverse3_sim *sim, double seconds, int is_on) {
+    static const double none[3] = {0.0, 0.0, 0.0};
+    sim->is_unpowered = !is_on;
+    if (!is_on) {
+        play(sim, seconds, none);
+    }
 }

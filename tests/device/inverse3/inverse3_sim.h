@@ -1,7 +1,8 @@
-/* The Haply Inverse Service 3.5 with one or two simulated Inverse3s, written from its public documentation alone
- * (docs.haply.co/inverseSDK): what it says to a client that connects, and to each of its messages. What the
- * documentation leaves open is taken as worst for a driver: the last force is held when commands stop.
- * SPDX-License-Identifier: MIT */
+/* The Haply Inverse Service 3.5 with one or two simulated Inverse3s, written from its public documentation
+ * (docs.haply.co/inverseSDK) and from messages in its maker's own client (the crate haply 1.3, unit_tests.rs) alone:
+ * what it says to a client that connects, and to each of its messages. What the documentation leaves open is taken as
+ * worst for a driver: the last force is held when commands stop, and a session begins with filters that others have
+ * set. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_INVERSE3_SIM_H
 #define KNURL_TEST_INVERSE3_SIM_H
 
@@ -16,16 +17,27 @@ typedef struct inverse3_sim {
     int strokes; /* 1: its hand strokes along x, 1 mm below y = 0 of the workspace's middle; 0: it holds still there */
     double target[3];
     double begun_at, moved_to, limp_since; /* s; limp_since < 0: its motors get something */
-    double force[3];                       /* N, in the service's axes: what it was told last */
+    double force[3];                       /* N, in the service's axes: what its motors play */
+    double told[3];                        /* N: what it was told last */
+    double greatest_rise;                  /* N: of the force that its motors play, in one command */
+    int told_while_off;                    /* forces that it was told while its motors could play none */
     double jump;                           /* m, added to x */
     int is_centered;                       /* 1: positions count from the workspace's middle */
     int is_gone;                           /* 1: the device's cable is out */
     int is_unhomed;                        /* 1: it has lost its calibration */
     int is_endless;                        /* 1: its position is told as a number that is not finite */
     int is_old;                            /* 1: a service before 3.5 */
+    int is_unpowered;                      /* 1: its power supply is out */
+    int is_not_ready;                      /* 1: it is not ready, for a reason of its own */
+    int is_left_out;                       /* so many of its next states leave the device out */
+    int grip;                              /* INVERSE3_SIM_: which handle there is */
+    const char *type;                      /* of the device; null: inverse3 */
+    double damping;                        /* N s/m: what the session's filter adds */
     int has_second;                        /* 1: there is another device, 0A11, listed before this one */
     double force_of_second[3];
 } inverse3_sim;
+
+enum { INVERSE3_SIM_WIRELESS, INVERSE3_SIM_WIRED, INVERSE3_SIM_CUSTOM, INVERSE3_SIM_NO_GRIP };
 
 void inverse3_sim_init(inverse3_sim *sim, double seconds, int strokes);
 
@@ -37,5 +49,8 @@ int inverse3_sim_hear(inverse3_sim *sim, double seconds, const char *message, ch
 
 /* The device's cable comes out: its motors get nothing any more. */
 void inverse3_sim_unplug(inverse3_sim *sim, double seconds);
+
+/* Its power supply is out: its motors play nothing, whatever they are told. */
+void inverse3_sim_power(inverse3_sim *sim, double seconds, int is_on);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/system.h"
 
 #include <knurl/device.h>
+#include <knurl/loop.h>
 
 static const double none[3];
 
@@ -58,6 +59,82 @@ TEST(a_force_moves_the_grip_where_it_points) {
     }
 }
 
+TEST(every_kind_of_grip_gives_orientation_and_buttons) {
+    static const struct {
+        int grip;
+        uint32_t buttons;
+        double turned;
+    } cases[] = {{INVERSE3_SIM_WIRELESS, 1, 0.7071067811865476},
+                 {INVERSE3_SIM_WIRED, 1, 0.7071067811865476},
+                 {INVERSE3_SIM_CUSTOM, 1, 0.7071067811865476},
+                 {INVERSE3_SIM_NO_GRIP, 0, 0.0}};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        knurl_device_sample sample;
+        knurl_device *device = open_released("");
+        inverse3_double_take()->grip = cases[i].grip;
+        inverse3_double_give_back();
+        assert_int_equal(run(device, 1100, none, &sample), KNURL_OK); /* pressed from its first second on */
+        assert_int_equal(sample.buttons, cases[i].buttons);
+        CHECK_CLOSE(sample.orientation[1], cases[i].turned, 1e-15);
+        CHECK_CLOSE(sample.orientation[3], cases[i].turned, 1e-15);
+        knurl_device_close(device);
+    }
+}
+
+/* The maker's tutorial 06: a sphere of 0.1 m, of a Minverse 0.04 m. Nothing is published of a Minverse's force. */
+TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
+    static const struct {
+        const char *type, *name;
+        double radius, max_force;
+    } cases[] = {{"inverse3", "Haply Inverse3", 0.1, 4.0},
+                 {"inverse3x", "Haply Inverse3x", 0.1, 4.0},
+                 {"minverse", "Haply Minverse", 0.04, 1.0}};
+    struct {
+        knurl_device *device;
+    } out = {NULL};
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        const double force[3] = {0.0, 100.0, 0.0};
+        knurl_device_info info;
+        knurl_device_sample sample;
+        knurl_device *device = NULL;
+        inverse3_double_begin();
+        inverse3_double_sim()->type = cases[i].type;
+        assert_int_equal(knurl_inverse3_open("", inverse3_double_service(), &device), KNURL_OK);
+        knurl_device_info_init(&info, sizeof info);
+        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        assert_memory_equal(info.name, cases[i].name, strlen(cases[i].name));
+        CHECK_CLOSE(info.workspace_max[1], cases[i].radius / sqrt(3.0), 1e-12);
+        CHECK_SAME(info.max_force, cases[i].max_force);
+        (void)run(device, 30, none, &sample);
+        knurl_device_release_halt(device);
+        (void)run(device, 10, force, &sample);
+        CHECK_CLOSE(inverse3_double_sim()->force[2], cases[i].max_force, 1e-12);
+        knurl_device_close(device);
+    }
+    inverse3_double_begin();
+    inverse3_double_sim()->type = "inverse9";
+    CHECK_REFUSED(knurl_inverse3_open("", inverse3_double_service(), &out.device), KNURL_ERROR_UNSUPPORTED, out);
+    check_message("expected an inverse3, inverse3x or minverse, found 'inverse9'");
+}
+
+/* The service's filter pipeline: viscous damping is set for the session, its oscillation damper cannot be, and the
+ * force gate's gain has no published meaning: it stays, and the device's name tells it. */
+TEST(the_sessions_damping_is_off_and_the_force_gate_is_told) {
+    knurl_device_info info;
+    knurl_device_sample sample;
+    knurl_device *device = open_released("");
+    CHECK_SAME(inverse3_double_sim()->damping, 0.0);
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    assert_string_equal(info.name, "Haply Inverse3 (force gate 0.3)");
+    inverse3_double.inject(DOUBLE_UNPLUG);
+    (void)run(device, 100, none, &sample);
+    inverse3_double.inject(DOUBLE_WELL);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK); /* a session of its own */
+    CHECK_SAME(inverse3_double_sim()->damping, 0.0);
+    knurl_device_close(device);
+}
+
 /* The data sheet's figures; the workspace is the cube in the sphere that the maker's tutorial 06 keeps within. */
 TEST(forces_are_no_stronger_than_it_can_play) {
     const double force[3] = {0.0, 100.0, 0.0};
@@ -68,7 +145,6 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* what is up in Knurl is the service's z */
     knurl_device_info_init(&info, sizeof info);
     assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
-    assert_string_equal(info.name, "Haply Inverse3");
     CHECK_SAME(info.max_force, 4.0);
     CHECK_SAME(info.max_stiffness, 1000.0);
     CHECK_SAME(info.resolution, 0.00001);
@@ -144,6 +220,17 @@ TEST(its_devices_are_listed_by_id_or_why_there_is_none) {
     knurl_inverse3_list(inverse3_double_service(), &listings);
     assert_int_equal(strncmp(found[3].reason, "the Haply Inverse Service does not answer", 41), 0);
     assert_int_equal(listings.count, 4);
+    inverse3_double_begin();
+    inverse3_double_sim()->is_unpowered = 1;
+    inverse3_double_sim()->type = "minverse";
+    listings.count = 0;
+    knurl_inverse3_list(inverse3_double_service(), &listings);
+    assert_string_equal(found[0].name, "Haply Minverse");
+    assert_non_null(strstr(found[0].reason, "its power supply is out"));
+    inverse3_double_sim()->is_unpowered = 0;
+    inverse3_double_sim()->is_not_ready = 1;
+    knurl_inverse3_list(inverse3_double_service(), &listings);
+    assert_non_null(strstr(found[1].reason, "not ready"));
     assert_int_equal(inverse3_double_connections(), 0);
 }
 
@@ -232,5 +319,113 @@ TEST(answers_that_stay_behind_are_no_positions) {
     CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
     inverse3_double.inject(DOUBLE_WELL);
     assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
+    knurl_device_close(device);
+}
+
+static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    (void)user;
+    force[1] = 2.0;
+}
+
+static void wait_ms(int ms) {
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + ms * INT64_C(1000000));
+}
+
+static inverse3_sim look(void) {
+    const inverse3_sim now = *inverse3_double_take();
+    inverse3_double_give_back();
+    return now;
+}
+
+static void make_ready(int is_ready) {
+    inverse3_double_take()->is_not_ready = !is_ready;
+    inverse3_double_sim()->greatest_rise = 0.0;
+    inverse3_double_give_back();
+}
+
+static void leave_out(int states) {
+    inverse3_double_take()->is_left_out = states;
+    inverse3_double_give_back();
+}
+
+/* A device in a loop that pulls with 2 N. */
+static knurl_device *open_in_loop(knurl_loop **loop) {
+    knurl_loop_desc desc;
+    knurl_device *device = inverse3_double_open("");
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = device;
+    desc.force_callback = pull;
+    assert_int_equal(knurl_loop_create(&desc, loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(*loop), KNURL_OK);
+    wait_ms(300);
+    CHECK_CLOSE(look().force[2], 2.0, 1e-12);
+    return device;
+}
+
+/* How often this event came, and its latest value; the others are thrown away. */
+static int count_events(knurl_device *device, int32_t code, double *value) {
+    knurl_device_event event;
+    int count = 0;
+    while (knurl_device_next_event(device, &event)) {
+        if (event.code == code) {
+            count++;
+            *value = event.value;
+        }
+    }
+    return count;
+}
+
+/* Of the ramp's 2 N in 20 ms: two ticks may fall between two exchanges. */
+TEST(without_power_or_not_ready_it_is_told_no_force_and_the_force_comes_back_by_a_ramp) {
+    static const int causes[] = {KNURL_FORCE_OFF_POWER, KNURL_FORCE_OFF_NOT_READY};
+    for (size_t i = 0; i < COUNT_OF(causes); i++) {
+        double value = -1.0;
+        knurl_loop *loop = NULL;
+        knurl_device *device = open_in_loop(&loop);
+        (void)count_events(device, 0, &value);
+        inverse3_double.inject(i == 0 ? DOUBLE_OFF : DOUBLE_WELL);
+        make_ready(i == 0);
+        wait_ms(500);
+        assert_int_equal(count_events(device, KNURL_FAULT_FORCE_OFF, &value), 1);
+        CHECK_SAME(value, (long double)causes[i]);
+        assert_in_range(look().told_while_off, 0, 2);
+        make_ready(1);
+        inverse3_double.inject(DOUBLE_WELL);
+        wait_ms(200);
+        assert_int_equal(count_events(device, KNURL_FAULT_RESUMED, &value), 1);
+        CHECK_CLOSE(look().force[2], 2.0, 1e-12);
+        if (look().greatest_rise > 0.2) {
+            fail_msg("came back by %g N in one exchange", look().greatest_rise);
+        }
+        knurl_loop_destroy(loop);
+        knurl_device_close(device);
+    }
+}
+
+TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
+    double value = 0.0;
+    knurl_loop *loop = NULL;
+    knurl_device *device = open_in_loop(&loop);
+    (void)count_events(device, 0, &value);
+    leave_out(1);
+    wait_ms(100);
+    assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 0);
+    CHECK_CLOSE(look().told[2], 2.0, 1e-12);
+    knurl_loop_destroy(loop);
+    knurl_device_close(device);
+}
+
+/* It may be there all the same, and plays what it was told last. */
+TEST(before_a_device_that_is_left_out_counts_as_lost_it_is_told_no_force) {
+    double value = 0.0;
+    knurl_loop *loop = NULL;
+    knurl_device *device = open_in_loop(&loop);
+    leave_out(1000000);
+    wait_ms(100);
+    assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 1);
+    CHECK_SAME(look().told[2], 0.0);
+    knurl_loop_destroy(loop);
     knurl_device_close(device);
 }

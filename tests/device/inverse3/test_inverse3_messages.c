@@ -25,6 +25,7 @@ TEST(the_documented_first_message_is_read) {
     assert_int_equal(entry->has_preset, 1);
     assert_int_equal(entry->has_position, 1);
     assert_int_equal(entry->is_uncalibrated, 0);
+    assert_string_equal(entry->type, "inverse3");
     CHECK_SAME(entry->position[0], 0.0);
     CHECK_CLOSE(entry->position[1], -0.12, 1e-15);
     CHECK_CLOSE(entry->position[2], 0.15, 1e-15);
@@ -131,17 +132,52 @@ TEST(a_position_that_is_none_is_told) {
     }
 }
 
-TEST(only_true_is_calibrated) {
+TEST(of_its_status_only_true_is_true_and_what_is_missing_is_fine) {
     static const struct {
         const char *text;
-        uint32_t is_uncalibrated;
-    } cases[] = {
-        {"\"calibrated\":true", 0}, {"\"ready\":true", 0}, {"\"calibrated\":false", 1}, {"\"calibrated\":1", 1}};
+        uint32_t is_unpowered, is_uncalibrated, is_not_ready;
+    } cases[] = {{"\"calibrated\":true,\"power_supply\":true,\"ready\":true", 0, 0, 0},
+                 {"\"started\":true", 0, 0, 0},
+                 {"\"calibrated\":false", 0, 1, 0},
+                 {"\"calibrated\":1", 0, 1, 0},
+                 {"\"power_supply\":false,\"calibrated\":true", 1, 0, 0},
+                 {"\"power_supply\":null", 1, 0, 0},
+                 {"\"ready\":false", 0, 0, 1},
+                 {"\"ready\":\"true\"", 0, 0, 1}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         (void)snprintf(text, sizeof text, "{\"inverse3\":[{\"status\":{%s},\"device_id\":\"A\"}]}", cases[i].text);
         assert_int_equal(read_text(text), 1);
+        assert_int_equal(heard.entries[0].is_unpowered, cases[i].is_unpowered);
         assert_int_equal(heard.entries[0].is_uncalibrated, cases[i].is_uncalibrated);
+        assert_int_equal(heard.entries[0].is_not_ready, cases[i].is_not_ready);
     }
+}
+
+/* As the maker's own client has it from a service 3.5 with one grip of a customer's, which is listed as a wireless one
+ * as well: the crate haply 1.3.1, unit_tests.rs (shortened). */
+TEST(a_message_with_a_custom_grip_is_read) {
+    static const char recorded[] =
+        "{\"inverse3\":[{\"device_id\":\"04BA\",\"config\":{\"type\":\"inverse3\",\"device_info\":{\"device_type\":4},"
+        "\"preset\":\"defaults\",\"mount\":{},\"filters\":{\"force_gate\":{\"gain\":0.3},\"damping\":{\"scalar\":-1}}},"
+        "\"state\":{\"cursor_position\":{\"x\":0.020575874,\"y\":-0.02761598,\"z\":0.19947645},\"transform\":{}},"
+        "\"status\":{\"calibrated\":true,\"in_use\":false,\"power_supply\":true,\"ready\":true,\"started\":true}}],"
+        "\"verse_grip\":[],\"wireless_verse_grip\":[{\"device_id\":\"1402\",\"state\":{\"buttons\":{\"down\":false}},"
+        "\"status\":{\"awake\":true}}],\"custom_verse_grip\":[{\"device_id\":\"1402\",\"state\":{\"buttons\":{\"a\":true,"
+        "\"b\":false,\"c\":true},\"hall\":15,\"orientation\":{\"x\":0.47711182,\"y\":0.431427,\"z\":-0.5709839,"
+        "\"w\":0.50668335},\"extension_data\":[0,3,65]},\"status\":{\"connected\":true}}]}";
+    double q[4];
+    assert_int_equal(read_text(recorded), 1);
+    const knurl_inverse3_entry *entry = knurl_inverse3_find(&heard, "04BA");
+    assert_non_null(entry);
+    assert_string_equal(entry->type, "inverse3");
+    CHECK_SAME(entry->force_gate, 0.3);
+    assert_int_equal(entry->is_unpowered | entry->is_uncalibrated | entry->is_not_ready, 0);
+    assert_int_equal(heard.custom.buttons, 5);
+    assert_int_equal(heard.wireless.buttons, 0);
+    knurl_inverse3_orientation(&heard, q);
+    CHECK_CLOSE(q[0], 0.47711182, 1e-3);
+    CHECK_CLOSE(q[1], -0.5709839, 1e-3); /* the service's z points up, as Knurl's y */
+    CHECK_CLOSE(q[3], 0.50668335, 1e-3);
 }
 
 /* Every cut and a thousand changes of single bytes: read or refused, and what is read is finite. */
@@ -210,5 +246,6 @@ TEST(the_longest_command_fits) {
     static const double force[3] = {-999.999999, -999.999999, 999.999999};
     char command[KNURL_INVERSE3_COMMAND];
     assert_true(knurl_inverse3_command(command, "0123456789abcde", force, 1) < sizeof command);
-    assert_non_null(strstr(command, "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"}}"));
+    assert_non_null(strstr(command, "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},"
+                                    "\"damping\":{\"scalar\":0}},\"commands\":"));
 }

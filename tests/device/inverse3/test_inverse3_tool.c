@@ -45,8 +45,14 @@ static int tells(const process *p, const char *word) {
 TEST(faults_of_the_service_are_told) {
     static const struct {
         const char *fault, *seconds, *words;
-    } table[] = {{"unplugged", "0.2", "lost"}, {"closed", "0.2", "lost"},     {"mute", "0.2", "silent"},
-                 {"late", "0.2", "silent"},    {"garbage", "0.2", "corrupt"}, {"long", "0.6", "corrupt"}};
+    } table[] = {{"unplugged", "0.2", "lost"},
+                 {"unpowered", "0.2",
+                  "forces off, and is told none until they are on again: its power supply is out; plug it in"},
+                 {"closed", "0.2", "lost"},
+                 {"mute", "0.2", "silent"},
+                 {"late", "0.2", "silent"},
+                 {"garbage", "0.2", "corrupt"},
+                 {"long", "0.6", "corrupt"}};
     for (size_t i = 0; i < COUNT_OF(table); i++) {
         process p = STROKE(table[i].fault, table[i].seconds);
         for (int tries = 1; tries < 5 && !tells(&p, table[i].words) && tells(&p, "silent"); tries++) {

@@ -227,6 +227,10 @@ static int start(websocket *w, int port) {
     info.protocols = protocols;
     info.fd_limit_per_thread = FD_LIMIT;
     info.pt_serv_buf_size = 16384;
+    info.http_proxy_address = ""; /* else the environment's http_proxy and socks_proxy */
+#if defined(LWS_WITH_SOCKS5)
+    info.socks_proxy_address = "";
+#endif
     w->texts[0] = malloc(KNURL_INVERSE3_LONGEST);
     w->texts[1] = malloc(KNURL_INVERSE3_LONGEST);
     calling = w;
@@ -241,6 +245,7 @@ static int start(websocket *w, int port) {
     to.port = port;
     to.path = "/";
     to.host = "localhost";
+    to.ssl_connection = LCCSCF_HTTP_NO_FOLLOW_REDIRECT;
     to.local_protocol_name = "knurl";
     to.userdata = w;
     to.pwsi = &w->wsi;

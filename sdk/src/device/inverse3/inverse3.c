@@ -19,10 +19,27 @@
 #define PORT        10001   /* the service's default */
 #define ANSWER_NS   5000000 /* that an exchange waits for its answer */
 #define HELLO_MS    500     /* for a first message, and for the first answer */
-#define RADIUS      0.1     /* m: of the workspace's sphere */
+
+/* States in a row that leave the device out until it counts as lost: by then it has been told no force for a while,
+ * because a device without a position is silent after 10 ms. */
+#define LEFT_OUT_LIMIT 15u
 
 #define NAME    "Haply Inverse3"
 #define PLUG_IN "plug it in, and its power supply as well; the Haply Hub shows it then"
+
+/* What each type can do: N that it can play in 80 % of its workspace, N that it holds for long (assumed: a third of the
+ * peak, 10 N), N/m, and m of its workspace's sphere (tutorial 06). Of a Minverse's forces nothing is published:
+ * assumed, a quarter of an Inverse3's. An Inverse3x: taken for an Inverse3. */
+static const struct {
+    const char *type, *name;
+    double max_force, continuous_force, max_stiffness, radius;
+} models[] = {
+    {"inverse3", NAME, 4.0, 3.3, 1000.0, 0.1},
+    {"inverse3x", "Haply Inverse3x", 4.0, 3.3, 1000.0, 0.1},
+    {"minverse", "Haply Minverse", 1.0, 0.8, 500.0, 0.04},
+};
+
+#define MODEL_COUNT (sizeof models / sizeof *models)
 
 typedef struct inverse3 {
     knurl_device base;
@@ -31,9 +48,13 @@ typedef struct inverse3 {
     knurl_inverse3_channel channel;
     int port;
     char id[KNURL_INVERSE3_ID_ROOM]; /* "": the first */
+    size_t model;                    /* of models[] */
+    double force_gate;               /* as knurl_inverse3_entry */
     /* the I/O thread's */
-    uint32_t unanswered;                  /* messages that were sent: each is answered once, in order */
-    uint32_t is_corrupt, is_uncalibrated; /* reported */
+    uint32_t unanswered; /* messages that were sent: each is answered once, in order */
+    uint32_t is_corrupt; /* reported */
+    uint32_t left_out;   /* states in a row that leave the device out */
+    int32_t trouble;     /* KNURL_FAULT_, reported: why it plays no forces; 0: it does */
     /* atomic */
     uint64_t bad_bytes;
 } inverse3;
@@ -70,6 +91,27 @@ static int report_corrupt(inverse3 *d, const knurl_inverse3_message *message) {
     return KNURL_LINK_NOTHING;
 }
 
+/* KNURL_FAULT_ by which it plays no forces, and for KNURL_FAULT_FORCE_OFF its cause; 0: it plays them. */
+static int32_t find_trouble(const knurl_inverse3_entry *entry, int32_t *cause) {
+    *cause = 0;
+    if (entry->is_uncalibrated && !entry->is_unpowered) {
+        return KNURL_FAULT_UNCALIBRATED;
+    }
+    *cause = entry->is_unpowered ? KNURL_FORCE_OFF_POWER : entry->is_not_ready ? KNURL_FORCE_OFF_NOT_READY : 0;
+    return *cause ? KNURL_FAULT_FORCE_OFF : 0;
+}
+
+static int take_status(inverse3 *d, const knurl_inverse3_entry *entry) {
+    int32_t cause = 0;
+    const int32_t trouble = find_trouble(entry, &cause);
+    if (trouble && trouble != d->trouble) {
+        knurl_device_halt(&d->base);
+        knurl_events_report(&d->base.events, trouble, cause);
+    }
+    d->trouble = trouble;
+    return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
+}
+
 /* Takes the device's state from an answer. */
 static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_device_sample *sample) {
     knurl_inverse3_state state;
@@ -78,21 +120,17 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
     }
     const knurl_inverse3_entry *entry = knurl_inverse3_find(&state, d->id);
     if (!entry) {
-        return KNURL_LINK_LOST;
+        return ++d->left_out < LEFT_OUT_LIMIT ? KNURL_LINK_NOTHING : KNURL_LINK_LOST;
     }
+    d->left_out = 0;
     if (!entry->has_position) {
         return report_corrupt(d, message);
     }
     d->is_corrupt = 0;
-    if (entry->is_uncalibrated && !d->is_uncalibrated) {
-        knurl_device_halt(&d->base);
-        knurl_events_report(&d->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
-    }
-    d->is_uncalibrated = entry->is_uncalibrated;
     knurl_inverse3_to_knurl(entry->position, sample->position);
     knurl_inverse3_orientation(&state, sample->orientation);
-    sample->buttons = state.wireless.buttons | state.wired.buttons;
-    return d->is_uncalibrated ? KNURL_LINK_NO_POSITION : KNURL_LINK_POSITION;
+    sample->buttons = state.wireless.buttons | state.custom.buttons | state.wired.buttons;
+    return take_status(d, entry);
 }
 
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
@@ -147,6 +185,15 @@ static knurl_result receive_first(const knurl_inverse3_service *service, int por
                       port, 1e-3 * HELLO_MS, came > 0 ? "something else" : "nothing");
 }
 
+/* MODEL_COUNT: of none that is known. */
+static size_t find_model(const knurl_inverse3_entry *entry) {
+    size_t model = 0;
+    while (model < MODEL_COUNT && strcmp(models[model].type, entry->type) != 0) {
+        model++;
+    }
+    return model;
+}
+
 static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     const knurl_inverse3_entry *first = knurl_inverse3_find(state, "");
     const knurl_inverse3_entry *entry = knurl_inverse3_find(state, d->id);
@@ -163,12 +210,25 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
                           "device 'inverse3': expected the Haply Inverse Service 3.5 or newer, found one that lists "
                           "no preset of its devices; update it (the Haply Hub does)");
     }
+    const size_t model = find_model(entry);
+    if (model == MODEL_COUNT) {
+        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
+                          "device 'inverse3:%s': expected an inverse3, inverse3x or minverse, found '%s': this version "
+                          "does not know what force it can play",
+                          entry->id, entry->type);
+    }
     (void)snprintf(d->id, sizeof d->id, "%s", entry->id); /* from now on it is this one that is meant */
+    if (d->base.max_force == 0.0) {                       /* once: others may be reading it later */
+        d->model = model;
+        d->force_gate = entry->force_gate;
+        d->base.max_force = models[model].max_force;
+    }
     return KNURL_OK;
 }
 
-/* No force, positions from the middle of the workspace, and no profile: under one, the Hub would set axes of its own.
- */
+/* No force, positions from the middle of the workspace, no damping, and no profile: under one, the Hub would set axes
+ * of its own. The service's other filters stay: its oscillation damper cannot be set, and what the gain of its force
+ * gate means is not published. */
 static knurl_result configure(inverse3 *d) {
     static const double none[3] = {0.0, 0.0, 0.0};
     char text[KNURL_INVERSE3_COMMAND];
@@ -185,7 +245,8 @@ static knurl_result configure(inverse3 *d) {
 
 static knurl_result connect(inverse3 *d) {
     knurl_inverse3_state state;
-    d->is_corrupt = d->is_uncalibrated = 0;
+    d->is_corrupt = d->left_out = 0;
+    d->trouble = 0;
     knurl_result result = receive_first(d->service, d->port, &d->channel, &state);
     result = result ? result : choose(d, &state);
     result = result ? result : configure(d);
@@ -227,7 +288,6 @@ knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_servi
     }
     knurl_device_init(&made->base, &knurl_inverse3_driver);
     made->base.max_speed = KNURL_HAND_SPEED;
-    made->base.max_force = 4.0; /* N: what it can play in 80 % of its workspace; the peak is 10 */
     made->service = service;
     knurl_result result = parse(options, made);
     result = result ? result : connect(made);
@@ -253,6 +313,14 @@ static void inverse3_close(knurl_device *device) {
     knurl_device_free(device);
 }
 
+/* "": it plays forces. What it says while it is open is an event. */
+static const char *why_not(const knurl_inverse3_entry *entry, size_t model) {
+    return model == MODEL_COUNT  ? "it is of a type whose forces this version does not know"
+           : entry->is_unpowered ? "its power supply is out: plug it in"
+           : entry->is_not_ready ? "its service says that it is not ready: the Haply Hub shows why"
+                                 : "";
+}
+
 void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings) {
     char uri[32];
     knurl_inverse3_channel channel;
@@ -267,9 +335,12 @@ void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *
         knurl_listings_add(listings, "inverse3", NAME, "none is connected: " PLUG_IN);
     }
     for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
-        if (state.entries[i].id[0]) {
-            (void)snprintf(uri, sizeof uri, "inverse3:%s", state.entries[i].id);
-            knurl_listings_add(listings, uri, NAME, "%s", "");
+        const knurl_inverse3_entry *entry = &state.entries[i];
+        const size_t model = find_model(entry);
+        if (entry->id[0]) {
+            (void)snprintf(uri, sizeof uri, "inverse3:%s", entry->id);
+            knurl_listings_add(listings, uri, model < MODEL_COUNT ? models[model].name : NAME, "%s",
+                               why_not(entry, model));
         }
     }
 }
@@ -285,21 +356,25 @@ static void inverse3_list(knurl_listings *listings) {
 }
 
 static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
-    (void)snprintf(info->name, sizeof info->name, NAME);
+    const inverse3 *d = (const inverse3 *)(const void *)device;
+    (void)snprintf(info->name, sizeof info->name, "%s", models[d->model].name);
+    if (d->force_gate != 0.0) {
+        (void)snprintf(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
+    }
     for (int axis = 0; axis < 3; axis++) { /* the cube in its maker's sphere */
-        info->workspace_max[axis] = 0.577350269189626 * RADIUS;
+        info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
         info->workspace_min[axis] = -info->workspace_max[axis];
     }
-    info->resolution = 0.00001; /* data sheet */
+    info->resolution = 0.00001; /* data sheet of the Inverse3 */
     info->max_force = device->max_force;
-    info->max_stiffness = 1000.0; /* data sheet */
-    info->max_damping = 5.0;      /* assumed */
-    info->continuous_force = 3.3; /* assumed: a third of the peak */
-    info->heat_time = 60.0;       /* assumed */
-    info->mass = 0.2;             /* assumed */
-    info->viscous = 0.5;          /* assumed */
-    info->coulomb = 0.3;          /* assumed */
-    info->delay = 2.0;            /* assumed: the service's threads come between */
+    info->max_stiffness = models[d->model].max_stiffness;
+    info->max_damping = 5.0; /* assumed */
+    info->continuous_force = models[d->model].continuous_force;
+    info->heat_time = 60.0; /* assumed */
+    info->mass = 0.2;       /* assumed */
+    info->viscous = 0.5;    /* assumed */
+    info->coulomb = 0.3;    /* assumed */
+    info->delay = 2.0;      /* assumed: the service's threads come between */
     info->native_rate = NATIVE_RATE;
 }
 

@@ -20,9 +20,9 @@ void knurl_inverse3_from_knurl(const double from[3], double to[3]) {
 }
 
 void knurl_inverse3_orientation(const knurl_inverse3_state *state, double q[4]) {
-    const knurl_inverse3_grip *grips[] = {&state->wireless, &state->wired};
+    const knurl_inverse3_grip *grips[] = {&state->wireless, &state->custom, &state->wired};
     memset(q, 0, 4 * sizeof *q);
-    for (int i = 0; i < 2; i++) {
+    for (size_t i = 0; i < sizeof grips / sizeof *grips; i++) {
         const double *o = grips[i]->orientation;
         const double square = vec3_dot(o, o) + o[3] * o[3];
         if (fabs(square - 1.0) < 0.01) {
@@ -54,7 +54,8 @@ static void put_number(char text[32], double value) {
     (void)snprintf(text, 32, "%s%ld.%06ld", value < 0.0 ? "-" : "", millionths / 1000000, millionths % 1000000);
 }
 
-size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int centers) {
+size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3],
+                              int configures) {
     char numbers[3][32];
     double f[3];
     knurl_inverse3_from_knurl(force, f);
@@ -64,7 +65,10 @@ size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id,
     return (size_t)snprintf(text, KNURL_INVERSE3_COMMAND,
                             "{\"inverse3\":[{\"device_id\":\"%s\",%s\"commands\":{\"set_cursor_force\":{\"vector\":{"
                             "\"x\":%s,\"y\":%s,\"z\":%s}}}}]}",
-                            id, centers ? "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"}}," : "",
+                            id,
+                            configures ? "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},"
+                                         "\"damping\":{\"scalar\":0}},"
+                                       : "",
                             numbers[0], numbers[1], numbers[2]);
 }
 
@@ -183,6 +187,11 @@ static uint32_t is_true(const json *j, int at) {
     return at != NONE && j->tokens[at].type == JSMN_PRIMITIVE && has_text(j, at, "true");
 }
 
+/* 1: it is there, and not true. */
+static uint32_t is_denied(const json *j, int at) {
+    return at != NONE && !is_true(j, at);
+}
+
 /* An id goes back to the service in commands: it must not end the text that it stands in. */
 static void take_id(const json *j, int at, char id[KNURL_INVERSE3_ID_ROOM]) {
     static const char allowed[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
@@ -195,11 +204,18 @@ static void take_id(const json *j, int at, char id[KNURL_INVERSE3_ID_ROOM]) {
 }
 
 static void take_device(const json *j, int at, knurl_inverse3_entry *entry) {
-    const int preset = member(j, member(j, at, "config"), "preset");
-    const int calibrated = member(j, member(j, at, "status"), "calibrated");
+    const int config = member(j, at, "config");
+    const int status = member(j, at, "status");
+    const int preset = member(j, config, "preset");
     take_id(j, member(j, at, "device_id"), entry->id);
+    take_id(j, member(j, config, "type"), entry->type);
     entry->has_preset = preset != NONE && j->tokens[preset].type == JSMN_STRING;
-    entry->is_uncalibrated = calibrated != NONE && !is_true(j, calibrated);
+    if (!take_number(j, member(j, member(j, member(j, config, "filters"), "force_gate"), "gain"), &entry->force_gate)) {
+        entry->force_gate = 0.0;
+    }
+    entry->is_unpowered = is_denied(j, member(j, status, "power_supply"));
+    entry->is_uncalibrated = is_denied(j, member(j, status, "calibrated"));
+    entry->is_not_ready = is_denied(j, member(j, status, "ready"));
     entry->has_position =
         (uint32_t)take_numbers(j, member(j, member(j, at, "state"), "cursor_position"), 3, entry->position);
 }
@@ -234,6 +250,7 @@ int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *sta
         at = element(&j, devices, at);
     }
     take_grip(&j, element(&j, member(&j, 0, "wireless_verse_grip"), NONE), &state->wireless);
+    take_grip(&j, element(&j, member(&j, 0, "custom_verse_grip"), NONE), &state->custom);
     take_grip(&j, element(&j, member(&j, 0, "verse_grip"), NONE), &state->wired);
     return 1;
 }

@@ -17,13 +17,16 @@
 /* One device in a message, in the service's axes. */
 typedef struct knurl_inverse3_entry {
     char id[KNURL_INVERSE3_ID_ROOM];
-    double position[3];       /* m */
-    uint32_t has_position;    /* 1: all three of its numbers were there */
-    uint32_t has_preset;      /* 1: its configuration names a preset: the service is 3.5 or newer */
-    uint32_t is_uncalibrated; /* 1: the service says so */
+    char type[KNURL_INVERSE3_ID_ROOM]; /* "inverse3", "inverse3x", "minverse"; "": not told, as in all but the first */
+    double position[3];                /* m */
+    double force_gate;                 /* the gain of the session's filter; 0: none, or not told */
+    uint32_t has_position;             /* 1: all three of its numbers were there */
+    uint32_t has_preset;               /* 1: its configuration names a preset: the service is 3.5 or newer */
+    /* 1: the service says so */
+    uint32_t is_unpowered, is_uncalibrated, is_not_ready;
 } knurl_inverse3_entry;
 
-/* A handle: a wireless or a wired VerseGrip. */
+/* A handle: a VerseGrip, or another maker's. */
 typedef struct knurl_inverse3_grip {
     double orientation[4]; /* x, y, z, w */
     uint32_t buttons;      /* bit 0: a, or the only one; bit 1: b; bit 2: c */
@@ -31,7 +34,7 @@ typedef struct knurl_inverse3_grip {
 
 typedef struct knurl_inverse3_state {
     knurl_inverse3_entry entries[KNURL_INVERSE3_DEVICES];
-    knurl_inverse3_grip wireless, wired; /* the first of each; zeros where there is none */
+    knurl_inverse3_grip wireless, custom, wired; /* the first of each; zeros where there is none */
 } knurl_inverse3_state;
 
 /* Reads a message: 1; 0: it is no JSON object. What is missing in it, or not of its kind, is 0 or "" in *state. */
@@ -48,7 +51,8 @@ void knurl_inverse3_to_knurl(const double from[3], double to[3]);
 void knurl_inverse3_from_knurl(const double from[3], double to[3]);
 
 /* Writes the command that gives a device this force (N, Knurl's axes, each part below 1000), with a comma-less decimal
- * point in every locale. centers: 1 also asks for positions from the middle of its workspace. Returns its length. */
-size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int centers);
+ * point in every locale. configures: 1 also sets the session up: positions from the middle of its workspace, and no
+ * damping by the service. Returns its length. */
+size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int configures);
 
 #endif
