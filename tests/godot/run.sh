@@ -30,8 +30,8 @@ status=0
 for script in "$@"; do
     name=$(basename "$script")
     log=$folder/${name%.gd}.log
-    code=0
-    (cd "$folder" && timeout 120 "$root/bindings/godot/engine/run.sh" "$engine" \
+    code=0 # freed memory is overwritten, so that its use shows
+    (cd "$folder" && MALLOC_PERTURB_=85 timeout 120 "$root/bindings/godot/engine/run.sh" "$engine" \
         godot --headless --path . --script "res://$name" </dev/null) >"$log" 2>&1 || code=$?
     # Errors that were announced are taken out, one line for each announcement.
     unexpected=$(awk '/^expected error: / { sub(/^expected error: /, ""); parts[++count] = $0 }

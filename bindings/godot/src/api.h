@@ -41,6 +41,9 @@
     X(ObjectSetInstanceBinding, object_set_instance_binding)                                                           \
     X(ObjectGetInstanceBinding, object_get_instance_binding)                                                           \
     X(ObjectCastTo, object_cast_to)                                                                                    \
+    X(ObjectDestroy, object_destroy)                                                                                   \
+    X(ObjectGetInstanceId, object_get_instance_id)                                                                     \
+    X(ObjectGetInstanceFromId, object_get_instance_from_id)                                                            \
     X(GlobalGetSingleton, global_get_singleton)                                                                        \
     X(RefSetObject, ref_set_object)                                                                                    \
     X(ClassdbConstructObject, classdb_construct_object)                                                                \

@@ -3,7 +3,6 @@
 
 #include "explain.h"
 #include "follow.h"
-#include "serve.h"
 #include "signals.h"
 #include "sound.h"
 #include "surface_node.h"
@@ -199,31 +198,40 @@ int64_t device_start(device *d) {
 static void start_by_itself(device *d) {
     char text[1024];
     char warning[512] = "";
+    const uint8_t had_failed = d->has_failed;
     d->wants_start = 0;
     const knurl_result result = d->runs ? KNURL_OK : run(d, warning);
+    d->has_failed = result != KNURL_OK;
     if (!result) {
-        d->has_failed = 0;
         return;
     }
     (void)snprintf(text, sizeof text, "%s", knurl_error_message());
-    const int64_t error = error_of(result);
     device_release(d);
-    if (!d->has_failed) {
-        gd_error("KnurlDevice", "KnurlDevice: %s", text);
-        d->has_failed = 1;
-        signals_tell_failure(d, error, text);
-    }
     d->wants_start = d->retry > 0.0;
     d->retries_in = d->retry;
+    if (!had_failed) {
+        gd_error("KnurlDevice", "KnurlDevice: %s", text);
+        signals_tell_failure(d, error_of(result), text);
+    }
 }
 
-void device_stop(device *d) {
+static void end_run(device *d) {
     d->wants_start = 0;
     if (d->runs) {
         sound_stop(d);
         device_release(d);
-        signals_end_contact(d); /* last: a handler finds a device that is stopped, and may start it */
+        signals_end_contact(d);
     }
+}
+
+void device_leave(device *d) {
+    end_run(d);
+    signals_tell_later(0);
+}
+
+void device_stop(device *d) {
+    end_run(d);
+    signals_tell_ends(); /* last: a handler finds a device that is stopped, and may start or free it */
 }
 
 /* The engine's clocks; delta: s of the game's time since the last frame. A time scale changes how much of the game's
@@ -244,7 +252,7 @@ static void set_clocks(device *d, double delta) {
 
 /* Applies the opposite of the hand's impulse since the last frame to the body of the touched surface. */
 static void react(device *d, const knurl_session_state *state) {
-    const surface *s = d->touched_node ? gd_instance_of(d->touched_node, &surface_class) : NULL;
+    const surface *s = surface_of(d->touched_node);
     GDExtensionObjectPtr body = s && s->reaction ? surface_parent(s) : NULL;
     float impulse[3];
     float arm[3];
@@ -277,6 +285,21 @@ void device_move_workspace(device *d) {
     d->moved = 0;
 }
 
+void device_process(device *d) {
+    double delta = 0.0;
+    gd_call(gd_method.Node_get_process_delta_time, d->base.object, NULL, &delta);
+    d->retries_in -= delta;
+    if (d->runs) {
+        set_clocks(d, delta);
+        device_move_workspace(d);
+        follow_all(d);
+        knurl_session_update(d->session);
+    }
+    if (d->runs || (d->wants_start && d->retries_in <= 0.0)) {
+        signals_tell_later(gd.object_get_instance_id(d->base.object));
+    }
+}
+
 static void tell_state(device *d) {
     knurl_session_state state;
     knurl_session_get_state(d->session, &state);
@@ -286,21 +309,14 @@ static void tell_state(device *d) {
     }
 }
 
-void device_process(device *d) {
-    double delta = 0.0;
-    gd_call(gd_method.Node_get_process_delta_time, d->base.object, NULL, &delta);
-    d->retries_in -= delta;
-    if (d->wants_start && d->retries_in <= 0.0) {
+void device_tell(GDObjectInstanceID id) {
+    device *d = device_of(id);
+    if (d && d->wants_start && d->retries_in <= 0.0) {
         start_by_itself(d);
-    }
-    if (d->runs) {
-        set_clocks(d, delta);
-        device_move_workspace(d);
-        follow_all(d);
-        knurl_session_update(d->session);
+    } else if (d && d->runs) {
         tell_state(d);
-        while (signals_tell(d)) {
-            device_stop(d);
-        }
+    }
+    while (signals_tell(id)) {
+        device_stop(device_of(id));
     }
 }

@@ -8,7 +8,16 @@
 /* See KnurlDevice. */
 int64_t device_start(device *d);
 void device_stop(device *d);
+
+/* Each frame, while the engine goes through its nodes: nothing is emitted. */
 void device_process(device *d);
+
+/* Each frame once it is through with them: what happened. A handler may free anything, so the device is known by its
+ * instance id. */
+void device_tell(GDObjectInstanceID id);
+
+/* As device_stop(), where the engine is in the middle of something: that the contact ended is told later. */
+void device_leave(device *d);
 
 /* Its parts: a session, if there is none yet; a slot, an opened session, all surfaces in its scene; and all of these
  * given back. After a failure device_release() is still to be called. */

@@ -142,7 +142,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_EXIT_TREE:
         unplace(d);
-        device_stop(d);
+        device_leave(d);
         break;
     case GD_TRANSFORM_CHANGED:
         d->moved = 1;
@@ -239,7 +239,9 @@ static void get_stylus_rotation(void *self, void *value) {
 static void get_touched(void *self, const void *const *arguments, void *result) {
     const device *d = self;
     (void)arguments;
-    memcpy(result, &d->touched_node, sizeof d->touched_node);
+    const surface *s = surface_of(d->touched_node);
+    const GDExtensionObjectPtr object = s ? s->base.object : NULL;
+    memcpy(result, &object, sizeof object);
 }
 
 static void get_device_name(void *self, void *value) {

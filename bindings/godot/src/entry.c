@@ -1,6 +1,7 @@
 /* Where the engine comes in. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "register.h"
+#include "signals.h"
 #include "sound.h"
 
 #include <string.h>
@@ -8,8 +9,8 @@
 /* The class reference, made of doc_classes/ when this was built: an XML document each, and null. */
 extern const char *const knurl_godot_documents[];
 
-static const gd_class *const classes[] = {&grating_class, &surface_class, &device_class, &sound_stream_class,
-                                          &sound_playback_class};
+static const gd_class *const classes[] = {&grating_class,      &surface_class,        &device_class,
+                                          &sound_stream_class, &sound_playback_class, &teller_class};
 
 enum { CLASS_COUNT = sizeof classes / sizeof *classes };
 
@@ -32,6 +33,7 @@ static void initialize(void *user, GDExtensionInitializationLevel level) {
         for (int i = 0; i < CLASS_COUNT; i++) {
             gd_register(classes[i]);
         }
+        signals_begin();
     } else if (level == GDEXTENSION_INITIALIZATION_EDITOR && is_registered) {
         show_documents();
     }
@@ -41,9 +43,10 @@ static void deinitialize(void *user, GDExtensionInitializationLevel level) {
     (void)user;
     if (level == GDEXTENSION_INITIALIZATION_SCENE && is_registered) {
         is_registered = 0;
+        signals_end();
         for (int i = 0; i < DEVICE_SLOTS; i++) {
             if (devices[i]) {
-                device_stop(devices[i]);
+                device_leave(devices[i]);
             }
         }
         for (int i = CLASS_COUNT; i-- > 0;) {

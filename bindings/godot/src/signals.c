@@ -1,51 +1,99 @@
 /* Signals of a KnurlDevice: what happened since the last frame. SPDX-License-Identifier: MIT */
 #include "signals.h"
 
-static GDExtensionObjectPtr node_of(const device *d, knurl_surface_id id) {
-    for (const surface *s = surfaces; s; s = s->next) {
+#include "device.h"
+#include "serve.h"
+
+#include <stdlib.h>
+
+/* Contacts that ended and were not told yet, oldest first. */
+typedef struct ending {
+    struct ending *next;
+    GDObjectInstanceID device, surface; /* surface: 0: one of a file */
+} ending;
+
+static ending *endings, **last_ending = &endings;
+static GDExtensionObjectPtr teller;
+
+static surface *find_surface(const device *d, knurl_surface_id id) {
+    for (surface *s = surfaces; s; s = s->next) {
         if (s->ids[d->slot] == id) {
-            return s->base.object;
+            return s;
         }
     }
     return NULL;
 }
 
-/* The device says it of the surface, and the surface of the device. */
-static void emit_contact(const device *d, const char *signal, const char *own, GDExtensionObjectPtr node) {
+/* The object of an instance id, or null, as a signal's argument. */
+static gd_variant wrap_object(GDObjectInstanceID id) {
     gd_variant argument;
-    if (node) {
-        const gd_variant by = gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &d->base.object);
-        argument = gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &node);
-        gd_emit(node, own, &by, 1);
-    } else {
-        gd.variant_new_nil(&argument); /* a surface of a file */
+    const GDExtensionObjectPtr object = gd.object_get_instance_from_id(id);
+    if (object) {
+        return gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &object);
     }
-    gd_emit(d->base.object, signal, &argument, 1);
-    gd.variant_destroy(&argument);
+    gd.variant_new_nil(&argument);
+    return argument;
+}
+
+/* Emits a signal whose argument is an object, unless the one that emits is no more. */
+static void emit_about(GDObjectInstanceID from, const char *signal, GDObjectInstanceID about) {
+    const GDExtensionObjectPtr object = gd.object_get_instance_from_id(from);
+    if (object) {
+        gd_variant argument = wrap_object(about);
+        gd_emit(object, signal, &argument, 1);
+        gd.variant_destroy(&argument);
+    }
 }
 
 void signals_end_contact(device *d) {
-    if (d->touched) {
-        const GDExtensionObjectPtr node = d->touched_node;
-        d->touched = 0;
-        d->touched_node = NULL;
-        emit_contact(d, "contact_ended", "released", node);
+    ending *made = d->touched ? malloc(sizeof *made) : NULL;
+    if (made) {
+        made->next = NULL;
+        made->device = gd.object_get_instance_id(d->base.object);
+        made->surface = d->touched_node;
+        *last_ending = made;
+        last_ending = &made->next;
+    } else if (d->touched) {
+        gd_error("KnurlDevice.contact_ended", "KnurlDevice.contact_ended: no memory to tell it with");
+    }
+    d->touched = 0;
+    d->touched_node = 0;
+}
+
+void signals_tell_ends(void) {
+    while (endings) {
+        ending *first = endings;
+        const ending now = *first;
+        endings = now.next;
+        last_ending = endings ? last_ending : &endings;
+        free(first);
+        emit_about(now.surface, "released", now.device);
+        emit_about(now.device, "contact_ended", now.surface);
     }
 }
 
+/* The surface says it of the device, and the device of the surface, unless the surface's handler has ended it. */
 static void start_contact(device *d, knurl_surface_id id) {
+    const GDObjectInstanceID me = gd.object_get_instance_id(d->base.object);
+    const surface *s = find_surface(d, id);
+    const GDObjectInstanceID node = s ? gd.object_get_instance_id(s->base.object) : 0;
     d->touched = id;
-    d->touched_node = node_of(d, id);
-    emit_contact(d, "contact_started", "touched", d->touched_node);
+    d->touched_node = node;
+    emit_about(node, "touched", me);
+    d = device_of(me);
+    if (d && d->touched == id) {
+        emit_about(me, "contact_started", node);
+    }
 }
 
 void signals_tell_ridges(device *d, double ridges) {
     const int64_t count = (int64_t)(ridges - d->ridges);
-    if (count > 0 && d->touched_node) {
+    const surface *s = surface_of(d->touched_node);
+    if (count > 0 && s) {
         const gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_OBJECT, &d->base.object),
                                          gd_wrap(GDEXTENSION_VARIANT_TYPE_INT, &count)};
         d->ridges += (double)count;
-        gd_emit(d->touched_node, "ridges_passed", arguments, 2);
+        gd_emit(s->base.object, "ridges_passed", arguments, 2);
     } else if (count > 0) {
         d->ridges = ridges;
     }
@@ -82,9 +130,9 @@ static void tell_fault(const device *d, const knurl_session_event *event) {
     gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&string);
 }
 
-int signals_tell(device *d) {
+int signals_tell(GDObjectInstanceID id) {
     knurl_session_event event;
-    while (d->runs && knurl_session_next_event(d->session, &event)) {
+    for (device *d = device_of(id); d && d->runs && knurl_session_next_event(d->session, &event); d = device_of(id)) {
         switch (event.kind) {
         case KNURL_SESSION_CONTACT_STARTED:
             start_contact(d, event.surface);
@@ -92,6 +140,7 @@ int signals_tell(device *d) {
         case KNURL_SESSION_CONTACT_ENDED:
             if (event.surface == d->touched) { /* else it was told when its node left */
                 signals_end_contact(d);
+                signals_tell_ends();
             }
             break;
         case KNURL_SESSION_BUTTON:
@@ -106,3 +155,68 @@ int signals_tell(device *d) {
     }
     return 0;
 }
+
+void signals_tell_later(GDObjectInstanceID id) {
+    if (teller) {
+        gd_name name = gd_name_new("tell");
+        gd_variant arguments[2] = {gd_wrap(GDEXTENSION_VARIANT_TYPE_STRING_NAME, &name),
+                                   gd_wrap(GDEXTENSION_VARIANT_TYPE_INT, &id)};
+        gd_variant nothing = gd_call_named(teller, "call_deferred", arguments, 2);
+        gd.variant_destroy(&nothing);
+        gd.variant_destroy(&arguments[0]);
+        gd_name_end(&name);
+    }
+}
+
+static void tell(void *self, const void *const *arguments, void *result) {
+    GDObjectInstanceID id;
+    (void)self;
+    (void)result;
+    memcpy(&id, arguments[0], sizeof id);
+    signals_tell_ends();
+    if (id) {
+        device_tell(id);
+    }
+}
+
+static int init(void *self) {
+    (void)self;
+    return 1;
+}
+
+static void finish(void *self) {
+    (void)self;
+}
+
+void signals_begin(void) {
+    teller = gd_create(gd_unconst(&teller_class));
+}
+
+/* The engine skips messages to an object that is no more. */
+void signals_end(void) {
+    if (teller) {
+        gd.object_destroy(teller);
+    }
+    teller = NULL;
+    while (endings) {
+        ending *first = endings;
+        endings = first->next;
+        free(first);
+    }
+    last_ending = &endings;
+}
+
+static const gd_method_row methods[] = {
+    {"tell", GDEXTENSION_VARIANT_TYPE_NIL, tell, 1, {{"device", GDEXTENSION_VARIANT_TYPE_INT, NULL}}},
+};
+
+const gd_class teller_class = {
+    .name = "KnurlTeller",
+    .base = "Object",
+    .size = sizeof(gd_instance),
+    .init = init,
+    .finish = finish,
+    .methods = methods,
+    .method_count = sizeof methods / sizeof *methods,
+    .is_hidden = 1,
+};

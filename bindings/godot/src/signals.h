@@ -1,16 +1,28 @@
-/* Signals of a KnurlDevice. Any of their handlers may stop the device, or start it again.
- * SPDX-License-Identifier: MIT */
+/* Signals of a KnurlDevice and its surfaces. A handler may do anything: stop and start the device, remove and free
+ * nodes, change the scene. The engine does not survive that while it notifies, removes or frees a node. So nothing is
+ * emitted then: the engine's message queue calls back once it is through with all nodes of a frame. From one emission
+ * to the next only instance ids are kept. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_SIGNALS_H
 #define KNURL_GODOT_SIGNALS_H
 
 #include "world.h"
 
-/* What happened since the last frame. 1: the session has ended; events after its end are still to be reported.
- */
-int signals_tell(device *d);
+/* The object that the message queue calls. */
+extern const gd_class teller_class;
+void signals_begin(void);
+void signals_end(void);
 
-/* Tells that nothing is touched any more. */
+/* Has the engine tell ended contacts and then, unless it is 0, a device's news, before this frame ends. */
+void signals_tell_later(GDObjectInstanceID id);
+
+/* Nothing is touched any more, which is still to be told. */
 void signals_end_contact(device *d);
+
+/* Tells which contacts ended. */
+void signals_tell_ends(void);
+
+/* Tells what happened since the last frame. 1: the session has ended; events after its end are still to be told. */
+int signals_tell(GDObjectInstanceID id);
 
 /* Tells the surface that is touched how many ridges were passed since it was last told, of all that were so far. */
 void signals_tell_ridges(device *d, double ridges);

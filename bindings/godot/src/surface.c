@@ -136,19 +136,19 @@ static void enter(surface *s) {
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
-/* Removes it from all scenes and from the list, and reports contacts that end. */
+/* Removes it from all scenes and from the list; contacts that end are told later. */
 static void remove_now(surface *s) {
+    const GDObjectInstanceID id = gd.object_get_instance_id(s->base.object);
     for (int i = 0; i < DEVICE_SLOTS; i++) {
         if (devices[i]) {
             follow_remove(devices[i], s);
         }
-    }
-    surface_unlist(s);
-    for (int i = 0; i < DEVICE_SLOTS; i++) { /* last, because a handler may free anything */
-        if (devices[i] && devices[i]->touched_node == s->base.object) {
+        if (devices[i] && devices[i]->touched_node == id) {
             signals_end_contact(devices[i]);
+            signals_tell_later(0);
         }
     }
+    surface_unlist(s);
 }
 
 /* A surface that is reparented leaves the tree and enters it again within a frame, so it is removed in the next frame;
@@ -182,9 +182,7 @@ static void notify(void *self, int32_t what) {
         break;
     case GD_PREDELETE:
         s->is_dying = 1;
-        if (s->is_leaving) {
-            remove_now(s);
-        }
+        remove_now(s);
         break;
     default:
         break;

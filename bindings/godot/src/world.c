@@ -1,6 +1,8 @@
 /* Surfaces and devices as the extension knows them. SPDX-License-Identifier: MIT */
 #include "world.h"
 
+#include "serve.h"
+
 device *devices[DEVICE_SLOTS];
 device *placed_devices;
 surface *surfaces;
@@ -45,4 +47,12 @@ void surface_unlist(surface *s) {
         s->next = s->previous = NULL;
         s->is_listed = s->is_leaving = 0;
     }
+}
+
+device *device_of(GDObjectInstanceID id) {
+    return gd_instance_of(gd.object_get_instance_from_id(id), &device_class);
+}
+
+surface *surface_of(GDObjectInstanceID id) {
+    return gd_instance_of(gd.object_get_instance_from_id(id), &surface_class);
 }

@@ -63,7 +63,7 @@ typedef struct device {
     knurl_session *session;      /* or null: never started yet, and no file loaded */
     knurl_workspace workspace;
     knurl_surface_id touched;
-    GDExtensionObjectPtr touched_node; /* or null: a file's surface, or nothing */
+    GDObjectInstanceID touched_node; /* the surface's, as told; 0: a file's surface, or nothing */
     uint64_t gratings_seen;
     uint32_t failures;              /* surfaces that could not be put into its scene, since that was last told */
     double frames_time, steps_time; /* s: frames and physics steps so far, in real time */
@@ -89,5 +89,9 @@ extern device *placed_devices;
 
 /* Running devices, or null. */
 extern device *devices[DEVICE_SLOTS];
+
+/* The device or surface of that instance id, or null: it is no more. */
+device *device_of(GDObjectInstanceID id);
+surface *surface_of(GDObjectInstanceID id);
 
 #endif
