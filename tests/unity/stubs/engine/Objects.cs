@@ -36,6 +36,7 @@ namespace UnityEngine
     {
         static int lastId;
         internal bool destroyed;
+        internal bool ending; // being destroyed: its OnDisable and OnDestroy are called
         internal string held = "";
         internal HideFlags flags;
         readonly int id = ++lastId;

@@ -128,6 +128,13 @@ namespace UnityEngine
             {
                 return;
             }
+            if (target.ending)
+            {
+                Debug.LogError("Destroying object multiple times. Don't use DestroyImmediate on the same object in "
+                    + "OnDisable or OnDestroy.");
+                return;
+            }
+            target.ending = true;
             GameObject go = target as GameObject;
             Component part = target as Component;
             if (go != null)

@@ -120,7 +120,7 @@ namespace UnityEngine
         {
             foreach (GameObject go in objects.ToArray())
             {
-                if (!go.destroyed && go.transform.parent == null && !kept.Contains(go))
+                if (!go.destroyed && !go.ending && go.transform.parent == null && !kept.Contains(go))
                 {
                     DestroyNow(go);
                 }
