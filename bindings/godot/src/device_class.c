@@ -1,6 +1,7 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "explain.h"
+#include "ray.h"
 #include "sound.h"
 #include "status.h"
 #include "trace.h"
@@ -411,6 +412,7 @@ static const gd_method_row methods[] = {
       {"direction", VECTOR3, NULL}}},
     {"get_history", FLOATS, get_history, 1, {{"count", INT, NULL}}},
     {"load_gltf", INT, load_gltf, 1, {{"path", STRING, NULL}}},
+    {"cast_ray", GDEXTENSION_VARIANT_TYPE_DICTIONARY, ray_cast, 2, {{"from", VECTOR3, NULL}, {"to", VECTOR3, NULL}}},
     {"play_trace", DOUBLES, trace_play, 2, {{"rows", DOUBLES, NULL}, {"ticks", INT, NULL}}},
     {"get_status", GDEXTENSION_VARIANT_TYPE_DICTIONARY, status_tell, 0, {{NULL}}},
 };

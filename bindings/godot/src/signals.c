@@ -15,15 +15,6 @@ typedef struct ending {
 static ending *endings, **last_ending = &endings;
 static GDExtensionObjectPtr teller;
 
-static surface *find_surface(const device *d, knurl_surface_id id) {
-    for (surface *s = surfaces; s; s = s->next) {
-        if (s->ids[d->slot] == id) {
-            return s;
-        }
-    }
-    return NULL;
-}
-
 /* The object of an instance id, or null, as a signal's argument. */
 static gd_variant wrap_object(GDObjectInstanceID id) {
     gd_variant argument;
@@ -75,7 +66,7 @@ void signals_tell_ends(void) {
 /* The surface says it of the device, and the device of the surface, unless the surface's handler has ended it. */
 static void start_contact(device *d, knurl_surface_id id) {
     const GDObjectInstanceID me = gd.object_get_instance_id(d->base.object);
-    const surface *s = find_surface(d, id);
+    const surface *s = surface_in(d, id);
     const GDObjectInstanceID node = s ? gd.object_get_instance_id(s->base.object) : 0;
     d->touched = id;
     d->touched_node = node;

@@ -56,3 +56,12 @@ device *device_of(GDObjectInstanceID id) {
 surface *surface_of(GDObjectInstanceID id) {
     return gd_instance_of(gd.object_get_instance_from_id(id), &surface_class);
 }
+
+surface *surface_in(const device *d, knurl_surface_id id) {
+    for (surface *s = surfaces; s; s = s->next) {
+        if (s->ids[d->slot] == id) {
+            return s;
+        }
+    }
+    return NULL;
+}

@@ -94,4 +94,7 @@ extern device *devices[DEVICE_SLOTS];
 device *device_of(GDObjectInstanceID id);
 surface *surface_of(GDObjectInstanceID id);
 
+/* The surface of that id in a running device's scene, or null: one of a file, or none. */
+surface *surface_in(const device *d, knurl_surface_id id);
+
 #endif

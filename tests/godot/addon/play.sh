@@ -98,7 +98,7 @@ headless=(godot --headless)
 display=(xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 640x360)
 
 case $case in
-presets)
+presets | mouse)
     new_project
     play_script "$case" "${headless[@]}"
     ;;

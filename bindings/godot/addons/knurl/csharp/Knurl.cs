@@ -116,7 +116,8 @@ namespace Knurl
         /// that is pressed deepest.</summary>
         public bool IsTouched() { return Object.Call("is_touched").AsBool(); }
 
-        /// <summary>A device does not touch it any more, see ContactEnded.</summary>
+        /// <summary>A device does not touch it any more, see ContactEnded. Null for a device that is freed already. A
+        /// surface that is freed while it is touched emits nothing more.</summary>
         public void OnReleased(Action<KnurlDevice> handler)
         {
             Object.Connect("released", Callable.From((GodotObject device) => handler(KnurlDevice.Of(device))));
@@ -255,6 +256,12 @@ namespace Knurl
         /// which stays where it is.</summary>
         public double WorkspaceScale { get { return Object.Get("workspace_scale").AsDouble(); } set { Object.Set("workspace_scale", value); } }
 
+        /// <summary>The point where a straight line (global) first goes through what this device feels, by its
+        /// triangles and as it stands now, with no part of the engine's physics: position, normal (outward), distance
+        /// (m) and surface (the KnurlSurface; null for one of LoadGltf). A surface that is not double-sided is hit from
+        /// its front only. Empty where nothing is hit or the device does not run.</summary>
+        public Godot.Collections.Dictionary CastRay(Vector3 from, Vector3 to) { return Object.Call("cast_ray", from, to).AsGodotDictionary(); }
+
         /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height in metres and
         /// the force along the normal in newtons.</summary>
         public float[] GetHistory(long count) { return Object.Call("get_history", count).AsFloat32Array(); }
@@ -308,7 +315,8 @@ namespace Knurl
         }
 
         /// <summary>A surface is not the one touched any more: the finger left, something else is pressed deeper, the
-        /// surface was freed (then this comes at once) or left the tree, or the device stopped.</summary>
+        /// surface left the tree or was freed, or the device stopped. Null for a surface of LoadGltf, and for one that
+        /// is freed already. From Stop it comes at once, else at the end of the frame.</summary>
         public void OnContactEnded(Action<KnurlSurface> handler)
         {
             Object.Connect("contact_ended", Callable.From((GodotObject surface) => handler(KnurlSurface.Of(surface))));
