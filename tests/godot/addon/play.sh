@@ -61,6 +61,15 @@ add_assets() {
     done
 }
 
+# add_probe SCRIPT: a plugin beside Knurl's that looks at things from inside the editor.
+add_probe() {
+    mkdir -p "$project/addons/probe"
+    cp "$here/cases/probe.cfg" "$project/addons/probe/plugin.cfg"
+    cp "$here/cases/$1.gd" "$project/addons/probe/probe.gd"
+    cp "$here/cases/checks.gd" "$project/addons/probe/"
+    sed -i 's,plugin.cfg"),plugin.cfg"\, "res://addons/probe/plugin.cfg"),' "$project/project.godot"
+}
+
 # play SECONDS CMD ARGS...: in the project, with an end.
 play() {
     local seconds=$1 status=0
@@ -137,13 +146,28 @@ hints) # names that the importer makes bodies, shapes and regions of
     grep -F "WARNING: Knurl: hints: Floor: its name's import hint leaves no triangles to feel" "$log"
     play_script "$case" "${headless[@]}"
     ;;
+late) # tagged files that were imported before the plugin was on
+    new_project
+    cp "$root"/assets/plate_1d.glb "$project/"
+    cp "$root"/assets/plate_1d.glb "$project/off.glb"
+    cp "$here/cases/hints.gltf" "$project/"
+    mv "$project/project.godot" "$project/on"
+    sed '/^\[editor_plugins\]/,/^$/d; /^enabled=/d' "$project/on" >"$project/project.godot"
+    play 120 "${headless[@]}" --path . --import
+    [ -z "$(grep -l knurl/surfaces "$project"/*.import)" ] || { echo "play: the plugin was on" >&2; exit 1; }
+    sed -i 's,^\[params\]$,&\n\nknurl/surfaces=false,' "$project/off.glb.import"
+    mv "$project/on" "$project/project.godot"
+    add_probe late
+    play 120 "${headless[@]}" --path . --editor
+    grep -qE '^[1-9][0-9]* passed, 0 failed$' "$log" || { echo "play: no counts" >&2; exit 1; }
+    grep -F 'Knurl: importing files with tags again, now with surfaces: res://hints.gltf, res://plate_1d.glb' "$log"
+    play 120 "${headless[@]}" --path . --editor
+    ! grep -F 'importing files with tags again' "$log" || { echo "play: once is enough" >&2; exit 1; }
+    ;;
 editor) # the plugin's parts, in the editor's process
     new_project
-    mkdir -p "$project/addons/probe"
-    cp "$here/cases/probe.cfg" "$project/addons/probe/plugin.cfg"
-    cp "$here/cases/probe.gd" "$here/cases/checks.gd" "$project/addons/probe/"
+    add_probe probe
     cp "$here/cases/stage.tscn" "$project/"
-    sed -i 's,plugin.cfg"),plugin.cfg"\, "res://addons/probe/plugin.cfg"),' "$project/project.godot"
     play 120 "${headless[@]}" --path . --import
     play 120 "${headless[@]}" --path . --editor
     grep -qE '^[1-9][0-9]* passed, 0 failed$' "$log" || { echo "play: no counts" >&2; exit 1; }

@@ -40,6 +40,7 @@ func _enter_tree() -> void:
 	scene_changed.connect(_on_scene_changed)
 	get_tree().node_added.connect(_on_node_added)
 	EditorInterface.get_inspector().property_edited.connect(_on_property_edited)
+	_import_again()
 
 
 func _exit_tree() -> void:
@@ -55,6 +56,19 @@ func _exit_tree() -> void:
 	remove_node_3d_gizmo_plugin(_gizmo)
 	remove_scene_post_import_plugin(_post_import)
 	_gltf.unregister()
+
+
+## Files with tags that were imported while the plugin was off have no surfaces.
+func _import_again() -> void:
+	var files: EditorFileSystem = EditorInterface.get_resource_filesystem()
+	while is_inside_tree() and files.is_scanning():
+		await get_tree().process_frame
+	if not is_inside_tree() or files.get_filesystem() == null:
+		return
+	var found: PackedStringArray = load(FOLDER + "reimport.gd").find(files.get_filesystem())
+	if not found.is_empty():
+		print("Knurl: importing files with tags again, now with surfaces: ", ", ".join(found))
+		files.reimport_files(found)
 
 
 ## From its text: when a project is opened for the first time, plugins start before pictures are

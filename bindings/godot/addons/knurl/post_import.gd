@@ -4,13 +4,24 @@ extends EditorScenePostImportPlugin
 ## node where a tagged mesh was. This hangs the mesh's [KnurlSurface] below what is left of it, or
 ## says that nothing is.
 
+## An option of each scene's import. A file whose .import lacks it was imported while the plugin was
+## off.
+const OPTION := "knurl/surfaces"
 const ADVICE := (
 	"its name's import hint leaves no triangles to feel: "
 	+ "give the mesh another name, or tag one beside it"
 )
 
 
+func _get_import_options(_path: String) -> void:
+	add_import_option(OPTION, true)
+
+
 func _post_process(scene: Node) -> void:
+	if get_option_value(OPTION) == false:
+		for surface: Node in scene.find_children("*", "KnurlSurface", true, true):
+			surface.free()
+		return
 	for surface: Node in scene.find_children("*", "KnurlSurface", true, true):
 		var parent: Node = surface.get_parent()
 		if _can_be_felt(parent):
