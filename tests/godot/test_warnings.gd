@@ -25,7 +25,39 @@ func says(s: Node3D, part: String) -> void:
 	check("'%s' is said once" % part, lines.size() == 1, s.get_warnings())
 
 
+# A game whose world is larger than the device's reach, and one that changes its scenes.
+func tells_once() -> void:
+	var listener := Listener.new()
+	OS.add_logger(listener)
+	for i in 20:
+		var far := gentle(plate(0.05), Vector3(5, 0, 0))
+		gentle(plate(0.05))
+		var odd := gentle(plate(0.05), Vector3(0, 0.05, 0))
+		odd.get_parent().name = "Odd"
+		odd.get_parent().scale = Vector3(1, 1, 2)
+		make_device("fake").start()
+		await frames(1)
+		says(far, "outside of the device's workspace")
+		clear()
+	check("20 scenes: what is wrong is told once, what is out of reach is not", listener.lines.size() == 1, listener.lines.size())
+	listener.lines.clear()
+	for i in 3:
+		gentle(plate(0.05), Vector3(5, 0, 0))
+		var d := make_device("fake")
+		d.name = "Finger"
+		d.start()
+		await frames(1)
+		clear()
+	check("but if all of it is", listener.lines.size() == 1 and "none of the surfaces" in listener.lines[0], listener.lines.size())
+	OS.remove_logger(listener)
+
+
 func tests() -> void:
+	await tells_once()
+	await tells_what()
+
+
+func tells_what() -> void:
 	var listener := Listener.new()
 	OS.add_logger(listener)
 	var well := gentle(plate(0.05))

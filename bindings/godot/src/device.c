@@ -165,7 +165,7 @@ static knurl_result run(device *d, char *warning) {
         (void)knurl_session_set_clutch(d->session, d->clutch);
         d->ridges = 0.0;
         memset(d->impulse, 0, sizeof d->impulse);
-        explain_start();
+        explain_start(d);
         device_apply_sound(d);
     }
     return result;

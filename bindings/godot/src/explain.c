@@ -13,6 +13,9 @@
 /* So many surfaces are looked at, and so many lines told, when a device starts. */
 enum { MOST_LOOKED_AT = 1000, MOST_WARNINGS = 8 };
 
+/* What knurl_session_explain() says first of a surface out of reach. */
+#define OUT_OF_REACH "It lies outside of the device's workspace"
+
 static void say(char *text, size_t size, const char *sentence) {
     const size_t length = strlen(text);
     const char *line = length > 0 && sentence[0] ? "\n" : "";
@@ -114,11 +117,11 @@ static void say_facts(const surface *s, const knurl_session_pose *at, char *text
     }
 }
 
-static void say_of_running(const surface *s, char *text, size_t size) {
+static void say_of_running(const surface *s, const device *only, char *text, size_t size) {
     char why[4096];
     int is_felt = 0;
     for (int i = 0; i < DEVICE_SLOTS; i++) {
-        if (!devices[i] || !s->ids[i]) {
+        if (!devices[i] || !s->ids[i] || (only && devices[i] != only)) {
             continue;
         }
         knurl_session_explain(devices[i]->session, s->ids[i], why, sizeof why);
@@ -130,7 +133,7 @@ static void say_of_running(const surface *s, char *text, size_t size) {
     }
 }
 
-void explain_surface(surface *s, char *text, size_t size) {
+void explain_surface(surface *s, const device *only, char *text, size_t size) {
     char why[4096];
     uint8_t is_inside = 0;
     knurl_session_pose at;
@@ -151,7 +154,7 @@ void explain_surface(surface *s, char *text, size_t size) {
         say_facts(s, &at, text, size);
     }
     if (!gd_is_in_editor()) {
-        say_of_running(s, text, size);
+        say_of_running(s, only, text, size);
     } else if (has_shape && s->grating && s->enabled) {
         preview_surface(s, &at, why, sizeof why);
         say(text, size, why);
@@ -183,22 +186,65 @@ void explain_device(const device *d, char *text, size_t size) {
     }
 }
 
-void explain_start(void) {
+/* 1 the first time that a line is told of a node of that name. After 512 lines nothing is new. */
+static int is_new(const char *name, const char *line, int length) {
+    static uint64_t told[512];
+    static int count;
+    char text[1280];
+    uint64_t key = UINT64_C(0xcbf29ce484222325); /* FNV-1a */
+    (void)snprintf(text, sizeof text, "%s: %.*s", name, length, line);
+    for (const char *c = text; *c; c++) {
+        key = (key ^ (unsigned char)*c) * UINT64_C(0x100000001b3);
+    }
+    for (int i = 0; i < count; i++) {
+        if (told[i] == key) {
+            return 0;
+        }
+    }
+    if (count == (int)(sizeof told / sizeof *told)) {
+        return 0;
+    }
+    told[count++] = key;
+    return 1;
+}
+
+/* Warns of one surface. Returns 1 where it is out of the device's reach. */
+static int warn_of(surface *s, const device *d, uint32_t *told) {
     static char text[8192];
     char name[128];
+    int is_out = 0;
+    explain_surface(s, d, text, sizeof text);
+    gd_node_name(surface_parent(s), name, sizeof name);
+    for (char *line = text, *end; *line; line = end) {
+        end = line + strcspn(line, "\n");
+        const int length = (int)(end - line);
+        end += *end == '\n';
+        if (strncmp(line, OUT_OF_REACH, strlen(OUT_OF_REACH)) == 0) {
+            is_out = 1;
+        } else if (is_new(name, line, length) && (*told)++ < MOST_WARNINGS) {
+            gd_warning("KnurlSurface", "KnurlSurface of '%s': %.*s", name, length, line);
+        }
+    }
+    return is_out;
+}
+
+void explain_start(const device *d) {
+    static const char none[] = "none of the surfaces lies in its workspace: move it there, or raise its "
+                               "workspace_scale";
+    char name[128];
     uint32_t told = 0;
+    uint32_t felt = 0;
+    uint32_t out = 0;
     uint32_t looked_at = 0;
     for (surface *s = surfaces; s && looked_at < MOST_LOOKED_AT; s = s->next, looked_at++) {
-        explain_surface(s, text, sizeof text);
-        for (char *line = text, *end; *line && s->enabled; line = end) {
-            end = line + strcspn(line, "\n");
-            const int length = (int)(end - line);
-            end += *end == '\n';
-            if (told++ < MOST_WARNINGS) {
-                gd_node_name(surface_parent(s), name, sizeof name);
-                gd_warning("KnurlSurface", "KnurlSurface of '%s': %.*s", name, length, line);
-            }
+        if (s->enabled) {
+            felt += s->ids[d->slot] != 0;
+            out += (uint32_t)warn_of(s, d, &told);
         }
+    }
+    gd_node_name(d->base.object, name, sizeof name);
+    if (out > 0 && out == felt && is_new(name, none, (int)strlen(none))) {
+        gd_warning("KnurlDevice", "KnurlDevice '%s': %s", name, none);
     }
     if (told > MOST_WARNINGS) {
         gd_warning("KnurlSurface", "KnurlSurface: %u further warnings: see get_warnings()",

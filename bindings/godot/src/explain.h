@@ -5,13 +5,15 @@
 #include "world.h"
 
 /* A line each, in a caller's buffer; "" where all is well. In the editor: what the devices that stand in the tree would
- * say, by their presets; in a game: what those that run do say. */
-void explain_surface(surface *s, char *text, size_t size);
+ * say, by their presets; in a game: what those that run do say, or only `only`, unless it is null. */
+void explain_surface(surface *s, const device *only, char *text, size_t size);
 
 /* The same of a device. */
 void explain_device(const device *d, char *text, size_t size);
 
-/* When a device starts: warns of all that is not felt as asked for, once, and of many only the first. */
-void explain_start(void);
+/* When a device starts: warns of all that it does not play as asked for, of many only the first, and of each once in a
+ * process, because games start their devices in scene after scene. Surfaces out of its reach are what a game's world is
+ * full of: it warns where all are. */
+void explain_start(const device *d);
 
 #endif

@@ -97,7 +97,7 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
 static void get_warnings(void *self, const void *const *arguments, void *result) {
     static char text[8192];
     (void)arguments;
-    explain_surface(self, text, sizeof text);
+    explain_surface(self, NULL, text, sizeof text);
     warnings_append(text, result);
 }
 

@@ -105,7 +105,8 @@ namespace Knurl
 
         /// <summary>Why this surface cannot be felt, not as asked for, or not where it is drawn: a sentence each. Empty
         /// where all is well. In the editor it is held against every KnurlDevice of the scene, by what that device can
-        /// do; in a game against those that run, which also print these lines once when they start.</summary>
+        /// do; in a game against those that run, which also print these lines when they start: each once, and that a
+        /// surface is out of reach only where all are.</summary>
         public string[] GetWarnings() { return Object.Call("get_warnings").AsStringArray(); }
 
         /// <summary>Reads its parent's triangles again in the next frame. A MeshInstance3D needs no such
