@@ -152,6 +152,54 @@ func pauses_and_hangs() -> void:
 	clear()
 
 
+# A paused tree leaves the device's node out; what is touched ends all the same, and is told.
+func a_paused_tree_ends_what_is_touched() -> void:
+	var d := make_device("fake", "rest")
+	var s := make_surface(plate())
+	var told := []
+	d.contact_started.connect(func(_surface: Node) -> void: told.append("started"))
+	d.contact_ended.connect(func(_surface: Node) -> void: told.append("ended"))
+	d.start()
+	for i in 3:
+		check("touched", await until(func() -> bool: return s.is_touched() and d.in_contact))
+		paused = true
+		check("ended", await until(func() -> bool: return told.back() == "ended", 1.0), told)
+		check("and all say so", not s.is_touched() and not d.in_contact and d.get_touched_surface() == null)
+		paused = false
+	check("touched again", await until(func() -> bool: return told.size() == 7 and s.is_touched()), told)
+	paused = true
+	paused = false
+	await seconds(0.3)
+	check("a pause of no length loses nothing", s.is_touched() and d.in_contact, told)
+	clear()
+
+
+func goes_on_elsewhere_in_the_tree() -> void:
+	var d := make_device("fake", "rest")
+	var s := make_surface(plate())
+	var shelf := Node3D.new()
+	root.add_child(shelf)
+	d.start()
+	check("touched", await until(func() -> bool: return s.is_touched()))
+	var told := []
+	d.contact_ended.connect(func(_surface: Node) -> void: told.append(1))
+	var ticks: int = d.ticks
+	d.reparent(shelf)
+	check("it runs on", d.running and d.ticks >= ticks)
+	check("its ticks go on", await until(func() -> bool: return d.ticks > ticks + 100))
+	await frames(3)
+	check("what it touches stays touched", s.is_touched() and told.is_empty(), told)
+	shelf.position.x = 1.0
+	check("and it follows its new parent", await until(func() -> bool: return absf(d.hip_position.x - 1.0) < 0.1), d.hip_position)
+	shelf.remove_child(d)
+	check("out of the tree it stops", not d.running)
+	await frames(2)
+	root.add_child(d)
+	await frames(2)
+	check("for good", not d.running)
+	clear()
+
+
 func leaves_with_its_scene() -> void:
 	var packed := PackedScene.new()
 	var scene := Node3D.new()
@@ -228,6 +276,8 @@ func tests() -> void:
 	await ends_with_the_finger()
 	await dies_and_lives()
 	await pauses_and_hangs()
+	await a_paused_tree_ends_what_is_touched()
+	await goes_on_elsewhere_in_the_tree()
 	await leaves_with_its_scene()
 	await stopped_by_its_own_signals()
 	await handlers_that_free_surfaces()

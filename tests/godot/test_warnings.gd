@@ -92,6 +92,8 @@ func tells_what() -> void:
 	root.add_child(soft)
 	var yielding: Node3D = gentle(plate(0.02))
 	yielding.reparent(soft)
+	var hidden := gentle(plate(0.02), Vector3(0, -0.02, 0))
+	hidden.get_parent().visible = false
 	var label := Label3D.new()
 	root.add_child(label)
 	var lost: Node3D = gentle(plate(0.02))
@@ -110,6 +112,9 @@ func tells_what() -> void:
 	says(aimless, "neither tangents nor uvs")
 	says(apart, "another World3D")
 	says(yielding, "SoftBody3D")
+	says(hidden, "Its parent is hidden")
+	hidden.enabled = false
+	check("but if it is switched off", hidden.get_warnings().is_empty(), hidden.get_warnings())
 	says(lost, "Its parent is a Label3D")
 	print("note: a cylinder: ", capped.get_warnings())
 	var first := listener.lines.size()

@@ -175,6 +175,9 @@ int64_t device_start(device *d) {
     enum { OK = 0, UNAVAILABLE = 2 };
     char warning[512] = "";
     d->wants_start = 0;
+    if (d->is_leaving) {
+        device_stop(d);
+    }
     if (d->runs) {
         return OK;
     }
@@ -215,8 +218,8 @@ static void start_by_itself(device *d) {
     }
 }
 
-static void end_run(device *d) {
-    d->wants_start = 0;
+void device_end(device *d) {
+    d->wants_start = d->is_leaving = 0;
     if (d->runs) {
         sound_stop(d);
         device_release(d);
@@ -225,12 +228,15 @@ static void end_run(device *d) {
 }
 
 void device_leave(device *d) {
-    end_run(d);
-    signals_tell_later(0);
+    d->wants_start = 0;
+    d->is_leaving = d->runs;
+    if (d->runs) {
+        signals_tell_later(gd.object_get_instance_id(d->base.object));
+    }
 }
 
 void device_stop(device *d) {
-    end_run(d);
+    device_end(d);
     signals_tell_ends(); /* last: a handler finds a device that is stopped, and may start or free it */
 }
 
@@ -311,6 +317,10 @@ static void tell_state(device *d) {
 
 void device_tell(GDObjectInstanceID id) {
     device *d = device_of(id);
+    if (d && d->is_leaving) {
+        device_stop(d);
+        return;
+    }
     if (d && d->wants_start && d->retries_in <= 0.0) {
         start_by_itself(d);
     } else if (d && d->runs) {

@@ -16,8 +16,12 @@ void device_process(device *d);
  * instance id. */
 void device_tell(GDObjectInstanceID id);
 
-/* As device_stop(), where the engine is in the middle of something: that the contact ended is told later. */
+/* The node left the tree. It stops at the end of the frame, unless the node is back by then: put elsewhere in the tree,
+ * the device goes on. */
 void device_leave(device *d);
+
+/* As device_stop(), and tells nothing. */
+void device_end(device *d);
 
 /* Its parts: a session, if there is none yet; a slot, an opened session, all surfaces in its scene; and all of these
  * given back. After a failure device_release() is still to be called. */

@@ -2,6 +2,7 @@
 #include "device.h"
 #include "explain.h"
 #include "ray.h"
+#include "signals.h"
 #include "sound.h"
 #include "status.h"
 #include "trace.h"
@@ -79,7 +80,7 @@ static void change_force(void *self) {
 
 static void change_clutch(void *self) {
     device *d = self;
-    if (d->runs) {
+    if (d->runs && !d->is_leaving) {
         device_move_workspace(d); /* a scale that was set while the clutch was on is one about the HIP */
         (void)knurl_session_set_clutch(d->session, d->clutch);
     }
@@ -122,6 +123,20 @@ static void unplace(const device *d) {
     }
 }
 
+/* In a game. It starts in its first frame, when all of the scene is there; one that was put elsewhere within a frame
+ * goes on. */
+static void enter(device *d) {
+    d->has_failed = 0;
+    d->retries_in = 0.0;
+    d->wants_start = d->autostart && !d->runs;
+    set_processing(d, 1);
+    if (d->is_leaving) {
+        d->is_leaving = 0;
+        d->moved = 1;
+        device_apply_sound(d); /* its player left the tree with it, and stopped */
+    }
+}
+
 static void get_warnings(void *self, const void *const *arguments, void *result) {
     char text[512];
     (void)arguments;
@@ -135,15 +150,16 @@ static void notify(void *self, int32_t what) {
     case GD_ENTER_TREE:
         place(d);
         if (!gd_is_in_editor()) {
-            d->has_failed = 0;
-            d->retries_in = 0.0;
-            d->wants_start = d->autostart; /* in the first frame, when all of the scene is there */
-            set_processing(d, 1);
+            enter(d);
         }
         break;
     case GD_EXIT_TREE:
         unplace(d);
         device_leave(d);
+        break;
+    case GD_PREDELETE:
+        device_end(d);
+        signals_tell_later(0);
         break;
     case GD_TRANSFORM_CHANGED:
         d->moved = 1;
@@ -154,6 +170,7 @@ static void notify(void *self, int32_t what) {
     case GD_UNPAUSED:
         d->tree_paused = what == GD_PAUSED;
         pause(d);
+        signals_tell_in_pause(d);
         break;
     case GD_INTERNAL_PROCESS:
         device_process(d);
@@ -197,7 +214,8 @@ static void get_force(void *self, void *value) {
 }
 
 static void get_running(void *self, void *value) {
-    *(uint8_t *)value = ((const device *)self)->runs;
+    const device *d = self;
+    *(uint8_t *)value = d->runs && !d->is_leaving;
 }
 
 static void get_in_contact(void *self, void *value) {

@@ -43,12 +43,12 @@ static void deinitialize(void *user, GDExtensionInitializationLevel level) {
     (void)user;
     if (level == GDEXTENSION_INITIALIZATION_SCENE && is_registered) {
         is_registered = 0;
-        signals_end();
         for (int i = 0; i < DEVICE_SLOTS; i++) {
             if (devices[i]) {
-                device_leave(devices[i]);
+                device_end(devices[i]);
             }
         }
+        signals_end();
         for (int i = CLASS_COUNT; i-- > 0;) {
             gd_unregister(classes[i]);
         }

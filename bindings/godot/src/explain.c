@@ -106,8 +106,22 @@ static void say_layers(const surface *s, char *text, size_t size) {
     }
 }
 
+static void say_hidden(GDExtensionObjectPtr parent, char *text, size_t size) {
+    uint8_t is_visible = 1;
+    gd_variant found = gd_call_named(parent, "is_visible_in_tree", NULL, 0);
+    gd_types[GDEXTENSION_VARIANT_TYPE_BOOL].from_variant(&is_visible, &found);
+    gd.variant_destroy(&found);
+    if (!is_visible) {
+        say(text, size,
+            "Its parent is hidden, and felt all the same: an invisible wall, unless enabled is off as well.");
+    }
+}
+
 /* Warnings that follow from its nodes. */
 static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
+    if (s->enabled) {
+        say_hidden(surface_parent(s), text, size);
+    }
     say_away(s, text, size);
     say_layers(s, text, size);
     say_bends(surface_parent(s), text, size);

@@ -14,6 +14,7 @@ typedef struct ending {
 
 static ending *endings, **last_ending = &endings;
 static GDExtensionObjectPtr teller;
+static GDObjectInstanceID paused_tree; /* whose frames the teller is told of, or 0 */
 
 /* The object of an instance id, or null, as a signal's argument. */
 static gd_variant wrap_object(GDObjectInstanceID id) {
@@ -170,6 +171,36 @@ static void tell(void *self, const void *const *arguments, void *result) {
     }
 }
 
+void signals_tell_in_pause(const device *d) {
+    GDExtensionObjectPtr tree = NULL;
+    if (teller && d->runs && d->tree_paused && !paused_tree) {
+        gd_variant held = gd_call_named(d->base.object, "get_tree", NULL, 0);
+        gd_types[GDEXTENSION_VARIANT_TYPE_OBJECT].from_variant(&tree, &held);
+        gd.variant_destroy(&held);
+        paused_tree = gd.object_get_instance_id(tree);
+        gd_connect(tree, "process_frame", teller, "tell_in_pause");
+    }
+}
+
+static void tell_in_pause(void *self, const void *const *arguments, void *result) {
+    int is_paused = 0;
+    (void)self;
+    (void)arguments;
+    (void)result;
+    for (int i = 0; i < DEVICE_SLOTS; i++) {
+        if (devices[i] && devices[i]->tree_paused) {
+            is_paused = 1;
+            knurl_session_update(devices[i]->session);
+            device_tell(gd.object_get_instance_id(devices[i]->base.object));
+        }
+    }
+    const GDExtensionObjectPtr tree = gd.object_get_instance_from_id(paused_tree);
+    if (!is_paused && tree) {
+        gd_disconnect(tree, "process_frame", teller, "tell_in_pause");
+        paused_tree = 0;
+    }
+}
+
 static int init(void *self) {
     (void)self;
     return 1;
@@ -189,6 +220,7 @@ void signals_end(void) {
         gd.object_destroy(teller);
     }
     teller = NULL;
+    paused_tree = 0;
     while (endings) {
         ending *first = endings;
         endings = first->next;
@@ -199,6 +231,7 @@ void signals_end(void) {
 
 static const gd_method_row methods[] = {
     {"tell", GDEXTENSION_VARIANT_TYPE_NIL, tell, 1, {{"device", GDEXTENSION_VARIANT_TYPE_INT, NULL}}},
+    {"tell_in_pause", GDEXTENSION_VARIANT_TYPE_NIL, tell_in_pause, 0, {{NULL}}},
 };
 
 const gd_class teller_class = {

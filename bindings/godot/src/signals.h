@@ -15,6 +15,10 @@ void signals_end(void);
 /* Has the engine tell ended contacts and then, unless it is 0, a device's news, before this frame ends. */
 void signals_tell_later(GDObjectInstanceID id);
 
+/* A paused tree leaves the device's node out, but what is touched ends then: as long as it does, the frames of the tree
+ * are told along instead. */
+void signals_tell_in_pause(const device *d);
+
 /* Nothing is touched any more, which is still to be told. */
 void signals_end_contact(device *d);
 

@@ -58,6 +58,7 @@ typedef struct device {
     double impulse[3];   /* N s: of the haptic thread's forces, as far as bodies have got it */
     double ridges;       /* passed, as told */
     uint8_t runs;
+    uint8_t is_leaving;          /* 1: runs, out of the tree since this frame; it may come back at once */
     uint8_t paused, tree_paused; /* by the game; by the scene tree */
     int slot;                    /* -1: does not run */
     knurl_session *session;      /* or null: never started yet, and no file loaded */

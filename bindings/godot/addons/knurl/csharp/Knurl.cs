@@ -86,7 +86,7 @@ namespace Knurl
         /// <summary>Whether it can be touched from behind as well.</summary>
         public bool DoubleSided { get { return Object.Get("double_sided").AsBool(); } set { Object.Set("double_sided", value); } }
 
-        /// <summary>Whether it can be felt.</summary>
+        /// <summary>Whether it can be felt. A hidden parent is felt, as its colliders would be.</summary>
         public bool Enabled { get { return Object.Get("enabled").AsBool(); } set { Object.Set("enabled", value); } }
 
         /// <summary>How it feels.</summary>
@@ -316,8 +316,8 @@ namespace Knurl
         }
 
         /// <summary>A surface is not the one touched any more: the finger left, something else is pressed deeper, the
-        /// surface left the tree or was freed, or the device stopped. Null for a surface of LoadGltf, and for one that
-        /// is freed already. From Stop it comes at once, else at the end of the frame.</summary>
+        /// surface left the tree or was freed, a pause began, or the device stopped. Null for a surface of LoadGltf,
+        /// and for one that is freed already. From Stop it comes at once, else at the end of the frame.</summary>
         public void OnContactEnded(Action<KnurlSurface> handler)
         {
             Object.Connect("contact_ended", Callable.From((GodotObject surface) => handler(KnurlSurface.Of(surface))));
