@@ -32,7 +32,7 @@ def camel(name):
 
 def comment(text, indent):
     """BBCode as a summary."""
-    text = re.sub(r"\[(?:param|method|member|signal|enum|constant) (?:Knurl\w+\.)?([\w@.]+)\]", lambda m: pascal(m.group(1)), text)
+    text = re.sub(r"\[(?:param|method|member|signal|enum|constant) (?:Knurl\w+\.|@GlobalScope\.)?([\w@.]+)\]", lambda m: pascal(m.group(1)), text)
     text = re.sub(r"\[/?code\]", "", text)
     text = re.sub(r"\[(\w+)\]", r"\1", text)
     text = " ".join(text.split()).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

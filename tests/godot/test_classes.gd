@@ -55,6 +55,26 @@ func hints() -> void:
 	d.free()
 
 
+# What completion, the class reference and typed scripts see.
+func types() -> void:
+	var found := {}
+	for method in ClassDB.class_get_method_list(&"KnurlDevice", true):
+		found[method.name] = method
+	check("a surface is one", found.get_touched_surface.return.class_name == &"KnurlSurface", found.get_touched_surface)
+	check("start() gives an Error", found.start.return.class_name == &"Error", found.start)
+	check("vibrate() takes a Vibration", found.vibrate.args[0].class_name == &"KnurlDevice.Vibration", found.vibrate)
+	check("and says so", found.vibrate.args[0].usage & PROPERTY_USAGE_CLASS_IS_ENUM != 0)
+	var g: Resource = ClassDB.instantiate(&"KnurlGrating")
+	check("a method is a Method", property(g, "method").class_name == &"KnurlGrating.Method", property(g, "method"))
+	var d: Node3D = ClassDB.instantiate(&"KnurlDevice")
+	var kind := property(d, "device")
+	check("devices are suggested", kind.hint == PROPERTY_HINT_ENUM_SUGGESTION and "mouse" in kind.hint_string.split(","), kind)
+	var groups := d.get_property_list().filter(func(p: Dictionary) -> bool: return p.usage & PROPERTY_USAGE_GROUP != 0)
+	var names := groups.map(func(p: Dictionary) -> String: return p.name)
+	check("groups", ["Workspace", "Force", "Connection", "State"].all(func(n: String) -> bool: return n in names), names)
+	d.free()
+
+
 func setters() -> void:
 	var g: Resource = ClassDB.instantiate(&"KnurlGrating")
 	var changes := [0]
@@ -124,6 +144,7 @@ func packed() -> void:
 func tests() -> void:
 	defaults()
 	hints()
+	types()
 	setters()
 	untyped()
 	packed()

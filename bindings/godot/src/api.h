@@ -52,6 +52,7 @@
     X(ClassdbRegisterExtensionClass3, classdb_register_extension_class3)                                               \
     X(ClassdbRegisterExtensionClassMethod, classdb_register_extension_class_method)                                    \
     X(ClassdbRegisterExtensionClassProperty, classdb_register_extension_class_property)                                \
+    X(ClassdbRegisterExtensionClassPropertyGroup, classdb_register_extension_class_property_group)                     \
     X(ClassdbRegisterExtensionClassSignal, classdb_register_extension_class_signal)                                    \
     X(ClassdbRegisterExtensionClassIntegerConstant, classdb_register_extension_class_integer_constant)                 \
     X(ClassdbUnregisterExtensionClass, classdb_unregister_extension_class)

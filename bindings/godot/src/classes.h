@@ -22,12 +22,12 @@ typedef void (*gd_function)(void *self, const void *const *arguments, void *resu
 typedef struct gd_argument {
     const char *name;
     GDExtensionVariantType type;
-    const char *class_name; /* of an object; or null */
+    const char *class_name; /* an object's class, or an int's enum; or null */
 } gd_argument;
 
-/* A property is kept at `offset` in the instance (a String as malloc'ed UTF-8), unless it has a `get`. Without `get`
- * it can be set; with both, `set` says how. Numbers have to be finite and, where `most` is above `least`, within: above
- * `most` only with or_greater in `hints`. */
+/* A row with a name alone begins a group of the inspector. A property is kept at `offset` in the instance (a String as
+ * malloc'ed UTF-8), unless it has a `get`. Without `get` it can be set; with both, `set` says how. Numbers have to be
+ * finite and, where `most` is above `least`, within: above `most` only with or_greater in `hints`. */
 typedef struct gd_property {
     const char *name;
     GDExtensionVariantType type;
@@ -43,6 +43,7 @@ typedef struct gd_property {
 typedef struct gd_method_row {
     const char *name;
     GDExtensionVariantType result; /* NIL: none */
+    const char *result_class;      /* as of an argument */
     gd_function call;
     uint32_t argument_count;
     gd_argument arguments[GD_MOST_ARGUMENTS];
@@ -86,7 +87,14 @@ struct gd_class {
     uint32_t is_hidden; /* 1: scripts and the class reference do not see it */
 };
 
-enum { GD_HINT_NONE = 0, GD_HINT_RANGE = 1, GD_HINT_ENUM = 2, GD_HINT_FLAGS = 6, GD_HINT_RESOURCE_TYPE = 17 };
+enum {
+    GD_HINT_NONE = 0,
+    GD_HINT_RANGE = 1,
+    GD_HINT_ENUM = 2,
+    GD_HINT_SUGGESTIONS = 3, /* of texts */
+    GD_HINT_FLAGS = 6,
+    GD_HINT_RESOURCE_TYPE = 17
+};
 
 enum {
     GD_PREDELETE = 1,

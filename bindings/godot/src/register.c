@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { USAGE_DEFAULT = 6, USAGE_SHOWN_ONLY = 4 | 268435456 /* EDITOR, READ_ONLY */ };
+enum { USAGE_DEFAULT = 6, USAGE_SHOWN_ONLY = 4 | 268435456 /* EDITOR, READ_ONLY */, USAGE_IS_ENUM = 65536 };
 
 /* A property's description and what it points to. */
 typedef struct description {
@@ -25,7 +25,9 @@ static void describe(description *d, const gd_argument *argument, uint32_t hint,
     d->info.class_name = &d->class_name;
     d->info.hint = hint;
     d->info.hint_string = &d->hint;
-    d->info.usage = usage;
+    d->info.usage = argument->type == GDEXTENSION_VARIANT_TYPE_INT && argument->class_name
+                        ? usage | (uint32_t)USAGE_IS_ENUM
+                        : usage;
 }
 
 static void end_description(description *d) {
@@ -80,14 +82,38 @@ static void register_method(const gd_class *class, const method_entry *entry) {
     gd_name_end(&class_name);
 }
 
-/* What kind of object a property holds stands in its hint. */
-static const char *class_of(const gd_property *property) {
-    return property->hint == GD_HINT_RESOURCE_TYPE ? property->hints : NULL;
+/* What a property holds: an object of the class that its hint names, or a number of the class's enum that is called
+ * like it. text: the enum's name, at least 64 bytes. */
+static const char *class_of(const gd_class *class, const gd_property *property, char *text) {
+    if (property->hint == GD_HINT_RESOURCE_TYPE) {
+        return property->hints;
+    }
+    for (uint32_t i = 0; i < class->constant_count; i++) {
+        const char *of = class->constants[i].of;
+        if ((of[0] | 0x20) == property->name[0] && strcmp(of + 1, property->name + 1) == 0) {
+            (void)snprintf(text, 64, "%s.%s", class->name, of);
+            return text;
+        }
+    }
+    return NULL;
+}
+
+static void register_group(const gd_class *class, const char *text) {
+    gd_string name;
+    gd_string prefix;
+    gd_name class_name = gd_name_new(class->name);
+    gd.string_new_with_utf8_chars(&name, text);
+    gd.string_new_with_utf8_chars(&prefix, "");
+    gd.classdb_register_extension_class_property_group(gd_library, &class_name, &name, &prefix);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&prefix);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&name);
+    gd_name_end(&class_name);
 }
 
 static void register_accessors(const gd_class *class, const gd_property *property, const char *getter,
                                const char *setter) {
-    const gd_argument value = {"value", property->type, class_of(property)};
+    char enum_name[64];
+    const gd_argument value = {"value", property->type, class_of(class, property, enum_name)};
     const gd_argument nothing = {"", GDEXTENSION_VARIANT_TYPE_NIL, NULL};
     void *row = gd_unconst(property);
     const method_entry get = {getter, row, gd_getter_call, gd_getter_ptrcall, value, NULL, 0, 1};
@@ -102,7 +128,10 @@ static void register_property(const gd_class *class, const gd_property *property
     const int is_boolean = property->type == GDEXTENSION_VARIANT_TYPE_BOOL;
     const int has_range = property->most > property->least && property->hint == GD_HINT_NONE;
     const int is_read_only = property->get && !property->set;
-    const gd_argument argument = {property->name, property->type, class_of(property)};
+    /* What only a run tells is shown where games run, which have the remote inspector. */
+    const uint32_t told = gd_is_in_editor() ? 0 : (uint32_t)USAGE_SHOWN_ONLY;
+    char enum_name[64];
+    const gd_argument argument = {property->name, property->type, class_of(class, property, enum_name)};
     char getter[64];
     char setter[64] = "";
     char hint[160];
@@ -119,7 +148,7 @@ static void register_property(const gd_class *class, const gd_property *property
     }
     register_accessors(class, property, getter, setter);
     describe(&d, &argument, has_range ? (uint32_t)GD_HINT_RANGE : property->hint, hint,
-             is_read_only ? (uint32_t)USAGE_SHOWN_ONLY : (uint32_t)USAGE_DEFAULT);
+             is_read_only ? told : (uint32_t)USAGE_DEFAULT);
     gd_name class_name = gd_name_new(class->name);
     gd_name get = gd_name_new(getter);
     gd_name set = gd_name_new(setter);
@@ -170,7 +199,11 @@ void gd_register(const gd_class *class) {
     info.class_userdata = gd_unconst(class);
     gd.classdb_register_extension_class3(gd_library, &name, &base, &info);
     for (uint32_t i = 0; i < class->property_count; i++) {
-        register_property(class, &class->properties[i]);
+        if (class->properties[i].type == GDEXTENSION_VARIANT_TYPE_NIL) {
+            register_group(class, class->properties[i].name);
+        } else {
+            register_property(class, &class->properties[i]);
+        }
     }
     for (uint32_t i = 0; i < class->method_count; i++) {
         const gd_method_row *m = &class->methods[i];
@@ -178,7 +211,7 @@ void gd_register(const gd_class *class) {
                                     gd_unconst(m),
                                     gd_method_call,
                                     gd_method_ptrcall,
-                                    {"", m->result, NULL},
+                                    {"", m->result, m->result_class},
                                     m->arguments,
                                     m->argument_count,
                                     0};

@@ -26,6 +26,8 @@ func probe() -> void:
 	if stage != null:
 		probe_button(stage)
 		probe_gizmo(stage.get_node("KnurlDevice"))
+		probe_rows(stage.get_node("KnurlDevice"))
+		await probe_help()
 		await probe_warnings(stage.get_node("KnurlSurface"))
 		await probe_limits(stage)
 		checks.equal(
@@ -65,6 +67,27 @@ func probe_gizmo(device: Node3D) -> void:
 		gizmo.workspace_of(device), 2.0 * Vector3(0.16, 0.12, 0.07), "its workspace, scaled by 2"
 	)
 	checks.equal(gizmo.edges_of(AABB(Vector3.ZERO, Vector3.ONE)).size(), 24, "a box has 12 edges")
+
+
+## What only a game tells has no row.
+func probe_rows(device: Node) -> void:
+	for property: Dictionary in device.get_property_list():
+		if property.name in ["force", "running", "ticks", "hip_position"]:
+			checks.equal(property.usage & PROPERTY_USAGE_EDITOR, 0, "rows for " + property.name)
+
+
+func probe_help() -> void:
+	EditorInterface.get_script_editor().goto_help("class_name:KnurlDevice")
+	await get_tree().create_timer(1.0).timeout
+	var pages: Array[Node] = EditorInterface.get_script_editor().find_children(
+		"*", "RichTextLabel", true, false
+	)
+	var texts: Array = pages.map(func(page: Node) -> String: return page.get_parsed_text()).filter(
+		func(text: String) -> bool: return "Runs a haptic thread" in text
+	)
+	checks.equal(texts.size(), 1, "pages of KnurlDevice")
+	for text: String in texts:
+		checks.check("\tA game that is paused" not in text, "no paragraph is indented by tabs")
 
 
 func probe_warnings(surface: Node) -> void:

@@ -273,7 +273,7 @@ namespace Knurl
 
         /// <summary>The KnurlSurface that is touched, of several the one pressed deepest; null where none is, or one of
         /// LoadGltf.</summary>
-        public GodotObject GetTouchedSurface() { return Object.Call("get_touched_surface").AsGodotObject(); }
+        public KnurlSurface GetTouchedSurface() { return KnurlSurface.Of(Object.Call("get_touched_surface").AsGodotObject()); }
 
         /// <summary>What is wrong with how it is set up: a sentence each. Empty where all is well.</summary>
         public string[] GetWarnings() { return Object.Call("get_warnings").AsStringArray(); }
@@ -297,7 +297,7 @@ namespace Knurl
         /// Needs a fake device.</summary>
         public double[] PlayTrace(double[] rows, long ticks) { return Object.Call("play_trace", rows, ticks).AsFloat64Array(); }
 
-        /// <summary>Opens the device and starts to feel. Returns an @GlobalScope.Error, after an error that says
+        /// <summary>Opens the device and starts to feel. What it returns instead of OK comes after an error that says
         /// why.</summary>
         public long Start() { return Object.Call("start").AsInt64(); }
 
@@ -337,8 +337,8 @@ namespace Knurl
             Object.Connect("fault", Callable.From((long code, string text) => handler(code, text)));
         }
 
-        /// <summary>A start by Autostart failed, with an @GlobalScope.Error and a sentence for people. Told once,
-        /// however often Retry has it tried again.</summary>
+        /// <summary>A start by Autostart failed, with an Error and a sentence for people. Told once, however often
+        /// Retry has it tried again.</summary>
         public void OnStartFailed(Action<long, string> handler)
         {
             Object.Connect("start_failed", Callable.From((long error, string text) => handler(error, text)));
