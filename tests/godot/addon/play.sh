@@ -171,6 +171,9 @@ editor) # the plugin's parts, in the editor's process
     play 120 "${headless[@]}" --path . --import
     play 120 "${headless[@]}" --path . --editor
     grep -qE '^[1-9][0-9]* passed, 0 failed$' "$log" || { echo "play: no counts" >&2; exit 1; }
+    # The editor adds to a project's version control no ids of its own for the add-on's files.
+    diff <(cd "$root/bindings/godot/addons" && find . -name '*.uid' | sort | xargs grep .) \
+        <(cd "$project/addons" && find ./knurl -name '*.uid' | sort | xargs grep .)
     ;;
 overlay)
     new_project
