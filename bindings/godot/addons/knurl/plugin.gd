@@ -17,7 +17,11 @@ var _overlay: GDScript
 func _enter_tree() -> void:
 	if not ClassDB.class_exists(&"KnurlSurface"):
 		push_error(
-			"Knurl: its library is not loaded: expected one for this platform in %sbin" % FOLDER
+			(
+				"Knurl: its library is not loaded: expected one for this platform in %sbin; "
+				+ "the add-on's zip brings it, the folder of a clone does not (see README.md)"
+			)
+			% FOLDER
 		)
 		return
 	_gltf = load(FOLDER + "import.gd")
