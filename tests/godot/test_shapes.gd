@@ -25,7 +25,37 @@ func holds(what: String, s: Node3D, at: Vector3, expected := 0.4, tolerance := 1
 	check_near("%s is felt" % what, press(at), expected, tolerance)
 
 
+# The engine builds a CSG shape and a grid map's meshes at the end of a frame, and games paint grid maps later.
+func made_with_the_device() -> void:
+	var mesh := BoxMesh.new()
+	mesh.size = Vector3.ONE * 0.02
+	var csg := CSGBox3D.new()
+	csg.size = mesh.size
+	root.add_child(csg)
+	var box := surface_below(csg)
+	var grid := GridMap.new()
+	grid.mesh_library = MeshLibrary.new()
+	grid.mesh_library.create_item(0)
+	grid.mesh_library.set_item_mesh(0, mesh)
+	grid.cell_size = mesh.size
+	root.add_child(grid)
+	var tiles := surface_below(grid)
+	var d := make_device()
+	check("starts", d.start() == OK)
+	await frames(3)
+	check("a CSG shape made as the device starts", box.get_triangle_count() == 12, box.get_triangle_count())
+	expect_error("its mesh has no triangles")
+	await frames(20)
+	check("an empty grid map is told once", not tiles.get_warnings().is_empty())
+	grid.set_cell_item(Vector3i.ZERO, 0)
+	await frames(3)
+	check("painted, it is felt", tiles.get_triangle_count() == 12, tiles.get_triangle_count())
+	check("and has nothing to say", tiles.get_warnings().is_empty(), tiles.get_warnings())
+	clear()
+
+
 func tests() -> void:
+	await made_with_the_device()
 	var csg := CSGBox3D.new()
 	csg.size = Vector3(0.1, 0.02, 0.1)
 	root.add_child(csg)

@@ -43,6 +43,20 @@ static void keep_rotation(surface_placement *placement, const gd_transform *tran
     memcpy(placement->quaternion, quaternion, sizeof placement->quaternion);
 }
 
+/* It could not be put into the scene. An empty CSG shape or grid map is tried again in each frame. */
+static void refuse(device *d, surface *s, knurl_result why) {
+    const int may_come = why == KNURL_ERROR_STATE && geometry_is_made_later(surface_parent(s));
+    if (!may_come || s->tries + 1 == TRIES) {
+        complain(d, s);
+    }
+    if (may_come) {
+        s->tries = s->tries < TRIES ? (uint8_t)(s->tries + 1) : TRIES;
+        s->made_anew |= (uint8_t)(1u << d->slot);
+        surface_mark(s);
+    }
+    follow_remove(d, s);
+}
+
 void follow_put(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
@@ -66,11 +80,12 @@ void follow_put(device *d, surface *s) {
         follow_remove(d, s);
         return;
     }
-    if (surface_put(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot])) {
-        complain(d, s);
-        follow_remove(d, s);
+    const knurl_result failed = surface_put(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot]);
+    if (failed) {
+        refuse(d, s, failed);
         return;
     }
+    s->tries = 0;
     warnings_keep(s, NULL);
     surface_placement *placement = &s->placements[d->slot];
     if (!before) {
@@ -138,9 +153,11 @@ static void set_material(device *d, surface *s) {
 static void apply_changes(device *d, surface *s) {
     const uint8_t bit = (uint8_t)(1u << d->slot);
     const uint8_t others = (uint8_t)~bit;
+    const int is_anew = ((s->made_anew | (s->flat & s->moved)) & bit) != 0;
+    s->made_anew &= others;
     if (s->is_leaving) {
         follow_remove(d, s);
-    } else if ((s->made_anew | (s->flat & s->moved)) & bit) {
+    } else if (is_anew) {
         follow_put(d, s);
     }
     if (s->ids[d->slot] && s->grating && s->changed & bit) {
@@ -151,7 +168,6 @@ static void apply_changes(device *d, surface *s) {
     }
     s->changed &= others;
     s->moved &= others;
-    s->made_anew &= others;
 }
 
 int follow_is_felt(const surface *s) {

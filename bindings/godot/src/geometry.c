@@ -63,6 +63,10 @@ static mesh_place place_at(const double baked[9], GDExtensionConstVariantPtr var
     return place;
 }
 
+int geometry_is_made_later(GDExtensionObjectPtr node) {
+    return gd_cast(node, "CSGShape3D") || gd_cast(node, "GridMap");
+}
+
 /* CSGShape3D and GridMap: get_meshes() has a Transform3D and a Mesh in turn. */
 static int read_pairs(GDExtensionObjectPtr node, const double baked[9], mesh_data *data) {
     uint64_t array;
@@ -140,7 +144,7 @@ int geometry_read(GDExtensionObjectPtr node, const double baked[9], mesh_data *d
     } else if (gd_cast(node, "MultiMeshInstance3D")) {
         const GDExtensionObjectPtr many = resource_of(node, "get_multimesh", &held);
         fits = many ? read_instances(many, baked, data) : 1;
-    } else if (gd_cast(node, "CSGShape3D") || gd_cast(node, "GridMap")) {
+    } else if (geometry_is_made_later(node)) {
         fits = read_pairs(node, baked, data);
     } else if (gd_cast(node, "CollisionShape3D")) {
         const GDExtensionObjectPtr shape = resource_of(node, "get_shape", &held);
@@ -186,7 +190,7 @@ void geometry_refuse(GDExtensionObjectPtr node, char *text, size_t size) {
         refuse_resource(node, "get_multimesh", "multimesh", text, size);
     } else if (gd_cast(node, "CollisionShape3D")) {
         refuse_shape(node, text, size);
-    } else if (!gd_cast(node, "CSGShape3D") && !gd_cast(node, "GridMap")) {
+    } else if (!geometry_is_made_later(node)) {
         class_of(node, name, sizeof name);
         (void)snprintf(text, size, "Its parent is a %s, which has no shape to feel: expected " NODES ".", name);
     }

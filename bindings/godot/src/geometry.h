@@ -4,6 +4,9 @@
 
 #include "mesh.h"
 
+/* 1: a node that makes its meshes itself, at the end of a frame, and tells nobody. */
+int geometry_is_made_later(GDExtensionObjectPtr node);
+
 /* Why a node's shape cannot be felt, a sentence in a caller's buffer; "" where it can. node: or null. */
 void geometry_refuse(GDExtensionObjectPtr node, char *text, size_t size);
 

@@ -2,6 +2,7 @@
  * device with the real one's limits. For the editor. SPDX-License-Identifier: MIT */
 #include "preview.h"
 
+#include "geometry.h"
 #include "surface_node.h"
 #include "warnings.h"
 
@@ -108,5 +109,6 @@ void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_
         }
     }
     warnings_keep(s, text);
-    s->explained = s->explanation ? key : 0;
+    const int may_change = !can_be_felt && geometry_is_made_later(surface_parent(s)); /* and nothing tells of it */
+    s->explained = s->explanation && !may_change ? key : 0;
 }

@@ -28,6 +28,7 @@ static void finish(void *self) {
 static void make_anew(void *self) {
     surface *s = self;
     s->made_anew = ALL_SLOTS;
+    s->tries = 0;
     surface_mark(s);
     if (gd_is_in_editor()) {
         warnings_refresh(&s->base);

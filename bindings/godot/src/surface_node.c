@@ -65,7 +65,7 @@ knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pos
     const int fits = geometry_read(surface_parent(s), at->rest, &data);
     knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
     if (fits && data.index_count == 0) {
-        result = knurl_fail(KNURL_ERROR_ARGUMENT, "its mesh has no triangles");
+        result = knurl_fail(KNURL_ERROR_STATE, "its mesh has no triangles");
     }
     mesh_describe(&data, &mesh);
     result = result ? result : add_or_replace(scene, &desc, id);

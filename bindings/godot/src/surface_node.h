@@ -21,7 +21,7 @@ int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
 int surface_is_on_layer_of(const surface *s, const device *d);
 
 /* Puts a surface into a scene, in the place of *id, or where that is 0 beside what is there: then it gets the id. It
- * has a grating and a parent that can be felt. */
+ * has a grating and a parent that can be felt. KNURL_ERROR_STATE: there are no triangles yet. */
 knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id);
 
 #endif

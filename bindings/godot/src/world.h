@@ -9,6 +9,9 @@
 /* Devices that run at once; each has a bit in a surface's masks. */
 enum { DEVICE_SLOTS = 8, ALL_SLOTS = 255 };
 
+/* Frames that a node which makes its meshes itself has for it before it is told that it has none. */
+enum { TRIES = 10 };
+
 /* A surface in a running device's scene, as it was put or moved there last. */
 typedef struct surface_placement {
     knurl_session_way way;
@@ -35,6 +38,7 @@ typedef struct surface {
     uint8_t is_leaving; /* 1: out of the tree since the last frame; it may come back at once */
     uint8_t is_dying;   /* 1: being freed */
     uint8_t moved, changed, made_anew;  /* masks: which running device has yet to be told */
+    uint8_t tries;                      /* frames in which its parent had no triangles yet; stays at TRIES */
     uint8_t by_physics;                 /* 1: a step of the physics moved it last */
     uint8_t flat;                       /* mask: scaled to nothing, so not in that device's scene */
     knurl_surface_id ids[DEVICE_SLOTS]; /* in each running device's scene, or 0 */

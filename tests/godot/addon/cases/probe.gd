@@ -30,6 +30,7 @@ func probe() -> void:
 		await probe_help()
 		await probe_warnings(stage.get_node("KnurlSurface"))
 		await probe_limits(stage)
+		await probe_paint(stage)
 		checks.equal(
 			stage.get_node("KnurlDevice").get("running"), false, "no device runs in the editor"
 		)
@@ -147,6 +148,30 @@ func probe_limits(stage: Node) -> void:
 	mesh.free()
 	device.free()
 	await get_tree().process_frame
+
+
+## A grid map is empty until something is painted.
+func probe_paint(stage: Node) -> void:
+	var mesh := BoxMesh.new()
+	mesh.size = Vector3(0.02, 0.02, 0.02)
+	var grid := GridMap.new()
+	grid.mesh_library = MeshLibrary.new()
+	grid.mesh_library.create_item(0)
+	grid.mesh_library.set_item_mesh(0, mesh)
+	grid.cell_size = mesh.size
+	var surface: Node3D = ClassDB.instantiate(&"KnurlSurface")
+	surface.grating = ClassDB.instantiate(&"KnurlGrating")
+	surface.axis = Vector3.RIGHT
+	grid.add_child(surface)
+	stage.add_child(grid)
+	await get_tree().process_frame
+	checks.check("no triangles" in " ".join(surface.get_warnings()), "an empty grid map")
+	grid.set_cell_item(Vector3i.ZERO, 0)
+	await get_tree().create_timer(0.2).timeout
+	checks.check(
+		not "no triangles" in " ".join(surface.get_warnings()), "a painted grid map has triangles"
+	)
+	grid.free()
 
 
 ## Those that name a device.
