@@ -33,7 +33,7 @@ static void initialize(void *user, GDExtensionInitializationLevel level) {
         for (int i = 0; i < CLASS_COUNT; i++) {
             gd_register(classes[i]);
         }
-        signals_begin();
+        signals_begin(device_tell);
     } else if (level == GDEXTENSION_INITIALIZATION_EDITOR && is_registered) {
         show_documents();
     }

@@ -65,9 +65,18 @@ GDExtensionClassCallVirtual gd_find_virtual(void *class_userdata, GDExtensionCon
     return class->warnings && is_name(name, "_get_configuration_warnings") ? call_warnings : NULL;
 }
 
+static gd_instance *instance_behind(GDExtensionObjectPtr object) {
+    return object ? gd.object_get_instance_binding(object, gd_library, NULL) : NULL;
+}
+
 void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class) {
-    gd_instance *found = object ? gd.object_get_instance_binding(object, gd_library, NULL) : NULL;
+    gd_instance *found = instance_behind(object);
     return found && found->of == class ? found : NULL;
+}
+
+void *gd_instance_named(GDExtensionObjectPtr object, const char *class_name) {
+    gd_instance *found = instance_behind(object);
+    return found && strcmp(found->of->name, class_name) == 0 ? found : NULL;
 }
 
 static size_t size_of(GDExtensionVariantType type) {

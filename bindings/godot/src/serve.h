@@ -4,8 +4,9 @@
 
 #include "classes.h"
 
-/* The instance of that class behind an object, or null. */
+/* The instance of that class behind an object, or null; by the class's name for files that depend on no class. */
 void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class);
+void *gd_instance_named(GDExtensionObjectPtr object, const char *class_name);
 
 /* What the engine calls of an instance; class_userdata is the gd_class. */
 GDExtensionObjectPtr gd_create(void *class_userdata);

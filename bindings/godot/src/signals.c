@@ -1,7 +1,6 @@
 /* Signals of a KnurlDevice: what happened since the last frame. SPDX-License-Identifier: MIT */
 #include "signals.h"
 
-#include "device.h"
 #include "serve.h"
 
 #include <stdlib.h>
@@ -14,6 +13,7 @@ typedef struct ending {
 
 static ending *endings, **last_ending = &endings;
 static GDExtensionObjectPtr teller;
+static void (*tell_device)(GDObjectInstanceID id);
 static GDObjectInstanceID paused_tree; /* whose frames the teller is told of, or 0 */
 
 /* The object of an instance id, or null, as a signal's argument. */
@@ -167,7 +167,7 @@ static void tell(void *self, const void *const *arguments, void *result) {
     memcpy(&id, arguments[0], sizeof id);
     signals_tell_ends();
     if (id) {
-        device_tell(id);
+        tell_device(id);
     }
 }
 
@@ -191,7 +191,7 @@ static void tell_in_pause(void *self, const void *const *arguments, void *result
         if (devices[i] && devices[i]->tree_paused) {
             is_paused = 1;
             knurl_session_update(devices[i]->session);
-            device_tell(gd.object_get_instance_id(devices[i]->base.object));
+            tell_device(gd.object_get_instance_id(devices[i]->base.object));
         }
     }
     const GDExtensionObjectPtr tree = gd.object_get_instance_from_id(paused_tree);
@@ -210,7 +210,8 @@ static void finish(void *self) {
     (void)self;
 }
 
-void signals_begin(void) {
+void signals_begin(void (*tell_news)(GDObjectInstanceID id)) {
+    tell_device = tell_news;
     teller = gd_create(gd_unconst(&teller_class));
 }
 

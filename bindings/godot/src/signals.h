@@ -7,9 +7,9 @@
 
 #include "world.h"
 
-/* The object that the message queue calls. */
+/* The object that the message queue calls. tell_news: tells a device's news, if there still is a device of that id. */
 extern const gd_class teller_class;
-void signals_begin(void);
+void signals_begin(void (*tell_news)(GDObjectInstanceID id));
 void signals_end(void);
 
 /* Has the engine tell ended contacts and then, unless it is 0, a device's news, before this frame ends. */

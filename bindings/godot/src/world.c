@@ -50,11 +50,11 @@ void surface_unlist(surface *s) {
 }
 
 device *device_of(GDObjectInstanceID id) {
-    return gd_instance_of(gd.object_get_instance_from_id(id), &device_class);
+    return gd_instance_named(gd.object_get_instance_from_id(id), "KnurlDevice");
 }
 
 surface *surface_of(GDObjectInstanceID id) {
-    return gd_instance_of(gd.object_get_instance_from_id(id), &surface_class);
+    return gd_instance_named(gd.object_get_instance_from_id(id), "KnurlSurface");
 }
 
 surface *surface_in(const device *d, knurl_surface_id id) {
