@@ -45,7 +45,7 @@ static void add_force(trial *t) {
 
 static void vibrate(trial *t) {
     double along[3];
-    const int32_t method = 1 + trial_below(t, 3);
+    const int32_t method = KNURL_WAVE_T1 + trial_below(t, 3);
     const double hz = trial_scale(t, 1.0, 0.499 * t->rate);
     const double amplitude = t->info.max_force * trial_scale(t, 0.01, 1.0);
     const double seconds = trial_uniform(t) < 0.2 ? 0.0 : trial_scale(t, 0.005, 0.2);

@@ -35,11 +35,8 @@ void judge_edits(judge *j) {
 }
 
 void judge_surface_is(judge *j, knurl_surface_id id, const knurl_material_desc *material) {
-    static const double peaks[] = {[KNURL_METHOD_DEFAULT] = 1.7320509,
-                                   [KNURL_S1] = 1.0,
-                                   [KNURL_S2] = 1.7320509,
-                                   [KNURL_LOCKED] = 1.7320509,
-                                   [KNURL_AREA] = 1.7320509};
+    static const double peaks[] = {[KNURL_METHOD_DEFAULT] = 1.2733, [KNURL_METHOD_S1] = 1.0,
+                                   [KNURL_METHOD_S2] = 1.7320509, [KNURL_METHOD_BANDLIMITED] = 1.2733};
     judge_surface *s = judge_find_surface(j, id);
     s = s ? s : judge_find_surface(j, 0);
     if (s) {
@@ -63,7 +60,7 @@ void judge_surface_gone(judge *j, knurl_surface_id id) {
 void judge_vibrate(judge *j, int32_t method, double frequency_hz, double amplitude, double seconds) {
     if (knurl_wave_init(method, 1.0 / frequency_hz, amplitude, j->rate, &j->wave) == KNURL_OK) {
         const uint64_t event =
-            method == KNURL_T3 ? (uint64_t)j->wave.parts[0].length : 1; /* T3 ends after a whole one */
+            method == KNURL_WAVE_T3 ? (uint64_t)j->wave.parts[0].length : 1; /* T3 ends after a whole one */
         j->wave_ticks = ((uint64_t)ceil(seconds * j->rate) + event - 1) / event * event;
         j->wave_tick = 0;
     }

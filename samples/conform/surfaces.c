@@ -6,7 +6,7 @@
 
 static void random_material(trial *t, knurl_material_desc *m) {
     knurl_material_desc_init(m, sizeof *m);
-    m->method = 1 + trial_below(t, 4);
+    m->method = KNURL_METHOD_S1 + trial_below(t, KNURL_METHOD_BANDLIMITED);
     m->spatial_frequency[0] = trial_uniform(t) < 0.3 ? 0.0 : trial_scale(t, 50.0, 3000.0);
     m->spatial_frequency[1] = trial_uniform(t) < 0.6 ? 0.0 : trial_scale(t, 50.0, 3000.0);
     m->amplitude = trial_uniform(t) < 0.2 ? 0.0 : trial_scale(t, 1e-5, 1e-3);

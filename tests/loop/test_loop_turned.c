@@ -110,7 +110,7 @@ TEST_WITH(a_vibration_passes_a_turned_workspace_to_the_bit, NULL, end_bench) {
     bench_create(&b);
     turn(1, 0.0);
     step(1);
-    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_T3, 250.0, 1.0, along, 0.02), KNURL_OK);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 250.0, 1.0, along, 0.02), KNURL_OK);
     for (int k = 0; k < 20; k++) {
         step(1);
         CHECK_VECTOR(written(0), k % 4 < 2 ? -1.0 : 1.0, 0.0, 0.0, 0.0);

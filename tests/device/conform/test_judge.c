@@ -99,7 +99,7 @@ TEST(a_force_that_turns_or_grows_faster_than_the_slew_limit_is_found) {
 TEST(a_textures_own_step_is_allowed_and_no_more) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
-    material.method = KNURL_S1;
+    material.method = KNURL_METHOD_S1;
     material.stiffness = 1000.0;
     material.amplitude = 0.0005; /* steps of 1 N */
     for (int over = 0; over < 2; over++) {
@@ -118,7 +118,7 @@ TEST(a_textures_own_step_is_allowed_and_no_more) {
 TEST(a_vibrations_own_steps_are_allowed_and_no_more) {
     for (int over = 0; over < 2; over++) {
         begin();
-        judge_vibrate(&j, KNURL_T1, 250.0, 1.0, 0.5); /* 2 ticks up, 2 down */
+        judge_vibrate(&j, KNURL_WAVE_T1, 250.0, 1.0, 0.5); /* 2 ticks up, 2 down */
         tick_of(over ? 2.1 : 1.9, 0.0);
         tick_of(over ? 2.1 : 1.9, 0.0);
         tick_of(-0.1, 0.0);
