@@ -41,7 +41,7 @@ func hints() -> void:
 		check(name + " has a range", p.get("hint") == RANGE, p)
 		check(name + "'s hint", expected[name] in p.get("hint_string", ""), p)
 		check(name + " is stored", p.get("usage", 0) & PROPERTY_USAGE_STORAGE != 0)
-	check("method's names", property(g, "method").hint_string == "Default,S1,S2,Locked,Area")
+	check("method's names", property(g, "method").hint_string == "Default,S1,S2,Bandlimited")
 	var s: Node3D = ClassDB.instantiate(&"KnurlSurface")
 	var held := property(s, "grating")
 	check("grating's class", held.hint == PROPERTY_HINT_RESOURCE_TYPE and held.hint_string == "KnurlGrating", held)

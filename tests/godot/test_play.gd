@@ -114,7 +114,7 @@ func tests() -> void:
 	await tells_surfaces()
 	await pushes()
 	var grating: Resource = ClassDB.instantiate(&"KnurlGrating")
-	check("methods have names", ClassDB.class_get_integer_constant(&"KnurlGrating", &"METHOD_LOCKED") == 3 and
+	check("methods have names", ClassDB.class_get_integer_constant(&"KnurlGrating", &"METHOD_BANDLIMITED") == 3 and
 			ClassDB.class_get_enum_constants(&"KnurlGrating", &"Method").size() == 5)
 	check("so have faults", ClassDB.class_get_integer_constant(&"KnurlDevice", &"FAULT_LOST") == 1 and
 			ClassDB.class_get_integer_constant(&"KnurlDevice", &"FAULT_RECONNECTED") == 33)

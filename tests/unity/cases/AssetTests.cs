@@ -38,7 +38,7 @@ namespace Knurl.Tests
             Assert.AreEqual((float)Glb.Value(expected.Tag, "damping", 0.0), found.Damping, what);
             Assert.AreEqual((float)Glb.Value(expected.Tag, "friction", 0.0), found.Friction, what);
             Assert.AreEqual((float)Glb.Value(expected.Tag, "orientation", 0.0), found.Orientation, what);
-            Assert.AreEqual(GratingMethod.Locked, found.Method, what); // none of them names one
+            Assert.AreEqual(GratingMethod.Bandlimited, found.Method, what); // none of them names one
             Assert.AreEqual(expected.IsDoubleSided, found.DoubleSided, what);
         }
 
