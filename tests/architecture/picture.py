@@ -12,16 +12,18 @@ MODULES = {
     "audio": (316, 72, 474, 146, "a tick's sound"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
     "device": (16, 178, 146, 456, "any device"),
-    "scene": (172, 178, 928, 508, "surfaces, edits from other threads, and the tick"),
+    "scene": (172, 178, 928, 508, "the tick and all that it runs: folders surface, proxy, guard, hip, scene, stroke"),
     "motion": (16, 472, 146, 556, "positions to speeds"),
     "contact": (172, 550, 752, 866, "where a HIP touches"),
     "grating": (782, 550, 928, 666, "a height from a speed"),
     "vibration": (782, 690, 928, 774, "square waves in time"),
     "base": (16, 896, 928, 964, "used by all modules"),
 }
+# Modules that are drawn as one, for their boxes are.
+TOGETHER = {"scene": ("surface", "proxy", "guard", "hip", "scene", "stroke")}
 # Where the arrow between two modules stands: x, or y where they stand side by side. Boxes in a module have arrows of their
 # own to boxes in other modules.
-MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 482,
+MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 482, ("scene", "device"): 300,
                  ("scene", "grating"): 855, ("grating", "vibration"): 855}
 
 # Box: its middle, its top, its width, its title, the line below it, the units in it.
@@ -29,22 +31,22 @@ BOXES = {
     "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick"]),
     "edits": (330, 206, 180, "edits, questions", "from other threads",
               ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
-               "scene/walk"]),
-    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "scene/hip", "scene/hip_workspace"]),
-    "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["scene/broad_phase"]),
-    "candidates": (363, 372, 108, "candidates", "what may be met", ["scene/candidate", "scene/candidates", "scene/hip_clock"]),
-    "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["scene/contact_update"]),
-    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["scene/force_law"]),
-    "guard": (738, 372, 108, "guard", "first and last", ["scene/guard", "scene/last_stage"]),
-    "snapshot": (863, 372, 108, "snapshot", "for other threads", ["scene/snapshot"]),
+               "stroke/walk", "stroke/lay"]),
+    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "hip/hip", "hip/hip_workspace"]),
+    "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),
+    "candidates": (363, 372, 108, "candidates", "what may be met", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
+    "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["proxy/contact_update"]),
+    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/force_law"]),
+    "guard": (738, 372, 108, "guard", "first and last", ["guard/guard", "guard/last_stage"]),
+    "snapshot": (863, 372, 108, "snapshot", "for other threads", ["hip/snapshot"]),
     "limits": (738, 456, 190, "wall, passivity, bounds, heat", "nothing runs away or burns",
-               ["scene/wall", "scene/passivity", "scene/bounds", "scene/heat", "scene/hip_facts"]),
+               ["guard/wall", "guard/passivity", "guard/bounds", "guard/heat", "guard/hip_facts"]),
     "joint": (270, 456, 130, "joint_contact", "where surfaces meet",
-              ["scene/joint_contact", "scene/joint_search", "scene/joint_faces", "scene/god_object",
-               "scene/active_faces", "scene/obstacles", "scene/contacts"]),
+              ["proxy/joint_contact", "proxy/joint_search", "proxy/joint_faces", "proxy/god_object",
+               "proxy/active_faces", "proxy/obstacles", "proxy/contacts"]),
     "surfaces": (492, 456, 270, "surfaces", "what they are, feel like, where they move",
-                 ["scene/surfaces", "scene/surface", "scene/surface_frame", "scene/record", "scene/pose",
-                  "scene/epoch"]),
+                 ["surface/surfaces", "surface/surface", "surface/surface_frame", "surface/record", "surface/pose",
+                  "surface/epoch"]),
     "shape": (462, 578, 210, "shape", "plane or mesh? asked here, once", ["contact/shape", "contact/shape_facts"]),
     "make_plane": (270, 644, 160, "plane_from_mesh", "a sheet and its outline",
                    ["contact/plane_from_mesh", "contact/outline", "contact/outline_overlap", "contact/edge_table",
@@ -80,6 +82,10 @@ text { fill: #e6edf3; } .small { fill: #9da7b1; } .paper { fill: #0d1117; } .mod
 .call { stroke: #4493f8; } .head { fill: #8b949e; } .callhead { fill: #4493f8; } .badge { fill: #4493f8; }
 .number { fill: #0d1117; } }
 """
+
+
+def units_of(code, module):
+    return [unit for part in TOGETHER.get(module, (module,)) for unit in code.units_of(part)]
 
 
 def reduced(uses):
@@ -176,7 +182,7 @@ def draw_modules(svg, code):
         svg.text(left + 12 if narrow else left + 24 + 8 * len(module), top + (37 if narrow else 20), about, "small")
         if module in ("scene", "contact"):
             continue
-        names = dict.fromkeys(unit.split("/")[1] for unit in code.units_of(module))  # a driver's files are one
+        names = dict.fromkeys(unit.split("/")[1] for unit in units_of(code, module))  # a driver's files are one
         y = top + (58 if narrow else 38)
         for line in wrap(names, int((right - left - 20) / 6.4)):
             svg.text(left + 12, y, line, "")
@@ -197,11 +203,11 @@ def draw_module_arrows(svg, modules):
 
 def draw(code):
     """The picture's text, and what it has no place for."""
-    missing = [f"picture.py: {unit} has no box" for module in ("scene", "contact") for unit in code.units_of(module)
+    missing = [f"picture.py: {unit} has no box" for module in ("scene", "contact") for unit in units_of(code, module)
                if not any(unit in box[5] for box in BOXES.values())]
     missing += [f"picture.py: there is no {unit}" for box in BOXES.values() for unit in box[5] if unit not in code.uses]
     boxes = between(code, {name: box[5] for name, box in BOXES.items()})
-    modules = reduced(between(code, {module: code.units_of(module) for module in MODULES if module != "base"}))
+    modules = reduced(between(code, {module: units_of(code, module) for module in MODULES if module != "base"}))
     modules["gltf"] |= {"scene"} & set().union(*(code.public[path] for path in code.public if "/gltf/" in path))
     modules["audio"] |= {"scene"}  # a tick's output, from the public header
     modules["scene"].discard("contact")  # from box to box

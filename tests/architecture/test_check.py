@@ -45,9 +45,9 @@ class Tree(unittest.TestCase):
         self.assertEqual(check.check_modules(self.code()), [])
 
     def test_a_module_that_points_back_is_reported(self):
-        self.write("sdk/src/contact/mesh.c", '#include "scene/surface.h"\n')
-        self.write("sdk/src/scene/surface.h")
-        self.assertEqual(check.check_modules(self.code()), ["contact may use base: contact/mesh uses scene/surface"])
+        self.write("sdk/src/contact/mesh.c", '#include "surface/surface.h"\n')
+        self.write("sdk/src/surface/surface.h")
+        self.assertEqual(check.check_modules(self.code()), ["contact may use base: contact/mesh uses surface/surface"])
 
     def test_a_public_header_points_back_no_more_than_a_private_one(self):
         self.write("sdk/src/contact/mesh.c", "#include <knurl/scene.h>\n")
@@ -120,8 +120,8 @@ class Tree(unittest.TestCase):
             for unit in box[5]:
                 self.write(f"sdk/src/{unit}.c")
         before = picture.draw(self.code())[0]
-        self.write("sdk/src/scene/guard.h")
-        self.write("sdk/src/scene/snapshot.c", '#include "scene/guard.h"\n')
+        self.write("sdk/src/guard/guard.h")
+        self.write("sdk/src/hip/snapshot.c", '#include "guard/guard.h"\n')
         self.assertNotEqual(picture.draw(self.code())[0], before)
 
 

@@ -1,6 +1,6 @@
 /* The last stage by itself: what a force may change by in a tick, what a halt does, how warm motors get. The slew limit
  * is 0.66 N a tick: 3.3 N within 5 ms at 1 kHz. SPDX-License-Identifier: MIT */
-#include "scene/last_stage.h"
+#include "guard/last_stage.h"
 
 #include "support/scenes.h"
 

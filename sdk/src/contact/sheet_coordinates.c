@@ -1,5 +1,5 @@
 /* Surface coordinates of a flat sheet where they are affine: the grating's x, and the map. The same rules as in
- * mesh_frame.c and scene/surface_frame.h.
+ * mesh_frame.c and surface/surface_frame.h.
  * SPDX-License-Identifier: MIT */
 #include "contact/sheet_coordinates.h"
 

@@ -7,7 +7,7 @@
 #include "base/histogram.h"
 #include "base/system.h"
 #include "device/port.h"
-#include "scene/hip.h"
+#include "hip/hip.h"
 
 #include <knurl/loop.h>
 #include <knurl/vibration.h>

@@ -6,7 +6,7 @@
 #define KNURL_SRC_SCENE_H
 
 #include "base/handle.h"
-#include "scene/hip.h"
+#include "hip/hip.h"
 
 /* In knurl_scene.use: destroyed by its owner, kept for the loops that use it. Above the bits of all HIPs. */
 #define KNURL_SCENE_DESTROYED 0x100u

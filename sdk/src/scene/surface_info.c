@@ -1,6 +1,6 @@
 /* Reports on a surface, and finds an anchor for strokes. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
-#include "scene/surface_frame.h"
+#include "surface/surface_frame.h"
 
 #include "base/base.h"
 #include "base/vec3.h"

@@ -2,7 +2,7 @@
  * update contacts (broad phase, candidates, contact); compute forces (grating, Eq. 9, friction) between the guard's
  * protections; convert the sum to device axes; the last stage; publish. Nothing called from here uses the heap, a lock,
  * a system call, a clock, a log or a file. SPDX-License-Identifier: MIT */
-#include "scene/force_law.h"
+#include "hip/force_law.h"
 #include "scene/scene.h"
 
 #include "base/atomic.h"

@@ -1,0 +1,62 @@
+/* The last stage on a force's way to a device. SPDX-License-Identifier: MIT */
+#include "guard/last_stage.h"
+
+#include <string.h>
+
+/* s in which a force may grow from zero to max_force if no slew_rate is given. */
+#define SLEW_TIME 0.005
+
+void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double slew_rate,
+                           const knurl_hip_facts *facts) {
+    const double square = stage->heat.square;
+    const double rate = slew_rate > 0.0 ? slew_rate : facts->max_force / SLEW_TIME;
+    memset(stage, 0, sizeof *stage);
+    stage->slew = protections & KNURL_PROTECT_SLEW ? rate / facts->rate : HUGE_VAL;
+    knurl_heat_init(&stage->heat, facts, (protections & KNURL_PROTECT_HEAT) != 0);
+    stage->heat.square = square;
+}
+
+/* The gain applies to the force after it is cut to what the motors can give, so that a ramp's full length is used. */
+static void attenuate(const knurl_last_stage *stage, double gain, double force[3]) {
+    const double length = vec3_length(force);
+    const double most = knurl_heat_limit(&stage->heat);
+    vec3_scale(length > most ? gain * (most / length) : gain, force, force);
+}
+
+/* A fall is free, a turn is not: the change is measured from the latest force made as short as the new one. After a
+ * squeeze a fall is not free either, until it is over. most: N that the force may change by. */
+static void limit_slew(knurl_last_stage *stage, double most, double force[3], uint32_t *flags) {
+    double from[3];
+    double change[3];
+    const double latest2 = vec3_dot(stage->force, stage->force);
+    const double new2 = vec3_dot(force, force);
+    const int falls = vec3_dot(force, stage->force) < latest2;
+    vec3_scale(stage->release || !(new2 < latest2) ? 1.0 : sqrt(new2 / latest2), stage->force, from);
+    vec3_sub(force, from, change);
+    const double change2 = vec3_dot(change, change);
+    stage->release &= change2 > most * most && (falls || (*flags & KNURL_TICK_SQUEEZED));
+    if (change2 > most * most) {
+        vec3_madd(from, most / sqrt(change2), change, force);
+        *flags |= KNURL_TICK_SLEW;
+    }
+}
+
+void knurl_last_stage_limit_change(knurl_last_stage *stage, double gain, double steps, double force[3],
+                                   uint32_t *flags) {
+    const double free = stage->slew + gain * steps;
+    stage->release |= (*flags & KNURL_TICK_SQUEEZED) != 0;
+    if (gain < 1.0) {
+        attenuate(stage, gain, force);
+    }
+    if (gain != 0.0 && !(vec3_distance2(force, stage->force) <= free * free)) {
+        limit_slew(stage, free, force, flags);
+    } else { /* without gain zero at once, also after a squeeze */
+        stage->release = 0;
+    }
+}
+
+void knurl_last_stage_note(knurl_last_stage *stage, const double force[3]) {
+    vec3_copy(force, stage->force);
+    stage->release = 0;
+    knurl_heat_add(&stage->heat, vec3_dot(force, force));
+}

@@ -1,0 +1,88 @@
+/* The passivity controller: detects walls that oscillate by themselves, and softens them.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_PASSIVITY_H
+#define KNURL_SRC_PASSIVITY_H
+
+#include "base/base.h"
+#include "guard/hip_facts.h"
+#include "guard/wall.h"
+
+#define KNURL_PASSIVITY_REVERSAL 0.2e-3 /* m that the depth must come back by to count as a reversal: four quanta */
+
+/* A HIP's swings in walls that could be unstable. Scene units. */
+typedef struct knurl_passivity {
+    double safe;       /* N/m: a wall up to this is stable, and not watched; infinite: protection off */
+    double unit;       /* m, scene: a device's metre */
+    double longest;    /* ticks of a swing in and out; what takes longer may be a hand's motion */
+    double depth;      /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
+    double extreme;    /* m: depth at the latest reversal */
+    double farthest;   /* m: farthest depth since, in the present direction */
+    double largest;    /* m: largest swing of the row, decaying */
+    double squares;    /* m^2: of the row's swings */
+    double moved;      /* m: how much H changed since the latest reversal, */
+    int32_t crossings; /* and how often it crossed 0, */
+    int32_t crossed;   /* and in the half swing before */
+    int32_t row;       /* swings, each as large as those before it */
+    int32_t ticks;     /* since the latest reversal, */
+    int32_t before;    /* and in the half swing before */
+    int32_t outwards;  /* 1: heading out */
+    int32_t busy;      /* 1: there is a depth to follow, or an alarm */
+    int32_t alarmed;
+    double soft;      /* 0 to 1: as soft as is passive */
+    double softening; /* of the way there, a tick */
+    double off;       /* ticks since the HIP was last in a wall */
+    double off_most;  /* after so many the alarm ends */
+} knurl_passivity;
+
+void knurl_passivity_init(knurl_passivity *passivity, const knurl_hip_facts *facts);
+
+/* Sets what depends on the workspace's scale: scene metres a device metre. watches: 0: left out. */
+void knurl_passivity_set_scale(knurl_passivity *passivity, int watches, const knurl_hip_facts *facts,
+                               double scale) KNURL_NONBLOCKING;
+
+/* What is rare: called by knurl_passivity_follow(). */
+void knurl_passivity_go_on(knurl_passivity *passivity) KNURL_NONBLOCKING;
+void knurl_passivity_end_swing(knurl_passivity *passivity) KNURL_NONBLOCKING;
+
+static inline void knurl_passivity_end_row(knurl_passivity *p) {
+    p->largest = p->squares = 0.0;
+    p->row = 0;
+}
+
+/* From one tick to the next; only while it is busy. */
+static inline void knurl_passivity_follow(knurl_passivity *p) {
+    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    p->ticks += !p->alarmed;
+    if (KNURL_UNLIKELY(p->alarmed)) {
+        knurl_passivity_go_on(p);
+    } else if (beyond > 0.0) {
+        p->farthest = p->depth;
+    } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
+        knurl_passivity_end_swing(p);
+    } else if (p->ticks > p->longest) { /* rests, or is off */
+        knurl_passivity_end_row(p);
+        p->ticks = (int32_t)p->longest;
+        p->crossings = 0;
+        p->moved = 0.0;
+        p->busy = p->depth > 0.0;
+    }
+    p->depth = 0.0;
+}
+
+/* Softens a wall that the HIP is in during an alarm: called by knurl_passivity_watch(). */
+void knurl_passivity_soften(knurl_passivity *passivity, knurl_wall *wall) KNURL_NONBLOCKING;
+
+/* Follows the depth in a wall that could be unstable; during an alarm, softens it. */
+static inline void knurl_passivity_watch(knurl_passivity *p, knurl_wall *wall, uint32_t *flags) {
+    const double depth = -wall->z;
+    p->depth = depth > p->depth ? depth : p->depth;
+    p->busy = 1;
+    if (KNURL_UNLIKELY(p->alarmed) && depth > 0.0) {
+        knurl_wall softened = *wall; /* a copy, so that `wall` itself can stay in registers */
+        knurl_passivity_soften(p, &softened);
+        *wall = softened;
+        *flags |= KNURL_TICK_PASSIVITY;
+    }
+}
+
+#endif

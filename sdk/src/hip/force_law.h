@@ -1,0 +1,120 @@
+/* The force of a contact: velocity over the surface, the grating's height, Eq. 9, friction. Pure: the only state is the
+ * candidate's grating and friction anchor.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_FORCE_LAW_H
+#define KNURL_SRC_FORCE_LAW_H
+
+#include "base/base.h"
+#include "grating/step.h"
+#include "proxy/contact_update.h"
+#include "surface/surface_frame.h"
+
+/* How the HIP moves. */
+typedef struct knurl_hip_motion {
+    const knurl_hip_clock *clock;
+    const double *velocity; /* scene, m/s */
+    double rate;            /* Hz */
+    double quantum;         /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
+} knurl_hip_motion;
+
+/* What one contact comes to. */
+typedef struct knurl_contact_force {
+    double force[3];    /* scene, N */
+    double velocity[2]; /* of the HIP over the surface, in the surface's frame, m/s */
+    double cycles[2];   /* where on the grating: coordinates times fsx, fsy */
+    knurl_grating_output grating;
+} knurl_contact_force;
+
+/* The velocity of the HIP over the surface, in the shape's frame. */
+static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_active_contact *c, double local[3]) {
+    const knurl_motion *motion = &c->record->motion;
+    if (KNURL_UNLIKELY(!knurl_motion_is_over(motion, hip->clock->previous_time))) {
+        double surface[3], over[3];
+        knurl_motion_velocity(motion, hip->clock->time, hip->clock->period, c->candidate->proxy, surface);
+        vec3_sub(hip->velocity, surface, over);
+        knurl_pose_vector_to_own(c->pose, over, local);
+    } else {
+        knurl_pose_vector_to_own(c->pose, hip->velocity, local);
+    }
+}
+
+/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: the frame's. Functions that are
+ * not inlined are given copies, so that the values themselves can stay in registers. */
+static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
+                                knurl_along velocity, double coordinates[2], const knurl_wall *wall,
+                                knurl_contact_force *out) {
+    const knurl_material_desc *m = &c->record->material;
+    knurl_grating_state *state = &c->candidate->grating;
+    if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
+        const knurl_grating_output none = {.event = KNURL_NO_EVENT};
+        out->grating = none;
+        out->cycles[0] = out->cycles[1] = 0.0;
+        return;
+    }
+    knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
+    const knurl_along place = {coordinates[0], coordinates[1]};
+    out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* no -0 where there are no ridges */
+    out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
+    double rates[2] = {velocity.x, velocity.y}, steepest = 1.0;
+    int32_t has_position = 1;
+    if (knurl_methods[m->method].follows_position) { /* without coordinates, by the sum of the velocity */
+        has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &steepest);
+    }
+    const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
+    const knurl_grating grating = {.method = m->method,
+                                   .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
+                                   .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
+                                   .update_rate_hz = hip->rate,
+                                   .resolution = hip->quantum * steepest};
+    knurl_grating_run(&grating, state, &at, &out->grating);
+}
+
+/* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
+static inline double normal_force(const knurl_wall *wall, double outwards) {
+    if (wall->z >= wall->height) {
+        return 0.0;
+    }
+    const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
+    return KNURL_LIKELY(size > 0.0) ? size : 0.0;
+}
+
+/* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
+ * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
+static inline void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
+    const double friction = c->record->material.friction;
+    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: the spring's length that it can hold */
+    double *anchor = c->candidate->anchor;
+    double stretch[3] = {0.0, 0.0, 0.0};
+    if (!c->begins && hold > 0.0) {
+        vec3_sub(anchor, c->contact.proxy, stretch);
+        vec3_make_tangent(c->contact.normal, stretch);
+        const double length = vec3_length(stretch);
+        if (length > hold) {
+            vec3_scale(hold / length, stretch, stretch);
+        }
+    }
+    vec3_madd(c->contact.proxy, 1.0, stretch, anchor);
+    vec3_scale(wall->stiffness, stretch, tangential);
+}
+
+/* The force of one contact. wall: as limited by the protections; its height is set. */
+static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
+                                   knurl_contact_force *out) {
+    double over[3], x[3], y[3], coordinates[2] = {0.0, 0.0};
+    relative_velocity(hip, c, over);
+    knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
+    const knurl_along velocity = {vec3_dot(over, x), vec3_dot(over, y)};
+    out->velocity[0] = velocity.x;
+    out->velocity[1] = velocity.y;
+    play_grating(hip, c, over, velocity, coordinates, wall, out);
+    wall->height = out->grating.height;
+    vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
+    if (c->record->material.friction > 0.0) {
+        double tangential[3], force[3];
+        friction_force(c, wall, tangential);
+        knurl_pose_vector_to_parent(c->pose, tangential, force);
+        vec3_madd(out->force, 1.0, force, out->force);
+    }
+}
+
+#endif

@@ -1,0 +1,252 @@
+/* Begins, holds and ends contacts. Read knurl_contacts_find(), at the end, first. SPDX-License-Identifier: MIT */
+#include "proxy/contact_update.h"
+
+#include "base/base.h"
+#include "proxy/joint_contact.h"
+
+#include <string.h>
+
+/* Finds one shape's contact with the HIP. hip: in the shape's frame. Returns whether it holds the HIP or is in reach.
+ */
+static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
+                              knurl_contact_state *state) {
+    const knurl_shape *shape = &a->surface->shape;
+    knurl_contact_query query;
+    vec3_copy(hip, query.hip);
+    vec3_copy(a->candidate->previous, query.previous);
+    query.has_previous = c->has_previous;
+    query.reach = a->record->reach;
+    query.double_sided = a->surface->double_sided;
+    query.facet = &a->candidate->facet;
+    query.part = &a->candidate->part;
+    query.visits = &c->visits;
+    return knurl_shape_contact(shape, &query, state, &a->contact);
+}
+
+/* 1 where nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
+ * margin below 0: by the clearance. */
+static inline int is_within_view(const knurl_contacts *c, double margin, const double proxy[3]) {
+    if (KNURL_LIKELY(margin < 0.0)) {
+        return knurl_candidates_are_clear_of(&c->candidates, proxy);
+    }
+    return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= margin * margin;
+}
+
+/* Nothing but `candidate`, which is in contact, is near: tests its shape alone. Returns 0, with nothing changed, where
+ * joint contact has to decide; c->asked then has what the shape said. margin: as for is_within_view(). */
+static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                             const double position[3], double margin) {
+    knurl_active_contact *a = &c->active[0];
+    knurl_contact_state *state = &candidate->contact;
+    const knurl_pose *pose_before;
+    double hip[3], proxy[3], normal[3];
+    a->candidate = candidate;
+    a->surface = knurl_contacts_surface(index, candidate);
+    if (KNURL_UNLIKELY(!a->surface)) {
+        return 0;
+    }
+    a->record = __atomic_load_n(&a->surface->record, __ATOMIC_SEQ_CST);
+    const knurl_motion *motion = &a->record->motion;
+    if (KNURL_UNLIKELY(!candidate->has_previous || candidate->jumps != motion->jumps)) {
+        return 0;
+    }
+    if (knurl_candidate_stands(candidate, motion, &c->clock)) {
+        a->pose = &motion->end;
+    } else {
+        knurl_contacts_catch_up(c, motion);
+        knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &pose_before);
+    }
+    knurl_pose_to_own(a->pose, position, hip);
+    const knurl_plane *plane = a->surface->shape.plane;
+    int held = plane && knurl_plane_hold(plane, hip, state, &a->contact);
+    const int is_asked = !held;
+    const knurl_contact_state before = *state;
+    held = held || query_shape(c, a, hip, state);
+    const int is_settled = held && !a->contact.unsure && c->visits.left > 0;
+    if (KNURL_LIKELY(is_settled)) {
+        knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
+        knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
+    }
+    if (KNURL_UNLIKELY(!is_settled) || (state->inside && KNURL_UNLIKELY(!is_within_view(c, margin, proxy)))) {
+        if (is_asked) {
+            c->asked.held = held;
+            c->asked.state = *state;
+            c->asked.contact = a->contact;
+            c->asked_of = candidate;
+            *state = before;
+        }
+        return 0;
+    }
+    vec3_copy(proxy, candidate->proxy);
+    vec3_copy(normal, candidate->normal);
+    vec3_copy(hip, candidate->previous);
+    a->begins = 0;
+    c->active_count = 1;
+    c->pressed = (uint32_t)state->inside;
+    return 1;
+}
+
+void knurl_contacts_init(knurl_contacts *c, double period, double time) {
+    memset(c, 0, sizeof *c);
+    c->clock.period = period;
+    c->clock.time = time;
+    c->max_visits = KNURL_VISITS_MAX;
+    knurl_contacts_reset(c);
+}
+
+void knurl_contacts_reset(knurl_contacts *c) {
+    knurl_candidates_reset(&c->candidates);
+    c->has_previous = 0;
+    c->depth = 0.0;
+    c->active_count = 0;
+    c->pressed = 0;
+    c->held_by = NULL;
+    c->slip.time = -1.0;
+}
+
+/* The proxy of the one surface that holds the HIP, for the next tick: hardly one ever asks for it. */
+static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
+    if (KNURL_LIKELY(c->pressed)) {
+        c->held_by = c->active[0].candidate;
+        c->held_off = c->active[0].surface->shape.seam;
+        c->depth = fabs(c->active[0].contact.z);
+    } else {
+        c->held_by = NULL;
+        vec3_copy(position, c->proxy);
+        c->depth = 0.0;
+    }
+}
+
+/* Sets the proxy and the normal that keep_proxy() has left for later. */
+static void settle_proxy(knurl_contacts *c) {
+    if (c->held_by) {
+        vec3_madd(c->held_by->proxy, c->held_off, c->held_by->normal, c->proxy);
+        vec3_copy(c->held_by->normal, c->normal);
+        c->held_by = NULL;
+    }
+}
+
+/* 1 where the path comes near a candidate that is not in contact. */
+static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                      const knurl_hip_path *path, double margin) {
+    if (!knurl_candidate_is_near(candidate, path, margin)) {
+        return 0;
+    }
+    const knurl_surface_data *surface = knurl_contacts_surface(index, candidate);
+    return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, margin);
+}
+
+/* The candidate that is in contact, where it is the only one and the path comes near no other; else null. */
+static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
+                                   double margin) {
+    knurl_candidate *alone = NULL;
+    if (c->active_count != 1 || c->pressed > 1 || path->is_first || path->everything ||
+        knurl_contacts_have_slipped(c)) {
+        return NULL;
+    }
+    for (uint32_t i = 0; i < c->candidates.count; i++) {
+        knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
+        if (candidate->in_contact && !alone) {
+            alone = candidate;
+        } else if (candidate->in_contact || comes_near(c, index, candidate, path, margin)) {
+            return NULL;
+        }
+    }
+    return alone;
+}
+
+/* m: how far surfaces may be that the HIP slides onto. One that has just come off a rim may be put back onto it. */
+static double find_depth(const knurl_contacts *c, const double position[3]) {
+    return knurl_contacts_have_slipped(c) ? knurl_max(c->depth, sqrt(vec3_distance2(c->slip.proxy, position)))
+                                          : c->depth;
+}
+
+/* The HIP's path in this tick. */
+static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
+    knurl_hip_path path = {.from = c->has_previous ? c->previous : position,
+                           .to = position,
+                           .proxy = c->pressed ? c->proxy : position,
+                           .depth = find_depth(c, position),
+                           .time = c->clock.time,
+                           .is_first = !c->has_previous,
+                           .everything = c->everything};
+    knurl_hip_path_bound(&path);
+    return path;
+}
+
+/* Makes the list complete where there is no clearance. Returns what find_alone() does. *margin: m, for hold_alone(). */
+__attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contacts *c, const knurl_broad_phase *phase,
+                                                                    const knurl_broad_index *index,
+                                                                    const double position[3], double *margin) {
+    settle_proxy(c);
+    const knurl_hip_path path = find_path(c, position);
+    *margin = knurl_hip_path_margin(&path);
+    knurl_candidates_update(&c->candidates, phase, index, &path);
+    return find_alone(c, index, &path, *margin);
+}
+
+/* Measures the clearance of a HIP that is in contact with `alone` only. */
+static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
+    settle_proxy(c);
+    for (uint32_t i = 0; i < c->candidates.count; i++) {
+        knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
+        candidate->has_previous &= candidate == alone;
+    }
+    knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
+}
+
+/* Visits of a tick with several surfaces near that has had little to do: the faces that it went on with were free. */
+#define FEW_VISITS 4
+
+/* Finds contact with several surfaces. */
+__attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_phase *phase,
+                                                   const knurl_broad_index *index, const double position[3],
+                                                   uint32_t *flags) {
+    settle_proxy(c);
+    const knurl_hip_path path = find_path(c, position);
+    const uint32_t before = c->active_count;
+    c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
+    for (uint32_t i = 0; i < c->candidates.count && c->pressed; i++) {
+        const knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
+        c->ramped_depth = candidate->in_contact && candidate->guard.depth > c->ramped_depth ? candidate->guard.depth
+                                                                                            : c->ramped_depth;
+    }
+    knurl_joint_contact(c, index, &path, flags);
+    c->depth = 0.0;
+    if (c->pressed) {
+        double way[3];
+        vec3_sub(c->proxy, position, way);
+        c->depth = vec3_length(way);
+    }
+    if (c->pressed && c->max_visits - c->visits.left <= FEW_VISITS) {
+        knurl_candidates_look_ahead(&c->candidates, phase, index, &path);
+    }
+    knurl_candidates_measure(&c->candidates, position, c->proxy, c->active_count < before || c->everything);
+}
+
+void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                         const double position[3], int clear, uint32_t *flags) {
+    double margin = -1.0;
+    c->visits.left = c->max_visits;
+    c->cut_short = KNURL_UNLIKELY(c->visits.exhausted) ? c->cut_short + (c->cut_short < 5) : 0;
+    c->visits.exhausted = 0;
+    c->asked_of = NULL;
+    knurl_candidate *alone = KNURL_LIKELY(clear && c->active_count == 1) ? c->active[0].candidate : NULL;
+    if (KNURL_UNLIKELY(!clear)) {
+        alone = update_candidates(c, phase, index, position, &margin);
+    }
+    if (KNURL_UNLIKELY(!alone || !hold_alone(c, index, alone, position, margin))) {
+        find_jointly(c, phase, index, position, flags);
+    } else {
+        keep_proxy(c, position);
+        if (KNURL_UNLIKELY(!clear)) {
+            measure_alone(c, alone, position);
+        }
+    }
+    if (KNURL_UNLIKELY(c->candidates.overflow)) {
+        *flags |= KNURL_TICK_CONTACTS_FULL;
+    }
+    if (KNURL_UNLIKELY(c->visits.exhausted)) {
+        *flags |= KNURL_TICK_VISIT_LIMIT;
+    }
+}

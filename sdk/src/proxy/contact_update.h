@@ -1,0 +1,36 @@
+/* Finds the contacts of a HIP in each tick. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_CONTACT_UPDATE_H
+#define KNURL_SRC_CONTACT_UPDATE_H
+
+#include "base/base.h"
+#include "proxy/contacts.h"
+
+/* Before the first tick. period, time: s. */
+void knurl_contacts_init(knurl_contacts *contacts, double period, double time);
+
+/* No contact; the next tick is a first one. */
+void knurl_contacts_reset(knurl_contacts *contacts) KNURL_NONBLOCKING;
+
+/* Where there is more to do than to see that nothing is near. clear: 1 where nothing but what is in contact has to be
+ * looked at. */
+void knurl_contacts_find(knurl_contacts *contacts, const knurl_broad_phase *phase, const knurl_broad_index *index,
+                         const double position[3], int clear, uint32_t *flags) KNURL_NONBLOCKING;
+
+/* From the HIP's position (scene, m) to the surfaces that it is in contact with: contacts->active. Adds to *flags:
+ * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED, KNURL_TICK_VISIT_LIMIT. */
+static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase,
+                                         const knurl_broad_index *index, const double position[3], uint32_t *flags) {
+    const int clear =
+        KNURL_LIKELY(c->has_previous) && knurl_candidates_are_clear(&c->candidates, phase, position, c->depth);
+    if (c->active_count > 0 || !clear || knurl_contacts_have_slipped(c)) {
+        knurl_contacts_find(c, phase, index, position, clear, flags);
+    }
+}
+
+/* The tick is over, and was one to go on from. */
+static inline void knurl_contacts_keep(knurl_contacts *contacts, const double position[3]) {
+    vec3_copy(position, contacts->previous);
+    contacts->has_previous = 1;
+}
+
+#endif

@@ -1,0 +1,48 @@
+/* Begin and end of a contact. SPDX-License-Identifier: MIT */
+#include "proxy/contacts.h"
+
+#include <string.h>
+
+void knurl_contacts_end(knurl_candidate *candidate) {
+    candidate->in_contact = 0;
+    memset(&candidate->contact, 0, sizeof candidate->contact);
+    knurl_wall_end(&candidate->guard);
+}
+
+void knurl_contacts_take_time(knurl_contacts *c, double time) {
+    knurl_store_double(&c->clock.time, time);
+    c->clock.previous_time = time - c->clock.period;
+}
+
+void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) {
+    if (!surface || candidate->in_contact) {
+        knurl_contacts_end(candidate);
+    }
+    candidate->generation = surface ? surface->generation : candidate->generation;
+    candidate->has_previous = 0;
+}
+
+int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knurl_surface_data *surface,
+                       const knurl_record *record, const knurl_pose *pose, const knurl_touched *touched) {
+    if (c->active_count == KNURL_CONTACTS_MAX) {
+        knurl_contacts_end(candidate);
+        return 0;
+    }
+    knurl_active_contact *a = &c->active[c->active_count++];
+    a->surface = surface;
+    a->record = record;
+    a->pose = pose;
+    a->candidate = candidate;
+    a->contact = touched->contact;
+    a->begins = !candidate->in_contact;
+    if (a->begins) {
+        memset(&candidate->grating, 0, sizeof candidate->grating);
+        candidate->facet.side = 0;
+        knurl_wall_begin(&candidate->guard, c->ramped_depth);
+    }
+    candidate->contact = touched->state;
+    candidate->in_contact = 1;
+    knurl_pose_to_parent(a->pose, a->contact.proxy, candidate->proxy);
+    knurl_pose_vector_to_parent(a->pose, a->contact.normal, candidate->normal);
+    return 1;
+}

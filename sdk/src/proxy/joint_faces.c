@@ -1,0 +1,158 @@
+/* Contact with all faces nearby at once, by a god-object. Read knurl_joint_search_faces(), at the end, first.
+ * SPDX-License-Identifier: MIT */
+#include "proxy/joint_faces.h"
+
+#include "proxy/god_object.h"
+
+#include <string.h>
+
+/* Adds up the pressed faces of one obstacle to one contact. longest: m, its greatest depth. */
+static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *faces, uint32_t obstacle, double longest,
+                      knurl_touched *touched) {
+    const knurl_obstacle *o = &m->near.list[obstacle];
+    const knurl_active_face *most = NULL;
+    double sum[3] = {0.0, 0.0, 0.0};
+    double own[3];
+    for (uint32_t i = 0; i < faces->count; i++) {
+        const knurl_active_face *face = &faces->list[i];
+        if (face->obstacle == obstacle && face->press > 0.0) {
+            vec3_madd(sum, face->press, face->normal, sum);
+            most = !most || face->press > most->press ? face : most;
+        }
+    }
+    touched->held = most != NULL;
+    if (!most) {
+        return;
+    }
+    const double depth = vec3_normalise(sum);
+    knurl_pose_to_own(o->pose, m->proxy, own);
+    knurl_shape_rest(&o->surface->shape, &most->hit, own, &touched->state, &touched->contact);
+    knurl_pose_vector_to_own(o->pose, sum, touched->contact.normal);
+    touched->contact.z = depth < longest ? -depth : -longest;
+    touched->contact.unsure = 0;
+    touched->contact.facet = NULL;
+}
+
+/* Turns the god-object's faces into contacts. */
+static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
+    double held[3];
+    for (uint32_t i = 0; i < g->faces.count; i++) { /* on the faces, not above them */
+        g->faces.list[i].offset -= g->faces.list[i].rest;
+    }
+    vec3_copy(g->at, m->proxy);
+    if (g->faces.count > 0 && knurl_active_faces_project(&g->faces, m->hip, held) &&
+        vec3_distance2(held, g->at) < KNURL_JOINT_ROUNDING * KNURL_JOINT_ROUNDING) { /* else it has not arrived yet */
+        vec3_copy(held, m->proxy);
+    }
+    vec3_sub(m->proxy, m->hip, m->normal);
+    const double longest = vec3_normalise(m->normal);
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        sum_faces(m, &g->faces, i, longest, &m->touched[i]);
+        m->pressed += (uint32_t)m->touched[i].held;
+    }
+    vec3_copy(g->at, m->proxy);
+    if (g->faces.count > 0 && m->pressed == 0) { /* touching, without depth */
+        m->pressed = 2;
+    }
+}
+
+/* The HIP has just slipped off a rim: looks above it for a surface that continues there, beyond a small step or crack.
+ */
+static void find_next(knurl_joint_search *m, knurl_god_object *g) {
+    const knurl_slip *slip = &m->contacts->slip;
+    double up[3];
+    double above[3];
+    vec3_sub(slip->proxy, m->hip, above);
+    const double depth = vec3_dot(above, slip->normal);
+    if (!(depth > 0.0)) {
+        return;
+    }
+    vec3_madd(slip->proxy, KNURL_STEP_HEIGHT, slip->normal, up);
+    vec3_madd(m->hip, depth + KNURL_STEP_HEIGHT, slip->normal, above);
+    knurl_hip_path path = *m->path;
+    path.proxy = above;
+    knurl_hip_path_bound(&path);
+    knurl_joint_collect(m, &path, sqrt(vec3_distance2(above, m->hip)));
+    const knurl_segment rise = {slip->proxy, up, 0, KNURL_NO_OBSTACLE};
+    const knurl_segment across = {up, above, 0, KNURL_NO_OBSTACLE};
+    if (knurl_obstacles_are_clear(&m->near, &rise) && knurl_obstacles_are_clear(&m->near, &across)) {
+        (void)knurl_god_object_step_down(g, &m->near, above, slip->normal, m->hip);
+    }
+}
+
+/* Remembers where contact ended without the HIP moving out in front of the surface: it slipped off a rim. */
+static void note_slip(knurl_contacts *c, const double hip[3]) {
+    double way[3];
+    vec3_sub(hip, c->proxy, way);
+    if (vec3_dot(way, c->normal) < -KNURL_JOINT_ROUNDING) {
+        c->slip.time = c->clock.time;
+        c->slip.ramped_depth = c->ramped_depth;
+        vec3_copy(c->proxy, c->slip.proxy);
+        vec3_copy(c->normal, c->slip.normal);
+    }
+}
+
+/* 1 where a surface that held the HIP is still in the scene; a HIP cannot slip off a removed one. */
+static int has_holder(const knurl_joint_search *m) {
+    int has = 0;
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        has |= m->near.list[i].candidate->contact.inside;
+    }
+    return has;
+}
+
+/* 1 where parts of the mesh go through or touch each other: then a god-object's face counts for more. */
+static int has_parts(const knurl_touched *touched) {
+    return (touched->contact.unsure & KNURL_UNSURE_PARTS) != 0;
+}
+
+/* m: how far a proxy goes in a tick after one whose visits were used up; half as far after two, and so on. Short ways
+ * are cheap, so that it catches up. */
+#define SHORT_WAY 0.0005
+
+/* Moves the god-object as near to the HIP as can be. */
+static void follow(const knurl_joint_search *m, knurl_god_object *g) {
+    double way[3];
+    vec3_sub(m->hip, g->at, way);
+    const double length = vec3_length(way);
+    const double longest = ldexp(2.0 * SHORT_WAY, -(int)m->contacts->cut_short);
+    if (m->contacts->cut_short > 0 && length > longest) {
+        double target[3];
+        vec3_madd(g->at, longest / length, way, target);
+        knurl_god_object_follow(g, &m->near, target);
+        if (g->faces.count > 0) {
+            return;
+        }
+    }
+    knurl_god_object_follow(g, &m->near, m->hip);
+}
+
+void knurl_joint_search_faces(knurl_joint_search *m, uint32_t *flags) {
+    knurl_contacts *c = m->contacts;
+    knurl_god_object g;
+    memset(&g, 0, sizeof g);
+    m->pressed = 0;
+    vec3_copy(c->pressed ? c->proxy : c->previous, g.at);
+    knurl_god_object_push(&g, &m->near);
+    follow(m, &g);
+    m->unknown = knurl_obstacles_are_unknown(&m->near) &&
+                 (g.faces.count == 0 || (knurl_joint_goes_on_alone(m) && !has_parts(&m->touched[0])));
+    if (m->unknown) {
+        return;
+    }
+    if (g.faces.count == 0 && c->pressed && has_holder(m)) {
+        note_slip(c, m->hip);
+    }
+    if (g.faces.count == 0 && knurl_contacts_have_slipped(c)) {
+        find_next(m, &g);
+    }
+    use_god_object(m, &g);
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        if (!m->touched[i].held) {
+            knurl_joint_query_crests(m, &m->near.list[i], &m->touched[i]);
+        }
+    }
+    if (g.squeezed) {
+        *flags |= KNURL_TICK_SQUEEZED;
+    }
+}

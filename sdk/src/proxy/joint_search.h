@@ -1,0 +1,68 @@
+/* One tick's search for contact with several surfaces: what is near, and what each shape says alone.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_JOINT_SEARCH_H
+#define KNURL_SRC_JOINT_SEARCH_H
+
+#include "proxy/contacts.h"
+
+/* m: rounding of a path's ends, with seams. */
+#define KNURL_JOINT_ROUNDING 1e-6
+
+/* The working data of one tick's search; on the stack of knurl_joint_contact(). */
+typedef struct knurl_joint_search {
+    knurl_contacts *contacts;
+    const knurl_broad_index *index;
+    const knurl_hip_path *path;
+    const double *hip; /* scene: the path's end */
+    knurl_obstacles near;
+    knurl_touched touched[KNURL_CANDIDATES_MAX];
+    int jumped;      /* 1: a surface in contact has jumped */
+    uint32_t asked;  /* so many of the first obstacles were asked for their contact with the HIP: `touched` */
+    uint64_t late;   /* bits of obstacles whose search was cut short, so that the HIP may have crossed them */
+    int unknown;     /* 1: the visits were used up before the contacts were found */
+    double margin;   /* m: obstacles were collected this far around the path; a proxy may move no farther */
+    double proxy[3]; /* results, with `touched`: */
+    double normal[3];
+    uint32_t pressed;
+} knurl_joint_search;
+
+/* Collects the obstacles within `margin` (m) of a path, and those in contact. */
+void knurl_joint_collect(knurl_joint_search *search, const knurl_hip_path *path, double margin) KNURL_NONBLOCKING;
+
+/* Collects the obstacles that a god-object may meet: it only comes nearer to the HIP. */
+void knurl_joint_collect_all(knurl_joint_search *search) KNURL_NONBLOCKING;
+
+/* One shape's contact with this tick's HIP, as if it were alone. On a first tick, and where the surface in contact has
+ * jumped, the HIP may be inside. */
+void knurl_joint_query_contact(knurl_joint_search *search, const knurl_obstacle *obstacle,
+                               knurl_touched *touched) KNURL_NONBLOCKING;
+
+/* The same again where a surface in contact has jumped: a double-sided one keeps the HIP on the side where it was. */
+void knurl_joint_query_jumped(const knurl_joint_search *search, const knurl_obstacle *obstacle,
+                              knurl_touched *touched) KNURL_NONBLOCKING;
+
+/* Contact with the crests of a surface that the proxy is outside of. A surface that lies in a pressed face is left out:
+ * that face's crests are felt. */
+void knurl_joint_query_crests(knurl_joint_search *search, const knurl_obstacle *obstacle,
+                              knurl_touched *touched) KNURL_NONBLOCKING;
+
+/* Takes the proxy and the normal from obstacle number i's contact. */
+void knurl_joint_set_proxy(knurl_joint_search *search, uint32_t i) KNURL_NONBLOCKING;
+
+/* Nothing holds the HIP: the proxy is at it. */
+static inline void knurl_joint_set_free(knurl_joint_search *m) {
+    vec3_copy(m->hip, m->proxy);
+    m->pressed = 0;
+}
+
+/* 1 where a shape holds the HIP pressed in; 0: not, or only its crests are felt. */
+static inline int knurl_joint_is_inside(const knurl_touched *touched) {
+    return touched->held && touched->state.inside;
+}
+
+/* 1 where the surface that holds the HIP is the only one near, and its own contact is known. */
+static inline int knurl_joint_goes_on_alone(const knurl_joint_search *m) {
+    return m->contacts->pressed == 1 && m->near.count == 1 && m->asked == 1 && knurl_joint_is_inside(&m->touched[0]);
+}
+
+#endif

@@ -1,0 +1,53 @@
+/* Surface coordinates at a contact: directions of x and y, and the position on the grating.
+ * SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_SURFACE_FRAME_H
+#define KNURL_SRC_SURFACE_FRAME_H
+
+#include "surface/surface.h"
+
+/* A surface's tangent frame at a contact, in the shape's frame. x, y: unit, tangent to the contact's normal.
+ * coordinates: for knurl_surface_coordinates(). */
+static inline void knurl_surface_frame(const knurl_surface_data *surface, const knurl_record *record,
+                                       const knurl_contact *contact, double x[3], double y[3], double coordinates[2]) {
+    knurl_shape_frame(&surface->shape, contact, x, y, coordinates);
+    if (record->is_oriented) {
+        const double c = record->cos_sin[0];
+        const double s = record->cos_sin[1];
+        for (int i = 0; i < 3; i++) {
+            const double along = x[i];
+            x[i] = c * along + s * y[i];
+            y[i] = c * y[i] - s * along;
+        }
+    }
+}
+
+/* Where on the grating the contact is, m: what S1 looks up. After knurl_surface_frame(), with its coordinates. */
+static inline void knurl_surface_coordinates(const knurl_surface_data *surface, const knurl_record *record,
+                                             const knurl_contact *contact, double coordinates[2]) {
+    if (surface->shape.plane) {
+        knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
+    }
+    if (record->is_oriented) { /* which rotates the frame, so the coordinates rotate back */
+        const double c = record->cos_sin[0];
+        const double s = record->cos_sin[1];
+        const double place[2] = {coordinates[0], coordinates[1]};
+        coordinates[0] = c * place[0] + s * place[1];
+        coordinates[1] = c * place[1] - s * place[0];
+    }
+}
+
+/* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame), and
+ * by how much at most in a metre along the surface. 0, and untouched, where there are no coordinates. */
+static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
+                                      const knurl_contact *contact, const double velocity[3], double rates[2],
+                                      double *steepest) {
+    double straight[2];
+    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
+        return 0;
+    }
+    rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];
+    rates[1] = record->cos_sin[0] * straight[1] - record->cos_sin[1] * straight[0];
+    return 1;
+}
+
+#endif
