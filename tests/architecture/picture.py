@@ -12,7 +12,7 @@ MODULES = {
     "audio": (316, 72, 474, 146, "a tick's sound"),
     "gltf": (482, 72, 928, 146, "a file becomes a scene"),
     "device": (16, 178, 146, 456, "any device"),
-    "scene": (172, 178, 928, 508, "the tick and all that it runs: folders surface, proxy, guard, hip, scene, stroke"),
+    "scene": (172, 178, 928, 508, "folders surface, proxy, guard, hip, scene, stroke"),
     "motion": (16, 472, 146, 556, "positions to speeds"),
     "contact": (172, 550, 752, 866, "where a HIP touches"),
     "grating": (782, 550, 928, 666, "a height from a speed"),
