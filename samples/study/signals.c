@@ -40,7 +40,7 @@ static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
     knurl_vibration_event parts[2];
     const int count = parts_of(wave, parts);
     for (uint64_t tick = 0; tick < TICKS; tick++) {
-        fprintf(csv, "T%d,%g,%d,", (int)wave->method, period_ms, (int)tick);
+        fprintf(csv, "%s,%g,%d,", wave_method_name(wave->method), period_ms, (int)tick);
         out_number(csv, knurl_wave_value(wave, tick));
         for (int i = 0; i < 2; i++) {
             fputc(',', csv);
@@ -99,9 +99,9 @@ static int write_cell(json_writer *json, const knurl_wave *wave, size_t index) {
     write_parts(json, wave);
     json_close(json, '}');
     if (wave->method != KNURL_WAVE_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
-        printf("T%d at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
-               (int)wave->method, periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak, line.amplitude,
-               line.frequency, signal.length);
+        printf("%s at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
+               wave_method_name(wave->method), periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak,
+               line.amplitude, line.frequency, signal.length);
     }
     study_signal_free(&signal);
     return 0;
@@ -120,7 +120,8 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
             knurl_wave wave;
             if (knurl_wave_init(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
                 write_cell(json, &wave, p)) {
-                return tool_error(2, "study: signals: T%d at %g ms cannot be measured", (int)method, periods_ms[p]);
+                return tool_error(2, "study: signals: %s at %g ms cannot be measured", wave_method_name(method),
+                                  periods_ms[p]);
             }
             write_rows(csv, &wave, periods_ms[p]);
         }

@@ -158,6 +158,7 @@ static knurl_result use_device(void) {
     (void)knurl_fault_name(KNURL_FAULT_LOST);
     (void)knurl_fault_string(KNURL_FAULT_LOST);
     (void)knurl_fault_unit(KNURL_FAULT_LOST);
+    (void)knurl_fault_cause(KNURL_FAULT_FORCE_OFF, 0.0);
     (void)knurl_fake_keys();
     (void)knurl_stroke_from_name("line", &stroke);
     (void)knurl_stroke_from_name("zigzag", &stroke);
