@@ -1,5 +1,6 @@
 /* Figure 2: signals of T1, T2 and T3 at even, odd, 400 Hz and other periods, and the two parts of a mixed signal.
  * SPDX-License-Identifier: MIT */
+#include "say.h"
 #include "study.h"
 #include "wave_options.h"
 
@@ -99,9 +100,9 @@ static int write_cell(json_writer *json, const knurl_wave *wave, size_t index) {
     write_parts(json, wave);
     json_close(json, '}');
     if (wave->method != KNURL_WAVE_T2 && (periods_ms[index] == 3.0 || periods_ms[index] == 2.5)) {
-        printf("%s at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
-               wave_method_name(wave->method), periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak,
-               line.amplitude, line.frequency, signal.length);
+        say(stdout, "%s at %g ms: net %.4f N, peak %.4f N, dominant %.4f N at %.1f Hz, repeats after %zu ms\n",
+            wave_method_name(wave->method), periods_ms[index], fabs(cells[0]) < 1e-12 ? 0.0 : cells[0], peak,
+            line.amplitude, line.frequency, signal.length);
     }
     study_signal_free(&signal);
     return 0;
