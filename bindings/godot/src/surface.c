@@ -107,7 +107,9 @@ static void is_touched(void *self, const void *const *arguments, void *result) {
     uint8_t touched = 0;
     (void)arguments;
     for (int i = 0; i < DEVICE_SLOTS; i++) {
-        touched |= devices[i] && s->ids[i] && devices[i]->touched == s->ids[i];
+        if (devices[i] && s->ids[i] && devices[i]->touched == s->ids[i]) {
+            touched = 1;
+        }
     }
     memcpy(result, &touched, sizeof touched);
 }
