@@ -7,8 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PERIOD_M   0.001
+#define RIDGE      0.001
 #define RESOLUTION 0.055e-3 /* the Touch's */
+#define START      0.123    /* cycles: no edge, no crest and no middle */
 
 const study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
                                       {"T2", KNURL_WAVE_T2, 0, 0},
@@ -31,6 +32,7 @@ int study_contender_at(size_t index, study_contender *contender) {
             contender->update_rate_hz = rates[index / variants];
             contender->velocity = (int)(index % variants / positions);
             contender->resolution = index % positions == 1 ? RESOLUTION : 0.0;
+            contender->ridge = RIDGE;
             return 1;
         }
         index -= count;
@@ -55,8 +57,8 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
     if (!contender->method->spatial) {
         return knurl_wave_init(contender->method->id, 1.0 / frequency, 1.0, contender->update_rate_hz, &r->wave) != 0;
     }
-    r->speed = frequency * PERIOD_M;
-    r->grating.spatial_frequency[0] = 1.0 / PERIOD_M;
+    r->speed = frequency * contender->ridge;
+    r->grating.spatial_frequency[0] = 1.0 / contender->ridge;
     r->grating.amplitude = 1.0;
     r->grating.update_rate_hz = contender->update_rate_hz;
     r->grating.method = contender->method->id;
@@ -81,7 +83,8 @@ double study_rendering_tick(study_rendering *r) {
     if (!r->contender.method->spatial) {
         return knurl_wave_value(&r->wave, tick);
     }
-    return study_rendering_tick_at(r, r->speed * (double)tick / r->contender.update_rate_hz, r->speed);
+    const double x = START * r->contender.ridge + r->speed * (double)tick / r->contender.update_rate_hz;
+    return study_rendering_tick_at(r, x, r->speed);
 }
 
 double study_rendering_tick_at(study_rendering *r, double x, double speed) {
@@ -95,5 +98,7 @@ double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     knurl_grating_step(&r->grating, &r->state, position, velocity, &output);
     r->cycles_played += cycles_of(r, &output);
     r->last = output.height;
+    r->within =
+        study_plays_event(&r->grating, &output) ? (double)(r->state.next_tick - 1) / r->state.event.length : -1.0;
     return output.height;
 }

@@ -27,15 +27,16 @@ typedef struct study_contender {
     double update_rate_hz;
     int velocity;      /**< STUDY_IDEAL to _FOAW */
     double resolution; /**< of the positions, m; 0: ideal */
+    double ridge;      /**< m from ridge to ridge */
 } study_contender;
 
-/** Fills in contender `index` (0, 1, ...); 0 when there are no more. */
+/** Fills in contender `index` (0, 1, ...), on ridges of 1 mm; 0 when there are no more. */
 int study_contender_at(size_t index, study_contender *contender);
 
 /** "S2 1000 Hz, FOAW from 0.055 mm" */
 void study_contender_name(const study_contender *contender, char *name, size_t size);
 
-/** A contender at work on one frequency: a grating of 1 mm period scanned at a steady speed, or a temporal signal. */
+/** A contender at work on one frequency: a grating scanned at a steady speed, or a temporal signal. */
 typedef struct study_rendering {
     study_contender contender;
     double speed; /**< m/s */
@@ -46,6 +47,7 @@ typedef struct study_rendering {
     knurl_velocity estimator;
     double cycles_played; /**< events (the 400 Hz mix: 2.4 cycles), or sign changes / 2 */
     double last;
+    double within; /**< the share of its event that is over before the latest tick; below 0 without an event */
 } study_rendering;
 
 /** Starts at `frequency` Hz, amplitude 1. 0, or 1 where the library refuses. */

@@ -16,7 +16,7 @@ int failure_band_wavers(const failure_sink *sink, double *number) {
         return 0;
     }
     const int measured = steady_measure(scan.height, scan.ticks, GRATINGS_RATE, NEAR_HZ, &found);
-    *number = measured ? 100.0 * found.unevenness : NAN;
+    *number = measured ? 100.0 * found.wavering : NAN;
     failure_draw_heights(sink, &scan, FAILURE_CYCLE, 60);
     study_scan_free(&scan);
     return measured;

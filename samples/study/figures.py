@@ -137,7 +137,7 @@ def draw_line(ax, table, rate, name, weber, y, height):
         ax.fill_between([f[-1], f[-1] * (1 + weber)], y - height, y + height, facecolor="none", edgecolor=SOFT,
                         hatch="/////", lw=0)
     kinds = table["kind"][pick]
-    for kind, colour in (("even", ACCENT), ("odd", METHODS["T2"]), ("mixed", METHODS["locked"])):
+    for kind, colour in (("even", ACCENT), ("odd", METHODS["T2"]), ("mixed", METHODS["bandlimited"])):
         ax.vlines(f[kinds == kind], y - height, y + height, color=colour, lw=1.0 if kind != "mixed" else 2.2)
 
 
@@ -182,7 +182,7 @@ def draw_coverage(data, folder):
     axes[-1].set_xlabel("frequency (Hz)")
     handles = [Line2D([], [], color=ACCENT, lw=1.4, label="even period"),
                Line2D([], [], color=METHODS["T2"], lw=1.4, label="odd period"),
-               Line2D([], [], color=METHODS["locked"], lw=2.2, label="2.5 ticks, mixed"),
+               Line2D([], [], color=METHODS["bandlimited"], lw=2.2, label="2.5 ticks, mixed"),
                Patch(color="#d3e7ea", label="up to f(1 + WF)"), Patch(color=GAP, label="gap"),
                Patch(color=ASKED, label="within WF of neither side"),
                Patch(facecolor="none", edgecolor=SOFT, hatch="/////", lw=0, label="felt as the top one")]

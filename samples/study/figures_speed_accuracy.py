@@ -1,4 +1,5 @@
-"""Which method, at which rate, what does it cost, why does it fail: one panel of study `tradeoff`. Drawn by figures.py.
+"""Which method, at which rate, what does it cost, what is felt that is not the ridges': one panel of study `tradeoff`.
+Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -7,50 +8,48 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from style import HALO, INK, METHODS, read_table
 
-# What is wrong, where in the table, the size at which a hand notices it (README.md beside this file has the sources),
-# and what it is called at a line. Each is that of the worst of 40 speeds.
-ERRORS = {"push_worst": (0.10, "pushes"), "frequency_worst": (0.18, "off frequency"),
-          "folded_worst": (0.04, "false tones"), "unevenness_worst": (0.20, "wavers"), "strokes": (0.05, "loses step")}
-ABOUT = {"S1": "the surface at a point", "S2": "events, by the speed", "locked": "events, in step",
-         "area": "mean of what was passed"}
-PLACES = {"S1": (-8, -30), "S2": (26, 16), "locked": (26, 28)}  # of names, in points from the line
-LOW, HIGH = 0.25, 40
+ABOUT = {"S1": "the surface at a point", "S2": "events, by the speed", "bandlimited": "the harmonics that fit"}
+# Of names: the point beside which they stand, how far from it (in points), and on which side.
+PLACES = {"S1": (0, 0, -22, "left"), "S2": (3, 8, 40, "left"), "bandlimited": (1, 16, 4, "left")}
+LOW, HIGH = 0.0005, 1.7
 
 
-def errors(table, row):
-    """[(error in sizes at which a hand notices it, its name)], the largest first."""
-    return sorted(((table[key][row] / size, name) for key, (size, name) in ERRORS.items()), reverse=True)
-
-
-def lines(table):
-    """{(method, velocity): [(millions of instructions a second, errors, kHz)]} of what real encoders give."""
+def lines(table, column):
+    """{(method, velocity): [(millions of instructions a second, error, kHz)]}, the worse of the ridges' errors, of what
+    real encoders give."""
     found = {}
     for row, method in enumerate(table["method"]):
         if table["positions"][row] == "0.055mm" and table["velocity"][row] != "ideal":
-            x = table["instructions_tick"][row] * table["rate_hz"][row] / 1e6
-            found.setdefault((method, table["velocity"][row]), []).append(
-                (x, errors(table, row), table["rate_hz"][row] / 1e3))
-    return found
+            rate = table["rate_hz"][row] / 1e3
+            x = table["instructions_tick"][row] * rate / 1e3
+            points = found.setdefault((method, table["velocity"][row]), {})
+            points[rate] = (x, max(table[column][row], points.get(rate, (0, 0))[1]), rate)
+    return {key: list(points.values()) for key, points in found.items()}
 
 
-def draw_line(ax, method, points, colour):
-    xs, found, rates = zip(*points)
-    ys = [first[0] for first, *_ in found]
+def others(table, method):
+    """A method's other errors at 1 kHz from 0.055 mm counts by FOAW, the worse of the ridges'."""
+    rows = [row for row, name in enumerate(table["method"])
+            if name == method and table["rate_hz"][row] == 1000 and table["positions"][row] == "0.055mm"
+            and table["velocity"][row] in ("none", "foaw")]
+    push, step, crest = (max(table[key][row] for row in rows) for key in ("mean_worst", "step", "crest"))
+    wrong = ([f"pushes with {push:.2f} A"] if push > 0.01 else []) + ([f"{step:.0f} cycles\nout of step"] if step > 0.5 else [])
+    return "\n".join([*wrong, f"crest {crest:.2f} A"])
+
+
+def draw_line(ax, table, method, points, colour):
+    xs, ys, rates = zip(*points)
     ax.plot(xs, ys, color=colour, lw=2.6, zorder=4, solid_capstyle="round")
     ax.plot(xs, ys, "o", color=colour, ms=7, zorder=5)
-    for x, y, rate in zip(xs, ys, rates):
-        right = method == "S1" and rate > 2  # there other methods' lines are below
-        under = (method, rate) in (("S1", 1), ("S1", 2), ("area", 5))
-        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y),
-                    xytext=(9, 4) if right else (0, -16 if under else 8), textcoords="offset points",
-                    ha="left" if right else "center", fontsize=9.5, color=colour, zorder=6, path_effects=None if method == "area" else HALO)
-    noticed = [f"{name} {size:.2g}×" for size, name in found[0] if size >= 0.995]
-    place = PLACES.get(method, (26, 6))
-    at = (xs[0], ys[0]) if method == "S1" else (xs[-1], ys[-1])
+    for x, y, rate in points:
+        under = method == "S1" and rate > 1 or method != "S1" and rate > 2
+        ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, -16 if under else 8),
+                    textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6, path_effects=HALO)
+    place, dx, dy, side = PLACES.get(method, (-1, 8, 0, "left"))
     for text, style, below in ((method, {"fontsize": 14, "fontweight": "bold"}, 0),
-                               ("\n".join(noticed), {"fontsize": 10.5, "linespacing": 1.1}, 11)):
-        ax.annotate(text, at, xytext=(place[0], place[1] - below), textcoords="offset points", color=colour, zorder=6,
-                    va="top" if below else "center", path_effects=None if method == "area" else HALO, **style)
+                               (others(table, method), {"fontsize": 10, "linespacing": 1.1}, 9)):
+        ax.annotate(text, (xs[place], ys[place]), xytext=(dx, dy - below), textcoords="offset points", color=colour,
+                    zorder=6, ha=side, va="top" if below else "center", path_effects=HALO, **style)
 
 
 def draw_shape(ax, heights, colour):
@@ -66,35 +65,39 @@ def draw_shape(ax, heights, colour):
 def draw_speed_accuracy(data, folder):
     table = read_table(folder, data["table"])
     figure = plt.figure(figsize=(11, 6.4))
-    ax = figure.add_axes((0.075, 0.105, 0.645, 0.715))
-    found = lines(table)
-    ax.axhspan(LOW, 1, color="#3fa66b", alpha=0.16, lw=0, zorder=0)
-    ax.text(0.985, 0.03, "not noticed", transform=ax.transAxes, ha="right", fontsize=13, color="#3fa66b")
-    for (method, velocity), points in found.items():
+    ax = figure.add_axes((0.095, 0.105, 0.625, 0.7))
+    above = lines(table, "felt_above")
+    for (method, velocity), points in lines(table, "felt_worst").items():
         colour = METHODS[method]
         if velocity in ("none", "foaw"):
-            draw_line(ax, method, points, colour)
-        else:
-            dashes = (0, (4, 2)) if velocity == "lowpass" else (0, (1, 1.5))
-            ax.plot([x for x, *_ in points], [sizes[0][0] for _, sizes, _ in points], color=colour, lw=1, alpha=0.4,
-                    ls=dashes, zorder=2)
-    ax.set(xscale="log", yscale="log", ylim=(LOW, HIGH), xlim=(0.16, 18))
-    for axis, marks in ((ax.xaxis, (0.2, 0.5, 1, 2, 5, 10)), (ax.yaxis, (0.3, 1, 3, 10, 30))):
+            draw_line(ax, table, method, points, colour)
+            ax.plot([x for x, *_ in points], [y for _, y, _ in above[method, velocity]], "o", color=colour, ms=5,
+                    mfc="none", alpha=0.7, zorder=3)
+        elif velocity == "difference":
+            ax.plot([x for x, *_ in points], [y for _, y, _ in points], color=colour, lw=1, alpha=0.5,
+                    ls=(0, (1, 1.5)), zorder=2)
+    ax.set(xscale="log", yscale="log", ylim=(LOW, HIGH), xlim=(0.17, 12))
+    for axis, marks in ((ax.xaxis, (0.2, 0.5, 1, 2, 5, 10)), (ax.yaxis, (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1))):
         axis.set_major_locator(FixedLocator(marks))
         axis.set_minor_locator(NullLocator())
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g} %"))
     ax.tick_params(labelsize=11)
+    ax.grid(True, axis="y", color="#eef1f2", lw=0.8, zorder=0)
     ax.set_xlabel("millions of instructions for a second of rendering", fontsize=12)
-    ax.set_ylabel("its worst error ÷ the least that a hand notices", fontsize=12)
-    figure.text(0.02, 0.945, "Which method, at which rate, for what cost, and how it fails", fontsize=17,
+    ax.set_ylabel("felt power that is not the ridges', at the worst speed", fontsize=12)
+    figure.text(0.02, 0.945, "How much is felt that is not the ridges, and for what cost", fontsize=17,
                 fontweight="bold", va="center")
-    figure.text(0.02, 0.882, "ridges of 1 mm through an encoder of 0.055 mm, the worst of 20 to 480 Hz and of "
-                "strokes from rest;\nbelow a name: its errors at 1 kHz that a hand notices · faint: the speed by "
-                "a low pass (dashed) or by differences (dotted)", fontsize=10.5, color=INK, alpha=0.75, va="center")
+    figure.text(0.02, 0.875, f"not the ridges': farther than {100 * data['tolerance']:g} % of their frequency (at least "
+                f"{data['tolerance_hz']:g} Hz) from its odd multiples, through a device in a hand and over the\n"
+                "threshold of touch · the worse of ridges of 1 and 0.5 mm through an encoder of 0.055 mm, "
+                f"{data['from_hz']:g} to {data['split_hz']:g} Hz; rings: to {data['to_hz']:g} Hz ·\n"
+                "below a name: at 1 kHz, its step after 4 s of strokes · dotted: the speed by differences", fontsize=10,
+                color=INK, alpha=0.75, va="center")
     shapes = data["shapes"]
-    figure.text(0.755, 0.815, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=INK, alpha=0.75)
+    figure.text(0.755, 0.795, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=INK, alpha=0.75)
     for place, method in enumerate(name for name in ABOUT if name in shapes):
-        small = figure.add_axes((0.755, 0.645 - 0.186 * place, 0.23, 0.125))
+        small = figure.add_axes((0.755, 0.595 - 0.235 * place, 0.23, 0.15))
         colour = METHODS[method]
         draw_shape(small, shapes[method], colour)
         small.set_title(f"{method}: {ABOUT[method]}", fontsize=10.5, color=colour, pad=2)

@@ -144,7 +144,8 @@ int gratings_strokes(json_writer *json, gratings_summary *summary) {
     move(twice_a_second, motion, 10000);
     json_open(json, "twice_a_second", '[');
     for (int i = 0; i < 6; i++) {
-        const knurl_grating grating = gratings_make(i % 2 ? KNURL_METHOD_S2 : KNURL_METHOD_S1, 1000.0 / periods_mm[i / 2], 0.0);
+        const knurl_grating grating =
+            gratings_make(i % 2 ? KNURL_METHOD_S2 : KNURL_METHOD_S1, 1000.0 / periods_mm[i / 2], 0.0);
         study_scan scan;
         if (!study_scan_run(&grating, motion, 10000, STUDY_CROSSED_PATH, &scan)) {
             return 0;

@@ -87,7 +87,8 @@ int preference_cells(int experiment, preference_cell cells[PREFERENCE_CELLS]) {
         const double period = p == 0 ? 2.5 : 2.0 * p + 1.0;
         vibration other;
         vibration t3;
-        if (!measure(experiment == 1 ? KNURL_WAVE_T1 : KNURL_WAVE_T2, period, &other) || !measure(KNURL_WAVE_T3, period, &t3)) {
+        if (!measure(experiment == 1 ? KNURL_WAVE_T1 : KNURL_WAVE_T2, period, &other) ||
+            !measure(KNURL_WAVE_T3, period, &t3)) {
             return 0;
         }
         for (int i = 0; i < 4; i++) {

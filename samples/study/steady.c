@@ -2,15 +2,17 @@
 #include "steady.h"
 
 #include "grating_metrics.h"
+#include "lab.h"
 #include "metrics.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define PI        3.141592653589793
-#define PUSH_S    0.05
-#define WINDOW_S  0.0125
-#define TOLERANCE 0.25
+#define PI      3.141592653589793
+#define PUSH_S  0.05
+#define SHORT_S 0.012
+#define LONG_S  0.05
+#define LEAST   8.0 /* Hz: what is below is a press, not a vibration */
 
 void steady_line(const double *heights, size_t ticks, double rate, double frequency, double line[2]) {
     line[0] = 0.0;
@@ -22,29 +24,45 @@ void steady_line(const double *heights, size_t ticks, double rate, double freque
     }
 }
 
-static double find_unevenness(const double *heights, size_t ticks, double rate) {
-    const size_t window = (size_t)fmax(1.0, floor(WINDOW_S * rate + 0.5));
+/* m of motion per N. */
+static double motion(double hz) {
+    const double w = 2.0 * PI * hz;
+    return 1.0 / hypot(700.0 - 0.045 * w * w, 5.5 * w);
+}
+
+double steady_felt_weight(double hz) {
+    const double over = hz / 250.0;
+    const double threshold = hz < 40.0 ? 250.0 / 40.0 * (250.0 / 40.0) : fmax(1.0 / (over * over), over * over);
+    return hz > LEAST ? motion(hz) / threshold : 0.0;
+}
+
+/* Of the rms in windows that move by a tick. */
+static double find_wavering(const double *heights, size_t ticks, double window_ticks) {
+    const size_t window = (size_t)fmax(1.0, floor(window_ticks + 0.5));
+    double power = 0.0;
     double sum = 0.0;
     double squares = 0.0;
     double count = 0.0;
-    for (size_t begin = 0; begin + window <= ticks; begin += window) {
-        double power = 0.0;
-        for (size_t k = begin; k < begin + window; k++) {
-            power += heights[k] * heights[k];
+    for (size_t k = 0; k < ticks; k++) {
+        power += heights[k] * heights[k];
+        power -= k >= window ? heights[k - window] * heights[k - window] : 0.0;
+        if (k + 1 >= window) {
+            const double square = fmax(0.0, power / (double)window);
+            sum += sqrt(square);
+            squares += square;
+            count += 1.0;
         }
-        const double rms = sqrt(power / (double)window);
-        sum += rms;
-        squares += rms * rms;
-        count += 1.0;
     }
     return count > 0.0 && sum > 0.0 ? sqrt(fmax(0.0, squares / count - sum / count * (sum / count))) / (sum / count)
                                     : 0.0;
 }
 
-/* Hann's window, so that a line that is between two bins stays near them. 0: no memory. */
-static int find_spurious(const double *heights, size_t ticks, double rate, double frequency, double *share) {
+/* Lines 0 to ticks - 1 of the heights less their mean, through Hann's window, so that a line that is between two bins
+ * stays near them. Null: no memory. */
+static double *find_spectrum(const double *heights, size_t ticks, double rate, double *mean) {
     double *windowed = malloc(ticks * sizeof *windowed);
     study_signal signal;
+    double *bins = NULL;
     double sum = 0.0;
     double weights = 0.0;
     for (size_t k = 0; windowed && k < ticks; k++) {
@@ -52,40 +70,92 @@ static int find_spurious(const double *heights, size_t ticks, double rate, doubl
         sum += windowed[k] * heights[k];
         weights += windowed[k];
     }
+    *mean = sum / weights;
     for (size_t k = 0; windowed && k < ticks; k++) {
-        windowed[k] *= heights[k] - sum / weights;
+        windowed[k] *= heights[k] - *mean;
     }
-    double *bins =
-        windowed && study_signal_of_values(windowed, ticks, rate, &signal) ? study_magnitudes(&signal) : NULL;
-    double all = 0.0;
-    double far = 0.0;
-    for (size_t line = 1; bins && line <= ticks / 2; line++) {
-        const double order = (double)line * rate / (double)ticks / frequency;
-        const double odd = fmax(1.0, 2.0 * floor(0.5 * order) + 1.0);
-        all += bins[line] * bins[line];
-        far += fabs(order - odd) > TOLERANCE ? bins[line] * bins[line] : 0.0;
-    }
-    *share = all > 0.0 ? far / all : 1.0; /* what does not vary is no vibration at all */
-    const int done = bins != NULL;
-    free(bins);
-    if (windowed) {
+    if (windowed && study_signal_of_values(windowed, ticks, rate, &signal)) {
+        bins = study_magnitudes(&signal);
         study_signal_free(&signal);
     }
     free(windowed);
-    return done;
+    return bins;
+}
+
+/* sin(pi x)/(pi x): what a hold over a tick leaves of a line of x cycles a tick. */
+static double sinc(double x) {
+    return sin(PI * x) / (PI * x);
+}
+
+/* Between two bins Hann's window gives a line in the ratio (1 + d)/(2 - d), d from the larger to the other. */
+static double find_dominant(const double *bins, size_t ticks, double rate) {
+    size_t best = 1;
+    for (size_t line = 1; line <= ticks / 2; line++) {
+        const double step = 1.0 / (double)ticks;
+        best = bins[line] * sinc((double)line * step) > bins[best] * sinc((double)best * step) * (1.0 + 1e-5) ? line
+                                                                                                              : best;
+    }
+    const size_t beside = bins[best - 1] > bins[best + 1] ? best - 1 : best + 1;
+    const double ratio = bins[best] > 0.0 ? bins[beside] / bins[best] : 0.0;
+    const double away = fmax(0.0, (2.0 * ratio - 1.0) / (1.0 + ratio));
+    return ((double)best + (beside > best ? away : -away)) * rate / (double)ticks;
+}
+
+static int is_ridges(double hz, double frequency) {
+    const double order = hz / frequency;
+    const double odd = fmax(1.0, 2.0 * floor(0.5 * order) + 1.0);
+    return fabs(order - odd) * frequency <= fmax(STEADY_TOLERANCE * frequency, STEADY_TOLERANCE_HZ);
+}
+
+/* What does not vary is no vibration at all. */
+static double share(double far, double all) {
+    return all > 0.0 ? far / all : 1.0;
+}
+
+static void find_false(const double *bins, size_t ticks, double rate, double frequency, steady_metrics *found) {
+    double all[3] = {0.0, 0.0, 0.0};
+    double far[3] = {0.0, 0.0, 0.0};
+    for (size_t line = 1; line < ticks; line++) {
+        const double hz = (double)line * rate / (double)ticks;
+        const double height = bins[line];
+        const double held = height * sinc((double)line / (double)ticks);
+        const double felt = held * steady_felt_weight(hz);
+        const double stylus = hz > LEAST ? 1e-6 * held * motion(hz) / lab_threshold(hz) : 0.0;
+        const double powers[3] = {line <= ticks / 2 ? height * height : 0.0, felt * felt, stylus * stylus};
+        const int own = is_ridges(hz, frequency);
+        for (int i = 0; i < 3; i++) {
+            all[i] += powers[i];
+            far[i] += own ? 0.0 : powers[i];
+        }
+    }
+    found->false_tones = share(far[0], all[0]);
+    found->felt_false = share(far[1], all[1]);
+    found->felt_stylus = share(far[2], all[2]);
+    found->felt_level = sqrt(all[1]);
 }
 
 int steady_measure(const double *heights, size_t ticks, double rate, double frequency, steady_metrics *found) {
     double line[2];
     study_scan scan = {.ticks = ticks, .update_rate_hz = rate};
     scan.height = malloc(ticks * sizeof *scan.height);
+    found->crest = 0.0;
     for (size_t k = 0; scan.height && k < ticks; k++) {
         scan.height[k] = heights[k];
+        found->crest = fmax(found->crest, fabs(heights[k]));
     }
     found->push = scan.height ? study_scan_push(&scan, frequency, PUSH_S) : NAN;
     free(scan.height);
     steady_line(heights, ticks, rate, frequency, line);
     found->level = hypot(line[0], line[1]);
-    found->unevenness = find_unevenness(heights, ticks, rate);
-    return !isnan(found->push) && find_spurious(heights, ticks, rate, frequency, &found->spurious);
+    found->wavering = find_wavering(heights, ticks, SHORT_S * rate);
+    found->wavering_50 = find_wavering(heights, ticks, LONG_S * rate);
+    double *bins = isnan(found->push) ? NULL : find_spectrum(heights, ticks, rate, &found->mean);
+    if (!bins) {
+        return 0;
+    }
+    found->mean = fabs(found->mean);
+    found->dominant = find_dominant(bins, ticks, rate);
+    find_false(bins, ticks, rate, frequency, found);
+    free(bins);
+    return 1;
 }

@@ -10,6 +10,7 @@ const study studies[] = {
     {"preferences", "figure 8: what subjects preferred, beside these metrics", study_preferences},
     {"tradeoff", "cost against accuracy, each method at each rate", study_tradeoff},
     {"velocity", "what each velocity estimator gets wrong, and how late it is", study_velocity},
+    {"tracking", "how bandlimited tracks a position that comes in counts, and another way", study_tracking},
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
     {"transitions", "what becomes of an event when hand, surface or material change in it", study_transitions},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},

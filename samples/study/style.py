@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 
 INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
 # Each method its colour, in every figure; S1 and S2 are kin of T1 and T3.
-METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "locked": "#a03c78", "area": "#2f6fd0"}
+METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "bandlimited": "#a03c78"}
 SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
 HALO = [withStroke(linewidth=3, foreground="white")]  # of a label that lies on lines
 STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,

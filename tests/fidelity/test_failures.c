@@ -77,7 +77,7 @@ TEST(grazed) {
 /* The mean square of a sampled cosine over N ticks is 1/2 (1 + D cos b), with D = sin(N pi u)/(N sin(pi u)) at the
  * beat's u = 1 - 2 f_t/f_h cycles a tick. */
 TEST(band_wavers) {
-    const double pi = 3.141592653589793, u = 0.04, n = 13.0;
+    const double pi = 3.141592653589793, u = 0.04, n = 12.0;
     const double d = sin(n * pi * u) / (n * sin(pi * u));
     double mean = 0.0, square = 0.0;
     for (int i = 0; i < 3600; i++) {

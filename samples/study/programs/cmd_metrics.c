@@ -41,7 +41,7 @@ static int print_steady(json_writer *json, const tool_wave *asked, const study_s
     const int measured = values && steady_measure(values, ticks, asked->rate, 1.0 / asked->period_s, &steady);
     if (measured) {
         json_number(json, "fundamental", steady.level);
-        json_number(json, "unevenness", steady.unevenness);
+        json_number(json, "unevenness", steady.wavering);
         json_number(json, "net_50ms", steady.push);
     }
     free(values);
