@@ -98,7 +98,7 @@ class Tool(Home):
         (self.home / "way.csv").write_text("x,y\r\n" + "".join(f"{i * 1e-4},0\r\n" for i in range(500)))
         for arguments in (["inspect", "grid_2d.glb"], ["signal", "--method", "T2", *wave, "--ticks", "999"],
                           ["metrics", "--method", "T1", *wave], ["--version"], ["run", "--help"],
-                          ["scan", "--method", "locked", "--fs", "1000,0", "--amplitude", "1", "--rate", "1000", "--in", "way.csv"],
+                          ["scan", "--method", "bandlimited", "--fs", "1000,0", "--amplitude", "1", "--rate", "1000", "--in", "way.csv"],
                           ["run", "plate_1d.glb", "--fast", "--seconds", "1", "--out", "-"]):
             there, here = self.windows(*arguments), self.native(*arguments)
             self.assertEqual((there.code, there.out), (here.code, here.out), arguments)
@@ -146,7 +146,7 @@ class Tool(Home):
         return going.end()
 
     def test_ctrl_c_ends_a_study_and_takes_its_files_away(self):
-        self.interrupted([self.home / "knurl_study.exe", "study", "area", "--out", "cut"], "cut/*.part")
+        self.interrupted([self.home / "knurl_study.exe", "study", "tradeoff", "--out", "cut"], "cut/*.part")
         self.assertEqual(list(self.home.glob("cut/*")), [])
 
     def test_ctrl_c_ends_a_run_and_takes_its_file_away(self):

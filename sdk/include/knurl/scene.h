@@ -154,7 +154,7 @@ typedef struct knurl_surface_info {
                                      bounds: an upper limit of how far a flat surface extends. Of no use on curved
                                      surfaces; see knurl_fake_lay_stroke() */
     double stretch[3];          /**< min, mean and max of d(surface coordinate)/d(distance on the surface) along x,
-                                     before `orientation`; 1: undistorted. S1 and LOCKED render fs times it */
+                                     before `orientation`; 1: undistorted. S1 and BANDLIMITED render fs times it */
     const char *why;            /**< why this model, in a sentence; static */
     double model_error;         /**< m: the model's surface lies within this of what was given */
     uint32_t reversed_twins;    /**< triangles left out because another has the same corners, facing the other way */
@@ -238,7 +238,7 @@ typedef struct knurl_tick_output {
 typedef struct knurl_hip_counts {
     uint64_t ticks;
     uint64_t contact_ticks;       /**< with KNURL_TICK_CONTACT */
-    uint64_t events;              /**< events started (S2, LOCKED) */
+    uint64_t events;              /**< events started (S2), or ridges begun (BANDLIMITED) */
     uint64_t force_limit_ticks;   /**< ticks with KNURL_TICK_FORCE_LIMIT */
     uint64_t above_nyquist_ticks; /**< ticks with KNURL_TICK_ABOVE_NYQUIST */
     uint64_t non_finite_ticks;    /**< ticks with KNURL_TICK_NOT_FINITE */
@@ -252,7 +252,7 @@ typedef struct knurl_hip_counts {
                                        device's heat */
     double half_cycles_crossed;  /**< ridges and grooves that the HIP crossed, for every method, not rounded: the sum of
                                       2 f_t / f_h over all ticks and touched surfaces (Eq. 12; a stroke of L metres
-                                      along x crosses 2 fsx L). For LOCKED in the grating's coordinates, for S1 and S2
+                                      along x crosses 2 fsx L). For BANDLIMITED in the grating's coordinates, for S1 and S2
                                       in metres; 0 without a grating */
     uint64_t half_cycles_played; /**< half cycles rendered: sign changes of the height */
     uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
@@ -420,8 +420,8 @@ enum {
     KNURL_LIMIT_VISITS = 128,  /**< contact meets knurl_hip_desc.max_visits at one of 65 places of the mesh; or 15 other
                                     meshes come within 1 mm of its anchor (once committed) */
     KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not */
-    KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and LOCKED render more than KNURL_STRETCH_MAX times the
-                                    material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
+    KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times
+                                    the material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 
 /** m: beyond this distance from the origin, the float32 coordinates of meshes and engines are 6 cm apart or more. */

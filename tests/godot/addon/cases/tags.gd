@@ -7,7 +7,7 @@ const NESTED := {
 	"knurl": {"version": 1, "spatial_frequency": [1000, 500], "amplitude": 0.0002, "stiffness": 400}
 }
 const GRATING: Array[String] = ["amplitude", "stiffness", "damping", "friction", "orientation"]
-const METHODS: Dictionary = {0: "bandlimited", 1: "S1", 2: "S2", 3: "bandlimited"}  # the default is bandlimited
+const METHODS: Dictionary = {0: "bandlimited", 1: "S1", 2: "S2", 3: "bandlimited"}  # 0: the default
 
 var checks: RefCounted
 
