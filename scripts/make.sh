@@ -37,14 +37,14 @@ figures() {
             "${drawn[@]}" "$out/$1.data" "${@:3}"
         fi
     }
-    local how=${1:-} out=build/figures title='locked, a simulated hand: to 240 mm/s over 1 mm'
+    local how=${1:-} out=build/figures title='bandlimited, a simulated hand: to 240 mm/s over 1 mm'
     [ "$how" != --update ] || out=assets/pictures
     echo "run: knurl ${DEMO[*]} --fast"
     build/release/knurl "${DEMO[@]}" --fast --out build/study/sweep.csv --wav build/study/sweep.wav >build/study/sweep.json
     picture sweep plot.py build/study/sweep.csv
     title=
     picture sound sound.py build/study/sweep.{csv,wav}
-    for name in signals coverage temporal device gratings preferences tradeoff velocity locked area transitions stability failures; do
+    for name in signals coverage temporal device gratings preferences tradeoff velocity transitions stability failures; do
         echo "run: study $name"
         build/release/knurl study "$name" --out build/study
         picture "$name" figures.py "build/study/$name".{json,csv}

@@ -50,6 +50,8 @@ void failure_draw_cycles(const failure_sink *sink, const study_scan *scan, size_
 int failure_s1_pushes(const failure_sink *sink, double *number);
 int failure_s1_silent(const failure_sink *sink, double *number);
 int failure_s1_alias(const failure_sink *sink, double *number);
+int failure_s1_felt(const failure_sink *sink, double *number);
+int failure_s1_counts(const failure_sink *sink, double *number);
 int failure_s1_diagonal(const failure_sink *sink, double *number);
 int failure_s1_grid(const failure_sink *sink, double *number);
 int failure_s2_freezes(const failure_sink *sink, double *number);
@@ -58,6 +60,8 @@ int failure_s2_loses_step(const failure_sink *sink, double *number);
 int failure_s2_outlives(const failure_sink *sink, double *number);
 int failure_grazed(const failure_sink *sink, double *number);
 int failure_band_wavers(const failure_sink *sink, double *number);
+int failure_band_image(const failure_sink *sink, double *number);
+int failure_band_counts(const failure_sink *sink, double *number);
 int failure_band_pitch(const failure_sink *sink, double *number);
 int failure_band_loop(const failure_sink *sink, double *number);
 int failure_difference(const failure_sink *sink, double *number);

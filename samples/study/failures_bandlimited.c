@@ -1,4 +1,5 @@
 /* Where `bandlimited` fails, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
+#include "contender.h"
 #include "failures.h"
 #include "gratings.h"
 #include "steady.h"
@@ -6,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#define NEAR_HZ  480.0 /* just below f_h/2 */
-#define ABOVE_HZ 700.0
+#define NEAR_HZ   480.0 /* just below f_h/2 */
+#define ABOVE_HZ  700.0
+#define COUNTS_HZ (1000.0 / 9.0)
 
 int failure_band_wavers(const failure_sink *sink, double *number) {
     study_scan scan;
@@ -19,6 +21,43 @@ int failure_band_wavers(const failure_sink *sink, double *number) {
     *number = measured ? 100.0 * found.wavering : NAN;
     failure_draw_heights(sink, &scan, FAILURE_CYCLE, 60);
     study_scan_free(&scan);
+    return measured;
+}
+
+int failure_band_image(const failure_sink *sink, double *number) {
+    study_scan scan;
+    steady_metrics found;
+    if (!failure_across(KNURL_METHOD_BANDLIMITED, NEAR_HZ, 1000, &scan)) {
+        return 0;
+    }
+    const int measured = steady_measure(scan.height, scan.ticks, GRATINGS_RATE, NEAR_HZ, &found);
+    *number = measured ? 100.0 * found.felt_false : NAN;
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 24);
+    study_scan_free(&scan);
+    return measured;
+}
+
+/* 55.56 mm/s: a tick is 1.01 counts. */
+int failure_band_counts(const failure_sink *sink, double *number) {
+    static double heights[2000];
+    study_contender contender = {
+        .update_rate_hz = GRATINGS_RATE, .velocity = STUDY_FOAW, .resolution = 0.055e-3, .ridge = 0.5e-3};
+    study_rendering r;
+    steady_metrics found;
+    for (const study_method *m = study_methods; m->name; m++) {
+        contender.method = m->spatial && m->id == KNURL_METHOD_BANDLIMITED ? m : contender.method;
+    }
+    if (study_rendering_start(&r, &contender, COUNTS_HZ)) {
+        return 0;
+    }
+    for (int k = -200; k < 2000; k++) {
+        heights[k > 0 ? k : 0] = study_rendering_tick(&r);
+    }
+    const int measured = steady_measure(heights, 2000, GRATINGS_RATE, COUNTS_HZ, &found);
+    *number = measured ? 100.0 * found.false_tones : NAN;
+    for (int k = 0; k < 120; k++) {
+        failure_point(sink, "height", k, heights[k]);
+    }
     return measured;
 }
 

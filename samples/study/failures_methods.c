@@ -1,6 +1,7 @@
 /* Where S1 and S2 fail, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
+#include "steady.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +37,46 @@ int failure_s1_alias(const failure_sink *sink, double *number) {
     }
     *number = scan.played[scan.ticks]; /* cycles in a second */
     failure_draw_heights(sink, &scan, FAILURE_CYCLE, 24);
+    study_scan_free(&scan);
+    return 1;
+}
+
+int failure_s1_felt(const failure_sink *sink, double *number) {
+    study_scan scan;
+    steady_metrics found;
+    if (!failure_across(KNURL_METHOD_S1, 389.0, 1000, &scan)) {
+        return 0;
+    }
+    const int measured = steady_measure(scan.height, scan.ticks, GRATINGS_RATE, 389.0, &found);
+    *number = measured ? 100.0 * found.felt_false : NAN;
+    failure_draw_heights(sink, &scan, FAILURE_CYCLE, 36);
+    study_scan_free(&scan);
+    return measured;
+}
+
+/* A second at 10 kHz and 10 mm/s over ridges of 0.5 mm, in counts. */
+int failure_s1_counts(const failure_sink *sink, double *number) {
+    enum { TICKS = 11000 }; /* 11 ridges are 100 counts: twice that */
+    const knurl_grating grating = {
+        .spatial_frequency = {2000.0, 0.0}, .amplitude = 1.0, .update_rate_hz = 10000.0, .method = KNURL_METHOD_S1};
+    study_motion *motion = calloc(TICKS, sizeof *motion);
+    study_scan scan;
+    if (!motion) {
+        return 0;
+    }
+    for (size_t k = 0; k < TICKS; k++) {
+        motion[k].position[0] = 0.055e-3 * floor((FAILURE_START + 1e-6 * (double)k) / 0.055e-3 + 0.5);
+        motion[k].velocity[0] = 0.01;
+    }
+    const int made = study_scan_run(&grating, motion, TICKS, STUDY_CROSSED_PATH, &scan);
+    free(motion);
+    if (!made) {
+        return 0;
+    }
+    *number = study_scan_push(&scan, 20.0, 0.05);
+    for (size_t k = 0; k < 2500; k += 10) {
+        failure_point(sink, "height", 0.1 * (double)k, scan.height[k]);
+    }
     study_scan_free(&scan);
     return 1;
 }

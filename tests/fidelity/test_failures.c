@@ -2,6 +2,7 @@
  * there is none, and the page against what is measured. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "metrics.h"
+#include "steady.h"
 #include "study.h"
 #include "support/close.h"
 
@@ -39,6 +40,25 @@ TEST(s1_silent) {
 
 TEST(s1_alias) {
     CHECK_CLOSE(measure("s1_alias"), 1000.0 - 900.0, 0.5); /* half cycles are counted */
+}
+
+/* A square wave that is sampled 1000 times in 389 cycles is one of 1000 values, half of them up, in another order: line
+ * 389 n mod 1000 has the power of its line n, 1/sin^2(pi n/1000) for an odd n. */
+TEST(s1_felt) {
+    double all = 0.0, own = 0.0;
+    for (int n = 1; n < 1000; n += 2) {
+        const int hz = 389 * n % 1000;
+        const double pi = 3.141592653589793, x = pi * hz / 1000.0;
+        const double held = sin(x) / x / sin(pi * n / 1000.0) * steady_felt_weight(hz);
+        all += held * held;
+        own += abs(hz - 389) <= 19 ? held * held : 0.0; /* 5 %; three times 389 Hz is above 1 kHz */
+    }
+    CHECK_CLOSE(measure("s1_felt"), 100.0 * (1.0 - own / all), 0.5);
+}
+
+/* Of 1/0.11 counts a cycle 5 are up in 6 cycles of 11 (1.1 - 1 of A), 4 in 5 of them (0.88 - 1). */
+TEST(s1_counts) {
+    CHECK_CLOSE(measure("s1_counts"), (6.0 * 0.1 + 5.0 * 0.12) / 11.0, 2e-3);
 }
 
 TEST(s1_diagonal) {
@@ -86,6 +106,17 @@ TEST(band_wavers) {
         square += rms2 / 3600.0;
     }
     CHECK_CLOSE(measure("band_wavers"), 100.0 * sqrt(square / (mean * mean) - 1.0), 1.0);
+}
+
+/* Hold, device and threshold at f_h - f_t against those at f_t. */
+TEST(band_image) {
+    const double image = 480.0 / 520.0 * steady_felt_weight(520.0) / steady_felt_weight(480.0);
+    CHECK_CLOSE(measure("band_image"), 100.0 * image * image / (1.0 + image * image), 0.5);
+}
+
+/* A cosine whose phase is off by at most half a count of 0.11 cycles, 2 pi 0.055: at most sin^2 of that. */
+TEST(band_counts) {
+    assert_between(1.0, 100.0 * pow(sin(2.0 * 3.141592653589793 * 0.055), 2.0), measure("band_counts"));
 }
 
 TEST(band_pitch) {
