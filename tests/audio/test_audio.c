@@ -34,7 +34,7 @@ void __wrap_free(void *memory) {
 }
 
 /* A steady stroke of fx, fy cycles a second, `ticks` long; the last WINDOW samples of it. Above f_h/2 the height is
- * that of the method locked: events of two ticks. */
+ * that of bandlimited: its sign changes every tick. */
 static void play(double fx, double fy, int ticks, float window[WINDOW]) {
     knurl_audio *audio = make_audio(0.0);
     for (int k = 0; k < ticks; k++) {

@@ -153,7 +153,7 @@ static uint64_t run_signal(int32_t method) {
 
 int main(void) {
     static const char *const kinds[KINDS] = {"plane", "mesh", "corner", "moving"};
-    static const char *const methods[] = {"smooth", "S1", "S2", "locked", "area"};
+    static const char *const methods[] = {"smooth", "S1", "S2", "bandlimited"};
     for (int kind = 0; kind < KINDS; kind++) {
         for (int32_t method = 0; method <= KNURL_METHOD_BANDLIMITED; method++) {
             printf("%s %s %016" PRIx64 " %016" PRIx64 "\n", kinds[kind], methods[method], run_scene(kind, method, 0),
@@ -161,7 +161,7 @@ int main(void) {
         }
     }
     for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
-        printf("T%d %016" PRIx64 "\n", (int)method, run_signal(method));
+        printf("T%d %016" PRIx64 "\n", (int)(method - KNURL_WAVE_T1 + 1), run_signal(method));
     }
     return 0;
 }

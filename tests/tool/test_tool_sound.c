@@ -62,7 +62,7 @@ TEST(a_stroke_at_250_hz_sounds_at_250_hz) {
         line[0] += samples[i] * cos(2.0 * PI * 250.0 * i / 48000.0) / 4800.0;
         line[1] += samples[i] * sin(2.0 * PI * 250.0 * i / 48000.0) / 4800.0;
     }
-    /* a square wave as loud as the force changes, which is by 4/pi A here (bandlimited) */
+    /* Four ticks a cycle, from a crest on: the force is a cosine of 4/pi K A, and the sound a square wave as high. */
     CHECK_CLOSE(sqrt(line[0] * line[0] + line[1] * line[1]), 4.0 / PI * 4.0 / PI * LEVEL, 0.01 * LEVEL);
     process_free(&p);
 }
