@@ -69,9 +69,9 @@ static int measure_steady(const study_contender *c, double frequency, double *he
     if (study_rendering_start(&r, c, frequency)) {
         return 0;
     }
-    const double lead = LEAD_S * c->update_rate_hz;
-    const double first = FIRST_S * c->update_rate_hz;
-    for (double k = 0.0; k < lead || (r.state.playing && k < first); k += 1.0) {
+    const size_t lead = (size_t)(LEAD_S * c->update_rate_hz);
+    const size_t first = (size_t)(FIRST_S * c->update_rate_hz);
+    for (size_t k = 0; k < lead || (r.state.playing && k < first); k++) {
         (void)study_rendering_tick(&r);
     }
     r.cycles_played = 0.0;

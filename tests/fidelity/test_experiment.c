@@ -207,7 +207,8 @@ TEST(the_simulated_answerer_is_the_formula_it_says) {
     CHECK_CLOSE(exp_badness(KNURL_WAVE_T1, 3, 2) - exp_badness(KNURL_WAVE_T1, 3, 1), 1.0L / 3.0L, 1e-9L); /* A/N */
     exp_neighbours(trial.period, periods);
     for (int i = 0; i < 3; i++) {
-        difference += (exp_badness(KNURL_WAVE_T1, periods[i], 1.05) - exp_badness(KNURL_WAVE_T3, periods[i], 1.05)) / 3.0;
+        difference +=
+            (exp_badness(KNURL_WAVE_T1, periods[i], 1.05) - exp_badness(KNURL_WAVE_T3, periods[i], 1.05)) / 3.0;
     }
     for (int i = 0; i < DRAWS; i++) {
         second += exp_simulated_answer(exp_design_of(1), &trial, &noise);

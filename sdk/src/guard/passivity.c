@@ -10,8 +10,8 @@
  *
  * Tuned in the stability laboratory on flat walls and gratings within the limits of the presets touch and falcon.
  * test_protection_grids.c counts, of 4528 cells: all 92 flat walls that run away (at 12 to 25 Hz) are stopped, and of
- * 208 gratings that run away 197; of 4013 calm cells 12 are softened, which swing by up to 0.42 mm more than they should,
- * and of 49 that shake by 0.5 to 1.3 mm 27. */
+ * 208 gratings that run away 197; of 4013 calm cells 12 are softened, which swing by up to 0.42 mm more than they
+ * should, and of 49 that shake by 0.5 to 1.3 mm 27. */
 #define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by at least 0.84 mm, arrivals soon by less */
 #define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
 #define FORGETS 0.985  /* decay of the largest swing, per swing: a bounce that dies out is no row */
