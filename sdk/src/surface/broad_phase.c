@@ -1,11 +1,10 @@
 /* The broad phase. A hierarchy holds the surfaces that were at rest when it was built. Surfaces that moved or were
  * added since are dynamic: a list beside the hierarchy, with a box around every few of them, until it is long enough
- * for a rebuild. Boxes of dynamic surfaces have a margin, so that most moves change nothing that a tick has looked up.
+ * for a rebuild. Boxes of dynamic surfaces have a margin, so that most moves leave the ticks' lists valid.
  *
- * Ticks read while an edit writes. The order of writes keeps that safe: a box only grows during a move, and shrinks
- * when the move is published, and so does its group's; a surface is added to the list before anything relies on it; the
- * scene's version is incremented last, so that a tick that read a half-finished state looks again.
- * SPDX-License-Identifier: MIT */
+ * Ticks read while an edit writes. The order of writes keeps that safe: a box and its group's only grow during a move,
+ * and shrink when the move is published; a surface is added to the list before anything relies on it; the version is
+ * incremented last, so that a tick that read a half-finished state queries again. SPDX-License-Identifier: MIT */
 #include "surface/broad_phase.h"
 
 #include "base/atomic.h"
@@ -13,16 +12,16 @@
 
 #include <string.h>
 
-/* Surfaces in a leaf. */
+/* Surfaces per leaf. */
 #define LEAF_SIZE 2
 
-/* Dynamic surfaces get this much margin (m) beside what they sweep now, and what they would sweep in as many seconds at
- * their speed, up to a bound: so that a moving surface asks for new lists a few times a second, not every frame. */
+/* Margin (m) of dynamic surfaces around the box that they sweep now: a constant, and their movement in ROOM_SECONDS at
+ * their speed, up to ROOM_MAX. With it a moving surface invalidates lists a few times a second, not every frame. */
 #define ROOM         0.005
 #define ROOM_SECONDS 0.1
 #define ROOM_MAX     0.05
 
-/* So many dynamic surfaces are never worth a new hierarchy: looking at one costs a few ns when lists are made. */
+/* Up to this many dynamic surfaces never cause a rebuild: testing one costs a few ns, only when lists are made. */
 #define DYNAMIC_MIN 32
 
 static void add_box(const float box[6], float to[6]) {
@@ -72,7 +71,7 @@ static knurl_broad_index *create(knurl_heap *heap, uint32_t capacity) {
     return index;
 }
 
-/* Sorts what stands still into a hierarchy. `still`: places, count of them (> 0). */
+/* Builds the hierarchy of the surfaces at rest. `still`: their places, count of them (> 0). */
 static knurl_result build_hierarchy(knurl_heap *heap, knurl_broad_index *index, uint32_t *still, uint32_t count) {
     knurl_box *boxes = knurl_heap_alloc(heap, count, sizeof *boxes);
     uint32_t *order = knurl_heap_alloc(heap, count, sizeof *order);
@@ -176,12 +175,12 @@ knurl_result knurl_broad_phase_rebuild(knurl_broad_phase *phase, uint32_t capaci
     return KNURL_OK;
 }
 
-/* So many dynamic surfaces are worth a new hierarchy. */
+/* 1 if there are enough dynamic surfaces for a rebuild. */
 static int has_many_dynamic(const knurl_broad_phase *phase) {
     return phase->index->dynamic_count > DYNAMIC_MIN + phase->surfaces->count / 4;
 }
 
-/* Whether building anew would make lists quicker to find: it costs about as much as the moves since the last time. */
+/* 1 if a rebuild pays off: it costs about as much as the moves since the last one did. */
 static int is_worth_it(const knurl_broad_phase *phase) {
     return has_many_dynamic(phase) && phase->moves > 8 * (uint64_t)phase->index->dynamic_count;
 }
@@ -206,15 +205,15 @@ static int holds(const float outer[6], const float inner[6]) {
            outer[4] >= inner[4] && outer[5] >= inner[5];
 }
 
-/* Lists were made from the stored box and, once a motion was over, from the box of where it had arrived. While the new
- * motion stays within the latter, they hold. */
+/* Lists were made from the stored box and, once a motion was over, from the arrival box. They stay valid while the new
+ * motion stays within the latter. */
 void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *surface, knurl_record *record,
                                double time) {
     knurl_broad_index *index = phase->index;
     float swept[6];
     knurl_surface_set_boxes(surface, record);
     memcpy(swept, knurl_record_box(record, time), sizeof swept);
-    const int stays = index && holds(record->arrived, swept); /* still the old record's */
+    const int stays = index && holds(record->arrived, swept); /* still that of the old record */
     if (!stays) {
         knurl_surface_set_arrival(surface, record, index ? margin_of(&record->motion) : 0.0);
         add_box(record->arrived, swept);
@@ -228,13 +227,13 @@ void knurl_broad_phase_publish(knurl_broad_phase *phase, knurl_surface_data *sur
         new_version(phase);
     }
     knurl_record *old = __atomic_exchange_n(&surface->record, record, __ATOMIC_SEQ_CST);
-    if (!stays && index) { /* lists that were made meanwhile hold more than they need */
+    if (!stays && index) { /* lists made meanwhile only hold too many surfaces */
         set_box(index, surface->place, swept);
         new_version(phase);
     }
     knurl_epoch_retire(phase->epoch, &old->retired);
     if (index && is_worth_it(phase)) {
-        (void)knurl_broad_phase_rebuild(phase, index->capacity, time); /* without memory for it, the old one serves */
+        (void)knurl_broad_phase_rebuild(phase, index->capacity, time); /* if out of memory, keep the old index */
     }
 }
 
@@ -275,11 +274,11 @@ static inline int meets(const float *box, const knurl_view *view) {
     return 1;
 }
 
-/* A stored box holds all of a way; what has arrived, or is asked for exactly, is in less of it. */
+/* The stored box bounds the whole motion; after arrival, or in an exact query, a smaller box counts. */
 static int is_there_now(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
     const knurl_surface_data *surface = __atomic_load_n(&index->items[place], __ATOMIC_SEQ_CST);
     if (!surface || !knurl_load_relaxed(&index->rank[place])) {
-        return surface != NULL; /* what stands still fills its box */
+        return surface != NULL; /* a surface at rest fills its box */
     }
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
     if (view->exact) {
@@ -299,7 +298,7 @@ static uint32_t note(uint32_t place, uint32_t limit, uint32_t count, uint32_t *p
     return count + 1;
 }
 
-/* A place may be found twice, dynamic and in the hierarchy. */
+/* A place may be found twice, as dynamic and in the hierarchy. */
 static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t limit, uint32_t count,
                     const uint32_t *places) {
     int noted = 0;
@@ -329,7 +328,7 @@ static uint32_t find_still(const knurl_broad_index *index, const knurl_view *vie
         }
         for (uint32_t i = 0; i < node->count && count <= limit; i++) {
             const uint32_t place = index->order[node->first + i];
-            if (is_there(index, place, view) && /* it may have gone from here since */
+            if (is_there(index, place, view) && /* it may have moved away since */
                 !is_noted(index, place, limit, count, places)) {
                 count = note(place, limit, count, places);
             }

@@ -16,7 +16,7 @@ void knurl_epoch_add_pin(knurl_epoch *epoch, const uint64_t *pin) {
 }
 
 void knurl_epoch_collect(knurl_epoch *epoch) {
-    uint64_t oldest = UINT64_MAX; /* epoch that a running tick began in */
+    uint64_t oldest = UINT64_MAX; /* epoch in which a running tick began */
     for (uint32_t i = 0; i < epoch->pin_count && epoch->retired; i++) {
         const uint64_t pinned = __atomic_load_n(epoch->pins[i], __ATOMIC_SEQ_CST);
         if (pinned != 0 && pinned < oldest) {

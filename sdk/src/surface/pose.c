@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* A motion within less than any tick has a speed that is a number. */
+/* s: shorter motions would have an infinite speed. Less than any tick. */
 #define LEAST_SECONDS 1e-9
 
 static void mat3_product(const double a[9], const double b[9], double out[9]) {
@@ -48,7 +48,7 @@ static void axis_to_matrix(const double axis[3], double angle, double m[9]) {
     m[7] += s * a[0];
 }
 
-/* The way from rotation a to rotation b: a unit axis and an angle, 0 to pi. */
+/* The rotation from a to b: a unit axis and an angle, 0 to pi. */
 static double turn_between(const double a[9], const double b[9], double axis[3]) {
     double m[9]; /* b * transposed a */
     for (int row = 0; row < 3; row++) {
@@ -74,7 +74,7 @@ static double turn_between(const double a[9], const double b[9], double axis[3])
     return atan2(sine2, cosine2);
 }
 
-/* s since the start, the whole way at most. */
+/* s since the start, at most the motion's duration. */
 static double elapsed(const knurl_motion *motion, double time) {
     return knurl_min(knurl_max(time - motion->start_time, 0.0), motion->end_time - motion->start_time);
 }
@@ -141,7 +141,7 @@ void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl
         return;
     }
     seconds = knurl_max(seconds, LEAST_SECONDS);
-    /* the body's rotation is the frame's without the local one */
+    /* the body's rotation: the frame's without the local one */
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
             body[3 * row + column] = vec3_dot(&here.rotation[3 * row], &local->rotation[3 * column]);

@@ -11,18 +11,18 @@
 /* A frame in its parent's: parent = position + rotation * own. */
 typedef struct knurl_pose {
     double position[3];
-    int64_t is_rotated; /* 0: the rotation is the identity, as it mostly is, and need not be computed */
+    int64_t is_rotated; /* 0: the rotation is the identity, as it mostly is, and is skipped */
     double rotation[9]; /* row-major */
 } knurl_pose;
 
-/* A motion from one pose to another: the origin goes in a straight line and the frame rotates at a constant rate. The
- * frame may stand off the origin that it rotates about. */
+/* A motion from one pose to another: the origin moves in a straight line and the frame rotates at a constant rate. The
+ * frame may be off the origin that it rotates about. */
 typedef struct knurl_motion {
     double start_time;  /* s, scene time */
-    double end_time;    /* not after start_time: it stands still */
-    uint64_t jumps;     /* jumps so far: what lies between is not touched */
-    knurl_pose end;     /* where it stands from end_time on, exactly */
-    knurl_pose start;   /* where it stood at start_time */
+    double end_time;    /* s; start_time or earlier: at rest */
+    uint64_t jumps;     /* jumps so far; a jump sweeps nothing in between */
+    knurl_pose end;     /* exact pose from end_time on */
+    knurl_pose start;   /* pose at start_time */
     double arm[3];      /* at start_time, from the origin to the frame, scene axes */
     double velocity[3]; /* m/s of the origin */
     double axis[3];     /* unit, scene axes */
@@ -67,18 +67,18 @@ static inline int knurl_motion_is_over(const knurl_motion *motion, double time) 
     return time >= motion->end_time;
 }
 
-/* The pose at a time; before start_time as at it. Allowed in a tick. */
+/* The pose at a time; before start_time, the start pose. Allowed in a tick. */
 void knurl_motion_at(const knurl_motion *motion, double time, knurl_pose *pose) KNURL_NONBLOCKING;
 
 /* The velocity, over the `period` that ends at `time`, of the point of the moving body that is then at `point` (scene,
- * m); 0 where most of the period lies before the motion or after it. Allowed in a tick. */
+ * m); 0 if most of the period lies before the motion or after it. Allowed in a tick. */
 void knurl_motion_velocity(const knurl_motion *motion, double time, double period, const double point[3],
                            double velocity[3]) KNURL_NONBLOCKING;
 
-/* A frame that stands still. origin: the body's frame in the scene; local: the moving frame in the body's. */
+/* Sets a frame at rest. origin: the body's frame in the scene; local: the moving frame in the body's. */
 void knurl_motion_place(const knurl_pose *origin, const knurl_pose *local, knurl_motion *motion);
 
-/* From where `motion` is at `now` to a target pose of the body's frame in `seconds` (0: a jump). */
+/* Starts a motion from the pose of `motion` at `now` to a target pose of the body's frame in `seconds` (0: a jump). */
 void knurl_motion_go(knurl_motion *motion, const knurl_pose *target, const knurl_pose *local, double now,
                      double seconds);
 

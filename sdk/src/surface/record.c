@@ -10,7 +10,7 @@ void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
-/* Textures that a tick can play; what is stiffer than a number gives no force. */
+/* Limits of textures that a tick can play. Stiffness has none here: a force that overflows is set to 0. */
 static const knurl_field fields[] = {
     {"spatial_frequency[0]", offsetof(knurl_material_desc, spatial_frequency[0]), {0.0, 1e9, "cycles/m", 0}},
     {"spatial_frequency[1]", offsetof(knurl_material_desc, spatial_frequency[1]), {0.0, 1e9, "cycles/m", 0}},

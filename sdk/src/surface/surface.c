@@ -63,7 +63,7 @@ void knurl_surface_share(const knurl_surface_data *surface, knurl_shared_shape *
 
 static knurl_result set_shared_shape(const knurl_surface_desc *d, const knurl_shared_shape *shared,
                                      knurl_surface_data *surface) {
-    surface->shape = shared->shape; /* first: who frees the surface frees its part of it */
+    surface->shape = shared->shape; /* first: knurl_surface_release() then drops this reference after a failure */
     surface->local = shared->local;
     surface->given = shared->given;
     surface->double_sided = d->double_sided != 0 || shared->shape.double_sided;
@@ -88,7 +88,7 @@ static knurl_result set_name(knurl_heap *heap, const char *name, knurl_surface_d
     return KNURL_OK;
 }
 
-/* The box of a box. */
+/* Adds the bounds of the shape's box in a pose. */
 static void add_box(const knurl_surface_data *surface, const knurl_pose *pose, double low[3], double high[3]) {
     for (int row = 0; row < 3; row++) {
         double centre = pose->position[row];
@@ -103,8 +103,8 @@ static void add_box(const knurl_surface_data *surface, const knurl_pose *pose, d
     }
 }
 
-/* Between the two poses whose bounds are there, a corner's arc leaves its chord by up to radius * angle^2 / 8 (the
- * error of linear interpolation), and never leaves the ball round the origin's way. The smaller of the two counts. */
+/* Between the two poses whose bounds are in low and high, a corner's arc leaves its chord by up to radius * angle^2 / 8
+ * (the error of linear interpolation), and stays in the ball around the origin's path. The smaller bound is used. */
 static void add_turning(const knurl_surface_data *surface, const knurl_motion *motion, double low[3], double high[3]) {
     const double seconds = motion->end_time - motion->start_time;
     const double angle = motion->rate * seconds;
@@ -173,7 +173,7 @@ void knurl_surface_release(knurl_heap *heap, knurl_retired *retired) {
     }
 }
 
-/* m: the farthest corner from the origin that the surface turns about. */
+/* m: the farthest corner from the origin that the surface rotates about. */
 static double find_radius(const knurl_surface_data *surface) {
     double radius2 = 0.0;
     for (int corner = 0; corner < 8; corner++) {

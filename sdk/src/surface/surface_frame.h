@@ -21,13 +21,13 @@ static inline void knurl_surface_frame(const knurl_surface_data *surface, const 
     }
 }
 
-/* Where on the grating the contact is, m: what S1 looks up. After knurl_surface_frame(), with its coordinates. */
+/* The contact's position on the grating, m, as method S1 uses it. After knurl_surface_frame(), with its coordinates. */
 static inline void knurl_surface_coordinates(const knurl_surface_data *surface, const knurl_record *record,
                                              const knurl_contact *contact, double coordinates[2]) {
     if (surface->shape.plane) {
         knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
     }
-    if (record->is_oriented) { /* which rotates the frame, so the coordinates rotate back */
+    if (record->is_oriented) { /* rotates the frame, so the coordinates rotate back */
         const double c = record->cos_sin[0];
         const double s = record->cos_sin[1];
         const double place[2] = {coordinates[0], coordinates[1]};
@@ -36,8 +36,8 @@ static inline void knurl_surface_coordinates(const knurl_surface_data *surface, 
     }
 }
 
-/* How fast those coordinates change (m/s) where the HIP moves over the surface at `velocity` (m/s, shape's frame), and
- * by how much at most in a metre along the surface. 0, and untouched, where there are no coordinates. */
+/* Rates of those coordinates (m/s) while the HIP moves over the surface at `velocity` (m/s, shape's frame), and their
+ * largest change per metre along the surface. Returns 0, with the outputs untouched, if there are no coordinates. */
 static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
                                       const knurl_contact *contact, const double velocity[3], double rates[2],
                                       double *steepest) {

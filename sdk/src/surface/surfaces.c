@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* Twice the places, or as many as are allowed: a scene costs what is in it. */
+/* Doubles the places, up to the limit: the memory of a scene follows its contents. */
 static knurl_result grow(knurl_surfaces *s) {
     uint32_t capacity = s->capacity > 0 ? 2 * s->capacity : 4;
     capacity = capacity < s->limit ? capacity : s->limit;
@@ -57,7 +57,7 @@ void knurl_surfaces_undo_add(knurl_surfaces *s, knurl_surface_data *surface) {
 }
 
 void knurl_surfaces_remove(knurl_surfaces *s, knurl_surface_data *surface) {
-    uint32_t at = s->count - 1; /* from the end: what was added last goes first where a load is taken back */
+    uint32_t at = s->count - 1; /* from the end: a failed load removes the last added first */
     while (s->order[at] != surface->place) {
         at--;
     }
@@ -76,7 +76,7 @@ void knurl_surfaces_replace(knurl_surfaces *s, const knurl_surface_data *old, kn
 }
 
 knurl_surface_data *knurl_surfaces_find(const knurl_surfaces *s, knurl_surface_id id) {
-    const uint32_t place = (uint32_t)(id & KNURL_ID_PLACE_MAX) - 1; /* 0 wraps to a place that no scene has */
+    const uint32_t place = (uint32_t)(id & KNURL_ID_PLACE_MAX) - 1; /* 0 wraps to a place above every capacity */
     knurl_surface_data *surface = place < s->capacity ? s->items[place] : NULL;
     return surface && surface->id == id ? surface : NULL;
 }
