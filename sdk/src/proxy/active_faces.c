@@ -1,19 +1,18 @@
 /* Projects a point onto up to three half-spaces by trying all subsets of them: at most eight cases, each solved
- * exactly.
- * SPDX-License-Identifier: MIT */
+ * exactly. SPDX-License-Identifier: MIT */
 #include "proxy/active_faces.h"
 
-/* The square of the sine below which two faces count as parallel: 1e-6 rad. */
+/* Squared sine below which two faces count as parallel: 1e-6 rad. */
 #define PARALLEL 1e-12
 
 /* m: rounding of heights over faces. */
 #define ROUNDING 1e-12
 
-/* Which faces hold, the fewest first. */
+/* Bit masks of the faces that hold, fewest first. */
 static const unsigned subsets[8] = {0, 1, 2, 4, 3, 5, 6, 7};
 
-/* By how much each of the listed faces has to push (Gram's matrix, Cramer's rule). 0: two are parallel, or all three in
- * one plane. */
+/* Solves for the push of each listed face (Gram's matrix, Cramer's rule). Returns 0 if two are parallel, or all three
+ * normals lie in one plane. */
 static int solve(const knurl_active_face *const *faces, uint32_t count, const double *heights, double *press) {
     double g[3];
     for (uint32_t i = 0; i < count; i++) {
@@ -39,8 +38,8 @@ static int solve(const knurl_active_face *const *faces, uint32_t count, const do
     return det > PARALLEL;
 }
 
-/* The point where the faces of a subset hold the target. 0 where one of them would have to pull, or another is
- * crossed. */
+/* Finds the point where the faces of a subset hold the target. Returns 0 if one of them would have to pull, or if the
+ * point lies behind another face. */
 static int project_on(knurl_active_faces *faces, unsigned subset, const double target[3], double point[3]) {
     const knurl_active_face *held[3];
     double heights[3], press[3] = {0.0, 0.0, 0.0};

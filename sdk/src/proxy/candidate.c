@@ -21,13 +21,13 @@ void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *
         *now = *before = &motion->end;
         return;
     }
-    if (candidate->placed != clock->tick) { /* not yet in this tick */
+    if (candidate->placed != clock->tick) { /* first call in this tick */
         if (!was_seen) {
             pose_at(motion, clock->previous_time, &candidate->poses[candidate->latest]);
         }
         candidate->latest ^= 1;
         pose_at(motion, clock->time, &candidate->poses[candidate->latest]);
-        if (was_seen && candidate->placed_jumps != motion->jumps) { /* what it passed is not touched */
+        if (was_seen && candidate->placed_jumps != motion->jumps) { /* a jump does not sweep */
             candidate->poses[candidate->latest ^ 1] = candidate->poses[candidate->latest];
         }
         candidate->placed_jumps = motion->jumps;
@@ -58,7 +58,7 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
     const double wide = margin + surface->shape.seam;
     const int was_seen = candidate->swept_tick + 1 == clock->tick;
-    int near = !was_seen || is_near(candidate->swept, path, wide); /* a tick ago it was in there */
+    int near = !was_seen || is_near(candidate->swept, path, wide); /* last tick's box */
     if (!was_seen || candidate->swept_of != record || candidate->swept_start != record->motion.start_time ||
         candidate->swept_reach != record->reach) {
         memcpy(candidate->swept, knurl_record_box(record, clock->previous_time), sizeof candidate->swept);

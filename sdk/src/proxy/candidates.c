@@ -1,16 +1,15 @@
-/* The surfaces near a HIP. They are looked up when the HIP has moved some millimetres or after an edit, not in every
- * tick; so most ticks test only this list, however many surfaces the scene has.
- * SPDX-License-Identifier: MIT */
+/* The surfaces near a HIP. A query of the broad phase runs only after the HIP has moved some millimetres or after an
+ * edit; most ticks test only this list, however many surfaces the scene has. SPDX-License-Identifier: MIT */
 #include "proxy/candidates.h"
 
 #include <stddef.h>
 #include <string.h>
 
-/* The sizes of a query, m, widest first. margin: how far the HIP may move before the next query; at 250 mm/s the first
- * lasts for 120 ticks, so that fewer than one tick in a hundred makes one. deeper: how much deeper the HIP may be
- * pressed until then, because surfaces that it may slide onto are that far above it. capture: how deep the HIP may be
- * in a surface on a first tick. Where a query finds more surfaces than a list holds, the next size is tried, down to
- * what the tick itself needs. */
+/* The sizes of a query, m, widest first. margin: distance that the HIP may move before the next query; at 250 mm/s the
+ * first lasts for 120 ticks, so fewer than one tick in a hundred makes a query. deeper: how much deeper the HIP may be
+ * pressed until then, because surfaces that it may slide onto are that far above it. capture: depth at which a first
+ * tick still finds the HIP inside a surface. If a query finds more surfaces than a list holds, the next size is tried,
+ * down to the one that the tick itself needs. */
 static const struct {
     double margin;
     double deeper;
@@ -24,13 +23,13 @@ static const struct {
              {0.0, 0.0001, 0.003},
              {0.0, 0.0001, 0.001}};
 #define VIEWS   (sizeof views / sizeof *views)
-#define NARROWS 5 /* the first without a margin */
+#define NARROWS 5 /* index of the first size without a margin */
 
-/* With more surfaces in a list the next size is tried, as long as it has a margin: ticks near a seam test all of them,
- * and a long list takes longer to make. But a query also tests all dynamic surfaces, so many of them are best looked at
- * rarely. */
+/* Above this number of surfaces the next size is tried, as long as it has a margin: ticks near a seam test the whole
+ * list, and a long list takes longer to build. A query also tests all dynamic surfaces, so with many of those a longer
+ * list and fewer queries are faster. */
 #define ENOUGH            12
-#define DYNAMIC_A_SURFACE 16 /* so many dynamic surfaces are worth one more in the list */
+#define DYNAMIC_A_SURFACE 16 /* dynamic surfaces that allow one more in the list */
 
 /* m: subtracted from a clearance: the margin passed to knurl_candidate_is_near(), 1e-9, and rounding. */
 #define ROUNDING 2e-9
@@ -46,7 +45,7 @@ static void sort_places(uint32_t *places, uint32_t count) {
     }
 }
 
-/* Removes the surfaces that are no longer near, except those in contact. The others keep their state. */
+/* Removes surfaces that are no longer near, except those in contact. The others keep their state. */
 static void remove_others(knurl_candidates *c, const uint32_t *places, uint32_t found) {
     uint32_t kept = 0, k = 0;
     for (uint32_t i = 0; i < c->count; i++) {
@@ -63,8 +62,8 @@ static void remove_others(knurl_candidates *c, const uint32_t *places, uint32_t 
     c->count = kept;
 }
 
-/* Takes a free slot. Its poses and its facet keep what was in them: they are read only once `placed` and `facet.side`
- * are not 0. */
+/* Takes a free slot. Its poses and facet are not cleared: they are read only while `placed` and `facet.side` are not 0.
+ */
 static uint8_t take_slot(knurl_candidates *c, uint32_t place) {
     const uint8_t slot = (uint8_t)__builtin_ctz(~c->used);
     knurl_candidate *candidate = &c->slots[slot];
@@ -106,15 +105,15 @@ static void load_box(const knurl_broad_index *index, knurl_candidate *candidate)
     }
 }
 
-/* So many queries at one size until a wider one is tried again. */
+/* Queries at one size before a wider one is tried. */
 #define WIDER_AFTER 256
 
 static uint32_t first_view(const knurl_candidates *c, const knurl_hip_path *path) {
     return path->is_first ? 0 : c->view > 0 && c->queries >= WIDER_AFTER ? c->view - 1 : c->view;
 }
 
-/* Where a wider size fits the list, the next query tries a still wider one. A first tick's query looks farther than
- * later ones: its size says nothing about theirs. */
+/* After a query of a wider size has fitted, the next one tries a still wider size. A first tick's query is larger than
+ * later ones, so its size is not kept. */
 static void keep_view(knurl_candidates *c, const knurl_hip_path *path, uint32_t first, uint32_t served) {
     if (!path->is_first) {
         c->queries = served < c->view ? WIDER_AFTER : first < c->view ? 0 : c->queries + 1;
@@ -122,7 +121,7 @@ static void keep_view(knurl_candidates *c, const knurl_hip_path *path, uint32_t 
     }
 }
 
-/* The most surfaces that a query of one size may find. */
+/* Number of surfaces above which a query tries the next size. */
 static uint32_t find_limit(const knurl_broad_index *index, uint32_t view) {
     const uint32_t enough = ENOUGH + knurl_load_relaxed(&index->dynamic_count) / DYNAMIC_A_SURFACE;
     return view + 1 < NARROWS && enough < KNURL_CANDIDATES_MAX ? enough : KNURL_CANDIDATES_MAX;
@@ -155,7 +154,7 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
         }
     }
     keep_view(c, path, first, v);
-    c->version = v >= NARROWS ? 0 : version; /* without a margin it is valid in this tick only */
+    c->version = v >= NARROWS ? 0 : version; /* without a margin the list is valid in this tick only */
     c->overflow = found > KNURL_CANDIDATES_MAX;
     found = c->overflow ? KNURL_CANDIDATES_MAX : found;
     sort_places(places, found);
@@ -166,7 +165,7 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
         if (candidate->place < index->capacity) {
             load_box(index, candidate);
         }
-        candidate->swept_tick = 0; /* another surface may be in its place */
+        candidate->swept_tick = 0; /* the place may hold another surface now */
     }
 }
 
@@ -203,7 +202,7 @@ void knurl_candidates_look_ahead(knurl_candidates *c, const knurl_broad_phase *p
     }
 }
 
-/* m: from a point to a candidate's box, along the axis where they are farthest apart; negative inside. */
+/* m: from a point to a candidate's box, along the axis of the largest distance; negative inside. */
 static double gap(const knurl_candidate *candidate, const double p[3]) {
     double widest = -HUGE_VAL;
     for (int i = 0; i < 3; i++) {
@@ -220,7 +219,7 @@ void knurl_candidates_measure(knurl_candidates *c, const double position[3], con
     for (int i = 0; i < 3; i++) {
         distance = knurl_min(distance, knurl_min(position[i] - c->low[i], c->high[i] - position[i]));
     }
-    for (uint32_t i = 0; i < c->count && distance > 0.0; i++) { /* below 0 it makes no difference how far */
+    for (uint32_t i = 0; i < c->count && distance > 0.0; i++) { /* a negative distance means no clearance */
         const knurl_candidate *candidate = knurl_candidates_at(c, i);
         if (!candidate->in_contact) {
             distance = knurl_min(distance, knurl_min(gap(candidate, position), gap(candidate, proxy)));

@@ -1,6 +1,5 @@
-/* The surfaces that one HIP may touch: a short list, and how far the HIP can move before it must be tested against
- * them.
- * SPDX-License-Identifier: MIT */
+/* The surfaces that one HIP may touch: a short list, and the distance that the HIP can move before it must be tested
+ * against them. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CANDIDATES_H
 #define KNURL_SRC_CANDIDATES_H
 
@@ -9,11 +8,11 @@
 #include "proxy/candidate.h"
 #include "surface/broad_phase.h"
 
-/* The most surfaces that a tick tests against a HIP. */
+/* Most surfaces that a tick tests against a HIP. */
 #define KNURL_CANDIDATES_MAX 32
 
-/* While the HIP is within `distance` (m, each axis) of `at`, the list is complete and the HIP enters no box but those
- * of surfaces in contact. The same holds for its proxy within `distance` of `proxy`. */
+/* While the HIP is within `distance` (m, each axis) of `at`, the list is complete and the HIP enters only boxes of
+ * surfaces in contact. The same holds for its proxy within `distance` of `proxy`. */
 typedef struct knurl_clearance {
     double at[3];
     double proxy[3];
@@ -21,18 +20,18 @@ typedef struct knurl_clearance {
 } knurl_clearance;
 
 typedef struct knurl_candidates {
-    double low[3]; /* the list is complete while the HIP stays in this box, scene axes, */
+    double low[3]; /* box, scene axes: the list is complete while the HIP stays in it, */
     double high[3];
-    double depth;     /* is pressed no deeper than this, m, */
+    double depth;     /* m: is pressed no deeper than this, */
     uint64_t version; /* and the broad phase's version is this; 0: query again */
     uint32_t count;
-    uint32_t overflow; /* 1: there were more than fit */
-    uint32_t view;     /* the latest query's size; 0: the widest */
+    uint32_t overflow; /* 1: more surfaces were found than fit */
+    uint32_t view;     /* index of the last query's size; 0: widest */
     uint32_t queries;  /* since a wider size was tried */
     knurl_clearance clearance;
-    uint32_t used;                               /* a bit for each of `slots` that holds a surface */
+    uint32_t used;                               /* bit i: slot i holds a surface */
     uint8_t order[KNURL_CANDIDATES_MAX];         /* the list: `count` slots, in order of their surfaces' places */
-    knurl_candidate slots[KNURL_CANDIDATES_MAX]; /* a surface stays in its slot for as long as it is in the list */
+    knurl_candidate slots[KNURL_CANDIDATES_MAX]; /* a surface stays in its slot while it is in the list */
 } knurl_candidates;
 
 /* The list's candidate number i. */
@@ -43,16 +42,16 @@ static inline knurl_candidate *knurl_candidates_at(knurl_candidates *c, uint32_t
 /* Empties the list. */
 void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;
 
-/* Makes the list complete for a path, where it is not yet. */
+/* Makes the list complete for a path, if it is not yet. */
 void knurl_candidates_update(knurl_candidates *candidates, const knurl_broad_phase *phase,
                              const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
 
-/* In a tick that has had little to do: where the HIP would leave the list's box in the next one if it went on alike,
- * makes the list anew now, so that few ticks both do that and go from surface to surface. */
+/* For a tick with little other work: if the HIP, at its present velocity, would leave the list's box in the next tick,
+ * makes the list anew now. Few ticks then have to do that and find joint contact. */
 void knurl_candidates_look_ahead(knurl_candidates *candidates, const knurl_broad_phase *phase,
                                  const knurl_broad_index *index, const knurl_hip_path *path) KNURL_NONBLOCKING;
 
-/* 1: the list is complete, and only surfaces in contact need to be tested, as in most ticks. depth: m, of the deepest
+/* 1 if the list is complete and only surfaces in contact need to be tested, as in most ticks. depth: m, of the deepest
  * contact. */
 static inline int knurl_candidates_are_clear(const knurl_candidates *c, const knurl_broad_phase *phase,
                                              const double p[3], double depth) {
@@ -70,8 +69,8 @@ static inline int knurl_candidates_are_clear_of(const knurl_candidates *c, const
                         fabs(p[2] - clear->proxy[2]) < clear->distance);
 }
 
-/* The clearance at a position and a proxy, from the candidates that are not in contact. again: 1 where the next tick
- * has to test all of them in any case. */
+/* Measures the clearance at a position and a proxy from the candidates that are not in contact. again: 1: leave no
+ * clearance, so that the next tick tests all of them. */
 void knurl_candidates_measure(knurl_candidates *candidates, const double position[3], const double proxy[3],
                               int again) KNURL_NONBLOCKING;
 

@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-/* Finds one shape's contact with the HIP. hip: in the shape's frame. Returns whether it holds the HIP or is in reach.
- */
+/* Queries one shape's contact with the HIP (hip: shape's frame). Returns 1 if it holds the HIP or is in reach. */
 static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const double hip[3],
                               knurl_contact_state *state) {
     const knurl_shape *shape = &a->surface->shape;
@@ -23,8 +22,8 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
     return knurl_shape_contact(shape, &query, state, &a->contact);
 }
 
-/* 1 where nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
- * margin below 0: by the clearance. */
+/* 1 if nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
+ * negative margin uses the clearance instead. */
 static inline int is_within_view(const knurl_contacts *c, double margin, const double proxy[3]) {
     if (KNURL_LIKELY(margin < 0.0)) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
@@ -32,8 +31,8 @@ static inline int is_within_view(const knurl_contacts *c, double margin, const d
     return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= margin * margin;
 }
 
-/* Nothing but `candidate`, which is in contact, is near: tests its shape alone. Returns 0, with nothing changed, where
- * joint contact has to decide; c->asked then has what the shape said. margin: as for is_within_view(). */
+/* Tests only `candidate`, which is in contact, if nothing else is near the HIP. Returns 0, with the contact unchanged,
+ * if joint contact has to decide; c->asked then holds the query's result. margin: as for is_within_view(). */
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
                              const double position[3], double margin) {
     knurl_active_contact *a = &c->active[0];
@@ -104,7 +103,7 @@ void knurl_contacts_reset(knurl_contacts *c) {
     c->slip.time = -1.0;
 }
 
-/* The proxy of the one surface that holds the HIP, for the next tick: hardly one ever asks for it. */
+/* Keeps the proxy for the next tick. If a surface holds the HIP it is computed on demand, since few ticks need it. */
 static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
     if (KNURL_LIKELY(c->pressed)) {
         c->held_by = c->active[0].candidate;
@@ -117,7 +116,7 @@ static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
     }
 }
 
-/* Sets the proxy and the normal that keep_proxy() has left for later. */
+/* Computes the proxy and the normal that keep_proxy() has deferred. */
 static void settle_proxy(knurl_contacts *c) {
     if (c->held_by) {
         vec3_madd(c->held_by->proxy, c->held_off, c->held_by->normal, c->proxy);
@@ -126,7 +125,7 @@ static void settle_proxy(knurl_contacts *c) {
     }
 }
 
-/* 1 where the path comes near a candidate that is not in contact. */
+/* 1 if the path comes near a candidate that is not in contact. */
 static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
                       const knurl_hip_path *path, double margin) {
     if (!knurl_candidate_is_near(candidate, path, margin)) {
@@ -136,7 +135,7 @@ static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, k
     return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, margin);
 }
 
-/* The candidate that is in contact, where it is the only one and the path comes near no other; else null. */
+/* The candidate in contact, if it is the only one and the path comes near no other; else null. */
 static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                                    double margin) {
     knurl_candidate *alone = NULL;
@@ -155,7 +154,7 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
     return alone;
 }
 
-/* m: how far surfaces may be that the HIP slides onto. One that has just come off a rim may be put back onto it. */
+/* m: distance within which the HIP may meet other surfaces: its depth or, after a slip off a rim, that to the rim. */
 static double find_depth(const knurl_contacts *c, const double position[3]) {
     return knurl_contacts_have_slipped(c) ? knurl_max(c->depth, sqrt(vec3_distance2(c->slip.proxy, position)))
                                           : c->depth;
@@ -174,7 +173,7 @@ static knurl_hip_path find_path(const knurl_contacts *c, const double position[3
     return path;
 }
 
-/* Makes the list complete where there is no clearance. Returns what find_alone() does. *margin: m, for hold_alone(). */
+/* Completes the list when there is no clearance. Returns find_alone(). *margin: m, for hold_alone(). */
 __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contacts *c, const knurl_broad_phase *phase,
                                                                     const knurl_broad_index *index,
                                                                     const double position[3], double *margin) {
@@ -195,7 +194,7 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
     knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
 }
 
-/* Visits of a tick with several surfaces near that has had little to do: the faces that it went on with were free. */
+/* A tick of joint contact with at most this many visits had little to do. */
 #define FEW_VISITS 4
 
 /* Finds contact with several surfaces. */

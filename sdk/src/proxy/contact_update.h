@@ -11,12 +11,11 @@ void knurl_contacts_init(knurl_contacts *contacts, double period, double time);
 /* No contact; the next tick is a first one. */
 void knurl_contacts_reset(knurl_contacts *contacts) KNURL_NONBLOCKING;
 
-/* Where there is more to do than to see that nothing is near. clear: 1 where nothing but what is in contact has to be
- * looked at. */
+/* Full contact search, when the fast path does not apply. clear: 1 if only surfaces already in contact need testing. */
 void knurl_contacts_find(knurl_contacts *contacts, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) KNURL_NONBLOCKING;
 
-/* From the HIP's position (scene, m) to the surfaces that it is in contact with: contacts->active. Adds to *flags:
+/* Finds the surfaces in contact with a HIP at a position (scene, m): contacts->active. Adds to *flags:
  * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED, KNURL_TICK_VISIT_LIMIT. */
 static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase,
                                          const knurl_broad_index *index, const double position[3], uint32_t *flags) {
@@ -27,7 +26,7 @@ static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_ph
     }
 }
 
-/* The tick is over, and was one to go on from. */
+/* Ends a valid tick: the next one continues from it. */
 static inline void knurl_contacts_keep(knurl_contacts *contacts, const double position[3]) {
     vec3_copy(position, contacts->previous);
     contacts->has_previous = 1;

@@ -1,19 +1,19 @@
 /* Motion of the god-object. SPDX-License-Identifier: MIT */
 #include "proxy/god_object.h"
 
-/* m: edges and steps that are lower do not stop a proxy: less than a tenth of what devices' encoders tell apart, more
- * than what rounding and overlapping seams leave of even floors. */
+/* m: lower edges and steps do not stop a proxy. This is less than a tenth of encoders' resolution, and more than the
+ * unevenness that rounding and overlapping seams leave on an even floor. */
 #define HOP_HEIGHT 10e-6
 
-/* Looks for what is in the way, from where it has got to, in a tick at most; and faces that are met in one of them.
- * What is left of a way then is gone in the next ticks: until then it is held where it is. */
+/* Passes in a tick, and faces that one pass may meet. If the object has not arrived after them, it stays and continues
+ * in the next tick. */
 #define PASSES 8
 #define MEETS  5
 
-/* m: nearer than this it is there. */
+/* m: distance at which the object has arrived. */
 #define ARRIVED 1e-10
 
-/* A hit as a constraint in the scene. */
+/* Turns a hit into a constraint in the scene. */
 static void set_face(const knurl_obstacles *obstacles, uint32_t obstacle, const knurl_cast_hit *hit,
                      knurl_active_face *face) {
     double point[3];
@@ -27,7 +27,7 @@ static void set_face(const knurl_obstacles *obstacles, uint32_t obstacle, const 
     face->obstacle = obstacle;
 }
 
-/* On the way to `goal`, as far as the height above the face that was hit at which it rests. */
+/* Moves towards `goal`, down to the rest height above the face that was hit. */
 static void stop_before(knurl_god_object *g, const knurl_active_face *face, const double goal[3]) {
     double way[3];
     vec3_sub(goal, g->at, way);
@@ -39,12 +39,12 @@ static void stop_before(knurl_god_object *g, const knurl_active_face *face, cons
     }
 }
 
-/* The sine squared below which two faces count as parallel: 1e-6 rad. */
+/* Squared sine below which two faces count as parallel: 1e-6 rad. */
 #define PARALLEL 1e-12
 
-/* 1 where `face` looks at a face that holds the object, across a crack that their seams bridge: faces of two solids
- * that are flush. Nothing rests between them, so the object is moved out of the crack, by their seams at most, to where
- * the face that holds it lets it be. */
+/* 1 if `face` is opposite a face that holds the object, across a crack that their seams bridge: flush faces of two
+ * solids. Nothing rests between them, so the object moves out of the crack, by their seams at most, to the rest height
+ * of the face that holds it. */
 static int leave_crack(knurl_god_object *g, const knurl_active_face *face) {
     for (uint32_t i = 0; i < g->faces.count; i++) {
         const knurl_active_face *other = &g->faces.list[i];
@@ -60,8 +60,8 @@ static int leave_crack(knurl_god_object *g, const knurl_active_face *face) {
     return 0;
 }
 
-/* One look at what is in the way. Returns 1 where it has got on. Where the visits are used up before a face is met, the
- * faces of the last look hold the object on. */
+/* One pass towards the HIP, up to the faces in between. Returns 1 if the object has moved. If the visits run out before
+ * a face is met, the last pass's faces keep holding it. */
 static int pass(knurl_god_object *g, const knurl_obstacles *obstacles, const double hip[3]) {
     double goal[3];
     const double start[3] = {g->at[0], g->at[1], g->at[2]};
@@ -110,7 +110,7 @@ int knurl_god_object_can_go(const knurl_obstacles *obstacles, const double from[
            (!obstacles->moving && can_hop(obstacles, from, from_normal, to, to_normal, except));
 }
 
-/* Where several faces hold it: is one of them so low that it can hop over it? */
+/* Hops over one of several faces that hold the object, if that one is low enough. */
 static int hop(knurl_god_object *g, const knurl_obstacles *obstacles, const double hip[3]) {
     double up[3];
     double goal[3];
@@ -139,15 +139,15 @@ void knurl_god_object_follow(knurl_god_object *g, const knurl_obstacles *obstacl
     (void)pass(g, obstacles, hip);
 }
 
-/* A surface may push the object at most this many times its own movement. Two surfaces that close at an angle a push it
- * by 1 / tan(a) times that, so the limit is at 11 degrees; a real wedge of 11 degrees does not push out what is in it
+/* Limit on a surface's push, as a multiple of its own movement. Two surfaces that close at an angle a push the object
+ * by 1 / tan(a) times that, so the limit is at 11 degrees; a real wedge of 11 degrees does not push its contents out
  * either, from a friction coefficient of tan(11 degrees / 2) = 0.1 on. */
 #define PUSH_RATIO 5.0
 
-/* m: a push by rounding, where nothing moves. */
+/* m: a push by rounding, if nothing moves. */
 #define PUSH_ROUNDING 1e-6
 
-/* m: how far the object may be pushed in the tick. */
+/* m: longest push in this tick. */
 static double longest_push(const knurl_god_object *g, const knurl_obstacles *obstacles) {
     double longest = 0.0;
     for (uint32_t i = 0; i < obstacles->count; i++) {
@@ -160,7 +160,7 @@ static double longest_push(const knurl_god_object *g, const knurl_obstacles *obs
     return PUSH_ROUNDING + PUSH_RATIO * sqrt(longest);
 }
 
-/* In front of each face that has moved over it, as near as can be to where it was. */
+/* Moves the object in front of each face that has moved over it, by the shortest displacement. */
 static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacles) {
     const double longest = longest_push(g, obstacles);
     double goal[3];
@@ -187,7 +187,7 @@ static int move_before_faces(knurl_god_object *g, const knurl_obstacles *obstacl
     return 0;
 }
 
-/* Along with one of the obstacles, to the place where it was on that one. */
+/* Carries the object along with one of the obstacles, if its path is clear. */
 static int move_along(knurl_god_object *g, const knurl_obstacles *obstacles) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const knurl_obstacle *o = &obstacles->list[i];
@@ -225,7 +225,7 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
     vec3_copy(above, g->at);
     stop_before(g, &face, hip);
     vec3_madd(g->at, -3.0 * face.rest, face.normal, behind);
-    /* A HIP that is in front of another face on the way back to this one is outside. */
+    /* If a face of another surface is in between, the HIP is in front of it, and so outside. */
     const knurl_segment back = {hip, behind, 0, KNURL_NO_OBSTACLE};
     if (vec3_dot(face.normal, normal) < 0.5 || !knurl_obstacles_are_clear(obstacles, &back)) {
         vec3_copy(hip, g->at);
@@ -237,6 +237,6 @@ int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obsta
         *g = on;
         return 1;
     }
-    knurl_active_faces_add(&g->faces, &face); /* the way on leads off a rim again: here it stays for this tick */
+    knurl_active_faces_add(&g->faces, &face); /* going on leads off a rim again: stay here for this tick */
     return knurl_active_faces_project(&g->faces, hip, goal);
 }

@@ -11,23 +11,23 @@
 typedef struct knurl_god_object {
     double at[3]; /* scene */
     knurl_active_faces faces;
-    int32_t squeezed; /* 1: a surface has moved over it, because another was in the way */
+    int32_t squeezed; /* 1: a surface has moved over it, because another blocked its path */
 } knurl_god_object;
 
-/* Moves it out of the way of what has moved over the place where it was a tick ago. */
+/* Pushes the object out of surfaces that moved through it in this tick. */
 void knurl_god_object_push(knurl_god_object *g, const knurl_obstacles *obstacles) KNURL_NONBLOCKING;
 
-/* Moves it as near to the HIP as can be, and tells which faces keep it from there: none where it gets there. */
+/* Moves the object as near to the HIP as possible. `faces` are those that hold it back; empty if it arrives. */
 void knurl_god_object_follow(knurl_god_object *g, const knurl_obstacles *obstacles,
                              const double hip[3]) KNURL_NONBLOCKING;
 
-/* It has come off a surface whose normal was `normal`: down onto what there is between a place above the HIP and the
- * HIP, if it faces about the same way. Returns 0 where there is none. */
+/* After leaving a surface: casts from `above` to the HIP and lands on the first face within 60 degrees of `normal`.
+ * Returns 0 if there is no such face. */
 int knurl_god_object_step_down(knurl_god_object *g, const knurl_obstacles *obstacles, const double above[3],
                                const double normal[3], const double hip[3]) KNURL_NONBLOCKING;
 
-/* 1 where a way within the tick, from one place at rest to another, runs into nothing but `except`, or where all stand
- * still, into nothing that a small hop does not clear. normals: at the two places. */
+/* 1 if the segment between two resting places hits only `except` within the tick or, if no surface moves, nothing that
+ * a small hop does not clear. normals: at the two places. */
 int knurl_god_object_can_go(const knurl_obstacles *obstacles, const double from[3], const double from_normal[3],
                             const double to[3], const double to_normal[3], uint32_t except) KNURL_NONBLOCKING;
 

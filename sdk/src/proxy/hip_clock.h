@@ -5,15 +5,15 @@
 #include "base/atomic.h"
 #include "base/finite.h"
 
-/* A HIP's time. It may be behind other HIPs' that have ticked more often. */
+/* A HIP's time. It may lag behind that of HIPs that have ticked more often. */
 typedef struct knurl_hip_clock {
-    double time; /* atomic: s, scene time after the latest tick */
+    double time; /* atomic: s, scene time after the last tick */
     double previous_time;
     double period; /* s */
-    uint64_t tick; /* from 1 on */
+    uint64_t tick; /* from 1 */
 } knurl_hip_clock;
 
-/* One period on. */
+/* Advances by one period. */
 static inline void knurl_hip_clock_advance(knurl_hip_clock *clock) {
     const double time = clock->time + clock->period;
     clock->previous_time = clock->time;

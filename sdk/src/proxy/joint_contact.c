@@ -1,18 +1,17 @@
 /* Contact with several surfaces. Read knurl_joint_contact(), at the end, first. While one surface alone holds the HIP
- * and nothing is in the proxy's way, that surface's own contact is used; otherwise a god-object finds the faces that
- * hold the proxy together.
- * SPDX-License-Identifier: MIT */
+ * and nothing blocks the proxy, that surface's own contact is used; otherwise a god-object finds the faces that hold
+ * the proxy together. SPDX-License-Identifier: MIT */
 #include "proxy/joint_contact.h"
 
 #include "proxy/god_object.h"
 #include "proxy/joint_faces.h"
 
-/* 1 where everything between `from` and the proxy has been collected. */
+/* 1 if everything between `from` and the proxy has been collected. */
 static int is_collected(const knurl_joint_search *m, const double from[3]) {
     return m->pressed == 0 || vec3_distance2(from, m->proxy) <= m->margin * m->margin;
 }
 
-/* A HIP that was free. Returns 1 where one shape at most begins contact and the path to its proxy is clear. */
+/* Contact of a HIP that was free. Returns 1 if at most one shape begins contact and the path to its proxy is clear. */
 static int begin_contact(knurl_joint_search *m) {
     uint32_t holder = KNURL_NO_OBSTACLE;
     knurl_joint_set_free(m);
@@ -42,7 +41,7 @@ static uint32_t find_holder(const knurl_joint_search *m) {
     return holder;
 }
 
-/* A HIP that one surface held. Returns 1 where the proxy's path on it hits no other surface. */
+/* Contact of a HIP that one surface held. Returns 1 if the proxy's path on it hits no other surface. */
 static int continue_contact(knurl_joint_search *m) {
     const knurl_contacts *c = m->contacts;
     const uint32_t holder = find_holder(m);
@@ -73,8 +72,8 @@ static int continue_contact(knurl_joint_search *m) {
     return 1;
 }
 
-/* Where the HIP's last position is unknown, each shape is tested alone. One that another face separates from the HIP is
- * not in contact. */
+/* The HIP's last position is unknown: tests each shape alone. A shape is not in contact if another face separates it
+ * from the HIP. */
 static void find_first(knurl_joint_search *m) {
     double deepest = 1.0;
     double proxy[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0};
@@ -130,8 +129,8 @@ static void keep_contact(const knurl_joint_search *m, const knurl_obstacle *o, k
     touched->held = contact->z <= reach && (touched->state.inside || contact->z >= 0.0);
 }
 
-/* The visits are used up and the HIP was in contact: a surface that nothing else is near goes on alone, others repeat
- * the last tick's contact; none begins. */
+/* Out of visits, and the HIP was in contact: a surface that is alone keeps its own contact, others repeat the last
+ * tick's. No contact begins. */
 static void keep_contacts(knurl_joint_search *m) {
     knurl_joint_set_free(m);
     if (knurl_joint_goes_on_alone(m)) {
@@ -149,8 +148,8 @@ static void keep_contacts(knurl_joint_search *m) {
     }
 }
 
-/* The visits are used up and the HIP was free: tests each shape alone. Together they may use half of max_visits more.
- * One that this is not enough for is asked again in the next tick, about all of the way since. */
+/* Out of visits, and the HIP was free: tests each shape alone, with half of max_visits more for all of them. A shape
+ * that needs more is queried again in the next tick, over the whole path since. */
 static void begin_alone(knurl_joint_search *m) {
     knurl_contacts *c = m->contacts;
     const uint32_t share = 1 + c->max_visits / 2 / (m->near.count > 0 ? m->near.count : 1);
@@ -179,7 +178,7 @@ static void begin_alone(knurl_joint_search *m) {
     m->pressed = pressed;
 }
 
-/* Begins, keeps or ends the contacts of the obstacles named by the bits of `which`. */
+/* Begins, keeps or ends the contacts of the obstacles whose bits are set in `which`. */
 static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *flags) {
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_obstacle *o = &m->near.list[i];
@@ -201,8 +200,8 @@ static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *fla
     }
 }
 
-/* Where more contacts are found than there is room for, those that hold the HIP come before crests, and among these,
- * those of the last tick. held: the bits of the last tick's. */
+/* If more contacts are found than fit: those that hold the HIP come before crests, and crests of the last tick before
+ * new ones. held: bits of the last tick's contacts. */
 static void make_room(knurl_joint_search *m, uint64_t held, uint32_t *flags) {
     uint32_t room = KNURL_CONTACTS_MAX;
     for (uint32_t i = 0; i < m->near.count; i++) {

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Adds up the pressed faces of one obstacle to one contact. longest: m, its greatest depth. */
+/* Adds up the pressed faces of one obstacle to one contact. longest: m, limit on its depth. */
 static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *faces, uint32_t obstacle, double longest,
                       knurl_touched *touched) {
     const knurl_obstacle *o = &m->near.list[obstacle];
@@ -36,7 +36,7 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
 /* Turns the god-object's faces into contacts. */
 static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
     double held[3];
-    for (uint32_t i = 0; i < g->faces.count; i++) { /* on the faces, not above them */
+    for (uint32_t i = 0; i < g->faces.count; i++) { /* onto the faces, instead of above them */
         g->faces.list[i].offset -= g->faces.list[i].rest;
     }
     vec3_copy(g->at, m->proxy);
@@ -80,7 +80,7 @@ static void find_next(knurl_joint_search *m, knurl_god_object *g) {
     }
 }
 
-/* Remembers where contact ended without the HIP moving out in front of the surface: it slipped off a rim. */
+/* Records a slip off a rim, if contact ended although the HIP did not leave through the front. */
 static void note_slip(knurl_contacts *c, const double hip[3]) {
     double way[3];
     vec3_sub(hip, c->proxy, way);
@@ -92,7 +92,7 @@ static void note_slip(knurl_contacts *c, const double hip[3]) {
     }
 }
 
-/* 1 where a surface that held the HIP is still in the scene; a HIP cannot slip off a removed one. */
+/* 1 if a surface that held the HIP is still in the scene; a HIP cannot slip off a removed one. */
 static int has_holder(const knurl_joint_search *m) {
     int has = 0;
     for (uint32_t i = 0; i < m->near.count; i++) {
@@ -101,16 +101,16 @@ static int has_holder(const knurl_joint_search *m) {
     return has;
 }
 
-/* 1 where parts of the mesh go through or touch each other: then a god-object's face counts for more. */
+/* 1 if parts of the mesh intersect or touch: then the god-object's faces are preferred to the shape's own contact. */
 static int has_parts(const knurl_touched *touched) {
     return (touched->contact.unsure & KNURL_UNSURE_PARTS) != 0;
 }
 
-/* m: how far a proxy goes in a tick after one whose visits were used up; half as far after two, and so on. Short ways
- * are cheap, so that it catches up. */
+/* m: length of a proxy's path in a tick after one that ran out of visits; half as much after two, and so on. Short
+ * paths are cheap, so that the proxy catches up. */
 #define SHORT_WAY 0.0005
 
-/* Moves the god-object as near to the HIP as can be. */
+/* Moves the god-object as near to the HIP as possible; after ticks that ran out of visits, a short piece first. */
 static void follow(const knurl_joint_search *m, knurl_god_object *g) {
     double way[3];
     vec3_sub(m->hip, g->at, way);

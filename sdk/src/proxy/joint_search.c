@@ -1,14 +1,14 @@
-/* What is near a HIP in one tick, and what each shape says to it alone. SPDX-License-Identifier: MIT */
+/* Collects the obstacles near a HIP in one tick, and queries each shape alone. SPDX-License-Identifier: MIT */
 #include "proxy/joint_search.h"
 
 #include <string.h>
 
-/* m: how far a path's proxy is from its ends, at most. */
+/* m: largest distance of a path's proxy from its ends. */
 static double proxy_distance(const knurl_hip_path *path) {
     return sqrt(knurl_max(vec3_distance2(path->proxy, path->from), vec3_distance2(path->proxy, path->to)));
 }
 
-/* One more obstacle. Where another was in its place at the last collection, what is in `touched` is not its own. */
+/* Appends an obstacle; drops the query results from slot i on if that held another one. */
 static void add_obstacle(knurl_joint_search *m, const knurl_obstacle *obstacle) {
     const uint32_t i = m->near.count++;
     m->asked = i < m->asked && m->near.list[i].candidate != obstacle->candidate ? i : m->asked;
@@ -47,7 +47,7 @@ void knurl_joint_collect_all(knurl_joint_search *m) {
     knurl_joint_collect(m, m->path, KNURL_JOINT_ROUNDING + proxy_distance(m->path));
 }
 
-/* One shape's contact with a HIP at `hip`, as if it were alone. previous: the HIP a tick ago (scene); null: unknown. */
+/* Queries one shape alone for contact with a HIP at `hip`. previous: the HIP a tick ago (scene), or null: unknown. */
 static void query_shape(const knurl_joint_search *m, const knurl_obstacle *o, const double hip[3],
                         const double *previous, knurl_touched *touched) {
     knurl_contact_query query;

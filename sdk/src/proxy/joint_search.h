@@ -1,4 +1,4 @@
-/* One tick's search for contact with several surfaces: what is near, and what each shape says alone.
+/* One tick's search for contact with several surfaces: the obstacles, and each one's own contact.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_JOINT_SEARCH_H
 #define KNURL_SRC_JOINT_SEARCH_H
@@ -17,11 +17,11 @@ typedef struct knurl_joint_search {
     knurl_obstacles near;
     knurl_touched touched[KNURL_CANDIDATES_MAX];
     int jumped;      /* 1: a surface in contact has jumped */
-    uint32_t asked;  /* so many of the first obstacles were asked for their contact with the HIP: `touched` */
-    uint64_t late;   /* bits of obstacles whose search was cut short, so that the HIP may have crossed them */
-    int unknown;     /* 1: the visits were used up before the contacts were found */
-    double margin;   /* m: obstacles were collected this far around the path; a proxy may move no farther */
-    double proxy[3]; /* results, with `touched`: */
+    uint32_t asked;  /* number of obstacles, from the first, whose query results are in `touched` */
+    uint64_t late;   /* bit i: obstacle i's search ran out of visits, so the HIP may have crossed it */
+    int unknown;     /* 1: the visits ran out before the contacts were found */
+    double margin;   /* m: obstacles this far around the path were collected; a proxy may move no farther */
+    double proxy[3]; /* results, with `touched` */
     double normal[3];
     uint32_t pressed;
 } knurl_joint_search;
@@ -32,35 +32,35 @@ void knurl_joint_collect(knurl_joint_search *search, const knurl_hip_path *path,
 /* Collects the obstacles that a god-object may meet: it only comes nearer to the HIP. */
 void knurl_joint_collect_all(knurl_joint_search *search) KNURL_NONBLOCKING;
 
-/* One shape's contact with this tick's HIP, as if it were alone. On a first tick, and where the surface in contact has
- * jumped, the HIP may be inside. */
+/* Queries one shape's contact with this tick's HIP, without the others. In a first tick, or after the surface in
+ * contact has jumped, the HIP may be inside. */
 void knurl_joint_query_contact(knurl_joint_search *search, const knurl_obstacle *obstacle,
                                knurl_touched *touched) KNURL_NONBLOCKING;
 
-/* The same again where a surface in contact has jumped: a double-sided one keeps the HIP on the side where it was. */
+/* Repeats the query if a surface in contact has jumped: a double-sided one keeps the HIP on its side. */
 void knurl_joint_query_jumped(const knurl_joint_search *search, const knurl_obstacle *obstacle,
                               knurl_touched *touched) KNURL_NONBLOCKING;
 
-/* Contact with the crests of a surface that the proxy is outside of. A surface that lies in a pressed face is left out:
- * that face's crests are felt. */
+/* Queries contact with the crests of a surface whose outside the proxy is on. A surface that lies in a pressed face is
+ * skipped: that face's crests are felt. */
 void knurl_joint_query_crests(knurl_joint_search *search, const knurl_obstacle *obstacle,
                               knurl_touched *touched) KNURL_NONBLOCKING;
 
-/* Takes the proxy and the normal from obstacle number i's contact. */
+/* Takes the proxy and the normal from the contact of obstacle i. */
 void knurl_joint_set_proxy(knurl_joint_search *search, uint32_t i) KNURL_NONBLOCKING;
 
-/* Nothing holds the HIP: the proxy is at it. */
+/* No surface holds the HIP: the proxy is the HIP. */
 static inline void knurl_joint_set_free(knurl_joint_search *m) {
     vec3_copy(m->hip, m->proxy);
     m->pressed = 0;
 }
 
-/* 1 where a shape holds the HIP pressed in; 0: not, or only its crests are felt. */
+/* 1 if the HIP is pressed into the shape; 0 if it is free or only touches crests. */
 static inline int knurl_joint_is_inside(const knurl_touched *touched) {
     return touched->held && touched->state.inside;
 }
 
-/* 1 where the surface that holds the HIP is the only one near, and its own contact is known. */
+/* 1 if the surface that holds the HIP is the only one near, and its own contact has been found. */
 static inline int knurl_joint_goes_on_alone(const knurl_joint_search *m) {
     return m->contacts->pressed == 1 && m->near.count == 1 && m->asked == 1 && knurl_joint_is_inside(&m->touched[0]);
 }

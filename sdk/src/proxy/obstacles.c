@@ -29,8 +29,8 @@ int knurl_obstacle_is_near(const knurl_obstacle *o, const double from[3], const 
     return 1;
 }
 
-/* 1 where the box from low to high is outside of the candidate's: that is its surface's, with its crests and margin;
- * faces reach beyond it by a seam. */
+/* 1 if the box from low to high is outside the candidate's, which bounds the surface with its crests and margin; faces
+ * reach beyond it by a seam. */
 static int is_beside(const knurl_obstacle *o, const double low[3], const double high[3]) {
     const float *box = o->candidate->box;
     const double margin = o->surface->shape.seam + KNURL_CAST_SLACK;
@@ -42,7 +42,7 @@ static int is_beside(const knurl_obstacle *o, const double low[3], const double 
     return 0;
 }
 
-/* m: how high a point is above a plane in a pose. */
+/* m: height of a point above a plane with this pose. */
 static double height_over(const knurl_pose *pose, const double p[3]) {
     const double *r = pose->rotation;
     double to[3];
@@ -50,10 +50,10 @@ static double height_over(const knurl_pose *pose, const double p[3]) {
     return pose->is_rotated ? r[2] * to[0] + r[5] * to[1] + r[8] * to[2] : to[2];
 }
 
-/* m: more than heights are off by rounding, and than what a cast allows for. */
+/* m: above the rounding of heights, and above a cast's slack. */
 #define HEIGHT_ROUNDING (2.0 * KNURL_CAST_SLACK)
 
-/* 1 where a segment, up to a share of it, does not go through a plane from a side that can be felt. */
+/* 1 if a segment, up to a share of its length, does not cross the plane from a side that can be felt. */
 static int misses_plane(const knurl_obstacle *o, const knurl_segment *segment, double share) {
     const double from = height_over(segment->moving ? o->before : o->pose, segment->from);
     const double to = from + share * (height_over(o->pose, segment->to) - from);
@@ -81,7 +81,7 @@ uint32_t knurl_obstacles_cast(const knurl_obstacles *obstacles, const knurl_segm
     }
     for (uint32_t i = 0; i < obstacles->count && !knurl_obstacles_are_unknown(obstacles); i++) {
         const knurl_obstacle *o = &obstacles->list[i];
-        const double share = first == KNURL_NO_OBSTACLE ? 1.0 : hit->share; /* what is later is not looked for */
+        const double share = first == KNURL_NO_OBSTACLE ? 1.0 : hit->share; /* later hits do not matter */
         knurl_cast_hit found;
         if (i == segment->except || is_beside(o, low, high) || !knurl_visits_take(obstacles->visits, 1) ||
             (o->surface->shape.plane && misses_plane(o, segment, share))) {
