@@ -8,11 +8,11 @@
 
 #include <stdint.h>
 
-/* N s/m: the damping that the lightest hand adds to its device's: what is felt is held, at least loosely. A finger tip
- * alone has some N s/m, and more the harder it holds (Hajian and Howe 1997; Hasser and Cutkosky 2002). */
+/* N s/m: damping that the lightest hand adds to that of its device; a device that is felt is held, at least loosely. A
+ * finger tip alone has some N s/m, and more the harder it holds (Hajian and Howe 1997; Hasser and Cutkosky 2002). */
 #define KNURL_LIGHTEST_HAND 2.0
 
-/* What a wall and its texture may be on a device. */
+/* Limits of walls and textures on a device. */
 typedef struct knurl_bounds {
     double scale;
     double friction; /* N s/m, of device and lightest hand */
@@ -26,11 +26,11 @@ typedef struct knurl_bounds {
 /* scale: scene metres a device metre. */
 void knurl_bounds_init(knurl_bounds *bounds, const knurl_hip_facts *facts, double scale) KNURL_NONBLOCKING;
 
-/* N/m, felt: the bounds of a wall of some damping (N s/m, scene): (b + B)/(T/2 + delay) and the maker's. */
+/* N/m, at the device. damping: N s/m, scene. Stability limit (b + B)/(T/2 + delay); its minimum with max_stiffness. */
 double knurl_bounds_stability(const knurl_bounds *bounds, double damping) KNURL_NONBLOCKING;
 double knurl_bounds_stiffness(const knurl_bounds *bounds, double damping) KNURL_NONBLOCKING;
 
-/* m: the largest amplitude at a stiffness (N/m, scene): its swing within max_force, its rms within the continuous. */
+/* m: largest amplitude at a stiffness (N/m, scene): its swing within max_force, its rms within continuous_force. */
 double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int32_t method) KNURL_NONBLOCKING;
 
 #endif

@@ -1,6 +1,6 @@
-/* The protections that know contacts: limits on what a scene's walls may do to a hand. A tick calls begin, then before
- * and after around each contact's force. Their sum goes to the last stage (last_stage.h). Pure computation. Units are
- * the scene's, so that a tick need not convert. SPDX-License-Identifier: MIT */
+/* Protections that depend on contacts: limits on the walls of a scene. A tick calls begin, then before and after around
+ * each contact's force. The sum of the forces goes to the last stage (last_stage.h). Pure computation. Units are the
+ * scene's, so that a tick need not convert. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_GUARD_H
 #define KNURL_SRC_GUARD_H
 
@@ -11,8 +11,8 @@
 /* Of one HIP. */
 typedef struct knurl_guard {
     double entry;  /* m that a depth may grow in a tick */
-    double gain;   /* on the force of this tick, 0 to 1 */
-    int32_t clamp; /* 1: within bounds */
+    double gain;   /* factor of this tick's force, 0 to 1 */
+    int32_t clamp; /* 1: clamp walls to `bounds` */
     knurl_passivity passivity;
     knurl_bounds bounds;
 } knurl_guard;
@@ -20,14 +20,14 @@ typedef struct knurl_guard {
 /* Sets the protections up. facts: complete. */
 void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts);
 
-/* Sets what depends on the workspace's scale: scene metres a device metre. */
+/* Sets the values that depend on the workspace's scale: scene metres a device metre. */
 void knurl_guard_set_scale(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts,
                            double scale) KNURL_NONBLOCKING;
 
-/* Stiffness and amplitude of a wall within a device's bounds. */
+/* Clamps stiffness and amplitude of a wall to a device's limits. */
 void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) KNURL_NONBLOCKING;
 
-/* A tick begins. attenuation: the share of its force, 0 to 1, that will not be sent. */
+/* Begins a tick. attenuation: the share of its force, 0 to 1, that will not be sent. */
 static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
     guard->gain = attenuation == 0.0 ? 1.0 : knurl_is_within(attenuation, 0.0, 1.0) ? 1.0 - attenuation : 0.0;
     if (guard->passivity.busy) {
@@ -49,7 +49,7 @@ static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall,
     wall->contact->depth = knurl_max(-wall->z, 0.0);
 }
 
-/* Before a contact's force: clamps its wall, limits its depth, softens it after the passivity controller's alarm. */
+/* Before a contact's force: clamps its wall, limits its depth, and softens it during a passivity alarm. */
 static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     if (KNURL_UNLIKELY(guard->clamp)) {
         knurl_wall limited = *wall; /* a copy, so that `wall` itself can stay in registers */
@@ -62,8 +62,8 @@ static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint
     }
 }
 
-/* After the force: returns the texture's own step in this tick, N, which the slew limit allows. The step is told to the
- * passivity controller, which must not take a hand that a texture moves for an unstable wall. */
+/* After the force: returns the texture's own step in this tick, N, which the slew limit allows. Also reports the step
+ * to the passivity controller, which must not mistake a hand that a texture moves for an unstable wall. */
 static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wall) {
     knurl_wall_state *contact = wall->contact;
     const double step = fabs(wall->height - contact->height);

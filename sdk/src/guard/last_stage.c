@@ -1,9 +1,9 @@
-/* The last stage on a force's way to a device. SPDX-License-Identifier: MIT */
+/* The last stage of a force before a device. SPDX-License-Identifier: MIT */
 #include "guard/last_stage.h"
 
 #include <string.h>
 
-/* s in which a force may grow from zero to max_force if no slew_rate is given. */
+/* s for a force to grow from zero to max_force, if no slew_rate is given. */
 #define SLEW_TIME 0.005
 
 void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double slew_rate,
@@ -16,15 +16,15 @@ void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double
     stage->heat.square = square;
 }
 
-/* The gain applies to the force after it is cut to what the motors can give, so that a ramp's full length is used. */
+/* Applies the gain to the force as limited by the heat, so that a ramp's full length is used. */
 static void attenuate(const knurl_last_stage *stage, double gain, double force[3]) {
     const double length = vec3_length(force);
     const double most = knurl_heat_limit(&stage->heat);
     vec3_scale(length > most ? gain * (most / length) : gain, force, force);
 }
 
-/* A fall is free, a turn is not: the change is measured from the latest force made as short as the new one. After a
- * squeeze a fall is not free either, until it is over. most: N that the force may change by. */
+/* The length of a force may fall freely, but not turn: the change is measured from the last force, shortened to the new
+ * one. After a squeeze the fall is limited too, until it is over. most: N that the force may change by. */
 static void limit_slew(knurl_last_stage *stage, double most, double force[3], uint32_t *flags) {
     double from[3];
     double change[3];
@@ -50,7 +50,7 @@ void knurl_last_stage_limit_change(knurl_last_stage *stage, double gain, double 
     }
     if (gain != 0.0 && !(vec3_distance2(force, stage->force) <= free * free)) {
         limit_slew(stage, free, force, flags);
-    } else { /* without gain zero at once, also after a squeeze */
+    } else { /* zero gain: no force at once, even after a squeeze */
         stage->release = 0;
     }
 }

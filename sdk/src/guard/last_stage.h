@@ -1,6 +1,6 @@
-/* The last stage: every force passes it on its way to a device. In device axes it scales the force (to 0 in a halt),
- * limits its change and its length, and counts the heat. A HIP has one for a scene's forces, a loop for its callback's.
- * Pure computation. SPDX-License-Identifier: MIT */
+/* The last stage: every force passes it before a device. In device axes it scales the force (to 0 in a halt), limits
+ * its change and its length, and counts the heat. A HIP has one for a scene's forces, a loop for its callback's. Pure
+ * computation. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LAST_STAGE_H
 #define KNURL_SRC_LAST_STAGE_H
 
@@ -10,14 +10,14 @@
 #include <knurl/scene.h>
 
 typedef struct knurl_last_stage {
-    double force[3]; /* N, device axes: as sent at the latest tick */
+    double force[3]; /* N, device axes: as sent at the last tick */
     double slew;     /* N that the force may change in a tick, unless it falls */
-    int32_t release; /* 1: after a squeeze, until the force is down: its fall is limited too */
+    int32_t release; /* 1: after a squeeze, until the force has fallen: its fall is limited too */
     knurl_heat heat;
 } knurl_last_stage;
 
-/* protections: KNURL_PROTECT_SLEW and _HEAT count. slew_rate: N/s; 0: max_force within 5 ms. The motors stay as warm as
- * they were. stage: zeroed, or set up before. facts: complete. */
+/* protections: only KNURL_PROTECT_SLEW and _HEAT matter. slew_rate: N/s; 0: max_force within 5 ms. stage: zeroed, or
+ * set up before; its heat is kept. facts: complete. */
 void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double slew_rate,
                            const knurl_hip_facts *facts);
 
@@ -25,10 +25,9 @@ void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double
 void knurl_last_stage_limit_change(knurl_last_stage *stage, double gain, double steps, double force[3],
                                    uint32_t *flags) KNURL_NONBLOCKING;
 
-/* Limits a force (N, device axes) in place, and takes it as sent. gain: 0 to 1; 0: no force, whatever it was. steps: N
- * that textures jump by in this tick, which the slew limit lets through. flags: KNURL_TICK_SQUEEZED is read. Returns
- * the force's length, N. If that is not finite, nothing was sent: the caller calls knurl_last_stage_note() with zeros.
- */
+/* Limits a force (N, device axes) in place and records it as sent. gain: 0 to 1; 0: no force. steps: N, jumps of
+ * textures in this tick, which the slew limit allows. flags: KNURL_TICK_SQUEEZED is read. Returns the force's length,
+ * N. If that is not finite, no force was recorded: the caller calls knurl_last_stage_note() with zeros. */
 static inline double knurl_last_stage_limit(knurl_last_stage *stage, double gain, double steps, double force[3],
                                             uint32_t *flags) {
     double change[3];
@@ -44,7 +43,7 @@ static inline double knurl_last_stage_limit(knurl_last_stage *stage, double gain
     }
     double length = vec3_length(force);
     const double most = knurl_heat_limit(&stage->heat);
-    if (KNURL_UNLIKELY(!(length <= most))) { /* also if either is not a number: then the force becomes none */
+    if (KNURL_UNLIKELY(!(length <= most))) { /* also if either is NaN, which makes the force NaN */
         vec3_scale(most / length, force, force);
         *flags |= most < stage->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
         length = vec3_length(force);
@@ -56,7 +55,7 @@ static inline double knurl_last_stage_limit(knurl_last_stage *stage, double gain
     return length;
 }
 
-/* Takes a force (N, device axes) as sent for a tick that was not limited here: zero in most cases. */
+/* Records a force (N, device axes) as sent in a tick that was not limited here: zero in most cases. */
 void knurl_last_stage_note(knurl_last_stage *stage, const double force[3]) KNURL_NONBLOCKING;
 
 #endif

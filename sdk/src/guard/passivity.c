@@ -1,4 +1,4 @@
-/* Finds swings in and out of a wall that neither a hand nor a texture causes. SPDX-License-Identifier: MIT */
+/* Detects swings in and out of a wall that neither a hand nor a texture causes. SPDX-License-Identifier: MIT */
 #include "guard/passivity.h"
 
 #include <math.h>
@@ -54,8 +54,8 @@ void knurl_passivity_set_scale(knurl_passivity *p, int watches, const knurl_hip_
     p->unit = scale;
 }
 
-/* The depth reversed: a swing is over. Friction's spring, along the wall and as stiff, is not watched: it slips where
- * it would be longer than friction times the depth, which bounds its swing; an alarm softens it with its wall. */
+/* A swing ends when the depth reverses. Friction's spring, along the wall and of the same stiffness, is not watched: it
+ * slips beyond friction times the depth, which bounds its swing; an alarm softens it with its wall. */
 void knurl_passivity_end_swing(knurl_passivity *p) {
     const double swing = fabs(p->farthest - p->extreme);
     const int slow = p->crossings <= TEXTURE_SLOW && p->crossings + p->crossed <= 2 * TEXTURE_SLOW;
@@ -70,7 +70,7 @@ void knurl_passivity_end_swing(knurl_passivity *p) {
     } else {
         const double largest = FORGETS * p->largest;
         p->largest = swing > largest ? swing : largest;
-        if (swing < AGAIN * p->largest) { /* begins anew, but for what may have been chance */
+        if (swing < AGAIN * p->largest) { /* start again, but keep half: the small swing may be chance */
             p->squares *= 0.5;
             p->row = 0;
         }
@@ -87,7 +87,7 @@ void knurl_passivity_end_swing(knurl_passivity *p) {
     p->moved = 0.0;
 }
 
-/* From a tick to the next one in an alarm. */
+/* Advances an alarm by one tick. */
 void knurl_passivity_go_on(knurl_passivity *p) {
     p->crossings = 0;
     p->soft += p->softening * (1.0 - p->soft);
@@ -103,7 +103,7 @@ void knurl_passivity_soften(knurl_passivity *p, knurl_wall *wall) {
     const double most = SOFT_SHARE * p->safe;
     p->off = 0.0;
     wall->damping *= 1.0 - p->soft;
-    if (wall->stiffness > most) { /* its texture weakens with it: full steps would throw a hand off a soft wall */
+    if (wall->stiffness > most) { /* the texture weakens too: full steps would throw a hand off a soft wall */
         wall->stiffness += p->soft * (most - wall->stiffness);
     }
 }

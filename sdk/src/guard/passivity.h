@@ -11,36 +11,36 @@
 
 /* A HIP's swings in walls that could be unstable. Scene units. */
 typedef struct knurl_passivity {
-    double safe;       /* N/m: a wall up to this is stable, and not watched; infinite: protection off */
+    double safe;       /* N/m: stiffness up to which a wall is stable and not watched; infinite: protection off */
     double unit;       /* m, scene: a device's metre */
-    double longest;    /* ticks of a swing in and out; what takes longer may be a hand's motion */
+    double longest;    /* ticks: a longer swing in and out may be a hand's motion */
     double depth;      /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
-    double extreme;    /* m: depth at the latest reversal */
+    double extreme;    /* m: depth at the last reversal */
     double farthest;   /* m: farthest depth since, in the present direction */
     double largest;    /* m: largest swing of the row, decaying */
     double squares;    /* m^2: of the row's swings */
-    double moved;      /* m: how much H changed since the latest reversal, */
-    int32_t crossings; /* and how often it crossed 0, */
+    double moved;      /* m: total change of H since the last reversal */
+    int32_t crossings; /* zero crossings of H since the last reversal */
     int32_t crossed;   /* and in the half swing before */
-    int32_t row;       /* swings, each as large as those before it */
-    int32_t ticks;     /* since the latest reversal, */
+    int32_t row;       /* swings in the row, each as large as those before it */
+    int32_t ticks;     /* since the last reversal */
     int32_t before;    /* and in the half swing before */
     int32_t outwards;  /* 1: heading out */
     int32_t busy;      /* 1: there is a depth to follow, or an alarm */
     int32_t alarmed;
-    double soft;      /* 0 to 1: as soft as is passive */
-    double softening; /* of the way there, a tick */
+    double soft;      /* 0 to 1: progress towards the passive stiffness */
+    double softening; /* of the remaining change, per tick */
     double off;       /* ticks since the HIP was last in a wall */
-    double off_most;  /* after so many the alarm ends */
+    double off_most;  /* ticks outside until the alarm ends */
 } knurl_passivity;
 
 void knurl_passivity_init(knurl_passivity *passivity, const knurl_hip_facts *facts);
 
-/* Sets what depends on the workspace's scale: scene metres a device metre. watches: 0: left out. */
+/* Sets the values that depend on the workspace's scale: scene metres a device metre. watches: 0: protection off. */
 void knurl_passivity_set_scale(knurl_passivity *passivity, int watches, const knurl_hip_facts *facts,
                                double scale) KNURL_NONBLOCKING;
 
-/* What is rare: called by knurl_passivity_follow(). */
+/* Slow paths of knurl_passivity_follow(). */
 void knurl_passivity_go_on(knurl_passivity *passivity) KNURL_NONBLOCKING;
 void knurl_passivity_end_swing(knurl_passivity *passivity) KNURL_NONBLOCKING;
 
@@ -49,7 +49,7 @@ static inline void knurl_passivity_end_row(knurl_passivity *p) {
     p->row = 0;
 }
 
-/* From one tick to the next; only while it is busy. */
+/* Advances by one tick. Only needed while `busy`. */
 static inline void knurl_passivity_follow(knurl_passivity *p) {
     const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
     p->ticks += !p->alarmed;
@@ -59,7 +59,7 @@ static inline void knurl_passivity_follow(knurl_passivity *p) {
         p->farthest = p->depth;
     } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
         knurl_passivity_end_swing(p);
-    } else if (p->ticks > p->longest) { /* rests, or is off */
+    } else if (p->ticks > p->longest) { /* at rest, or outside */
         knurl_passivity_end_row(p);
         p->ticks = (int32_t)p->longest;
         p->crossings = 0;
@@ -69,7 +69,7 @@ static inline void knurl_passivity_follow(knurl_passivity *p) {
     p->depth = 0.0;
 }
 
-/* Softens a wall that the HIP is in during an alarm: called by knurl_passivity_watch(). */
+/* Slow path of knurl_passivity_watch(): softens a wall that the HIP is in during an alarm. */
 void knurl_passivity_soften(knurl_passivity *passivity, knurl_wall *wall) KNURL_NONBLOCKING;
 
 /* Follows the depth in a wall that could be unstable; during an alarm, softens it. */

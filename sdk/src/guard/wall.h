@@ -1,4 +1,4 @@
-/* One contact's wall in a tick: first as its material asks for it, then as the protections limit it.
+/* One contact's wall in a tick: at first as its material is, then as the protections limit it.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_WALL_H
 #define KNURL_SRC_WALL_H
@@ -7,8 +7,8 @@
 
 /* Kept from tick to tick, per contact. */
 typedef struct knurl_wall_state {
-    double depth;  /* m: at the latest tick, as limited by the entry ramp; 0 without contact */
-    double height; /* m: H at the latest tick */
+    double depth;  /* m: at the last tick, as limited by the entry ramp; 0 without contact */
+    double height; /* m: H at the last tick */
 } knurl_wall_state;
 
 /* At one tick. Scene units. */
@@ -19,10 +19,10 @@ typedef struct knurl_wall {
     double stiffness; /* N/m */
     double amplitude; /* m */
     double damping;   /* N s/m */
-    double height;    /* m: H, set with the force */
+    double height;    /* m: H, set by the force law */
 } knurl_wall;
 
-/* A material's wall at z (m, scene): what the forces begin with. */
+/* Sets a wall from its material at z (m, scene), before the forces. */
 static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *material, double z,
                                    knurl_wall_state *contact) {
     wall->material = material;
@@ -34,13 +34,13 @@ static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *
     wall->height = 0.0;
 }
 
-/* A contact begins. depth: m, the ramped depth on the surface that the HIP comes from, so that the ramp goes on from
- * there; else 0. */
+/* Begins a contact. depth: m, the ramped depth on the surface that the HIP comes from, so that the ramp continues from
+ * it; else 0. */
 static inline void knurl_wall_begin(knurl_wall_state *state, double depth) {
     state->depth = state->depth < depth ? depth : state->depth;
 }
 
-/* No contact, or the end of one. */
+/* Ends a contact, if there is one. */
 static inline void knurl_wall_end(knurl_wall_state *state) {
     state->depth = state->height = 0.0;
 }
