@@ -9,19 +9,19 @@
 #include "proxy/contact_update.h"
 #include "surface/surface_frame.h"
 
-/* How the HIP moves. */
+/* The HIP's motion in a tick. */
 typedef struct knurl_hip_motion {
     const knurl_hip_clock *clock;
     const double *velocity; /* scene, m/s */
     double rate;            /* Hz */
-    double quantum;         /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
+    double quantum;         /* m, scene: largest flicker of a position at rest, the diagonal of one count */
 } knurl_hip_motion;
 
-/* What one contact comes to. */
+/* The force of one contact. */
 typedef struct knurl_contact_force {
     double force[3];    /* scene, N */
     double velocity[2]; /* of the HIP over the surface, in the surface's frame, m/s */
-    double cycles[2];   /* where on the grating: coordinates times fsx, fsy */
+    double cycles[2];   /* position on the grating: coordinates times fsx, fsy */
     knurl_grating_output grating;
 } knurl_contact_force;
 
@@ -38,8 +38,8 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
     }
 }
 
-/* The grating's share of this tick. over: velocity in the shape's frame. coordinates: the frame's. Functions that are
- * not inlined are given copies, so that the values themselves can stay in registers. */
+/* Plays the grating for one tick. over: velocity in the shape's frame. coordinates: from knurl_surface_frame().
+ * Functions that are not inlined get copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
                                 knurl_along velocity, double coordinates[2], const knurl_wall *wall,
                                 knurl_contact_force *out) {
@@ -53,11 +53,11 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     }
     knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
     const knurl_along place = {coordinates[0], coordinates[1]};
-    out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* no -0 where there are no ridges */
+    out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* turns -0 into 0 */
     out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
     double rates[2] = {velocity.x, velocity.y}, steepest = 1.0;
     int32_t has_position = 1;
-    if (knurl_methods[m->method].follows_position) { /* without coordinates, by the sum of the velocity */
+    if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */
         has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &steepest);
     }
     const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
@@ -79,10 +79,10 @@ static inline double normal_force(const knurl_wall *wall, double outwards) {
 }
 
 /* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
- * where the spring would pull harder than friction holds. tangential: N, shape's frame. */
+ * if the spring would pull harder than friction holds. tangential: N, shape's frame. */
 static inline void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
     const double friction = c->record->material.friction;
-    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: the spring's length that it can hold */
+    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: longest spring that friction holds */
     double *anchor = c->candidate->anchor;
     double stretch[3] = {0.0, 0.0, 0.0};
     if (!c->begins && hold > 0.0) {
@@ -97,7 +97,7 @@ static inline void friction_force(const knurl_active_contact *c, const knurl_wal
     vec3_scale(wall->stiffness, stretch, tangential);
 }
 
-/* The force of one contact. wall: as limited by the protections; its height is set. */
+/* The force of one contact. wall: as limited by the protections; its height is set here. */
 static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                                    knurl_contact_force *out) {
     double over[3], x[3], y[3], coordinates[2] = {0.0, 0.0};

@@ -43,8 +43,7 @@ static double from_zero(double given, double device) {
     return given >= 0.0 ? given : device;
 }
 
-/* What the description says counts, then what the device says; but no force beyond `strongest` (N). Both are checked.
- */
+/* Values of the description take precedence over the device's; the force is at most `strongest` (N). Both are valid. */
 static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest) {
     const knurl_hip_facts made = {above_zero(d->update_rate_hz, device->rate),
                                   from_zero(d->resolution, device->resolution),
@@ -71,8 +70,8 @@ static knurl_result check(const knurl_hip_desc *d) {
     return d->workspace ? knurl_workspace_check(d->workspace) : KNURL_OK;
 }
 
-/* All of a HIP but its snapshot, which other threads read without the lock: it becomes that of a HIP before its first
- * tick as a tick would write it. */
+/* Copies all of a HIP except its snapshot, which other threads read without the lock. The snapshot is cleared as a tick
+ * would write it. */
 static void replace(knurl_hip *hip, const knurl_hip *made) {
     const size_t published = offsetof(knurl_hip, published);
     const size_t after = offsetof(knurl_hip, given);
@@ -108,7 +107,7 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.workspace = *d->workspace;
     }
     made.facts = facts;
-    made.last.heat.square = hip->last.heat.square; /* motors do not cool because a scene is set up */
+    made.last.heat.square = hip->last.heat.square; /* setting up a scene does not cool motors */
     knurl_last_stage_init(&made.last, d->protections, d->slew_rate, &facts);
     knurl_guard_init(&made.guard, d, &facts);
     knurl_hip_set_scale(&made, made.workspace.scale);

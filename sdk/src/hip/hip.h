@@ -8,18 +8,18 @@
 #include "hip/snapshot.h"
 #include "proxy/contact_update.h"
 
-/* A force that a game adds to what surfaces give, in one tick. */
+/* A force that a game adds to those of surfaces, in one tick. */
 typedef struct knurl_added_force {
     double force[3]; /* N, scene; finite */
-    double step;     /* N: how far a vibration in it jumps, which the slew limit lets through */
+    double step;     /* N: jump of a vibration in it, which the slew limit allows */
 } knurl_added_force;
 
-/* The list of candidates, which is long, comes last: at 1 kHz a tick finds all of this in a cold cache. */
+/* The long list of candidates comes last: at 1 kHz all of this is cold in the cache when a tick begins. */
 typedef struct knurl_hip {
-    uint64_t pinned; /* atomic: the epoch in which the tick that runs began; 0: none runs */
+    uint64_t pinned; /* atomic: epoch in which the running tick began; 0: no tick runs */
     double rate;
-    double quantum;     /* m, scene: how far a position flickers at most that stands still: a count's diagonal */
-    int32_t is_rotated; /* 0: the workspace's rotation is 1, and is left out */
+    double quantum;     /* m, scene: largest flicker of a position at rest, the diagonal of one count */
+    int32_t is_rotated; /* 0: the workspace's rotation is the identity, and is skipped */
     int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;
     knurl_velocity velocity;
@@ -27,21 +27,21 @@ typedef struct knurl_hip {
     knurl_last_stage last;
     knurl_hip_counts counts;
     knurl_published published; /* read by any thread, without the lock */
-    knurl_hip_desc given;      /* as configured; what it leaves open a loop fills in */
-    knurl_hip_facts facts;     /* what is in use */
-    knurl_workspace_move move; /* the workspace's */
+    knurl_hip_desc given;      /* as configured; a loop fills in the open values */
+    knurl_hip_facts facts;     /* in use */
+    knurl_workspace_move move; /* of the workspace */
     knurl_contacts contacts;
 } knurl_hip;
 
-/* The Touch at 1 kHz: what a HIP's description and its device leave open. */
+/* The Touch at 1 kHz: defaults for values that neither a HIP's description nor its device sets. */
 extern const knurl_hip_facts knurl_touch;
 
-/* Sets a HIP up anew; `device` stands for what the description leaves open, `strongest` (N) is the force that it has,
- * `time` (s) is the scene's. Errors: KNURL_ERROR_ARGUMENT (which field), and the HIP is as it was. */
+/* Sets a HIP up anew. device: values that the description leaves open. strongest: N, limit on its max_force. time: s,
+ * the scene's. Errors: KNURL_ERROR_ARGUMENT (which field); the HIP is unchanged. */
 knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *desc, const knurl_hip_facts *device,
                               double strongest, double time);
 
-/* What depends on the workspace's scale, after that changed. */
+/* Sets the values that depend on the workspace's scale. */
 void knurl_hip_set_scale(knurl_hip *hip, double scale) KNURL_NONBLOCKING;
 
 #endif

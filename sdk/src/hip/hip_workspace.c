@@ -1,4 +1,4 @@
-/* A workspace that is moved and zoomed while its HIP ticks: the game thread gives a motion, the tick follows it.
+/* A workspace that is moved and zoomed while its HIP ticks: the game thread sets a motion, the tick follows it.
  * SPDX-License-Identifier: MIT */
 #include "hip/hip_workspace.h"
 
@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* s that a change of scale by a factor of e takes at least: a HIP whose device is 0.1 m off its origin is then moved at
- * the speed, in device metres, at which the entry ramp lets a depth grow. */
+/* s: shortest time for a change of scale by a factor of e. A HIP whose device is 0.1 m off its origin then moves, in
+ * device metres, at KNURL_ENTRY_SPEED_MAX, at which the entry ramp lets a depth grow. */
 #define ZOOM_TIME (0.1 / KNURL_ENTRY_SPEED_MAX)
 
 static double scale_at(const knurl_zoom *zoom, double time) {
@@ -18,7 +18,7 @@ static double scale_at(const knurl_zoom *zoom, double time) {
     return zoom->start * exp(share * (log(zoom->end) - log(zoom->start)));
 }
 
-/* Takes over a motion that was given since the last tick; while it is being written, the one before goes on. */
+/* Copies a motion set since the last tick, unless it is still being written. Returns 1 if it jumps. */
 static int take(knurl_workspace_move *move) {
     const uint64_t sequence = knurl_load_acquire(&move->sequence);
     knurl_workspace_motion given;
@@ -27,7 +27,7 @@ static int take(knurl_workspace_move *move) {
     }
     const int jumped = given.frame.jumps != move->motion.frame.jumps;
     move->motion = given;
-    move->seen = sequence; /* where a newer one came in between, the next tick copies that once more */
+    move->seen = sequence; /* if a newer one was written meanwhile, the next tick copies it again */
     return jumped;
 }
 
@@ -54,7 +54,7 @@ static void to_pose(const knurl_workspace *workspace, knurl_pose *pose) {
 
 static void zoom_to(knurl_zoom *zoom, double scale, double now, double seconds) {
     if (scale == zoom->end && seconds > 0.0) {
-        return; /* it is under way */
+        return; /* already under way */
     }
     zoom->start = scale_at(zoom, now);
     zoom->end = scale;

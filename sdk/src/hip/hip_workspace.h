@@ -25,24 +25,24 @@ typedef struct knurl_workspace_move {
     int32_t is_on;                 /* haptic thread: 1 until the motion is over */
     knurl_workspace_motion motion; /* haptic thread: its copy of `given` */
     uint64_t given[sizeof(knurl_workspace_motion) / sizeof(uint64_t)]; /* atomic */
-    knurl_workspace_motion latest;                                     /* the same, under the scene's lock */
+    knurl_workspace_motion latest; /* the same, for threads that hold the scene's lock */
 } knurl_workspace_move;
 
-/* 1: the workspace moves in this tick, or was moved since the last one. */
+/* 1 if the workspace moves in this tick, or was moved since the last one. */
 static inline int knurl_workspace_is_moving(const knurl_workspace_move *move) {
     return KNURL_UNLIKELY(move->is_on || knurl_load_acquire(&move->sequence) != move->seen);
 }
 
-/* Puts the workspace where it is at `time` (s). Returns 1 where it jumped there since the last tick. [haptic thread] */
+/* Moves the workspace to its pose at `time` (s). Returns 1 if it jumped there since the last tick. [haptic thread] */
 int knurl_workspace_advance(knurl_workspace_move *move, double time, knurl_workspace *workspace,
                             int32_t *is_rotated) KNURL_NONBLOCKING;
 
-/* From where it is at `now` (s) to `target` in `seconds`; start: where it stands before the first move. [any thread,
+/* Moves it from its pose at `now` (s) to `target` in `seconds`. start: its pose before the first move. [any thread,
  * under the scene's lock] */
 void knurl_workspace_go(knurl_workspace_move *move, const knurl_workspace *start, const knurl_workspace *target,
                         double now, double seconds);
 
-/* Where the workspace stands, or is on its way to. start: as above. [any thread, under the scene's lock] */
+/* The pose at the end of all moves so far. start: as above. [any thread, under the scene's lock] */
 void knurl_workspace_target(const knurl_workspace_move *move, const knurl_workspace *start, knurl_workspace *target);
 
 #endif

@@ -1,4 +1,4 @@
-/* Counts a tick and publishes it. SPDX-License-Identifier: MIT */
+/* Counts flags and publishes snapshots. SPDX-License-Identifier: MIT */
 #include "hip/snapshot.h"
 
 void knurl_counts_add_flags(knurl_hip_counts *c, uint32_t flags) {

@@ -1,4 +1,4 @@
-/* A consistent copy of a HIP's latest tick and counts, for any thread. SPDX-License-Identifier: MIT */
+/* A consistent copy of a HIP's last tick and counts, for any thread. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SNAPSHOT_H
 #define KNURL_SRC_SNAPSHOT_H
 
@@ -16,7 +16,7 @@ typedef struct knurl_snapshot {
 
 typedef KNURL_SEQLOCK(knurl_snapshot) knurl_published;
 
-/* What is rare: called by knurl_counts_add(). */
+/* Slow path of knurl_counts_add(). */
 void knurl_counts_add_flags(knurl_hip_counts *counts, uint32_t flags) KNURL_NONBLOCKING;
 
 /* Counts a tick whose force had this length (N). */
@@ -29,16 +29,15 @@ static inline void knurl_counts_add(knurl_hip_counts *counts, const knurl_tick_o
     counts->force_max = force > counts->force_max ? force : counts->force_max;
 }
 
-/* Some of the counts, from one member up to another. */
+/* Publishes the counts from offset `from` up to `to`. */
 static inline void knurl_snapshot_put(knurl_published *published, const knurl_hip_counts *counts, size_t from,
                                       size_t to) {
     const size_t word = (offsetof(knurl_snapshot, counts) + from) / sizeof(uint64_t);
     knurl_seqlock_put(&published->words[word], (const char *)counts + from, to - from);
 }
 
-/* A tick just counted. Counts of rare flags stand as they are where it has none, and reserved words are never written.
- * Never waits.
- * [one thread: the haptic one] */
+/* Publishes a tick that has just been counted. Counts of rare flags are skipped if the tick has no such flag, and
+ * reserved words are never written. Never waits. [one thread: the haptic one] */
 static inline void knurl_snapshot_publish(knurl_published *published, const knurl_tick_output *output,
                                           const knurl_hip_counts *counts) {
     const size_t rare = offsetof(knurl_hip_counts, force_limit_ticks);
@@ -53,7 +52,7 @@ static inline void knurl_snapshot_publish(knurl_published *published, const knur
     knurl_seqlock_end(&published->sequence);
 }
 
-/* As before the first tick. [instead of the haptic thread] */
+/* Publishes zeros, as before the first tick. [instead of the haptic thread] */
 void knurl_snapshot_clear(knurl_published *published);
 
 /* [any thread] */
