@@ -8,13 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is checked, and where the sentences go. */
+/* The inputs of a check, and its result. */
 typedef struct inspection {
     const knurl_bounds *bounds;
     const knurl_material_desc *material;
     const char *name;
     knurl_surface_check *check;
-    int32_t clamped; /* 1: the limits are kept to */
+    int32_t clamped; /* 1: the guard clamps walls to the limits */
 } inspection;
 
 void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
@@ -22,8 +22,8 @@ void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, check, size);
 }
 
-/* A line for a limit that is exceeded: what, by how much, and what to do where it is not kept to anyway. More than fits
- * is cut off. */
+/* Adds a line about an exceeded limit: the excess, and advice unless the guard clamps to the limit anyway. Text beyond
+ * the buffer is cut off. */
 static void say(const inspection *on, uint32_t limit, const char *sentence, const char *advice) {
     const size_t length = strlen(on->check->message);
     char name[44];
@@ -80,8 +80,8 @@ static void check_texture(const inspection *on, double stiffness) {
     }
 }
 
-/* Ridges a metre as they are felt along x or y, against what the material says. An axis is no matter of uvs: there
- * ridges stand where a plane would cut them. */
+/* Compares the ridges per metre that are felt along x or y with the material's. A surface with an axis is skipped: it
+ * uses no uvs, and its ridges stand as if planes cut them. */
 static void check_stretch(const inspection *on, const knurl_surface_data *surface) {
     const knurl_material_desc *m = on->material;
     const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
@@ -92,7 +92,7 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     knurl_shape_get_facts(&surface->shape, &facts);
     for (int i = 0; i < 2; i++) {
         const double *tagged = m->spatial_frequency;
-        const double fs = m->orientation == 0.0 ? tagged[i] : fmax(tagged[0], tagged[1]); /* turned, both may be met */
+        const double fs = m->orientation == 0.0 ? tagged[i] : fmax(tagged[0], tagged[1]); /* rotated, both may apply */
         const double *stretch = facts.stretch[i];
         char sentence[256];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
@@ -103,7 +103,7 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     }
 }
 
-/* Coordinates in which nothing can be felt: a unit that was mistaken, or a vertex that went astray. */
+/* Positions too far out to be felt: a mistaken unit, or a stray vertex. */
 static void check_place(const inspection *on, const knurl_surface_data *surface) {
     double low[3];
     double high[3];
@@ -121,7 +121,7 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
     }
 }
 
-/* Crests that reach farther than a mesh is wide, or triangles that lie over one another in heaps. */
+/* Crests that reach farther than a mesh is wide, or stacks of overlapping triangles. */
 static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
     if (knurl_shape_exceeds_visits(&surface->shape, surface->record->reach, max_visits)) {
         char sentence[256];
@@ -133,23 +133,23 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
     }
 }
 
-/* So many meshes within this distance (m) of one point: over 16 spheres of 9,216 triangles a fifth of the ticks of a
- * stroke of 100 mm/s meets the limit of visits, over 8 of them one in 80. */
+/* Number of meshes within CROWD_REACH (m) of one point that is reported: over 16 spheres of 9,216 triangles a fifth of
+ * the ticks of a stroke of 100 mm/s reaches the limit of visits, over 8 of them one in 80. */
 #define CROWD       16
 #define CROWD_REACH 0.001
 
-/* The most surfaces near a point that are looked at. */
+/* Most surfaces near a point that are tested. */
 #define CROWD_MAX 64
 
-/* How many meshes come within CROWD_REACH of a point. */
+/* Counts the meshes within CROWD_REACH of a point. */
 static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3]) {
-    const knurl_broad_index *index = scene->broad_phase.index;
+    const knurl_broad_index *index = scene->broad_phase.index; /* null before the commit */
     const double now = knurl_scene_time(scene);
     uint32_t places[CROWD_MAX];
     double low[3], high[3];
     knurl_bvh_bound(point, point, CROWD_REACH, low, high);
     const knurl_view view = {low, high, now, 0, 1};
-    const uint32_t found = index ? knurl_broad_phase_find(index, &view, CROWD_MAX, places) : 0; /* committed? */
+    const uint32_t found = index ? knurl_broad_phase_find(index, &view, CROWD_MAX, places) : 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < found && i < CROWD_MAX; i++) {
         const knurl_surface_data *surface = index->items[places[i]];
@@ -165,7 +165,7 @@ static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3
     return count;
 }
 
-/* Meshes that lie over one another, looked for where a hand would meet the surface first. */
+/* Overlapping meshes at the anchor, where a hand would meet the surface first. */
 static void check_crowd(const inspection *on, const knurl_scene *scene, const knurl_surface_data *surface) {
     knurl_contact anchor;
     knurl_pose pose;
@@ -211,7 +211,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
                     knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
     knurl_workspace workspace;
-    knurl_bounds bounds; /* not the guard's, which follow a scale that changes on the haptic thread */
+    knurl_bounds bounds; /* not the guard's: their scale changes on the haptic thread */
     const inspection on = {&bounds, m, surface->name, check, hip->guard.clamp};
     knurl_wall wall;
     memset(check, 0, sizeof *check);

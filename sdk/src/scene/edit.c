@@ -1,6 +1,5 @@
-/* Edits from any thread, before and after the commit: adding, removing, moving and changing surfaces. What can fail is
- * done first; what ticks can see is swapped last.
- * SPDX-License-Identifier: MIT */
+/* Edits from any thread, before and after the commit: adding, removing, moving and changing surfaces. Steps that can
+ * fail come first; the swap that ticks see comes last. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"
@@ -16,7 +15,7 @@ static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     return result;
 }
 
-/* Long; without the lock but for the look at the surface whose shape it is to have. */
+/* Takes long, so the lock is held only while sharing the shape of `shape_of`. */
 static knurl_result build(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_data **made) {
     knurl_surface_desc d;
     knurl_shared_shape shared;
@@ -35,7 +34,7 @@ static knurl_result build(knurl_scene *scene, const knurl_surface_desc *desc, kn
                   : knurl_surface_build(&scene->heap, &d, scene->full_model, d.shape_of ? &shared : NULL, made);
 }
 
-/* The new surface counts one jump more than the old one, which tells ticks that the shape is another. */
+/* Counts one jump more than the old surface, so that ticks notice the new shape. */
 static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_surface_data *made) {
     knurl_surface_data *old = knurl_surfaces_get(&scene->surfaces, surface);
     if (!old) {
@@ -49,7 +48,7 @@ static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_
     return KNURL_OK;
 }
 
-/* Builds a surface and adds it, or puts it in the place of surface *id. *id: gets its id. */
+/* Builds a surface and adds it, or replaces surface *id by it. *id: receives its id. */
 static knurl_result put(knurl_scene *scene, const knurl_surface_desc *desc, int replaces, knurl_surface_id *id) {
     knurl_surface_data *made = NULL;
     knurl_result result = build(scene, desc, &made);

@@ -31,7 +31,7 @@ static knurl_result check_scene_desc(const knurl_scene_desc *d) {
     return KNURL_OK;
 }
 
-/* No tick runs any more. */
+/* No tick may run any more. */
 static void free_scene(knurl_scene *scene) {
     knurl_surfaces_release(&scene->surfaces);
     knurl_broad_phase_release(&scene->broad_phase);
@@ -91,7 +91,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     for (uint32_t hip = 0; hip < d.hip_count; hip++) {
         knurl_hip_desc defaults;
         knurl_hip_desc_init(&defaults, sizeof defaults);
-        (void)knurl_hip_set_up(&made->hips[hip], &defaults, &knurl_touch, HUGE_VAL, 0.0); /* they are in range */
+        (void)knurl_hip_set_up(&made->hips[hip], &defaults, &knurl_touch, HUGE_VAL, 0.0); /* the defaults are valid */
         made->hips[hip].contacts.everything = (made->full_model & KNURL_FULL_SEARCH) != 0;
         knurl_epoch_add_pin(&made->epoch, &made->hips[hip].pinned);
     }
@@ -99,12 +99,12 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     return KNURL_OK;
 }
 
-/* Freed by its owner or by the last loop that uses it, whichever comes last. */
+/* The owner or the last loop that uses the scene frees it, whichever comes last. */
 void knurl_scene_destroy(knurl_scene *scene) {
     if (!scene || KNURL_BAD_HANDLE(scene, SCENE)) {
         return;
     }
-    knurl_handle_clear(&scene->handle); /* also where loops still tick it */
+    knurl_handle_clear(&scene->handle); /* also while loops still tick it */
     if (__atomic_fetch_or(&scene->use, KNURL_SCENE_DESTROYED, __ATOMIC_ACQ_REL) == 0) {
         free_scene(scene);
     }
@@ -221,7 +221,7 @@ knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t inde
     return id;
 }
 
-/* Finds the first surface of that name, or null; then `known` lists the names. */
+/* Finds the first surface of that name, or returns null with the names listed in `known`. */
 static const knurl_surface_data *find(const knurl_scene *scene, const char *name, char *known, size_t size) {
     size_t used = 0;
     for (uint32_t i = 0; i < scene->surfaces.count; i++) {
@@ -230,7 +230,7 @@ static const knurl_surface_data *find(const knurl_scene *scene, const char *name
             return candidate;
         }
         const int more = snprintf(known + used, size - used, "%s'%s'", i ? ", " : "", candidate->name);
-        used += more > 0 && (size_t)more < size - used ? (size_t)more : 0; /* what does not fit is left out */
+        used += more > 0 && (size_t)more < size - used ? (size_t)more : 0; /* names that do not fit are left out */
         known[used] = 0;
     }
     return NULL;

@@ -1,14 +1,13 @@
-/* The insides of a scene. Edits hold its lock; ticks take no lock. Ticks follow atomic pointers to objects that never
- * change once they are visible (records, shapes, the broad phase's index), and what an edit replaces is kept until no
- * tick can use it (epoch.h).
- * SPDX-License-Identifier: MIT */
+/* The internals of a scene. Edits hold its lock; ticks take no lock. Ticks follow atomic pointers to objects that are
+ * immutable once published (records, shapes, the broad phase's index); an object that an edit replaces is kept until no
+ * tick can use it (epoch.h). SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SCENE_H
 #define KNURL_SRC_SCENE_H
 
 #include "base/handle.h"
 #include "hip/hip.h"
 
-/* In knurl_scene.use: destroyed by its owner, kept for the loops that use it. Above the bits of all HIPs. */
+/* In knurl_scene.use, above the bits of all HIPs: destroyed by its owner, kept for the loops that use it. */
 #define KNURL_SCENE_DESTROYED 0x100u
 
 struct knurl_scene {
@@ -16,16 +15,16 @@ struct knurl_scene {
     /* read by ticks */
     uint32_t hip_count;
     knurl_hip *hips;
-    uint32_t committed; /* atomic: 1 once all that ticks read is there */
-    uint32_t use;       /* atomic: bit i: a loop has HIP i; KNURL_SCENE_DESTROYED */
+    uint32_t committed; /* atomic: 1 once all data that ticks read is complete */
+    uint32_t use;       /* atomic: bit i: a loop uses HIP i; KNURL_SCENE_DESTROYED */
     uint32_t full_model;
     knurl_broad_phase broad_phase;
     knurl_epoch epoch;
 
     /* for edits, under the lock */
-    knurl_mutex *lock; /* who only reads takes it too */
+    knurl_mutex *lock; /* taken by readers and writers */
     knurl_mutex mutexes[2];
-    knurl_heap heap; /* under the second */
+    knurl_heap heap; /* locked by the second mutex */
     knurl_surfaces surfaces;
 };
 
@@ -45,18 +44,18 @@ knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip);
 /* Releases the claim; frees a destroyed scene that no other loop uses. [any thread but a tick's] */
 void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip);
 
-/* 1: its owner has destroyed it. [any thread] */
+/* 1 if its owner has destroyed it. [any thread] */
 int knurl_scene_is_destroyed(const knurl_scene *scene);
 
-/* The tick of one of the scene's HIPs. The scene is committed. added: or null. */
+/* The tick of one of the scene's HIPs. The scene must be committed. added: or null. */
 void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
                     knurl_tick_output *output) KNURL_NONBLOCKING;
 
-/* Fills in what a claimed HIP's description leaves open from the loop and its device, and clears the HIP's state except
- * for the heat. Errors: KNURL_ERROR_ARGUMENT (another update rate was asked for). [game thread] */
+/* Fills in the open values of a claimed HIP's description from the loop and its device, and clears the HIP's state
+ * except for the heat. Errors: KNURL_ERROR_ARGUMENT (configured for another update rate). [game thread] */
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
-/* Publishes a force (N) that the loop sent at its end without a tick, as if it were the latest tick's. On the HIP's
+/* Publishes a force (N) that the loop sent at its end without a tick, as if it were the last tick's. On the HIP's
  * haptic thread, or after its end (motors.c). */
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3],
                                const double device_force[3]) KNURL_NONBLOCKING;

@@ -1,4 +1,4 @@
-/* HIPs on the game thread: configuring, adopting a device's properties, reading the latest tick.
+/* HIPs on the game thread: configuring, adopting a device's properties, reading the last tick.
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
@@ -13,7 +13,7 @@ static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
     return KNURL_OK;
 }
 
-/* Under the lock: editing threads look at the HIPs' times. */
+/* Under the lock, because editing threads read the HIPs' times. */
 static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
                            double strongest) {
     const knurl_result result = knurl_hip_set_up(hip, d, device, strongest, knurl_scene_time(scene));
@@ -35,7 +35,7 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     knurl_result result = check_hip(scene, hip);
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
-        knurl_scene_lock(scene); /* a loop that takes the HIP now sets it up after this */
+        knurl_scene_lock(scene); /* a loop that claims the HIP meanwhile sets it up after this */
         if (knurl_load_acquire(&scene->use) >> hip & 1) {
             result = knurl_fail(KNURL_ERROR_STATE,
                                 "scene: HIP %u is in use by a loop; configure it before that is created or after it "

@@ -12,7 +12,7 @@ void knurl_surface_info_init(knurl_surface_info *info, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, info, size);
 }
 
-/* m from a point to where a ray leaves the bounds. */
+/* m: distance from the anchor to the bounds along a direction. */
 static double reach_along(const knurl_surface_info *info, const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
@@ -62,7 +62,7 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     memcpy(info->stretch_y, facts.stretch[1], sizeof facts.stretch[1]);
 }
 
-/* Where it stands now. Of what moves the bounds hold the whole way. */
+/* Describes a surface as it stands now; the bounds of a moving one contain its whole motion. */
 static void describe(const knurl_scene *scene, const knurl_surface_data *surface, knurl_surface_info *info) {
     knurl_pose pose;
     memset(info, 0, sizeof *info);

@@ -1,5 +1,5 @@
-/* What a game asks about a scene: where surfaces are, what is closest to a point, what a ray hits, all contacts of a
- * HIP. SPDX-License-Identifier: MIT */
+/* Queries for games: poses of surfaces, the closest point, ray casts, all contacts of a HIP.
+ * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* The pose of a surface's own frame now; records keep that of its shape's. */
+/* The pose of a surface's own frame now; records hold that of its shape's frame. */
 static void find_pose(const knurl_scene *scene, const knurl_surface_data *surface, knurl_pose *pose) {
     double turned[3];
     knurl_pose shape;
@@ -90,7 +90,7 @@ static double distance_to_box(const double p[3], const double low[3], const doub
     return vec3_length(off);
 }
 
-/* The closest point and its outward normal, shape's frame; 0 where none is within the radius. */
+/* Finds the closest point and its outward normal, shape's frame. Returns 0 if there is no point within the radius. */
 static int find_closest(const knurl_shape *shape, const double p[3], double radius, double closest[3],
                         double normal[3]) {
     normal[0] = normal[1] = 0.0;
@@ -110,7 +110,7 @@ static int find_closest(const knurl_shape *shape, const double p[3], double radi
     return 1;
 }
 
-/* Looks at one surface; `best` is the closest so far, or has no surface and the radius as its distance. */
+/* Tests one surface. best: the closest point so far; at first without a surface, and with the radius as distance. */
 static void look_at(const knurl_scene *scene, const knurl_surface_data *surface, const double position[3],
                     knurl_surface_point *best) {
     const double now = knurl_scene_time(scene);
@@ -160,7 +160,7 @@ knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double pos
     return knurl_desc_return("knurl_surface_point", &best, sizeof best, point);
 }
 
-/* 1 where the box of a segment overlaps another box, or comes within `margin` (m) of it. */
+/* 1 if the box of a segment comes within `margin` (m) of another box. */
 static int passes_box(const double from[3], const double to[3], double margin, const double low[3],
                       const double high[3]) {
     double least[3], most[3];
@@ -173,7 +173,7 @@ static int passes_box(const double from[3], const double to[3], double margin, c
     return 1;
 }
 
-/* Casts at one surface. *share: of the way, up to the first hit so far, which `hit` is. */
+/* Casts at one surface. *share: of the segment, at the first hit so far, which is `hit`. */
 static void cast_at(const knurl_scene *scene, const knurl_surface_data *surface, const double from[3],
                     const double to[3], double *share, knurl_surface_point *hit) {
     const double now = knurl_scene_time(scene);
@@ -195,7 +195,7 @@ static void cast_at(const knurl_scene *scene, const knurl_surface_data *surface,
     *share = found.share;
     hit->surface = surface->id;
     knurl_pose_to_parent(&pose, found.point, hit->position);
-    vec3_scale(found.side, found.normal, normal); /* the front's */
+    vec3_scale(found.side, found.normal, normal); /* normal of the front */
     knurl_pose_vector_to_parent(&pose, normal, hit->normal);
 }
 
@@ -224,7 +224,7 @@ knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3]
     return knurl_desc_return("knurl_surface_point", &hit, sizeof hit, point);
 }
 
-/* By place and generation: surfaces may have been removed and freed since the tick. */
+/* Ids are made from place and generation, because surfaces may have been removed and freed since the tick. */
 uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_hip_contact *contacts,
                                   uint32_t capacity) {
     if (!KNURL_IS_HANDLE(scene, SCENE) || hip >= scene->hip_count) {

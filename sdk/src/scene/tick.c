@@ -1,7 +1,7 @@
 /* The tick: a device position in, a device force out. Read knurl_scene_tick(), at the end, first. Steps: read the HIP;
  * update contacts (broad phase, candidates, contact); compute forces (grating, Eq. 9, friction) between the guard's
- * protections; convert the sum to device axes; the last stage; publish. Nothing called from here uses the heap, a lock,
- * a system call, a clock, a log or a file. SPDX-License-Identifier: MIT */
+ * protections; convert the sum to device axes; the last stage; publish. Code called from here never uses the heap, a
+ * lock, a system call, a clock, a log or a file. SPDX-License-Identifier: MIT */
 #include "hip/force_law.h"
 #include "scene/scene.h"
 
@@ -12,10 +12,10 @@
 #include <stddef.h>
 #include <string.h>
 
-/* m/s: no way between two valid positions is faster, at any update rate. */
+/* m/s: above the speed between any two valid positions, at any update rate. */
 #define SPEED_MAX 1e15
 
-/* What contacts add to. */
+/* Clears the members that contacts add to. */
 static void begin_output(knurl_tick_output *out) {
     out->force[0] = out->force[1] = out->force[2] = 0.0;
     out->flags = out->contacts = 0;
@@ -35,8 +35,8 @@ static void clear_contact_output(knurl_tick_output *out) {
     out->surface = 0;
 }
 
-/* Puts the workspace where it is in this tick. Contacts end where it jumped: what lies on the way is not touched.
- * Returns how fast its scale grew since the last tick, as a share of it, 1/s. */
+/* Moves the workspace to its pose in this tick. A jump ends contacts: it sweeps nothing in between. Returns the growth
+ * of its scale since the last tick, as a share of the scale, 1/s. */
 static double move_workspace(knurl_hip *hip) {
     const double before = hip->workspace.scale;
     const knurl_hip_clock *clock = &hip->contacts.clock;
@@ -63,8 +63,8 @@ static void add_workspace_velocity(const knurl_hip *hip, const double at[3], dou
     vec3_madd(velocity, zoom, from_origin, velocity);
 }
 
-/* Maps the device's position and velocity into the scene. A velocity that is not given is estimated in device axes,
- * where the quantisation is. Returns 0 where the position is invalid. */
+/* Maps the device's position and velocity into the scene. A missing velocity is estimated in device axes, where the
+ * quantisation is. Returns 0 if the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;
@@ -73,7 +73,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         return 0;
     }
     if (!input->has_velocity) {
-        if (!vec3_finite(input->position)) { /* never into the estimator */
+        if (!vec3_finite(input->position)) { /* keep it out of the estimator */
             return 0;
         }
         knurl_velocity_update(&hip->velocity, input->position, estimate);
@@ -95,7 +95,7 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     return vec3_sum(out->hip) <= KNURL_COORDINATE_MAX && vec3_sum(out->hip_velocity) <= SPEED_MAX;
 }
 
-/* Reports one contact; of several the deepest. */
+/* Reports one contact; of several, the deepest. */
 static inline void report_contact(const knurl_active_contact *contact, const knurl_contact_force *share,
                                   knurl_tick_output *out) {
     if (KNURL_UNLIKELY(share->grating.above_nyquist)) {
@@ -145,13 +145,13 @@ static inline double render_contact(knurl_hip *hip, const knurl_active_contact *
     return step;
 }
 
-/* 1 where nothing is in contact, no force is added and the latest tick's was 0: there is nothing to limit. */
+/* 1 if there is no contact, no added force and no force at the last tick: there is nothing to limit. */
 static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
     const double *force = hip->last.force;
     return hip->contacts.active_count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
-/* Turns the sum of all forces into device axes and limits it there: a workspace that turns must not make the device's
+/* Converts the sum of all forces to device axes and limits it there: a rotating workspace must not make the device's
  * force jump. Returns its length, N. */
 static inline double send_force(knurl_hip *hip, double steps, const double force[3], knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
@@ -167,14 +167,14 @@ static inline double send_force(knurl_hip *hip, double steps, const double force
     vec3_copy(sent, out->device_force);
     vec3_copy(force, out->force);
     const double length = knurl_last_stage_limit(&hip->last, hip->guard.gain, steps, sent, &out->flags);
-    if (vec3_distance2(sent, out->device_force) > 0.0) { /* else turning it back would only round it */
+    if (vec3_distance2(sent, out->device_force) > 0.0) { /* else rotating it back would only round it */
         vec3_copy(sent, out->device_force);
         mat3_mul(w->rotation, sent, out->force);
     }
     return length;
 }
 
-/* Sums all contacts' forces and what the game adds (N, scene), and sends the sum. Returns its length. */
+/* Sums the forces of all contacts and of the game (N, scene), and sends the sum. Returns its length. */
 static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
     double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
@@ -188,7 +188,7 @@ static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, 
     return send_force(hip, steps, force, out);
 }
 
-/* No force, no contact, a first tick next. */
+/* Ends all contacts and the force; the next tick is a first one. */
 static void end_contacts(knurl_hip *hip) {
     const double none[3] = {0.0, 0.0, 0.0};
     knurl_contacts_reset(&hip->contacts);
@@ -238,7 +238,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     return length;
 }
 
-/* No formatted message: this may be the haptic thread. */
+/* Static messages only: this may be the haptic thread. */
 static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_output *output) {
     if (output) {
         memset(output, 0, sizeof *output);
@@ -247,7 +247,6 @@ static knurl_result refuse(knurl_result why, const char *sentence, knurl_tick_ou
     return knurl_fail_static(why, sentence);
 }
 
-/* The whole tick. */
 void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
                     knurl_tick_output *output) {
     double force = 0.0;
@@ -283,7 +282,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
                       "knurl_scene_tick: expected a scene, an input and an output, found null or a handle that is none",
                       output);
     }
-    if (!is_reserved_zero(input)) { /* or a later version could not give it a meaning */
+    if (!is_reserved_zero(input)) { /* reserved for later versions */
         return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: input.reserved: expected zeros, found another number",
                       output);
     }
