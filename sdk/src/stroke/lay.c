@@ -117,8 +117,8 @@ static int write_row(const planner *l, const knurl_walker *walker, double row[6]
     return 1;
 }
 
-/* Turns a direction along the grating's x, of either sign. Returns 0 if that turns it by over 60 degrees: there begins
- * another island of uvs. */
+/* Turns a direction along the grating's x, of either sign. Returns 0 if that turns it by over 60 degrees: another
+ * island of uvs begins there. */
 static int turn_along_x(const knurl_walker *walker, double direction[3]) {
     const double along = vec3_dot(walker->x, direction);
     vec3_scale(along < 0.0 ? -1.0 : 1.0, walker->x, direction);
@@ -201,7 +201,7 @@ static void lay_along_x(planner *l, const knurl_walker *from, path *p) {
     p->length = length_of((const double (*)[6])p->rows, p->count);
 }
 
-/* Rates a path: its length, up to LONG; a quarter of that where the grating is stretched by over KNURL_STRETCH_MAX. */
+/* Rates a path: its length, up to LONG; a quarter of that if the grating is stretched by over KNURL_STRETCH_MAX. */
 static double rate(const path *p) {
     const int is_even = p->stretch <= KNURL_STRETCH_MAX && p->stretch * KNURL_STRETCH_MAX >= 1.0;
     return (is_even ? 1.0 : 0.25) * fmin(p->length, LONG);
@@ -297,8 +297,8 @@ static int lay_circle(planner *l, knurl_stroke_desc *desc) {
     return 1;
 }
 
-/* At a tip, where many faces meet, a walker that is pressed in against one face leaves through another: start it beside
- * the tip. */
+/* At a tip, where many faces meet, a walker that is pressed in against one face leaves through another. Starts it
+ * beside the tip. */
 static int begin_beside(planner *l, double step, const double place[3], const double normal[3]) {
     double x[3];
     double y[3];

@@ -3,11 +3,10 @@
 
 #include <string.h>
 
-/* Cosine of the angle by which a surface may turn within a step: beyond it there is an edge that a finger does not go
- * round. */
+/* Cosine of the angle by which a surface may turn within a step: a finger stops at sharper edges. */
 #define SHARPEST 0.5
 
-/* A step that brings the finger on by less than this share of it is stopped by a rim or a wall. */
+/* A step that moves the finger by less than this share of it has met a rim or a wall. */
 #define LEAST 0.5
 
 static int press(knurl_walker *w, const double from[3], const double hip[3]) {

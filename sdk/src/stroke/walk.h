@@ -19,15 +19,15 @@ typedef struct knurl_walker {
     knurl_contact contact;
 } knurl_walker;
 
-/* Starts at a point of the surface (m) with a known outward normal. Returns 0 where no surface holds it. */
+/* Starts at a point of the surface (m) with a known outward normal. Returns 0 if the surface does not hold it. */
 int knurl_walker_begin(knurl_walker *walker, const knurl_surface_data *surface, double step, const double place[3],
                        const double normal[3]);
 
-/* One step along `direction` (unit, tangent). Returns 0, without moving, where the surface ends or bends by more than
- * 60 degrees. */
+/* One step along `direction` (unit, tangent). Returns 0, without moving, if the surface ends or bends by more than 60
+ * degrees. */
 int knurl_walker_go(knurl_walker *walker, const double direction[3]);
 
-/* Growth of the surface's first coordinate per metre along `direction`; 1 where it has none. */
+/* Growth of the surface's first coordinate per metre along `direction`; 1 if it has no coordinates. */
 double knurl_walker_stretch(const knurl_walker *walker, const double direction[3]);
 
 #endif
