@@ -1,13 +1,14 @@
-/* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Only the axis along which the centres spread
- * most is tried: a third of the binning. SPDX-License-Identifier: MIT */
+/* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Splits are tried only along the axis with the
+ * widest spread of centres: a third of the binning.
+ * SPDX-License-Identifier: MIT */
 #include "contact/bvh.h"
 
 #include <string.h>
 
 #define BINS      16
-#define SAH_DEPTH 32 /* deeper, runs are halved: 2^26 triangles then end before KNURL_BVH_DEPTH_MAX */
+#define SAH_DEPTH 32 /* deeper ranges are halved, so that 2^26 triangles stay within KNURL_BVH_DEPTH_MAX */
 
-/* Four floats, the last unused: loops over four become one instruction. */
+/* Padded to four floats: loops over four become one instruction. */
 typedef struct box {
     float min[4];
     float max[4];
@@ -20,14 +21,14 @@ typedef struct item {
 
 typedef struct range {
     uint32_t begin, end;
-    uint32_t parent; /* whose right child this is, or UINT32_MAX */
+    uint32_t parent; /* the node whose right child this is, or UINT32_MAX */
     uint32_t depth;
 } range;
 
 typedef struct split {
     int axis;
     float low, scale;
-    uint32_t bin; /* items in bins below it go left; 0: none */
+    uint32_t bin; /* items in lower bins are on the left; 0: no split found */
 } split;
 
 typedef struct tree {
@@ -58,10 +59,12 @@ static float centre(const item *i, int axis) {
 
 static uint32_t bin_of(const item *i, const split *s) {
     const float bin = (centre(i, s->axis) - s->low) * s->scale;
-    return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* a NaN, of huge boxes, is 0 */
+    return !(bin > 0.0f)              ? 0
+           : bin >= (float)(BINS - 1) ? BINS - 1
+                                      : (uint32_t)bin; /* NaN, from huge boxes, gives bin 0 */
 }
 
-/* The bounds of a range, and the split across the widest spread of its centres, its bin still to be chosen. */
+/* Computes a range's bounds, and a split along the widest axis of its centres; choose_bin() sets its bin. */
 static split measure(const item *items, const range *r, box *bounds) {
     box centres = empty_box;
     box sum = empty_box;
@@ -84,11 +87,12 @@ static split measure(const item *items, const range *r, box *bounds) {
         }
     }
     s.low = centres.min[s.axis];
-    s.scale = widest > 1e-30f ? (float)BINS * 0.999f / widest : 0.0f; /* below, a bin's inverse is no float */
+    s.scale =
+        widest > 1e-30f ? (float)BINS * 0.999f / widest : 0.0f; /* for a smaller extent the scale could overflow */
     return s;
 }
 
-/* The cheapest of the 15 splits between the bins. */
+/* Picks the cheapest of the 15 splits between bins. */
 static void choose_bin(const item *items, const range *r, split *s) {
     box bounds[BINS];
     uint32_t counts[BINS] = {0};
@@ -121,7 +125,7 @@ static void choose_bin(const item *items, const range *r, split *s) {
     }
 }
 
-/* Moves the left side's items to the front; returns where the right side begins. */
+/* Moves the items of the left side to the front; returns the first index of the right side. */
 static uint32_t partition(item *items, const range *r, const split *s) {
     uint32_t left = r->begin;
     for (uint32_t i = r->begin; i < r->end; i++) {
@@ -134,7 +138,7 @@ static uint32_t partition(item *items, const range *r, const split *s) {
     return left;
 }
 
-/* Writes the node of one range; returns where to split it, or r->end for a leaf. */
+/* Writes a range's node; returns the index to split at, or r->end for a leaf. */
 static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
     box bounds;
     split s = measure(items, r, &bounds);
@@ -147,10 +151,11 @@ static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl
     if (r->depth < SAH_DEPTH && s.scale > 0.0f) {
         choose_bin(items, r, &s);
     }
-    return s.bin > 0 ? partition(items, r, &s) : r->begin + count / 2; /* all centres alike, or very deep: halve */
+    return s.bin > 0 ? partition(items, r, &s)
+                     : r->begin + count / 2; /* equal centres or a very deep range: halve it */
 }
 
-/* Room for one more node; 0 where there is none to be had. */
+/* Makes room for one more node; 0 if out of memory. */
 static int grow(knurl_heap *heap, tree *t) {
     if (t->count < t->capacity) {
         return 1;
@@ -188,14 +193,15 @@ static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_si
         }
         node->count = 0;
         stack[top++] = (range){middle, r.end, index, r.depth + 1};
-        stack[top++] = (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* the left child comes right next */
+        stack[top++] =
+            (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* popped first: a left child follows its parent */
     }
     return 1;
 }
 
 knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
                              uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count) {
-    tree t = {NULL, 0, 2 * (count / leaf_size) + 16}; /* leaves are more than half full as a rule */
+    tree t = {NULL, 0, 2 * (count / leaf_size) + 16}; /* leaves are usually more than half full */
     item *items = knurl_heap_alloc(heap, count, sizeof *items);
     t.nodes = knurl_heap_alloc(heap, t.capacity, sizeof *t.nodes);
     knurl_bvh_node *made = NULL;
@@ -206,7 +212,7 @@ knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t 
             items[i].place = i;
         }
         if (build(heap, items, count, leaf_size, &t)) {
-            made = knurl_heap_alloc(heap, t.count, sizeof *made); /* to size */
+            made = knurl_heap_alloc(heap, t.count, sizeof *made); /* exact size */
         }
     }
     if (made) {

@@ -1,4 +1,4 @@
-/* A bounding volume hierarchy over triangles: built once, never changed, walked without recursion.
+/* A bounding volume hierarchy over triangles. Immutable once built; traversed without recursion.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_BVH_H
 #define KNURL_SRC_BVH_H
@@ -12,15 +12,15 @@
 #include <emmintrin.h>
 #endif
 
-/* The build never makes a tree deeper than this, so a walk's stack has a fixed size. */
+/* Maximum depth of a tree, and so the size of a traversal's stack. */
 #define KNURL_BVH_DEPTH_MAX 64
 
-/* 32 bytes. An inner node's left child stands right after it. */
+/* 32 bytes. The left child of an inner node follows it directly. */
 typedef struct knurl_bvh_node {
     float min[3];
     uint32_t first; /* leaf: its first triangle; inner: its right child */
     float max[3];
-    uint32_t count; /* leaf: its triangles; inner: 0 */
+    uint32_t count; /* leaf: number of triangles; inner: 0 */
 } knurl_bvh_node;
 
 typedef struct knurl_box {
@@ -28,9 +28,9 @@ typedef struct knurl_box {
     float max[3];
 } knurl_box;
 
-/* Builds over `count` (> 0) boxes. order: `count` entries of the caller's, filled in with the places of the boxes in
- * leaf order: each leaf is a run of them, at most `leaf_size` long. Nodes come from `heap`; scratch is given back.
- * Errors: KNURL_ERROR_MEMORY. */
+/* Builds a hierarchy over `count` (> 0) boxes. order: `count` entries, filled in with box indices in leaf order; each
+ * leaf is a run of at most `leaf_size`. The nodes come from `heap`; scratch memory is freed. Errors:
+ * KNURL_ERROR_MEMORY. */
 knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
                              uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count);
 
@@ -46,7 +46,7 @@ static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const doubl
     return sum;
 }
 
-/* The box of a segment, widened by `margin`. Allowed in a tick. */
+/* Bounding box of a segment, expanded by `margin`. Allowed in a tick. */
 static inline void knurl_bvh_bound(const double a[3], const double b[3], double margin, double low[3],
                                    double high[3]) KNURL_NONBLOCKING {
     for (int axis = 0; axis < 3; axis++) {
@@ -55,7 +55,7 @@ static inline void knurl_bvh_bound(const double a[3], const double b[3], double 
     }
 }
 
-/* Whether a box overlaps a node's. Allowed in a tick. */
+/* 1 if a box overlaps a node's box. Allowed in a tick. */
 static inline int knurl_bvh_meets(const knurl_bvh_node *node, const double low[3],
                                   const double high[3]) KNURL_NONBLOCKING {
     for (int axis = 0; axis < 3; axis++) {
@@ -66,8 +66,8 @@ static inline int knurl_bvh_meets(const knurl_bvh_node *node, const double low[3
     return 1;
 }
 
-/* The same four floats at a time, for searches of many nodes. Vectors of GCC and Clang: x, y, z and one number that is
- * not used. */
+/* The same tests on four floats at a time, for searches of many nodes. GCC and Clang vectors: x, y, z and an unused
+ * number. */
 typedef float knurl_float4 __attribute__((vector_size(16)));
 typedef int32_t knurl_mask4 __attribute__((vector_size(16)));
 
@@ -76,7 +76,7 @@ typedef struct knurl_search_box {
     knurl_float4 low, high;
 } knurl_search_box;
 
-/* More than two roundings to a float: a share of its size, and where it is subnormal. */
+/* More than two roundings to float: relative, and absolute for subnormal numbers. */
 #define KNURL_FLOAT_ROUNDING 1.2e-7f
 #define KNURL_FLOAT_TINY     1e-37f
 
@@ -89,7 +89,7 @@ static inline void knurl_search_box_set(const double low[3], const double high[3
     box->low[3] = box->high[3] = 0.0f;
 }
 
-/* 1 where a comparison holds in x, y or z. */
+/* 1 if a comparison is true in x, y or z. */
 static inline int knurl_mask4_any(knurl_mask4 mask) {
 #if defined(__SSE2__)
     return (_mm_movemask_ps((__m128)mask) & 7) != 0;
@@ -99,7 +99,7 @@ static inline int knurl_mask4_any(knurl_mask4 mask) {
 }
 
 static inline int knurl_search_box_meets_node(const knurl_search_box *box, const knurl_bvh_node *node) {
-    knurl_float4 min, max; /* the fourth numbers are the node's integers */
+    knurl_float4 min, max; /* the fourth numbers are the node's integers, and ignored */
     memcpy(&min, node, sizeof min);
     memcpy(&max, (const char *)node + sizeof min, sizeof max);
     return !knurl_mask4_any((box->low > max) | (box->high < min));

@@ -1,7 +1,7 @@
-/* The closest point of a triangle, on its edges. SPDX-License-Identifier: MIT */
+/* Closest point on the edges of a triangle. SPDX-License-Identifier: MIT */
 #include "contact/closest_point.h"
 
-/* Between corners i and j of a triangle, `along` of the way. */
+/* Sets the weights of a point between corners i and j (along: 0 at i, 1 at j; clamped); returns its feature. */
 static unsigned set_between(unsigned i, unsigned j, double along, double weights[3]) {
     weights[j] = along < 0.0 ? 0.0 : along < 1.0 ? along : 1.0;
     weights[i] = 1.0 - weights[j];
@@ -16,10 +16,10 @@ void knurl_closest_on_edges(const double p[3], const double inside[2], knurl_clo
     vec3_sub(p, a, ap);
     vec3_sub(closest->corners[2], closest->corners[1], bc);
     vec3_sub(p, closest->corners[1], bp);
-    const double b_a = vec3_dot(ab, ap), c_a = vec3_dot(ac, ap);  /* how far p is towards b and c, from a, */
-    const double a_b = -vec3_dot(ab, bp), c_b = vec3_dot(bc, bp); /* towards a and c, from b, */
+    const double b_a = vec3_dot(ab, ap), c_a = vec3_dot(ac, ap);  /* p projected on the edges from a to b and c, */
+    const double a_b = -vec3_dot(ab, bp), c_b = vec3_dot(bc, bp); /* from b to a and c, */
     const double ab2 = vec3_dot(ab, ab), ac2 = vec3_dot(ac, ac), bc2 = vec3_dot(bc, bc);
-    const double a_c = ac2 - c_a, b_c = bc2 - c_b; /* and towards a and b, from c */
+    const double a_c = ac2 - c_a, b_c = bc2 - c_b; /* and from c to a and b */
     double *w = closest->weights;
     w[0] = w[1] = w[2] = 0.0;
     if (b_a <= 0.0 && c_a <= 0.0) {

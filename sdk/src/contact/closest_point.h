@@ -1,28 +1,28 @@
-/* The closest point of a triangle to a given point. Everything here may run in a tick. SPDX-License-Identifier: MIT */
+/* Closest point of a triangle to a given point. Everything here is allowed in a tick. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_CLOSEST_POINT_H
 #define KNURL_SRC_CLOSEST_POINT_H
 
 #include "base/vec3.h"
 #include "contact/mesh.h"
 
-/* The point of one triangle that is closest to p. */
+/* The point of one triangle closest to p. */
 typedef struct knurl_closest_point {
     double corners[3][3];
-    double normal[3];  /* of the triangle, times twice its area */
-    double weights[3]; /* barycentric; exactly 0 off the feature */
+    double normal[3];  /* the triangle's normal, times twice its area */
+    double weights[3]; /* barycentric; exactly 0 for corners off the feature */
     double point[3];
     double offset[3]; /* from the point to p */
     double distance2;
     double area2; /* twice the triangle's area, squared */
     uint32_t triangle;
-    unsigned feature; /* the vertex, edge or face that it is on: a bit for each of its corners; 7: the face */
+    unsigned feature; /* vertex, edge or face that the point is on: one bit per corner; 7: the face */
 } knurl_closest_point;
 
-/* For a p that does not project into the face: which edge or vertex is closest, by Voronoi regions (Ericson 2005,
- * section 5.1.5). inside: of b and c, signed, 0 on the edge that faces the corner. */
+/* Closest edge or vertex if p does not project into the face, by Voronoi regions (Ericson 2005, section 5.1.5). inside:
+ * barycentric coordinates of b and c, times area2. */
 void knurl_closest_on_edges(const double p[3], const double inside[2], knurl_closest_point *closest) KNURL_NONBLOCKING;
 
-/* Where p projects into the face, as it nearly always does, everything comes from the normal: one division. */
+/* If p projects into the face, as it nearly always does, the normal and one division suffice. */
 static inline void knurl_closest_on_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3],
                                              knurl_closest_point *closest) {
     double ab[3], ac[3], ap[3], across[3];
@@ -50,7 +50,8 @@ static inline void knurl_closest_on_triangle(const knurl_mesh *mesh, uint32_t tr
     closest->feature = 7;
 }
 
-/* A little (1e-6) of the way from a point of the mesh to p: a ray from there does not hit the face it starts on. */
+/* Moves a point of the mesh towards p by 1e-6 of their distance: a ray from there does not hit the face it starts
+ * on. */
 static inline void knurl_offset_towards(const double point[3], const double p[3], double out[3]) {
     double way[3];
     const double size = fabs(point[0]) + fabs(point[1]) + fabs(point[2]);

@@ -1,15 +1,15 @@
-/* Which edges of a sheet of triangles have a neighbour. SPDX-License-Identifier: MIT */
+/* Hash table of the edges of a triangle sheet, to find those without a neighbour. SPDX-License-Identifier: MIT */
 #include "contact/edge_table.h"
 
 #include <string.h>
 
-/* A slot: the lower vertex, the higher one (28 bits each: a mesh has at most 2^28 vertices), which ways it is used. */
+/* A slot: lower vertex, higher vertex (28 bits each: a mesh has at most 2^28), and the directions in use. */
 #define VERTEX_BITS 28
 #define UPWARDS     ((uint64_t)1 << 62)
 #define DOWNWARDS   ((uint64_t)1 << 63)
 #define USES        (UPWARDS | DOWNWARDS)
 
-/* Collisions a slot: two thirds full, a table of random keys has 1 (Knuth, 6.4, linear probing). */
+/* Maximum collisions per slot. A table of random keys has 1 when it is two thirds full (Knuth, 6.4, linear probing). */
 #define STEPS_MAX 64
 
 static uint64_t slots_for(uint64_t edges) {

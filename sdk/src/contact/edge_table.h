@@ -1,28 +1,29 @@
-/* Which edges of a sheet of triangles have a neighbour. SPDX-License-Identifier: MIT */
+/* Hash table of the edges of a triangle sheet, to find those without a neighbour. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_EDGE_TABLE_H
 #define KNURL_SRC_EDGE_TABLE_H
 
 #include "base/heap.h"
 
-/* Directed edges between welded vertices, each with the one that runs back. */
+/* Directed edges between welded vertices, each stored with its reverse. */
 typedef struct knurl_edge_table {
     uint64_t *slots;
     uint64_t capacity; /* a power of two */
-    uint64_t mask;     /* of the part in use */
-    uint64_t steps;    /* to slots that others had, since it was emptied */
+    uint64_t mask;     /* slots in use - 1 */
+    uint64_t steps;    /* collisions since the last clear */
 } knurl_edge_table;
 
-/* Room for so many different edges. Errors: KNURL_ERROR_MEMORY. */
+/* Allocates room for `edges` different edges. Errors: KNURL_ERROR_MEMORY. */
 knurl_result knurl_edges_make(knurl_heap *heap, uint64_t edges, knurl_edge_table *table);
 
-/* Empties it, for at most so many edges. */
+/* Empties the table, for at most `edges` edges. */
 void knurl_edges_clear(knurl_edge_table *table, uint64_t edges);
 
-/* 0 where this edge is there already, or where the table has more collisions than chance gives: what is in it was made
- * so, and the mesh stays one. (Its hash has no seed: the order of its slots is the order of the outline's edges.) */
+/* Returns 0 if the edge is already present, or if there are more collisions than chance gives: the input is made to
+ * collide, and the mesh stays a mesh. (The hash has no seed, because the order of its slots is the order of the
+ * outline's edges.) */
 int knurl_edges_add(knurl_edge_table *table, uint32_t from, uint32_t to);
 
-/* The next edge at or after slot *at that no other runs back along; 0 when there is none left. */
+/* Finds the next edge without a reverse, from slot *at on; 0 at the end. */
 int knurl_edges_next(const knurl_edge_table *table, uint64_t *at, uint32_t edge[2]);
 
 #endif

@@ -1,5 +1,4 @@
-/* A cache of the triangle that holds the closest point. Its values do not depend on where the HIP is, as long as that
- * stays above the same triangle.
+/* Cache of the triangle under the proxy. Its values hold as long as the HIP stays above that triangle.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FACET_H
 #define KNURL_SRC_FACET_H
@@ -11,24 +10,24 @@
 
 struct knurl_facet {
     uint32_t triangle;
-    int32_t side; /* that the HIP came from, +1 or -1; 0: none is kept */
+    int32_t side; /* that the HIP came from, +1 or -1; 0: the cache is empty */
     double corners[3][3], ab[3], ac[3];
     double normal[3]; /* times twice the area */
     double area2;     /* twice the area, squared */
     double inverse;   /* 1 / area2 */
-    double unit[3];   /* the normal towards `side` */
-    /* what mesh_frame.c has found out */
-    int32_t has_frame;    /* 1: x and y hold, */
-    int32_t has_uvs;      /* 1: and what the uvs are, with an area, */
-    int32_t has_steepest; /* 1: and `steepest` */
+    double unit[3];   /* unit normal towards `side` */
+    /* set by mesh_frame.c */
+    int32_t has_frame;    /* 1: x and y are set */
+    int32_t has_uvs;      /* 1: the uvs have an area and are set */
+    int32_t has_steepest; /* 1: `steepest` is set */
     double x[3], y[3];
     double u0, v0;         /* at the first corner */
-    double u1, v1, u2, v2; /* further at the others */
-    double scale[2];       /* m per u, and per v with the sign that y = n x x asks for */
-    double steepest;       /* of the coordinates, in a metre along the triangle */
+    double u1, v1, u2, v2; /* differences at the others */
+    double scale[2];       /* m per u, and per v; signed so that y = n x x */
+    double steepest;       /* largest change of a coordinate per metre along the triangle */
 };
 
-/* A closest point within the triangle: what there is to keep. unit: its normal, unit, towards `side`. */
+/* Fills in the cache from a closest point inside the triangle. unit: its unit normal, towards `side`. */
 static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t side, const double unit[3],
                                     knurl_facet *f) {
     f->triangle = closest->triangle;
@@ -43,8 +42,8 @@ static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t 
     vec3_copy(unit, f->unit);
 }
 
-/* The contact of a HIP whose closest point on the triangle is within it, and 1; else 0 and the closest point on its
- * edges. The same numbers as by knurl_closest_on_triangle(). */
+/* Returns 1 and the contact if the HIP's closest point is inside the triangle, else 0 and the closest point on its
+ * edges. The same numbers as from knurl_closest_on_triangle(). */
 static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3], knurl_contact *c,
                                       knurl_closest_point *closest) {
     double ap[3], across[3], offset[3];

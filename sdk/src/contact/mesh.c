@@ -1,4 +1,4 @@
-/* A mesh's requirements, properties and memory. SPDX-License-Identifier: MIT */
+/* Checks descriptions of meshes, frees meshes and counts their bytes. SPDX-License-Identifier: MIT */
 #include "contact/mesh.h"
 
 #include "base/vec3.h"

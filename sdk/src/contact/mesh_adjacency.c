@@ -1,5 +1,5 @@
-/* Builds adjacency: for each edge the triangle beyond it, and the vertices whose triangles are not all reached from
- * edge to edge. Linear in the number of triangles for any mesh.
+/* Builds adjacency: the triangle beyond each edge, and the vertices whose triangles are not all reached by swinging
+ * from edge to edge. Linear in the number of triangles for any mesh.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_adjacency.h"
 
@@ -12,7 +12,7 @@ typedef struct adjacency {
     knurl_mesh *mesh;
     const uint32_t *welded;
     uint32_t welded_count;
-    uint32_t *starts; /* one a welded vertex, and two */
+    uint32_t *starts; /* one per welded vertex, plus two */
 } adjacency;
 
 static uint32_t vertex_of(const adjacency *adj, uint32_t corner) {
@@ -31,7 +31,7 @@ static uint32_t upper_end(const adjacency *adj, uint32_t corner) {
     return a < b ? b : a;
 }
 
-/* One pass of a counting sort of corners by a key; from: null for the corners in order. */
+/* One pass of a counting sort of corners by `key`. from: null for all corners in order. */
 static void sort_by(const adjacency *adj, uint32_t (*key)(const adjacency *, uint32_t), const uint32_t *from,
                     uint32_t *to) {
     const size_t count = 3 * (size_t)adj->mesh->triangle_count;
@@ -50,7 +50,7 @@ static void sort_by(const adjacency *adj, uint32_t (*key)(const adjacency *, uin
     }
 }
 
-/* A run of corners that face one edge. */
+/* Links the corners opposite one edge. */
 static void link_edge(const adjacency *adj, const uint32_t *corners, size_t count) {
     if (count == 2) {
         const uint32_t a = corners[0];
@@ -77,7 +77,7 @@ static void link_edges(const adjacency *adj, const uint32_t *sorted) {
     }
 }
 
-/* Whether swinging from a corner round its vertex gets to `count` triangles: all of the vertex's. */
+/* 1 if swinging from a corner round its vertex reaches `count` triangles, the number that the vertex has. */
 static int is_one_fan(const knurl_mesh *mesh, uint32_t start, uint32_t count) {
     const knurl_swing ways[2] = {{start, corner_next(start)}, {start, corner_last(start)}};
     uint32_t reached = 1;
@@ -93,7 +93,7 @@ static int is_one_fan(const knurl_mesh *mesh, uint32_t start, uint32_t count) {
     return reached == count;
 }
 
-/* Marks the corners of non-manifold vertices; returns how many there are. */
+/* Marks the corners of non-manifold vertices; returns their number. */
 static size_t mark_non_manifold(const adjacency *adj, const uint32_t *by_vertex) {
     size_t marked = 0;
     for (uint32_t p = 0; p < adj->welded_count; p++) {
@@ -108,7 +108,7 @@ static size_t mark_non_manifold(const adjacency *adj, const uint32_t *by_vertex)
     return marked;
 }
 
-/* One entry for each vertex that a marked corner has (welded to one there may be several). */
+/* Allocates an entry for each vertex with a marked corner (several vertices may be welded to one). */
 static knurl_result make_lists(const adjacency *adj, size_t marked) {
     knurl_mesh *mesh = adj->mesh;
     uint8_t *is_listed = knurl_heap_alloc(adj->heap, mesh->vertex_count, 1);
@@ -133,7 +133,7 @@ static knurl_result make_lists(const adjacency *adj, size_t marked) {
     return mesh->non_manifold && mesh->non_manifold_corners ? KNURL_OK : KNURL_ERROR_MEMORY;
 }
 
-/* Lists the corners of each marked place, for all of its vertices. */
+/* Lists the corners of each marked position, for all vertices welded there. */
 static void fill_lists(const adjacency *adj, const uint32_t *by_vertex) {
     knurl_mesh *mesh = adj->mesh;
     uint32_t first = 0;

@@ -1,5 +1,5 @@
-/* Builds a mesh from a caller's arrays: welds vertices, drops degenerate triangles, sorts triangles by place, and
- * numbers vertices in the order of their use.
+/* Builds a mesh from a caller's arrays: welds vertices, drops degenerate triangles, sorts triangles into the leaves of
+ * the hierarchy, and renumbers vertices in order of use.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_build.h"
 
@@ -14,19 +14,19 @@
 
 #include <string.h>
 
-/* Triangles in a leaf, at most. Against 4: 7 bytes a triangle less (40 instead of 46) and a tenth less to build; what
- * only the hierarchy answers (a HIP in front, within reach) takes a tenth longer. */
+/* Maximum triangles per leaf. Compared with 4: 7 bytes per triangle less (40 instead of 46) and a tenth less to build;
+ * queries that need the hierarchy (a HIP in front, within reach) take a tenth longer. */
 #define LEAF_SIZE 8
 
-/* What only the build needs. Arrays of three a triangle, but for the welds. */
+/* Working data of a build. Arrays hold three entries per triangle, except `welds`. */
 typedef struct draft {
     knurl_heap *heap;
     const knurl_mesh_desc *desc;
     knurl_mesh *mesh;
-    uint32_t *welds;    /* of each of the caller's vertices: the first that stands where it stands */
+    uint32_t *welds;    /* per vertex of the caller: the first at the same position */
     uint32_t *corners;  /* the caller's vertices */
-    uint32_t *vertices; /* the same, numbered in the order of their use */
-    uint32_t *welded;   /* their welds, numbered likewise */
+    uint32_t *vertices; /* the same, renumbered in order of use */
+    uint32_t *welded;   /* their welds, renumbered likewise */
     uint32_t vertex_count;
     uint32_t welded_count;
 } draft;
@@ -36,8 +36,8 @@ static knurl_result weld(draft *d) {
     return d->welds ? knurl_mesh_weld(d->heap, d->desc, 0, d->welds) : KNURL_ERROR_MEMORY;
 }
 
-/* Whether a triangle is longer than KNURL_EXTENT_MIN and thicker than float's own resolution; thinner, its normal would
- * be noise. */
+/* 1 if a triangle is longer than KNURL_EXTENT_MIN and thicker than a float's resolution; the normal of a thinner one
+ * would be noise. */
 static int has_area(const draft *d, const uint32_t corners[3]) {
     double p[3][3];
     double edges[3][3];
@@ -56,7 +56,7 @@ static int has_area(const draft *d, const uint32_t corners[3]) {
     return longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_dot(normal, normal) > 1e-12 * longest * longest;
 }
 
-/* The welded corners of a triangle, the lowest first, with the winding kept. */
+/* Welded corners of a triangle, rotated so that the lowest is first; the winding is kept. */
 static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint32_t out[3]) {
     const uint32_t w[3] = {d->welds[corners[0]], d->welds[corners[1]], d->welds[corners[2]]};
     const int first = w[0] < w[1] ? (w[0] < w[2] ? 0 : 2) : (w[1] < w[2] ? 1 : 2);
@@ -65,8 +65,8 @@ static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint3
     out[2] = w[(first + 2) % 3];
 }
 
-/* Looks for a triangle between the same corners as the one after the last, which it enters where there is none.
- * Returns 0: none; 1: one facing the same way; -1: one facing the other way. */
+/* Searches for a triangle with the same corners as the one after the last, and adds that one if it is new. Returns 0 if
+ * it is new, 1 for a duplicate, -1 for a duplicate with opposite winding. */
 static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_t *table, uint64_t mask) {
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
@@ -87,8 +87,8 @@ static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_
     return 0;
 }
 
-/* Copies the triangles that can be felt: those with an area (the others hold nothing up and would have no normal), and
- * of several between the same corners the first. */
+/* Keeps the triangles that can be felt: those with an area (others have no normal and hold nothing up), and the first
+ * of several with the same corners. */
 static knurl_result keep_triangles(draft *d) {
     const knurl_mesh_desc *desc = d->desc;
     knurl_mesh *mesh = d->mesh;
@@ -136,7 +136,7 @@ static void bound(const draft *d, knurl_box *boxes) {
     }
 }
 
-/* Builds the hierarchy and puts the triangles into its leaf order. */
+/* Builds the hierarchy and sorts the triangles into its leaf order. */
 static knurl_result build_hierarchy(draft *d) {
     knurl_mesh *mesh = d->mesh;
     const uint32_t count = mesh->triangle_count;
@@ -158,7 +158,7 @@ static knurl_result build_hierarchy(draft *d) {
     return result;
 }
 
-/* Numbers what the corners name in the order of use; names: of what, or null for themselves. Returns how many. */
+/* Numbers the names of the corners in order of use; names: null to number the corners themselves. Returns the count. */
 static uint32_t number_by_use(const draft *d, const uint32_t *names, uint32_t *numbers, uint32_t *out) {
     uint32_t count = 0;
     memset(numbers, 0, d->desc->vertex_count * sizeof *numbers);
@@ -186,7 +186,7 @@ static knurl_result number_corners(draft *d) {
     return failed ? KNURL_ERROR_MEMORY : KNURL_OK;
 }
 
-/* `width` floats for each number, out of the caller's `stride` a vertex; null where there is no memory. */
+/* Gathers `width` floats per number from the caller's array of `stride` floats per vertex; null if out of memory. */
 static float *gather(const draft *d, const float *values, const uint32_t *numbers, uint32_t count, size_t width,
                      size_t stride) {
     float *out = knurl_heap_alloc(d->heap, count, width * sizeof *out);
@@ -196,8 +196,8 @@ static float *gather(const draft *d, const float *values, const uint32_t *number
     return out;
 }
 
-/* Vertices that share a place share a position, but not an attribute. Where there are attributes and few such vertices,
- * the positions are doubled with them; where there are many (each triangle its own), corners name attributes apart. */
+/* Welded vertices share a position, but not their uvs and tangents. If there are few such vertices, their positions are
+ * duplicated; if there are many (unshared triangles), corners get separate indices for attributes. */
 static knurl_result copy_vertices(draft *d) {
     const knurl_mesh_desc *desc = d->desc;
     knurl_mesh *mesh = d->mesh;
@@ -222,8 +222,8 @@ static knurl_result copy_vertices(draft *d) {
     return KNURL_OK;
 }
 
-/* What edges that were meant to meet may be apart: by the mesh's size, and by how far from the origin its positions are
- * rounded. */
+/* Largest gap between edges that were meant to meet, from the mesh's size and from the rounding of positions far from
+ * the origin. */
 static double seam_of(const knurl_mesh *mesh) {
     double size2 = 0.0;
     double farthest = 0.0;

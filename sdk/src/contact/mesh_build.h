@@ -4,8 +4,8 @@
 
 #include "contact/mesh.h"
 
-/* Copies, welds, and builds the hierarchy of what knurl_mesh_check() has let through.
- * Errors: KNURL_ERROR_ARGUMENT (no triangle with an area), KNURL_ERROR_MEMORY. */
+/* Copies and welds a description that passed knurl_mesh_check(), and builds its hierarchy. Errors: KNURL_ERROR_ARGUMENT
+ * (no triangle with an area), KNURL_ERROR_MEMORY. */
 knurl_result knurl_mesh_create(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_mesh **mesh);
 
 #endif

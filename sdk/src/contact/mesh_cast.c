@@ -1,14 +1,14 @@
-/* Casts a segment against a triangle mesh. Unlike mesh_query's search for crossings, tolerances here are lengths: a
- * triangle extends beyond its edges by the same distance whatever its size, and a segment may start behind a face by as
- * much as rounding errors are.
+/* Casts a segment against a triangle mesh. Unlike in the search for crossings of mesh_query.c, tolerances are lengths:
+ * every triangle extends beyond its edges by the same distance, and a segment may start behind a face by a rounding
+ * error.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_cast.h"
 
 #include "contact/closest_point.h"
 #include "contact/mesh_search.h"
 
-/* 1 where a point of the triangle's plane is no farther than `seam` beyond any edge, nor beyond the triangle's box: at
- * a sliver's tips the edges alone would let it reach far. inside: as knurl_closest_on_edges(), of b and c. */
+/* 1 if a point in the triangle's plane is at most `seam` beyond each edge and outside of the triangle's box: the edges
+ * alone would extend a sliver far beyond its tips. inside: as for knurl_closest_on_edges(). */
 static int is_near_triangle(const double corners[3][3], const double p[3], const double inside[2], double area2,
                             double seam) {
     double bc[3], ac[3], ab[3];
@@ -30,12 +30,12 @@ static int is_near_triangle(const double corners[3][3], const double p[3], const
     return 1;
 }
 
-/* The box of a cast's way up to a place on it. */
+/* Bounding box of a cast from its start to a point on it. */
 static void bound(const knurl_mesh *mesh, const knurl_cast *cast, const double to[3], double low[3], double high[3]) {
     knurl_bvh_bound(cast->from, to, mesh->seam + KNURL_CAST_SLACK, low, high);
 }
 
-/* 1 where a way goes through a triangle before `hit`, which is replaced. */
+/* 1 if a segment hits a triangle before `hit`, which is then replaced. */
 static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, const double way[3],
                    knurl_cast_hit *hit) {
     double corners[3][3], ab[3], ac[3], normal[3], from[3], across[3], point[3];
@@ -85,7 +85,7 @@ int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_h
     hit->share = 1.5;
     knurl_mesh_search_begin(&search, mesh, low, high, cast->visits, cast->part);
     while (knurl_mesh_search_next(&search, &box, &triangle) && knurl_visits_take(cast->visits, 1)) {
-        if (cast_at(mesh, triangle, cast, way, hit)) { /* from here on only what is before it */
+        if (cast_at(mesh, triangle, cast, way, hit)) { /* search on only before this hit */
             bound(mesh, cast, hit->point, low, high);
             knurl_search_box_set(low, high, &box);
         }

@@ -1,6 +1,6 @@
-/* The proxy on a triangle mesh. From outside, contact begins by the nearest point and by triangles that the HIP's path
- * crosses. Inside, the proxy walks over the surface to the nearest point of its neighbourhood, tick by tick. It may
- * rest on a triangle that is not the nearest of all, which keeps the HIP on the right side of thin walls.
+/* Contact with a triangle mesh. Outside, contact begins at the nearest point, or at a triangle that the HIP crosses.
+ * Inside, the proxy walks over the surface to the nearest point of its neighbourhood, tick by tick. That need not be
+ * the nearest point of the mesh, which keeps the HIP on the right side of thin walls.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_contact.h"
 
@@ -10,36 +10,36 @@
 
 #include <string.h>
 
-/* Further than this (m) off the boundary of an open mesh a HIP has slipped off it: far below any device's resolution,
- * and more than the cracks that rounding leaves between the parts of a mesh. */
+/* A HIP this far (m) off the boundary of an open mesh has slipped off it: far below any device's resolution, and more
+ * than the cracks that rounding leaves between the parts of a mesh. */
 #define BOUNDARY_SLACK 1e-7
 
-/* Parts of a mesh that one way of a HIP is followed through in a tick, at most. */
+/* Maximum number of parts of a mesh that a HIP is followed through in one tick. */
 #define MAX_PARTS 4
 
-/* What a contact with the mesh is unsure of wherever it is. */
+/* Flags of `unsure` that hold everywhere on the mesh. */
 static int32_t has_parts(const knurl_mesh *mesh) {
     return mesh->touching > 0 ? KNURL_UNSURE_PARTS : 0;
 }
 
-/* How far a HIP is off the boundary that its closest point is on, along the surface. */
+/* Distance along the surface from the boundary that a closest point is on to the HIP; along: the same as a vector. */
 static double off_boundary(const knurl_closest_point *closest, double along[3]) {
     vec3_madd(closest->offset, -vec3_dot(closest->offset, closest->normal) / closest->area2, closest->normal, along);
     return vec3_length(along);
 }
 
-/* Between the contact's normal and the mean of the faces' normals, at least: 84 degrees are a fold of 168. Less is no
- * fold: on double-sided meshes neighbours may face opposite ways. */
+/* Minimum cosine between the contact's normal and the mean of the faces' normals: 84 degrees, a fold of 168. Below it,
+ * this is not a fold: neighbours on a double-sided mesh may face opposite ways. */
 #define FOLD_COSINE_MIN 0.1
 
-/* Moves the proxy so that, a seam off the mesh along the contact's normal, it is in front of all faces round it. Where
- * these turn by more than 90 degrees, that normal may lead behind one of them: no cast would find that face again. */
+/* Moves the proxy so that a point one seam off the mesh along the contact's normal is in front of all faces around it.
+ * In a fold of more than 90 degrees it could be behind one of them, and no cast would find that face again. */
 static void rest_before_fold(double seam, int32_t side, const double mean[3], knurl_contact *c) {
     vec3_madd(c->proxy, seam * side, mean, c->proxy);
     vec3_madd(c->proxy, -seam, c->normal, c->proxy);
 }
 
-/* From a closest point to a contact seen from `side`: its normal, its signed distance. 0 where the HIP has slipped over
+/* Turns a closest point into a contact seen from `side`, with normal and signed distance. 0 if the HIP has slipped over
  * the boundary of an open mesh. */
 static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t side, const knurl_closest_point *closest,
                        knurl_contact *c) {
@@ -61,7 +61,7 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
         if (off_boundary(closest, outwards) > BOUNDARY_SLACK + 1e-6 * distance) {
             return 0;
         }
-        vec3_madd(offset, -1.0, outwards, offset); /* what little is off it does not tilt the normal */
+        vec3_madd(offset, -1.0, outwards, offset); /* a small offset beyond the boundary must not tilt the normal */
     }
     if (distance < KNURL_NORMAL_DISTANCE) {
         vec3_scale(side / sqrt(closest->area2), closest->normal, c->normal);
@@ -75,7 +75,7 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
     return 1;
 }
 
-/* The contact with what is nearest of all, within `radius`. */
+/* Contact with the nearest point of the mesh, within `radius`. */
 static int contact_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, double radius, int32_t side,
                            knurl_contact *c) {
     knurl_contact nearest;
@@ -87,8 +87,8 @@ static int contact_nearest(const knurl_mesh *mesh, const knurl_contact_query *qu
     return set_contact(mesh, query->visits, side, &closest, c);
 }
 
-/* The HIP is in front of its proxy: is another part of the mesh between the two? Then the contact is with that: within
- * one tick it has left a ridge for the next one, or contact with one ridge has ended inside the next. */
+/* The HIP is in front of its proxy. If another part of the mesh lies between the two, the contact moves there: within
+ * one tick the HIP has left a ridge for the next one, or has come out of one ridge inside the next. */
 static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query *query, int32_t *side,
                               knurl_contact *c) {
     knurl_contact part = *c;
@@ -125,16 +125,16 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
     return 1;
 }
 
-/* Whether this is a contact at all: the HIP is behind it, behind another part of the mesh that it crossed on its way
- * out, or in reach. */
+/* 1 if contact continues: the HIP is behind the surface, behind another part that it crossed while leaving, or in
+ * reach. */
 static int is_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, int32_t *side,
                       knurl_contact *c) {
     return c->z <= 0.0 || contact_in_between(mesh, query, side, c) || c->z <= reach;
 }
 
-/* Where a boundary is none that can be felt (T-junctions, cracks, holes that a tick leads across) the surface goes on
- * in another part: where the HIP, moved back along its proxy's face, is on it, however deep the HIP is. Else the
- * contact is with what is nearest. */
+/* A T-junction, a crack, or a hole smaller than the motion of a tick is not a boundary that can be felt. Projects the
+ * HIP onto the boundary's face and continues on the part found there, however deep the HIP is. If there is no such
+ * part, uses the nearest point of the mesh. */
 static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                                    const knurl_closest_point *boundary, int32_t *side, knurl_contact *c) {
     double at[3];
@@ -155,7 +155,7 @@ static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_q
     return contact_nearest(mesh, query, sqrt(boundary->distance2), *side, c) && c->z <= reach;
 }
 
-/* The contact at a closest point, or at what continues the surface beyond its boundary. */
+/* Contact at a closest point, or on the part that continues the surface beyond its boundary. */
 static int contact_at(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                       const knurl_closest_point *closest, int32_t *side, knurl_contact *c) {
     return set_contact(mesh, query->visits, *side, closest, c)
@@ -163,9 +163,9 @@ static int contact_at(const knurl_mesh *mesh, const knurl_contact_query *query, 
                : contact_beyond_boundary(mesh, query, reach, closest, side, c);
 }
 
-/* The closest point to a HIP in front: from where it was a tick ago, if there was one, and by the hierarchy, which then
- * has little to search. 0 where there is none within `radius`. Where crests reach farther than a mesh is wide, all of
- * its triangles may be as near: half of the visits that are left are spent on them, and the rest is for crossings. */
+/* Closest point to a HIP in front: by a walk from its last triangle, if it has one, and then by the hierarchy, which
+ * has little left to search. 0 if the surface is not within `radius`. If crests are higher than a mesh is wide, all of
+ * its triangles may be equally near: at most half of the visits left are spent here, the rest is for crossings. */
 static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query, double radius,
                         const knurl_contact_state *state, knurl_closest_point *closest) {
     const double *hip = query->hip;
@@ -186,8 +186,8 @@ static int find_closest(const knurl_mesh *mesh, const knurl_contact_query *query
     return found;
 }
 
-/* The search for a crossing was cut short: the HIP has crossed the nearest triangle that is found within its way, if it
- * is behind that one and was in front. Returns the side as knurl_mesh_cross() does. */
+/* Fallback if the search for a crossing was cut short: the nearest triangle within the distance that the HIP moved
+ * counts as crossed if the HIP was in front of it and is now behind. Returns the side like knurl_mesh_cross(). */
 static int32_t cross_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, uint32_t *triangle) {
     double way[3], before[3], now[3];
     knurl_contact nearest;
@@ -204,7 +204,7 @@ static int32_t cross_nearest(const knurl_mesh *mesh, const knurl_contact_query *
     return from >= 0.0 && to < 0.0 ? 1 : query->double_sided && from <= 0.0 && to > 0.0 ? -1 : 0;
 }
 
-/* Contact that begins because the HIP has crossed the surface since the last tick. */
+/* Begins contact if the HIP has crossed the surface since the last tick. */
 static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                              knurl_contact_state *state, knurl_contact *c) {
     uint32_t triangle;
@@ -217,7 +217,7 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
         side = cross_nearest(mesh, query, &triangle);
     }
     if (side == 0) {
-        if (half.exhausted && query->visits) { /* it is not known whether the HIP has crossed the surface */
+        if (half.exhausted && query->visits) { /* a crossing may have been missed: end the queries of this tick */
             query->visits->left = 0;
         }
         return 0;
@@ -232,18 +232,18 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
     return 1;
 }
 
-/* Whether a HIP's way in this tick is shorter than the distance to the surface: then it has crossed nothing. */
+/* 1 if the HIP moved less in this tick than its distance to the surface. */
 static int cannot_have_crossed(const knurl_contact_query *query, double distance2) {
     double way[3];
     vec3_sub(query->hip, query->previous, way);
     return !(query->visits && query->visits->exhausted) && vec3_dot(way, way) < distance2 * (1.0 - 1e-9);
 }
 
-/* A HIP outside: contact begins where it has crossed the surface, is in reach, or (first tick) is pressed in from the
- * start. A double-sided surface has no inside: there, a HIP behind it on a first tick is simply behind. */
+/* A HIP outside: contact begins if it has crossed the surface, is in reach or, on the first tick, starts inside. A
+ * double-sided surface has no inside: a HIP behind it on the first tick is simply behind. */
 static int begin_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                          knurl_contact_state *state, knurl_contact *c) {
-    /* which side a HIP on the surface came from matters only where both can be touched */
+    /* the side of a HIP on the surface matters only if both sides can be touched */
     const double in_reach = query->double_sided ? reach : query->reach;
     const int captures = !query->has_previous && !query->double_sided;
     const double radius = captures ? fmax(in_reach, KNURL_CAPTURE_DEPTH) : in_reach;
@@ -267,8 +267,8 @@ static int begin_contact(const knurl_mesh *mesh, const knurl_contact_query *quer
     return c->z >= 0.0 ? c->z <= reach : captures;
 }
 
-/* A HIP that has just left a mesh of several parts: crests are felt where the mesh is nearest of all. Where the proxy
- * was may lie inside another part. */
+/* A HIP that has just left a mesh of several parts: moves the contact to the nearest one, whose crests are felt. The
+ * last proxy may lie inside another part. */
 static void move_to_nearest(const knurl_mesh *mesh, const knurl_contact_query *query, int32_t side, knurl_contact *c) {
     knurl_contact nearest = *c;
     if (contact_nearest(mesh, query, c->z * (1.0 - 1e-9), side, &nearest) && nearest.z >= 0.0) {
@@ -276,7 +276,7 @@ static void move_to_nearest(const knurl_mesh *mesh, const knurl_contact_query *q
     }
 }
 
-/* The closest point to a HIP inside, by a walk from the last one. 0 where a kept facet gives the contact. */
+/* Closest point to a HIP inside, by a walk from the last triangle. 0 if the cached facet gives the contact. */
 static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *query, const knurl_contact_state *state,
                            knurl_closest_point *closest, knurl_contact *c) {
     knurl_facet *facet = query->facet;
@@ -295,7 +295,8 @@ static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *qu
     return 1;
 }
 
-/* A HIP inside: the proxy walks after it. A triangle that it is on is kept: it often stays there for some ticks. */
+/* A HIP inside: the proxy follows it. The triangle under the proxy is cached: the proxy often stays on it for some
+ * ticks. */
 static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                         knurl_contact_state *state, knurl_contact *c) {
     knurl_closest_point closest;
@@ -320,7 +321,8 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                        knurl_contact *contact) {
-    const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* fmax() is a call */
+    const double reach =
+        query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* faster than a call of fmax() */
     const int32_t was_inside = state->inside;
     contact->unsure = 0;
     const int held = was_inside ? hold_contact(mesh, query, reach, state, contact)

@@ -1,4 +1,4 @@
-/* Surface coordinates on a mesh: by an axis, or by tangents and uvs, and how far the uvs stretch.
+/* Surface coordinates on a mesh, from an axis or from tangents and uvs, and the stretch of the uvs.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_frame.h"
 
@@ -7,11 +7,11 @@
 
 #include <string.h>
 
-/* A triangle's edges, and how u and v change along them. */
+/* Edges of a triangle, and the changes of u and v along them. */
 typedef struct uv_edges {
     double edge1[3], edge2[3];
     double u0, v0;         /* at the first corner */
-    double u1, v1, u2, v2; /* further at the others */
+    double u1, v1, u2, v2; /* differences at the others */
     double det;
 } uv_edges;
 
@@ -19,7 +19,7 @@ static const uint32_t *attributes_of(const knurl_mesh *mesh, uint32_t triangle) 
     return &(mesh->attributes ? mesh->attributes : mesh->triangles)[3 * (size_t)triangle];
 }
 
-/* Of a mesh with uvs: all but the edges. 0 where the uvs have no area. */
+/* Fills in all but the edges, for a mesh with uvs. 0 if the uvs have no area. */
 static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     const uint32_t *at = attributes_of(mesh, triangle);
     const float *uv[3] = {&mesh->uvs[2 * (size_t)at[0]], &mesh->uvs[2 * (size_t)at[1]], &mesh->uvs[2 * (size_t)at[2]]};
@@ -31,11 +31,11 @@ static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     e->v2 = (double)uv[2][1] - e->v0;
     e->det = e->u1 * e->v2 - e->u2 * e->v1;
     const double largest =
-        fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* the uvs are floats: below that they lie on a line */
+        fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* uvs are floats: a smaller determinant is rounding */
     return fabs(e->det) > 1e-9 * largest * largest;
 }
 
-/* 0 where the uvs have no area, or there are none. */
+/* 0 if the mesh has no uvs, or the uvs have no area. */
 static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     double corners[3][3];
     if (!mesh->uvs) {
@@ -47,7 +47,7 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     return find_uvs(mesh, triangle, e);
 }
 
-/* dP/du and dP/dv of one triangle; 0 where its uvs have no area, or there are none. */
+/* dP/du and dP/dv of a triangle; 0 if it has no uvs, or the uvs have no area. */
 static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
     uv_edges e;
     if (!find_uv_edges(mesh, triangle, &e)) {
@@ -60,7 +60,7 @@ static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], dou
     return vec3_length(du) > 0.0 && vec3_length(dv) > 0.0;
 }
 
-/* Lengths of dP/du or of dP/dv over the area that has been looked at. */
+/* Lengths of dP/du or of dP/dv, summed over area. */
 typedef struct length_sums {
     double sum;
     double inverse;
@@ -74,7 +74,7 @@ static void add_length(length_sums *sums, double area, double length) {
     sums->longest = fmax(sums->longest, length);
 }
 
-/* Area-weighted means of |dP/du|, |dP/dv|, and how far the uvs stretch from them. */
+/* Sets the area-weighted means of |dP/du| and |dP/dv|, and the stretch relative to them. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     double area = 0.0;
     length_sums sums[2] = {{0.0, 0.0, HUGE_VAL, 0.0}, {0.0, 0.0, HUGE_VAL, 0.0}};
@@ -101,7 +101,7 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
-/* The square of a gradient's length times twice the area: of what grows by c1 and c2 along the edges. */
+/* Square of twice the area times the length of a gradient: of a value that grows by c1 and c2 along the edges. */
 static double steepness2(double c1, double c2, const double edge1[3], const double edge2[3]) {
     double along[3];
     vec3_scale(c1, edge2, along);
@@ -109,7 +109,7 @@ static double steepness2(double c1, double c2, const double edge1[3], const doub
     return vec3_dot(along, along);
 }
 
-/* The direction in which u grows, of any length: of dP/du only the direction is asked for, so nothing is divided. */
+/* Direction in which u grows, of any length: dP/du without the division. */
 static void find_u_direction(const uv_edges *e, double x[3]) {
     const double along = e->det < 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; axis++) {
@@ -125,7 +125,7 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
     double *along = mesh->stretch[0];
     along[0] = 1.0;
     along[2] = 0.0;
-    mesh->stretch[1][0] = mesh->stretch[1][1] = mesh->stretch[1][2] = 1.0; /* metres, whichever way the surface faces */
+    mesh->stretch[1][0] = mesh->stretch[1][1] = mesh->stretch[1][2] = 1.0; /* in metres, for faces in any direction */
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         knurl_triangle t;
         double tangent[3];
@@ -141,7 +141,7 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
     along[1] = sum / area;
 }
 
-/* The velocity in the triangle's plane, in its edges: v = a edge1 + b edge2. */
+/* In the triangle's plane, the velocity is a edge1 + b edge2. */
 static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
                         double *steepest) {
     uv_edges e;
@@ -165,15 +165,15 @@ static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, co
     return 1;
 }
 
-/* x from the tangents, else along dP/du; position on the grating from the uvs, scaled to mean metres. */
+/* x from the tangents, else along dP/du; coordinates from the uvs, scaled to mean metres. */
 static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double coordinates[2]) {
     uv_edges e;
     x[0] = x[1] = x[2] = coordinates[0] = coordinates[1] = 0.0;
     if (find_uv_edges(mesh, contact->triangle, &e)) {
         double across[3];
         const double *w = contact->weights;
-        vec3_cross(e.edge1, e.edge2, across); /* du x dv is this over det */
-        /* y = n x x, whichever way v runs: glTF's v runs down the image. */
+        vec3_cross(e.edge1, e.edge2, across); /* det times du x dv */
+        /* y = n x x, for either direction of v: glTF's v runs down the image. */
         const double facing = vec3_dot(across, contact->normal) * e.det;
         coordinates[0] = (e.u0 + w[1] * e.u1 + w[2] * e.u2) * mesh->uv_scale[0];
         coordinates[1] = (e.v0 + w[1] * e.v1 + w[2] * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
@@ -189,12 +189,12 @@ static void frame_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, d
     }
 }
 
-/* x is `along` made tangent to the normal, which is no face's at edges; unit. y = n x x. */
+/* x: `along` made tangent to the normal (at an edge not that of a face), unit. y = n x x. */
 static void frame_along(const double normal[3], const double along[3], double x[3], double y[3]) {
     vec3_copy(along, x);
     vec3_make_tangent(normal, x);
     const double length2 = vec3_dot(x, x);
-    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* like a post on the surface: any direction is as good */
+    if (!(length2 > 1e-18 * vec3_dot(along, along))) { /* parallel to the normal: any direction will do */
         vec3_any_tangent(normal, x);
     } else {
         vec3_scale(1.0 / sqrt(length2), x, x);
@@ -217,7 +217,7 @@ static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, dou
     }
 }
 
-/* The frame of a kept facet, and what the uvs are on it: each number as find_frame() comes to it. */
+/* Caches the frame and the uvs of a facet, with the same numbers as find_frame(). */
 static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     uv_edges e;
     vec3_copy(f->ab, e.edge1);
@@ -250,7 +250,7 @@ void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact,
     }
 }
 
-/* rates_by_uvs() on a kept facet. */
+/* rates_by_uvs() on a cached facet. */
 static int rates_on_facet(const knurl_mesh *mesh, knurl_facet *f, const double velocity[3], double rates[2],
                           double *steepest) {
     double turned[3];

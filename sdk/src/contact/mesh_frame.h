@@ -1,4 +1,4 @@
-/* Surface coordinates on a mesh: by an axis, or by tangents and uvs, and how far the uvs stretch.
+/* Surface coordinates on a mesh, from an axis or from tangents and uvs, and the stretch of the uvs.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_FRAME_H
 #define KNURL_SRC_MESH_FRAME_H
@@ -6,18 +6,19 @@
 #include "contact/facet.h"
 #include "contact/mesh.h"
 
-/* Part of knurl_mesh_create(): uv_scale and stretch. */
+/* Part of knurl_mesh_create(): sets uv_scale and stretch. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh);
 
-/* Part of the same: x runs along this axis (unit), and stretch is by how much of it is tangent. */
+/* After knurl_mesh_create(): makes x run along an axis (unit), and sets stretch to the length of its tangential
+ * part. */
 void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]);
 
-/* The first on a triangle: called by knurl_mesh_frame(). */
+/* Slow path of knurl_mesh_frame(), if no frame is cached. */
 void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
                            double coordinates[2]) KNURL_NONBLOCKING;
 
-/* The surface's tangent frame at a contact (unit, tangent to the contact's normal, y = n x x), by the axis, else by
- * tangents or uvs, and where on the grating it is (m; 0 without an axis and uvs). Allowed in a tick. */
+/* Tangent frame at a contact (unit, tangent to the contact's normal, y = n x x) from the axis, else from tangents or
+ * uvs, and the position on the grating (m; 0 without an axis and uvs). Allowed in a tick. */
 static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
                                     double coordinates[2]) {
     const knurl_facet *f = contact->facet;
@@ -28,7 +29,7 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
         coordinates[0] = f->has_uvs ? (f->u0 + w[1] * f->u1 + w[2] * f->u2) * f->scale[0] : 0.0;
         coordinates[1] = f->has_uvs ? (f->v0 + w[1] * f->v1 + w[2] * f->v2) * f->scale[1] : 0.0;
     } else {
-        double found[3][3]; /* copies, so that the caller's can stay in registers */
+        double found[3][3]; /* local, so that the caller's can stay in registers */
         knurl_mesh_find_frame(mesh, contact, found[0], found[1], found[2]);
         vec3_copy(found[0], x);
         vec3_copy(found[1], y);
@@ -37,8 +38,8 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
     }
 }
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre
- * along the surface. 0 and untouched without an axis where the uvs have no area. Allowed in a tick. */
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre along
+ * the surface. Returns 0 and sets nothing if there is no axis and the uvs have no area. Allowed in a tick. */
 int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
                      double *steepest) KNURL_NONBLOCKING;
 

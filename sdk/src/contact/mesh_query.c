@@ -1,5 +1,5 @@
-/* Searches a mesh's hierarchy for the nearest point and for crossings. Iterative, bounded by the visits that they are
- * given. SPDX-License-Identifier: MIT */
+/* Searches a mesh's hierarchy for the nearest point and for crossings. Iterative, bounded by the caller's visits.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_query.h"
 
 #include "base/base.h"
@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-/* 1 where the triangle's plane is farther from p than the square root of `best2`. Rounding (the two terms added) never
- * makes it 1 where the triangle is as near. */
+/* 1 if the triangle's plane is farther from p than the square root of `best2`. The two added terms cover rounding:
+ * never 1 for a triangle that is as near. */
 static int is_plane_beyond(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2) {
     double corners[3][3], ab[3], ac[3], ap[3], normal[3];
     knurl_mesh_corners(mesh, triangle, corners);
@@ -21,7 +21,7 @@ static int is_plane_beyond(const knurl_mesh *mesh, uint32_t triangle, const doub
     return height * height > (best2 * (1.0 + 1e-9) + 1e-24) * vec3_dot(normal, normal);
 }
 
-/* Keeps a triangle's nearest point if it is nearer than `best2`; returns the smaller of the two distances, squared. */
+/* Keeps a triangle's closest point if it is nearer than `best2`; returns the smaller squared distance. */
 static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
                                   knurl_visits *visits, knurl_contact *nearest) {
     knurl_closest_point closest;
@@ -38,7 +38,7 @@ static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, con
     return closest.distance2;
 }
 
-/* What a search reads next, where it goes on at a node: it would wait for memory in a mesh larger than the caches. */
+/* Prefetches the data that a search reads at a node: in a mesh larger than the caches it would wait for memory. */
 KNURL_PREFETCHING void fetch_next(const knurl_mesh *mesh, const knurl_bvh_node *node) {
     if (node->count > 0) {
         __builtin_prefetch(&mesh->triangles[3 * (size_t)node->first]);
@@ -49,7 +49,7 @@ KNURL_PREFETCHING void fetch_next(const knurl_mesh *mesh, const knurl_bvh_node *
     }
 }
 
-/* The corners of a leaf's triangles. */
+/* Prefetches the corners of a leaf's triangles. */
 KNURL_PREFETCHING void fetch_corners(const knurl_mesh *mesh, const knurl_bvh_node *leaf) {
     const uint32_t *vertices = &mesh->triangles[3 * (size_t)leaf->first];
     for (uint32_t i = 0; i < 3 * leaf->count; i++) {
@@ -64,7 +64,8 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
         uint32_t index;
     } stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 1;
-    const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* on the rim counts, also for a radius of 0 */
+    const double limit2 =
+        radius * radius * (1.0 + 1e-12) + 1e-300; /* a point at exactly `radius` counts, also if it is 0 */
     double best2 = limit2;
     double low[3], high[3];
     knurl_bvh_bound(p, p, sqrt(limit2), low, high);
@@ -76,14 +77,14 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
         if (stack[top].distance2 >= best2) {
             continue;
         }
-        if (!knurl_visits_take(visits, 2 + node->count)) { /* a node's children are looked at too */
+        if (!knurl_visits_take(visits, 2 + node->count)) { /* the boxes of a node's children count too */
             break;
         }
-        fetch_corners(mesh, node); /* of an inner node: none */
+        fetch_corners(mesh, node); /* nothing for an inner node */
         for (uint32_t i = 0; i < node->count; i++) {
             best2 = closest_in_triangle(mesh, node->first + i, p, best2, visits, nearest);
         }
-        if (node->count == 0) { /* the nearer child is looked at first */
+        if (node->count == 0) { /* the nearer child is visited first */
             const uint32_t children[2] = {index + 1, node->first};
             const double distances2[2] = {knurl_bvh_distance2(&mesh->nodes[children[0]], p),
                                           knurl_bvh_distance2(&mesh->nodes[children[1]], p)};
@@ -100,7 +101,7 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
     return best2 < limit2;
 }
 
-/* 1 where a segment is on one side of a triangle's plane, by more than the slack of hit_triangle() and rounding. */
+/* 1 if a segment is on one side of a triangle's plane, by more than rounding and the slack of hit_triangle(). */
 static int is_on_one_side(const double edge1[3], const double edge2[3], const double from[3],
                           const double direction[3]) {
     double normal[3];
@@ -115,8 +116,8 @@ static int is_on_one_side(const double edge1[3], const double edge2[3], const do
     return (start > margin && start + rise > margin) || (start < -margin && start + rise < -margin);
 }
 
-/* Where along a + s (b - a) it hits a triangle (Moeller and Trumbore 1997), or a value above `best`. Edges are widened
- * by 1e-7 of the triangle, so that nothing slips between two neighbours. */
+/* Parameter s at which a + s (b - a) hits a triangle (Moeller and Trumbore 1997), or 2 if it does not before `best`.
+ * Edges are widened by 1e-7 of the triangle, so that nothing slips between two neighbours. */
 static double hit_triangle(const double corners[3][3], const double a[3], const double direction[3], double best,
                            int double_sided, int *side) {
     double edge1[3], edge2[3], p[3], q[3], from[3];
@@ -128,7 +129,7 @@ static double hit_triangle(const double corners[3][3], const double a[3], const 
         return 2.0;
     }
     vec3_cross(direction, edge2, p);
-    const double det = vec3_dot(edge1, p); /* above 0 where the way goes in from the front */
+    const double det = vec3_dot(edge1, p); /* above 0 if the segment enters from the front */
     if (det == 0.0 || (det < 0.0 && !double_sided)) {
         return 2.0;
     }
@@ -168,13 +169,13 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
     return best < 1.5 ? side : 0;
 }
 
-/* Triangles that knurl_mesh_exceeds_visits() looks at: a place where many lie over one another has many of them. */
+/* Triangles that knurl_mesh_exceeds_visits() samples: many of those that lie on top of one another are among them. */
 #define SAMPLES 64
 
-/* m: what a fast hand goes in a tick. */
+/* m: motion of a fast hand in a tick. */
 #define SAMPLE_STEP 1e-3
 
-/* In front, contact gets half of a tick's visits; a way through a face is cast for several times. */
+/* In front, contact gets half of a tick's visits; a segment through a face is cast several times. */
 static int exceeds_visits_at(const knurl_mesh *mesh, const double p[3], const double normal[3], double reach,
                              uint32_t max_visits) {
     knurl_visits nearest = {max_visits / 2, 0};
@@ -209,7 +210,8 @@ int knurl_mesh_exceeds_visits(const knurl_mesh *mesh, double reach, uint32_t max
     return exceeds;
 }
 
-/* The first front face on, then beside, then under the middle of the bounds; else what is nearest to the middle. */
+/* The first front face from above, then from the sides, then from below, towards the middle of the bounds; if there is
+ * no such face, the point nearest to the middle. */
 static void find_front_face(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
     static const double from[6][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
     double centre[3];
@@ -242,7 +244,7 @@ void knurl_mesh_anchor(const knurl_mesh *mesh, const double rotation[9], knurl_c
     knurl_triangle t;
     memset(anchor, 0, sizeof *anchor);
     find_front_face(mesh, rotation, anchor);
-    /* once more as a nearest point, for its weights and its face's normal */
+    /* query the nearest point, for its weights and its face's normal */
     (void)knurl_mesh_closest(mesh, anchor->proxy, 1e-6 + 1e-5 * vec3_length(anchor->proxy), NULL, NULL, anchor);
     knurl_mesh_triangle(mesh, anchor->triangle, &t);
     vec3_copy(t.normal, anchor->normal);

@@ -1,17 +1,17 @@
-/* Finds the part of a mesh that the searches of a tick look at. SPDX-License-Identifier: MIT */
+/* Caches the part of a mesh that the searches of a tick visit. SPDX-License-Identifier: MIT */
 #include "contact/mesh_search.h"
 
-/* m: a larger search looks at all of the mesh, and a part for smaller ones is kept. */
+/* m: a larger search uses the whole mesh, and the part cached for smaller ones is kept. */
 #define PART_SIZE_MAX 0.005
 
-/* How much wider than the search the box of listed triangles is, as a share of its size. */
+/* Margin of the box of listed triangles around the search, as a fraction of its size. */
 #define LIST_MARGIN 0.5
 
-/* m: how much wider it is at least. Short searches would leave a narrow box in the next tick, and the visits of a tick
- * do not suffice to list the triangles of 32 meshes anew. */
+/* m: minimum margin. Short searches would leave the next tick a box that is too narrow, and the visits of a tick do not
+ * suffice to list the triangles of 32 meshes again. */
 #define LIST_MARGIN_MIN 0.0002
 
-/* The count of a part whose triangles are not listed. */
+/* `count` of a part whose triangles are not listed. */
 #define NOT_LISTED UINT32_MAX
 
 static const knurl_part all_of_mesh = {.node = 0, .count = NOT_LISTED};
@@ -33,7 +33,7 @@ static void begin_at_node(knurl_mesh_search *s, const knurl_mesh *mesh, uint32_t
     s->count = 1;
 }
 
-/* Lists the triangles that meet a box. Where they are few enough, the box becomes the part's. */
+/* Lists the triangles in a box. If the list has room for all, the box becomes the part's. */
 static void list_triangles(const knurl_mesh *mesh, const double low[3], const double high[3], knurl_visits *visits,
                            knurl_part *part) {
     knurl_mesh_search search;
@@ -48,14 +48,14 @@ static void list_triangles(const knurl_mesh *mesh, const double low[3], const do
         }
         part->triangles[count++] = triangle;
     }
-    if (!visits || visits->left > 0) { /* else some were not looked at */
+    if (!visits || visits->left > 0) { /* otherwise some were not visited */
         part->count = count;
         vec3_copy(low, part->low);
         vec3_copy(high, part->high);
     }
 }
 
-/* A part that is wider than a box: the next searches of this tick and of the next are near. */
+/* Finds a part with a margin around a box: the next searches of this tick and the next are near it. */
 static void find_anew(const knurl_mesh *mesh, const double low[3], const double high[3], double size,
                       knurl_visits *visits, knurl_part *part) {
     const double margin = knurl_max(LIST_MARGIN * size, LIST_MARGIN_MIN);
@@ -100,6 +100,7 @@ void knurl_mesh_search_begin(knurl_mesh_search *s, const knurl_mesh *mesh, const
     if (near->count != NOT_LISTED) {
         s->count = 0;
         s->listed = near->triangles;
-        s->end = knurl_visits_take(visits, near->count / 4) ? near->count : 0; /* less work than a leaf's */
+        s->end =
+            knurl_visits_take(visits, near->count / 4) ? near->count : 0; /* cheaper than the triangles of a leaf */
     }
 }

@@ -1,5 +1,5 @@
-/* Which triangles of a mesh meet a box. In a search most nodes and triangles do not, and telling so takes most of its
- * time: boxes are compared in single precision, four numbers at a time. Everything here may run in a tick.
+/* Finds the triangles of a mesh that overlap a box. Most nodes and triangles do not, and rejecting them takes most of a
+ * search's time: boxes are compared in single precision, four numbers at a time. Everything here is allowed in a tick.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_SEARCH_H
 #define KNURL_SRC_MESH_SEARCH_H
@@ -25,26 +25,26 @@ static inline int knurl_search_box_meets_triangle(const knurl_search_box *box, c
                             ((a > box->high) & (b > box->high) & (c > box->high)));
 }
 
-/* A search for the triangles that meet a box. The box may get smaller on the way. */
+/* A search for the triangles that overlap a box. The box may shrink during the search. */
 typedef struct knurl_mesh_search {
     const knurl_mesh *mesh;
-    knurl_visits *visits;   /* null: no limit */
-    const uint32_t *listed; /* triangles from `next` to `end` are listed here; null: they are these numbers */
+    knurl_visits *visits;   /* null: unlimited */
+    const uint32_t *listed; /* if set, `next` and `end` are indices in this list; if null, they are triangles */
     uint32_t next, end;
-    uint32_t count; /* nodes that are still to be looked at */
+    uint32_t count; /* nodes still to visit */
     uint32_t nodes[KNURL_BVH_DEPTH_MAX];
 } knurl_mesh_search;
 
-/* The part of a mesh that a search of a box looks at: `part`, which is found anew where the box is not in it. Where the
- * box is too large for that, and where part is null, all of the mesh. visits: null: no limit. */
+/* Returns the part of a mesh that a search of a box visits: `part`, which is found again if the box is outside of it.
+ * If the box is too large, or part is null, it is the whole mesh. visits: null: unlimited. */
 const knurl_part *knurl_mesh_find_part(const knurl_mesh *mesh, const double low[3], const double high[3],
                                        knurl_visits *visits, knurl_part *part) KNURL_NONBLOCKING;
 
-/* Begins a search of the box from low to high. part, visits: as above. */
+/* Begins a search of the box from low to high. part, visits: as for knurl_mesh_find_part(). */
 void knurl_mesh_search_begin(knurl_mesh_search *search, const knurl_mesh *mesh, const double low[3],
                              const double high[3], knurl_visits *visits, knurl_part *part) KNURL_NONBLOCKING;
 
-/* The next triangle that meets the box, in ascending order. 0: there is none, or the visits are used up. */
+/* Finds the next triangle that overlaps the box, in ascending order; 0 at the end, or if the visits are used up. */
 static inline int knurl_mesh_search_next(knurl_mesh_search *s, const knurl_search_box *box, uint32_t *triangle) {
     for (;;) {
         while (s->next < s->end) {

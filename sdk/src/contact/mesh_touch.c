@@ -1,24 +1,25 @@
-/* Tests each triangle against those whose boxes overlap its own; most pairs are separated by a plane through a face or
- * an edge of one of the two.
+/* Tests each triangle against those with overlapping boxes. Most pairs are separated by a plane through a face or an
+ * edge of one of the two.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_touch.h"
 
 #include "base/vec3.h"
 #include "contact/closest_point.h"
 
-/* A leaf's triangles are looked at so many at a time. */
+/* Triangles of a leaf that are tested at a time. */
 #define LEAF_MAX 8
 
-/* A triangle with the planes that bound it: its own and one through each edge; unit, edge planes outwards. */
+/* A triangle with its bounding planes: its own and one through each edge, with unit normals; edge planes face
+ * outwards. */
 typedef struct bounded {
     double corners[3][3];
     double normal[3];
-    double sides[3][3]; /* sides[k]: of the edge opposite corner k */
+    double sides[3][3]; /* sides[k]: at the edge opposite corner k */
     uint32_t triangle;
     int has_rim;
 } bounded;
 
-/* Whether no one triangle goes on beyond some edge. */
+/* 1 if some edge does not have exactly one triangle beyond it. */
 static int has_rim(const knurl_mesh *mesh, uint32_t triangle) {
     const uint32_t *opposite = &mesh->opposite[3 * (size_t)triangle];
     return (opposite[0] & 3) == 3 || (opposite[1] & 3) == 3 || (opposite[2] & 3) == 3;
@@ -39,7 +40,7 @@ static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
     }
 }
 
-/* 1 where some of a triangle's planes has all of a triangle's corners but `shared` (3: none) beyond it. */
+/* 1 if one of a triangle's planes has all corners beyond it, except the shared one (3: no corner is shared). */
 static int is_beyond(const bounded *b, const double corners[3][3], int shared, double seam) {
     int above = 1, below = 1, beside[3] = {1, 1, 1};
     for (int i = 0; i < 3; i++) {
@@ -59,7 +60,7 @@ static int is_beyond(const bounded *b, const double corners[3][3], int shared, d
     return above | below | beside[0] | beside[1] | beside[2];
 }
 
-/* Squared distance of two segments (Ericson 2005, section 5.1.9). */
+/* Squared distance between two segments (Ericson 2005, section 5.1.9). */
 static double segments_distance2(const double a[3], const double b[3], const double c[3], const double d[3]) {
     double ab[3], cd[3], ca[3], off[3];
     vec3_sub(b, a, ab);
@@ -81,7 +82,7 @@ static double segments_distance2(const double a[3], const double b[3], const dou
     return vec3_dot(off, off);
 }
 
-/* Whether an edge comes within the seam of a triangle. */
+/* 1 if an edge comes within the seam of a triangle. */
 static int edge_touches(const knurl_mesh *mesh, const double from[3], const double to[3], const bounded *b) {
     const double seam2 = mesh->seam * mesh->seam;
     knurl_closest_point closest;
@@ -110,7 +111,7 @@ static int edge_touches(const knurl_mesh *mesh, const double from[3], const doub
     return closest.distance2 <= seam2;
 }
 
-/* Which corner of each is in one place, of how many. */
+/* Counts the pairs of corners at the same position; shared: the corners of one such pair. */
 static int shared_corners(const double a[3][3], const double b[3][3], int shared[2]) {
     int count = 0;
     shared[0] = shared[1] = 3;
@@ -127,7 +128,7 @@ static int shared_corners(const double a[3][3], const double b[3][3], int shared
     return count;
 }
 
-/* Any edge of one that does not end in the corner that they share. */
+/* 1 if an edge of `a` touches `b`, unless it ends in the shared corner. */
 static int edges_touch(const knurl_mesh *mesh, const bounded *a, int shared, const bounded *b) {
     for (int k = 0; k < 3; k++) {
         const int from = (k + 1) % 3, to = (k + 2) % 3; /* the edge opposite k */
@@ -138,12 +139,13 @@ static int edges_touch(const knurl_mesh *mesh, const bounded *a, int shared, con
     return 0;
 }
 
-/* Whether two triangles touch. The second one's planes are only worked out where the first one's do not tell. */
+/* 1 if two triangles touch. The second one's planes are computed only if the first one's do not decide. */
 static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, const double corners[3][3]) {
     bounded b;
     int shared[2];
     const int count = shared_corners((const double (*)[3])a->corners, corners, shared);
-    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* inside of a fan that is whole */
+    if (count > 1 ||
+        (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* a shared edge, or a corner inside a closed fan */
         return 0;
     }
     const int beyond = is_beyond(a, corners, shared[1], mesh->seam);
@@ -175,7 +177,7 @@ static int boxes_meet(const double a[3][3], const double b[3][3], double seam) {
     return 1;
 }
 
-/* The touching pairs of a leaf's triangles and another's (of those, with higher numbers). */
+/* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. */
 static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_bvh_node *leaf) {
     uint32_t pairs = 0;
     for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
@@ -189,14 +191,14 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t
     return pairs;
 }
 
-/* Boxes that are looked at, a triangle: a mesh that does not go through itself needs a part of these. One whose
- * triangles all go through each other would need as many as it has triangles. */
+/* Boxes tested per triangle: a mesh that does not intersect itself needs fewer. If all triangles of a mesh intersect
+ * each other, it would need as many as it has triangles. */
 #define STEPS_A_TRIANGLE 96
 
-/* Pairs that are counted, a triangle: that many tell what is wrong with the mesh. */
+/* Pairs counted per triangle: enough to show that the mesh is broken. */
 #define PAIRS_A_TRIANGLE 4
 
-/* The same with all leaves that come near; while *steps are left. */
+/* Counts the touching pairs of a leaf and all leaves near it, as long as *steps lasts. */
 static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf, uint64_t *steps) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
@@ -237,12 +239,12 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
 
 uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh) {
     uint32_t pairs = 0;
-    const uint32_t enough = PAIRS_A_TRIANGLE * mesh->triangle_count; /* of fewer than 2^26 */
+    const uint32_t enough = PAIRS_A_TRIANGLE * mesh->triangle_count; /* cannot overflow: below 2^26 triangles */
     uint64_t steps = (uint64_t)STEPS_A_TRIANGLE * mesh->triangle_count;
     for (uint32_t i = 0; i < mesh->node_count && steps > 0 && pairs < enough; i++) {
         if (mesh->nodes[i].count > 0) {
             pairs += count_of_leaf(mesh, &mesh->nodes[i], &steps);
         }
     }
-    return pairs == 0 && steps == 0 ? 1 : pairs; /* counting ended early: there may be some */
+    return pairs == 0 && steps == 0 ? 1 : pairs; /* stopped early: there may be some */
 }

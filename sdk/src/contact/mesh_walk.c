@@ -1,5 +1,5 @@
-/* Moves the closest point over a mesh: from an edge to the triangle beyond, from a vertex to the triangles around it,
- * and only where that is strictly nearer, so that it ends. Edges alone would fail in concave corners.
+/* Moves the closest point over a mesh: from an edge to the triangle beyond it, from a vertex to the triangles around
+ * it, and only to a strictly nearer point, so that it ends. Edges alone would fail in concave corners.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_walk.h"
 
@@ -7,33 +7,33 @@
 #include "contact/corner.h"
 #include "contact/mesh_query.h"
 
-/* Steps of one walk. A stroke of 1 m/s crosses a few triangles a tick; an uncapped teleport over a fine mesh would take
- * thousands. */
+/* Maximum steps of a walk. A stroke of 1 m/s crosses a few triangles per tick; an uncapped teleport over a fine mesh
+ * would take thousands. */
 #define MAX_STEPS 64
 
-/* Vertices of very many triangles (the pole of a sphere, the hub of a fan) are looked at in part: so many triangles to
- * go on over, so many to tell the side. */
+/* Limits for vertices with very many triangles (the pole of a sphere, the hub of a fan): triangles tested for the next
+ * step, and triangles that determine the side. */
 #define MAX_FAN  1024
 #define MAX_SIDE 256
 
-/* Steps after which a walk looks whether it is on its way round a vertex, of so many triangles at least. */
+/* After FAN_STEPS steps, a walk checks if it is circling a vertex with at least FAN_MIN triangles. */
 #define FAN_STEPS 16
 #define FAN_MIN   32
 
-/* One walk. */
+/* State of a walk. */
 typedef struct walk {
     const knurl_mesh *mesh;
     const double *p;
     knurl_visits *visits;
     int32_t side;
-    int capped; /* 1: it was cut short */
+    int capped; /* 1: cut short */
 } walk;
 
 static int is_closer(const knurl_closest_point *a, const knurl_closest_point *b) {
     return a->distance2 < b->distance2 * (1.0 - 1e-12);
 }
 
-/* A corner of the feature: the only one of a vertex, one of an edge's two. */
+/* A corner of the feature: the vertex, or one end of the edge. */
 static uint32_t feature_corner(const knurl_closest_point *closest) {
     return closest->feature & 1 ? 0 : closest->feature & 2 ? 1 : 2;
 }
@@ -42,7 +42,7 @@ static int at_vertex(const knurl_closest_point *closest) {
     return (closest->feature & (closest->feature - 1)) == 0;
 }
 
-/* The corner opposite the edge that is the feature. */
+/* The corner opposite the feature, which is an edge. */
 static uint32_t opposite_corner(const knurl_closest_point *closest) {
     return closest->feature == 3 ? 2 : closest->feature == 5 ? 1 : 0;
 }
@@ -54,18 +54,18 @@ static void vertex_of(const knurl_mesh *mesh, uint32_t corner, double out[3]) {
     out[2] = (double)p[2];
 }
 
-/* What the walk may read next, after a triangle: in a mesh larger than the caches, its waits for memory, one after the
- * other, would be nearly all of its time. */
+/* Prefetches the neighbours of a triangle: in a mesh larger than the caches, a walk would spend nearly all of its time
+ * waiting for memory, one read after the other. */
 KNURL_PREFETCHING void fetch_neighbours(const knurl_mesh *mesh, uint32_t triangle) {
     const uint32_t *beyond = &mesh->opposite[3 * (size_t)triangle];
     for (int k = 0; k < 3; k++) {
-        const size_t next = 3 * (size_t)((beyond[k] & KNURL_CORNER_MASK) >> 2); /* of a boundary: any triangle */
+        const size_t next = 3 * (size_t)((beyond[k] & KNURL_CORNER_MASK) >> 2); /* at a boundary: some other triangle */
         __builtin_prefetch(&mesh->opposite[next]);
         __builtin_prefetch(&mesh->triangles[next]);
     }
 }
 
-/* A triangle beyond the feature has a closer point only where its far corner lies towards p; then: has it? */
+/* 1 if the triangle beyond the feature has a closer point. It can have one only if its far corner lies towards p. */
 static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from, knurl_closest_point *to) {
     double corner[3];
     __builtin_prefetch(&w->mesh->opposite[3 * (size_t)(apex >> 2)]);
@@ -83,7 +83,7 @@ static int closer_beyond(walk *w, uint32_t apex, const knurl_closest_point *from
     return is_closer(to, from);
 }
 
-/* Whether a corner's triangle shares the edge or vertex that is the feature. */
+/* 1 if a corner's triangle shares the edge or vertex that is the feature. */
 static int shares_feature(const knurl_mesh *mesh, uint32_t corner, const knurl_closest_point *closest) {
     double own[3][3];
     knurl_mesh_corners(mesh, corner >> 2, own);
@@ -100,8 +100,8 @@ static int shares_feature(const knurl_mesh *mesh, uint32_t corner, const knurl_c
     return 1;
 }
 
-/* How well one triangle continues the surface of another: with p behind it (above 1 then), by how alike they face; else
- * by how near it is. An inner wall that p is just passing through does not: -HUGE_VAL. */
+/* Score of a triangle as the continuation of another: 1 to 3, by the angle between the two, if p is behind it; else
+ * minus its squared distance. -HUGE_VAL for an inner wall that p is just crossing. */
 static double continues(const knurl_closest_point *from, const knurl_closest_point *to, int32_t side) {
     const double along = vec3_dot(to->normal, to->offset) * side;
     if (along * along <= KNURL_ON_SURFACE * KNURL_ON_SURFACE * to->area2) {
@@ -110,7 +110,7 @@ static double continues(const knurl_closest_point *from, const knurl_closest_poi
     return along < 0.0 ? 2.0 + vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2) : -to->distance2;
 }
 
-/* The listed corners of a non-manifold vertex; returns how many, at most MAX_SIDE. */
+/* Lists the corners of a non-manifold vertex; returns their number, at most MAX_SIDE. */
 static uint32_t corners_at(const knurl_mesh *mesh, const knurl_closest_point *closest, const uint32_t **corners) {
     const uint32_t vertex = mesh->triangles[3 * (size_t)closest->triangle + feature_corner(closest)];
     const knurl_vertex_corners *vertex_corners = &mesh->non_manifold[corner_find_non_manifold(mesh, vertex)];
@@ -118,7 +118,7 @@ static uint32_t corners_at(const knurl_mesh *mesh, const knurl_closest_point *cl
     return vertex_corners->count < MAX_SIDE ? vertex_corners->count : MAX_SIDE;
 }
 
-/* Where sheets branch, the surface goes on straight ahead: an inner wall below it does not take the proxy over. */
+/* At a branch the surface continues straight ahead: an inner wall below it does not take over the proxy. */
 static int step_at_non_manifold(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
     const uint32_t *corners;
     const uint32_t count = corners_at(w->mesh, from, &corners);
@@ -145,7 +145,7 @@ static int step_at_non_manifold(walk *w, const knurl_closest_point *from, knurl_
     return found;
 }
 
-/* Looks at the fan round a vertex, both ways where it is open. */
+/* Tests the fan round a vertex, in both directions if it is open. */
 static int step_round_vertex(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
     const uint32_t start = 4 * from->triangle + feature_corner(from);
     const knurl_swing ways[2] = {{start, corner_next(start)}, {start, corner_last(start)}};
@@ -190,18 +190,18 @@ static int step(walk *w, const knurl_closest_point *from, knurl_closest_point *t
     return closer_beyond(w, apex, from, to);
 }
 
-/* On which side of the triangles round a feature p is, added up over them. */
+/* Sums over the triangles round a feature, to find the side that p is on. */
 typedef struct side_sums {
     const knurl_mesh *mesh;
     const knurl_closest_point *closest;
     knurl_visits *visits;
-    int front, back; /* whether p is in front of any of them, behind any */
-    int oblique;     /* whether any normal is more than 37 degrees off the offset: 0.64 is the square of the cosine */
-    double weighted; /* sum of cosines, weighted by angle at a vertex, alike on an edge */
-    double mean[3];  /* sum of unit normals, weighted likewise */
+    int front, back; /* 1: p is in front of a triangle, behind one */
+    int oblique;     /* 1: a normal is more than 37 degrees off the offset; 0.64 is the square of the cosine */
+    double weighted; /* sum of cosines, weighted by angle at a vertex, equally on an edge */
+    double mean[3];  /* sum of unit normals, with the same weights */
 } side_sums;
 
-/* Nothing is added once the visits are used up. */
+/* Adds a triangle, or nothing if the visits are used up. */
 static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     double c[3][3];
     double next[3], last[3], normal[3];
@@ -226,7 +226,7 @@ static void add_triangle(side_sums *sums, uint32_t corner, int weigh) {
     }
 }
 
-/* Adds all triangles round an edge or a vertex; returns whether it is on a boundary. */
+/* Adds all triangles round an edge or a vertex; returns 1 if it is on a boundary. */
 static int add_round(side_sums *sums, int weigh) {
     const knurl_mesh *mesh = sums->mesh;
     const uint32_t start = 4 * sums->closest->triangle + feature_corner(sums->closest);
@@ -270,9 +270,9 @@ static int add_round(side_sums *sums, int weigh) {
     return boundary;
 }
 
-/* Whether the walk is caught in a sharp concave corner: p is well off (37 degrees) the normal of some face of the
- * corner. In a valley of a curved surface, whose facets meet at small angles, it hardly is. Not the point's own face
- * alone: p goes straight away from a groove's wall. */
+/* 1 if the walk is caught in a sharp concave corner: p is well off (37 degrees) the normal of a face of the corner. In
+ * a valley of a curved surface, whose facets meet at small angles, it hardly is. Testing only the point's own face
+ * would not do: p moves straight away from a groove's wall. */
 static int is_caught(const walk *w, const knurl_closest_point *closest) {
     if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * w->side > 0.0) {
         return 0;
@@ -282,7 +282,7 @@ static int is_caught(const walk *w, const knurl_closest_point *closest) {
     return sums.oblique;
 }
 
-/* Whether the surface lies between a closest point and p: then p has gone through a further wall. */
+/* 1 if the surface lies between a closest point and p: p has crossed another wall. */
 static int is_walled_off(const walk *w, const knurl_closest_point *closest) {
     double from[3];
     uint32_t triangle;
@@ -290,10 +290,10 @@ static int is_walled_off(const walk *w, const knurl_closest_point *closest) {
     return knurl_mesh_cross(w->mesh, from, w->p, w->side < 0, NULL, w->visits, &triangle) == w->side;
 }
 
-/* A walk that was cut short, or that ended in a corner which p has left behind (in a groove's, one proxy a tick would
- * stay for ever while p goes on below the ridges), goes on at what is nearest of all, if the surface holds p there from
- * the same side: the far side of a thin wall faces the other way, and a further wall has p in front of it or lies
- * between. */
+/* A walk may be cut short, or end in a corner that p has left behind: at the bottom of a groove the proxy would stay
+ * for ever while p moves on below the ridges. It then continues at the nearest point of the mesh, if the surface holds
+ * p there from the same side. The far side of a thin wall faces the opposite direction, and another wall has p in front
+ * of it or lies between. */
 static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     knurl_contact nearest;
     knurl_closest_point other;
@@ -309,8 +309,8 @@ static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     }
 }
 
-/* A walk of many steps may be on its way round a vertex of many triangles: goes at once to where one of their edges
- * leads towards p most. */
+/* A walk of many steps may be circling a vertex of many triangles: moves at once to the triangle whose edge leads most
+ * towards p. */
 static int step_across_fan(walk *w, const knurl_closest_point *from, uint32_t corner, knurl_closest_point *to) {
     const knurl_swing ways[2] = {{corner, corner_next(corner)}, {corner, corner_last(corner)}};
     double at[3], off[3], most = -HUGE_VAL;
@@ -342,7 +342,7 @@ static int step_across_fan(walk *w, const knurl_closest_point *from, uint32_t co
     return is_closer(to, from);
 }
 
-/* The same round either corner of an edge. */
+/* The same round each corner of the feature. */
 static int step_across_fans(walk *w, const knurl_closest_point *from, knurl_closest_point *to) {
     for (unsigned k = 0; k < 3; k++) {
         if ((from->feature >> k & 1) && step_across_fan(w, from, 4 * from->triangle + k, to)) {
@@ -376,9 +376,8 @@ int knurl_mesh_walk(const knurl_mesh *mesh, const double p[3], int32_t side, knu
     return jumps;
 }
 
-/* Where the triangles round the feature do not agree, the angle-weighted normal decides: its dot product with the
- * offset has the right sign wherever on the mesh the nearest point lies (Baerentzen and Aanaes 2005); one face's has
- * not. */
+/* If the triangles round the feature disagree, the angle-weighted normal decides: its dot product with the offset has
+ * the right sign at any closest point of the mesh (Baerentzen and Aanaes 2005); that of a single face has not. */
 int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, knurl_visits *visits, int *boundary,
                     double mean[3]) {
     mean[0] = mean[1] = mean[2] = 0.0;
@@ -395,7 +394,7 @@ int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, 
         (void)vec3_normalise(mean);
         return sums.weighted < 0.0 ? -1 : 1;
     }
-    if (!sums.front && !sums.back) { /* no visits were left: the point's own face decides */
+    if (!sums.front && !sums.back) { /* no visits left: use the point's own face */
         const double along = vec3_dot(closest->offset, closest->normal);
         return (along > 0.0) - (along < 0.0);
     }

@@ -1,30 +1,31 @@
-/* Joins triangles into sets over the edges between them (union-find; each link tells whether two face opposite ways),
- * and turns over the smaller part of each set. SPDX-License-Identifier: MIT */
+/* Joins triangles into sets across the edges between them (union-find; each link stores if the two face opposite ways),
+ * and turns over the smaller part of each set.
+ * SPDX-License-Identifier: MIT */
 #include "contact/mesh_winding.h"
 
 #include "base/vec3.h"
 #include "contact/corner.h"
 
-/* Of each triangle. */
+/* Marks of a triangle. */
 enum { CONTRADICTS = 1, TURNED = 2 };
 
-/* Of a set: the triangles that face as its root does, and the others. */
+/* Parts of a set: the triangles that face like its root, and the others. */
 typedef struct set_parts {
-    double areas[2]; /* m^2, twice */
+    double areas[2]; /* twice the area, m^2 */
     uint32_t counts[2];
 } set_parts;
 
-/* Sets of triangles. */
+/* Sets of triangles, and working data. */
 typedef struct winding {
     const knurl_mesh *mesh;
-    uint32_t *links; /* of each triangle another one of its set, times 2, plus 1 where the two face opposite ways */
+    uint32_t *links; /* per triangle: another one of its set, times 2, plus 1 if the two face opposite ways */
     uint8_t *marks;
-    set_parts *parts; /* at the set's root */
-    uint64_t steps;   /* that find_beside() may still take */
-    int is_clean;     /* 1: no triangles touch but at edges that two of them share */
+    set_parts *parts; /* indexed by the set's root */
+    uint64_t steps;   /* left for find_beside() */
+    int is_clean;     /* 1: triangles touch only at edges that two of them share */
 } winding;
 
-/* The triangle that stands for the set of t, times 2, plus 1 where t faces the other way. */
+/* Root of the set of t, times 2, plus 1 if t faces the opposite way. Shortens the path to it. */
 static uint32_t root_of(const winding *w, uint32_t t) {
     uint32_t opposite = 0;
     while (w->links[t] >> 1 != t) {
@@ -36,7 +37,7 @@ static uint32_t root_of(const winding *w, uint32_t t) {
     return t << 1 | opposite;
 }
 
-/* opposite: 1 where the two face opposite ways. */
+/* Joins the sets of two triangles. opposite: 1 if the two face opposite ways. */
 static void join(const winding *w, uint32_t t, uint32_t other, uint32_t opposite) {
     const uint32_t root = root_of(w, t), other_root = root_of(w, other);
     opposite ^= (root ^ other_root) & 1;
@@ -49,18 +50,18 @@ static void join(const winding *w, uint32_t t, uint32_t other, uint32_t opposite
 
 #define NO_TRIANGLE UINT32_MAX
 
-/* Nodes and triangles that find_beside() looks at: to tell whether a mesh is mixed, and so many for each of its
- * triangles more to mend it. Where a mesh needs more, the rest of it stays as it is. */
+/* Limits of the nodes and triangles that find_beside() visits: to detect a mixed mesh, and in addition per triangle to
+ * mend it. If a mesh needs more, the rest of it stays as it is. */
 #define STEPS            500000
 #define STEPS_A_TRIANGLE 96
 
-/* Of an edge's length and of its triangle's height: the nearest that a third triangle may be. */
+/* Search radius for a third triangle, as a fraction of an edge's length and of its triangle's height. */
 #define BESIDE_SHARE 0.01
 
-/* The least cosine between edges that run side by side. */
+/* Minimum cosine between edges that run side by side. */
 #define ALONG 0.99
 
-/* Whether an edge of a triangle runs by a point in some direction: 1; in the opposite direction: -1. */
+/* 1 if an edge of a triangle passes a point in a given direction, -1 if it does in the opposite direction. */
 static int runs_by(const double corners[3][3], const double at[3], const double direction[3], double radius) {
     for (int k = 0; k < 3; k++) {
         double edge[3], off[3];
@@ -77,9 +78,8 @@ static int runs_by(const double corners[3][3], const double at[3], const double 
     return 0;
 }
 
-/* The triangle beside the middle of the edge that `corner` is opposite, times 2, plus 1 where it faces the other way.
- * NO_TRIANGLE where there is none, or more than one: where solids lie against one another, their triangles may seem to
- * face opposite ways. */
+/* Triangle beside the middle of the edge opposite `corner`, times 2, plus 1 if it faces the opposite way. NO_TRIANGLE
+ * unless there is exactly one: triangles of solids that lie against one another may seem to face opposite ways. */
 static uint32_t find_beside(winding *w, uint32_t corner) {
     const knurl_mesh *mesh = w->mesh;
     knurl_triangle t;
@@ -118,7 +118,7 @@ static uint32_t find_beside(winding *w, uint32_t corner) {
 }
 
 /* Joins a corner's triangle with the one beyond the opposite edge, which shares the edge or has a longer one there (a
- * T-junction). An edge that two share is looked at once. */
+ * T-junction). A shared edge is visited once. */
 static void join_beyond(winding *w, uint32_t corner) {
     const uint32_t opposite = w->mesh->opposite[corner_slot(corner)];
     const uint32_t apex = opposite & KNURL_CORNER_MASK;
@@ -135,7 +135,7 @@ static void join_beyond(winding *w, uint32_t corner) {
     }
 }
 
-/* The corner in the place of an old one. */
+/* Number of a corner after its triangle is turned over. */
 static uint32_t moved_corner(const uint8_t *marks, uint32_t corner) {
     const uint32_t k = corner & 3;
     return (marks[corner >> 2] & TURNED) && k != 0 ? corner - k + 3 - k : corner;
@@ -147,7 +147,7 @@ static void swap(uint32_t *numbers, size_t triangle) {
     numbers[3 * triangle + 2] = second;
 }
 
-/* Exchanges the second and third corner of marked triangles, and renames these corners wherever they are named. */
+/* Exchanges the second and third corner of marked triangles, and renumbers these corners in all tables. */
 static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
     uint32_t listed = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
@@ -174,10 +174,11 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
     }
 }
 
-/* Of two areas that differ by less than this share neither is the front. */
+/* If the areas of the two sides differ by less than this fraction, neither is the front. */
 #define UNDECIDED 0.01
 
-/* The same in a mesh that is not clean, and how many triangles decide: sets may be pieces of what belongs together. */
+/* The same in a mesh that is not clean, and the minimum number of triangles to decide by: a set may be a piece of a
+ * larger one. */
 #define UNDECIDED_PIECE 0.25
 #define PIECE_MIN       8
 
@@ -193,8 +194,8 @@ static int has_front(const winding *w, uint32_t root) {
                              (areas[0] > areas[1]) == (counts[0] > counts[1]);
 }
 
-/* Which triangles of each set are to be turned over. Where there is no front, both sides become the front; but not of a
- * mesh that touches itself, whose solids would be hollow. */
+/* Marks the triangles of each set that are to be turned over. If a set has no front, both sides become the front, but
+ * not in a mesh that touches itself: its solids would be hollow. */
 static void choose_fronts(const winding *w, knurl_mesh *mesh) {
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         const uint32_t root = root_of(w, t);
@@ -219,8 +220,7 @@ static void choose_fronts(const winding *w, knurl_mesh *mesh) {
     }
 }
 
-/* 1 where two triangles face opposite ways at an edge that they share or, where a mesh touches itself, at a T-junction.
- */
+/* 1 if two triangles face opposite ways at a shared edge or, in a mesh that touches itself, at a T-junction. */
 static int is_mixed(winding *w) {
     int mixed = 0;
     for (uint32_t i = 0; i < 3 * w->mesh->triangle_count && !mixed; i++) {
@@ -238,7 +238,7 @@ knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
     const uint32_t count = mesh->triangle_count;
     winding w = {mesh, NULL, NULL, NULL, 0, mesh->touching == 0 && mesh->non_manifold_count == 0};
     w.steps = STEPS;
-    if (mesh->double_sided || !is_mixed(&w)) { /* so far of reversed twins */
+    if (mesh->double_sided || !is_mixed(&w)) { /* so far by reversed twins */
         return KNURL_OK;
     }
     w.links = knurl_heap_alloc(heap, count, sizeof *w.links);

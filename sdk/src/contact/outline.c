@@ -1,4 +1,4 @@
-/* Finds the outline of a flat sheet: the edges without a reversed twin, with collinear ones joined, so that T-junctions
+/* Finds the outline of a flat sheet: the edges without a reverse, with collinear ones joined, so that T-junctions
  * cancel too. Edges are in any order, each with the sheet on its left.
  * SPDX-License-Identifier: MIT */
 #include "contact/outline.h"
@@ -9,38 +9,39 @@
 
 #include <string.h>
 
-/* So many edges may be left before edges are split where corners of others lie on them: each is compared with all. */
+/* Maximum number of edges before and after they are split at corners that lie on them: each is compared with all
+ * corners. */
 #define MAX_UNSPLIT 256
 #define MAX_SPLIT   (4 * MAX_UNSPLIT)
 
 #define NONE   UINT32_MAX       /* no edge */
-#define BRANCH (UINT32_MAX - 1) /* a vertex that several edges leave: nothing is straightened across it */
+#define BRANCH (UINT32_MAX - 1) /* several edges leave this vertex: nothing is straightened across it */
 
 static const char *const overlapping = "mesh: its triangles overlap";
 static const char *const too_many = "mesh: its outline has more than 64 edges";
 
 typedef struct outline {
-    uint32_t (*edges)[2];      /* by places */
-    uint32_t (*straighter)[2]; /* what the next round makes of them */
+    uint32_t (*edges)[2];      /* by indices of places */
+    uint32_t (*straighter)[2]; /* output of a round */
     double (*places)[2];
-    uint32_t *leaving; /* of each place: its edge, NONE or BRANCH */
-    uint8_t *done;     /* of each edge: straightened */
+    uint32_t *leaving; /* per place: its edge, NONE or BRANCH */
+    uint8_t *done;     /* per edge: 1 once straightened */
     uint32_t count;
     uint32_t made;
     uint32_t place_count;
     double tolerance; /* m: of this round */
-    double error;     /* m: of all rounds together */
+    double error;     /* m: sum over all rounds */
     knurl_edge_table table;
 } outline;
 
-/* The directions from a place that pass within the tolerance of all places since (Reumann and Witkam's strip, kept as
- * a wedge: one look at each vertex, and none of them ends up farther off). */
+/* Directions from a place that pass within the tolerance of all places since (Reumann and Witkam's strip, kept as a
+ * wedge: each vertex is tested once, and all stay within the tolerance). */
 typedef struct wedge {
     double from[2];
     double low[2];
     double high[2];
     double reach;
-    int open; /* 1: no place has narrowed it yet */
+    int open; /* 1: not narrowed yet */
 } wedge;
 
 static double cross2(const double a[2], const double b[2]) {
@@ -52,7 +53,7 @@ static wedge wedge_at(const double place[2]) {
     return w;
 }
 
-/* 1 where a straight line from the wedge's place to this one will do; then the wedge is narrowed. */
+/* 1 if a straight line from the wedge's place to this one is within the tolerance; then narrows the wedge. */
 static int wedge_take(wedge *w, const double place[2], double tolerance) {
     const double d[2] = {place[0] - w->from[0], place[1] - w->from[1]};
     const double reach = sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -76,7 +77,7 @@ static int wedge_take(wedge *w, const double place[2], double tolerance) {
     return 1;
 }
 
-/* m from a place to the line from a to b. */
+/* Signed distance (m) of a place from the line through a and b. */
 static double off_line(const double a[2], const double b[2], const double place[2]) {
     const double along[2] = {b[0] - a[0], b[1] - a[1]};
     const double to[2] = {place[0] - a[0], place[1] - a[1]};
@@ -84,7 +85,7 @@ static double off_line(const double a[2], const double b[2], const double place[
     return cross2(along, to) / length;
 }
 
-/* One edge instead of a run of them; returns how far what is left out lies off it. */
+/* Replaces a run of edges by one; returns the largest distance from it to the vertices left out. */
 static double replace_run(outline *o, uint32_t first, uint32_t last) {
     const uint32_t from = o->edges[first][0];
     const uint32_t to = o->edges[last][1];
@@ -97,7 +98,7 @@ static double replace_run(outline *o, uint32_t first, uint32_t last) {
     return error;
 }
 
-/* From one edge on to the next branch, or once round. */
+/* Straightens from an edge to the next branch, or once round. Returns the error. */
 static double straighten_chain(outline *o, uint32_t edge) {
     uint32_t first = edge;
     uint32_t last = edge;
@@ -118,7 +119,7 @@ static double straighten_chain(outline *o, uint32_t edge) {
     return fmax(error, replace_run(o, first, last));
 }
 
-/* Of a closed loop the edge that leaves its farthest place: a true corner, not one of the many along a side. */
+/* Edge of a closed loop that leaves its farthest place: a true corner, not one of many vertices along a side. */
 static uint32_t corner_of_loop(const outline *o, uint32_t edge) {
     uint32_t found = edge;
     double farthest = -1.0;
@@ -144,7 +145,7 @@ static void straighten(outline *o, double limit) {
         *leaving = *leaving == NONE ? i : BRANCH;
     }
     o->made = 0;
-    o->tolerance = 0.5 * fmax(0.0, limit - o->error); /* however many rounds, together they stay below the limit */
+    o->tolerance = 0.5 * fmax(0.0, limit - o->error); /* the sum over any number of rounds stays below the limit */
     for (uint32_t i = 0; i < o->count; i++) {
         if (o->leaving[o->edges[i][0]] == BRANCH) {
             error = fmax(error, straighten_chain(o, i));
@@ -162,7 +163,7 @@ static void straighten(outline *o, double limit) {
     o->error += error;
 }
 
-/* Takes out edges that run back along each other; 0 where one is there twice. */
+/* Removes edges that have a reverse; 0 if an edge is there twice. */
 static int cancel(outline *o) {
     uint64_t at = 0;
     knurl_edges_clear(&o->table, o->count);
@@ -178,7 +179,7 @@ static int cancel(outline *o) {
     return 1;
 }
 
-/* Straightens and cancels in turn until nothing changes; 0 where the sheet overlaps itself. */
+/* Straightens and cancels in turn until nothing changes; 0 if the sheet overlaps itself. */
 static int reduce(outline *o, double limit) {
     uint32_t before;
     do {
@@ -191,14 +192,14 @@ static int reduce(outline *o, double limit) {
     return 1;
 }
 
-/* Splits edges where another's corner lies on them, so that what runs back along a part of them cancels it. Returns
- * how many times; or NONE where there is no room. */
+/* Splits edges at corners of others that lie on them, so that reverses of a part cancel it. Returns the number of
+ * splits, or NONE if there is no room. */
 static uint32_t split(outline *o, double limit) {
     const double tolerance = 0.5 * (limit - o->error);
     const uint32_t corners = o->count;
     double error = 0.0;
     for (uint32_t i = 0; i < o->count; i++) {
-        for (uint32_t k = 0; k < corners; k++) { /* edges leave every corner, and splitting makes no new ones */
+        for (uint32_t k = 0; k < corners; k++) { /* an edge leaves every corner, and splits add no corners */
             const uint32_t corner = o->edges[k][0];
             const double *a = o->places[o->edges[i][0]];
             const double *b = o->places[o->edges[i][1]];
@@ -222,9 +223,9 @@ static uint32_t split(outline *o, double limit) {
     return o->count - corners;
 }
 
-/* The edges of all triangles but those with a neighbour. */
+/* Collects the edges of all triangles, except those with a neighbour. */
 static knurl_result collect(knurl_heap *heap, const knurl_sheet *sheet, outline *o, const char **why) {
-    uint32_t *places = NULL; /* of each vertex: its place + 1, or 0 */
+    uint32_t *places = NULL; /* per vertex: its place + 1, or 0 */
     uint32_t edge[2];
     uint64_t at = 0;
     for (uint64_t i = 0; i < 3 * (uint64_t)sheet->count; i++) {
@@ -261,7 +262,7 @@ static knurl_result collect(knurl_heap *heap, const knurl_sheet *sheet, outline 
     return enough ? KNURL_OK : KNURL_ERROR_MEMORY;
 }
 
-/* Down to the edges that a tick will look at. */
+/* Reduces the outline to the edges that a tick tests. */
 static void simplify(outline *o, double limit, const char **why) {
     int sound = cancel(o) && reduce(o, limit);
     if (sound && o->count <= MAX_UNSPLIT) {
@@ -276,7 +277,7 @@ static void simplify(outline *o, double limit, const char **why) {
         *why = overlapping;
     } else if (o->count > KNURL_OUTLINE_EDGES) {
         *why = too_many;
-    } else if (o->count < 3) { /* straightened away */
+    } else if (o->count < 3) { /* straightened to nothing */
         *why = "mesh: its outline is finer than a plane's may be off";
     }
 }

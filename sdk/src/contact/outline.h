@@ -5,8 +5,8 @@
 #include "contact/plane.h"
 #include "contact/sheet.h"
 
-/* Fills in the plane's outline, in the sheet's x and y and counter-clockwise. *error: m, how far the vertices that were
- * left out of it lie off it. Errors: KNURL_ERROR_MEMORY. */
+/* Fills in the plane's outline, counter-clockwise in the sheet's x and y. *error: m, largest distance of the vertices
+ * left out from the outline. *why: set if the sheet cannot be a plane. Errors: KNURL_ERROR_MEMORY. */
 knurl_result knurl_sheet_outline(knurl_heap *heap, const knurl_sheet *sheet, knurl_plane *plane, double *error,
                                  const char **why);
 

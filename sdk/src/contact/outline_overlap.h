@@ -4,7 +4,7 @@
 
 #include "contact/plane.h"
 
-/* 1 where no two edges cross by more than the limit (m) and none has sheet on both sides or twice on one. */
+/* 1 if no two edges cross by more than the limit (m), and no edge has the sheet on both sides or twice on one. */
 int knurl_outline_is_simple(const knurl_plane *plane, double limit);
 
 #endif

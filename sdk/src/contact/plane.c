@@ -12,7 +12,7 @@ void knurl_plane_set_stretch(knurl_plane *plane, double along) {
     }
 }
 
-/* Where it stands across the plane like a post, any direction is as good. */
+/* An axis perpendicular to the plane is ignored: any direction will do. */
 static void set_axis(const double axis[3], knurl_plane *plane) {
     const double along = hypot(axis[0], axis[1]);
     if (along > 1e-9) {
@@ -46,8 +46,8 @@ void knurl_plane_set_seam(knurl_plane *plane) {
     plane->seam = plane->flatness + (KNURL_SEAM > KNURL_SEAM_SHARE * size ? KNURL_SEAM : KNURL_SEAM_SHARE * size);
 }
 
-/* By counting the edges that a ray along x crosses: even outside, odd inside. An edge owns its lower end but not its
- * upper, so that a corner counts once. Without branches: which edges are crossed changes from tick to tick. */
+/* Counts the edges that a ray along x crosses: even outside, odd inside. An edge includes its lower end but not its
+ * upper, so that a corner counts once. Free of branches, because the crossed edges change from tick to tick. */
 static int within_outline(const knurl_plane *plane, const double p[2]) {
     const int band = knurl_plane_band(plane, p[1]);
     int inside = 0;
@@ -67,18 +67,18 @@ int knurl_plane_covers(const knurl_plane *plane, const double p[2]) {
     return covers(plane, p);
 }
 
-/* From the edge's closest point to p; returns the squared distance. */
+/* Vector from the edge's closest point to p; returns the squared distance. */
 static double off_edge(const knurl_edge *edge, const double p[2], double off[2]) {
     const double along[2] = {edge->to[0] - edge->from[0], edge->to[1] - edge->from[1]};
     const double to[2] = {p[0] - edge->from[0], p[1] - edge->from[1]};
     const double share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-    const double t = share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0; /* of an edge without a length: 0 */
+    const double t = share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0; /* 0 for an edge without a length */
     off[0] = to[0] - t * along[0];
     off[1] = to[1] - t * along[1];
     return off[0] * off[0] + off[1] * off[1];
 }
 
-/* 1 within the outline, and where an edge of it is no farther than the seam. */
+/* 1 inside the outline, or within the seam of one of its edges. */
 static int is_within_seam(const knurl_plane *plane, const double p[2]) {
     for (int i = 0; i < 2; i++) {
         if (!(fabs(p[i]) <= plane->half_extents[i] + plane->seam)) {
@@ -148,8 +148,8 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
     contact->proxy[2] = 0.0;
 }
 
-/* The side that the HIP comes from, or 0: through the plane between two ticks, or within reach of it. *unsure: set
- * where the HIP went through the seam beside the outline, which another surface may continue. */
+/* Side that the HIP comes from, or 0: it crossed the plane since the last tick, or is within reach. *unsure: set if it
+ * crossed within the seam beside the outline, where another surface may continue. */
 static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside,
                       int32_t *unsure) {
     const double z = query->hip[2];
@@ -173,7 +173,7 @@ static int begin_side(const knurl_plane *plane, const knurl_contact_query *query
     if (z < 0.0 && -z <= reach && behind_allowed) {
         return -1;
     }
-    /* what can be touched from both sides has no inside to be found in */
+    /* a double-sided plane has no inside to start in */
     if (!query->has_previous && !behind_allowed && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
         *inside = 1;
         return 1;
@@ -186,12 +186,12 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     const double *hip = query->hip;
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     contact->unsure = 0;
-    if (!state->inside) { /* a HIP in front may go through at any tick */
+    if (!state->inside) { /* a HIP in front may cross the plane at any tick */
         state->side = begin_side(plane, query, reach, &state->inside, &contact->unsure);
     }
     const double z = hip[2] * state->side;
     if (state->side == 0 || z > reach || !covers(plane, hip)) {
-        contact->unsure |= state->inside; /* through it, and beyond its rim */
+        contact->unsure |= state->inside; /* inside before, and now beyond the rim */
         memset(state, 0, sizeof *state);
         return 0;
     }

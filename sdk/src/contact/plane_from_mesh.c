@@ -1,4 +1,4 @@
-/* Replaces flat meshes by planes with their outline. SPDX-License-Identifier: MIT */
+/* Replaces flat meshes by planes with an outline. SPDX-License-Identifier: MIT */
 #include "contact/plane_from_mesh.h"
 
 #include "base/vec3.h"
@@ -10,7 +10,7 @@
 static void centre_on_bounds(knurl_plane *plane, double middle[2]) {
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t i = 0; i < plane->edge_count; i++) { /* loops: every corner is some edge's beginning */
+    for (uint32_t i = 0; i < plane->edge_count; i++) { /* loops: every corner is the start of an edge */
         for (int axis = 0; axis < 2; axis++) {
             low[axis] = fmin(low[axis], plane->outline[i].from[axis]);
             high[axis] = fmax(high[axis], plane->outline[i].from[axis]);
@@ -34,7 +34,7 @@ static void centre_on_bounds(knurl_plane *plane, double middle[2]) {
     }
 }
 
-/* 1 where the outline is its bounding rectangle, to within the limit; *error: m, how far it is off. */
+/* 1 if the outline is its bounding rectangle, within the limit; *error: m, largest deviation. */
 static int is_rectangle(const knurl_plane *plane, double limit, double *error) {
     unsigned corners = 0;
     for (uint32_t i = 0; i < plane->edge_count; i++) {
@@ -47,10 +47,10 @@ static int is_rectangle(const knurl_plane *plane, double limit, double *error) {
     return plane->edge_count == 4 && corners == 15 && *error <= limit;
 }
 
-/* Which edges a tick has to look at, by where the HIP is. */
+/* Sorts edges into bands, so that a tick tests only those near the HIP's y. */
 static knurl_result make_bands(knurl_heap *heap, knurl_plane *plane) {
     plane->bands_per_metre = KNURL_OUTLINE_BANDS / (2.0 * plane->half_extents[1]);
-    for (int pass = 0; pass < 2; pass++) { /* how many there are, then which */
+    for (int pass = 0; pass < 2; pass++) { /* count, then fill in */
         uint16_t count = 0;
         for (int band = 0; band < KNURL_OUTLINE_BANDS; band++) {
             plane->bands[band] = count;
@@ -75,7 +75,7 @@ static knurl_result make_bands(knurl_heap *heap, knurl_plane *plane) {
     return KNURL_OK;
 }
 
-/* 1 where the origin is on the plane and not next to an edge. */
+/* 1 if the origin is on the plane and not close to an edge. */
 static int origin_is_inside(const knurl_plane *plane) {
     const double origin[2] = {0.0, 0.0};
     const double clear = 0.05 * fmin(plane->half_extents[0], plane->half_extents[1]);
@@ -92,8 +92,8 @@ static int origin_is_inside(const knurl_plane *plane) {
     return knurl_plane_covers(plane, origin);
 }
 
-/* A point of the plane, for whoever has to start somewhere: the origin, or where a hole or a notch is there, the middle
- * of the largest triangle. */
+/* Finds a point of the plane, for strokes to start at: the origin or, if a hole or a notch is there, the middle of the
+ * largest triangle. */
 static void find_inside(const knurl_sheet *sheet, const double middle[2], knurl_plane *plane) {
     double largest = 0.0;
     if (origin_is_inside(plane)) {
@@ -113,7 +113,7 @@ static void find_inside(const knurl_sheet *sheet, const double middle[2], knurl_
     }
 }
 
-/* From the sheet's frame to the plane's own, and the counts. */
+/* Moves the plane from the sheet's frame to its own, and sets the counts. */
 static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, double outline_error,
                                     knurl_plane *plane, double position[3], double rotation[9]) {
     double middle[2];
@@ -136,7 +136,7 @@ static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, 
     plane->double_sided = sheet->twins > 0;
     vec3_madd(sheet->origin, middle[0], sheet->axes[0], position);
     vec3_madd(position, middle[1], sheet->axes[1], position);
-    for (int i = 0; i < 9; i++) { /* columns: where the plane's axes point */
+    for (int i = 0; i < 9; i++) { /* columns: the plane's axes */
         rotation[i] = sheet->axes[i % 3][i / 3];
     }
     return KNURL_OK;

@@ -1,4 +1,4 @@
-/* The contact of a HIP that a plane holds, inline: a call would cost as much as the contact itself.
+/* Contact of a HIP that is held by a plane; inline, because a call would cost as much as the contact itself.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_PLANE_HOLD_H
 #define KNURL_SRC_PLANE_HOLD_H
@@ -6,8 +6,8 @@
 #include "base/base.h"
 #include "contact/plane.h"
 
-/* The usual tick of knurl_plane_contact(), which gives the same: the HIP was inside, and still is over a rectangle, so
- * that its state stays as it is. 0, and nothing is changed, where it is not as usual. */
+/* Fast path of knurl_plane_contact(), with the same result: the HIP was inside, and still is below a rectangle, so that
+ * its state stays as it is. Otherwise returns 0 and changes nothing. */
 static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3], const knurl_contact_state *state,
                                    knurl_contact *contact) {
     const double side = state->side;
@@ -21,28 +21,28 @@ static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3]
     return 1;
 }
 
-/* The surface's tangent frame at a contact: unit, y = n x x, in the plane's frame. Allowed in a tick. */
+/* Tangent frame at a contact, in the plane's frame: unit, y = n x x. Allowed in a tick. */
 static inline void knurl_plane_axes(const knurl_plane *plane, const knurl_contact *contact, double x[3], double y[3]) {
     const double side = contact->normal[2];
     x[0] = plane->x[0];
     x[1] = plane->x[1];
-    y[0] = 0.0 - side * x[1]; /* never -0 */
+    y[0] = 0.0 - side * x[1]; /* avoids -0 */
     y[1] = side * x[0];
     x[2] = y[2] = 0.0;
 }
 
-/* Where on the grating it is (m; not turned by the material's orientation). Allowed in a tick. */
+/* Position on the grating (m; not rotated by the material's orientation). Allowed in a tick. */
 static inline void knurl_plane_coordinates(const knurl_plane *plane, const knurl_contact *contact,
                                            double coordinates[2]) {
     const double *p = contact->proxy;
     for (int i = 0; i < 2; i++) {
         coordinates[i] = plane->map[i][0] * p[0] + plane->map[i][1] * p[1] + plane->map[i][2];
     }
-    coordinates[1] *= contact->normal[2]; /* from behind y runs the other way */
+    coordinates[1] *= contact->normal[2]; /* from behind, y is reversed */
 }
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre.
- * 0: the plane has no coordinates. Allowed in a tick. */
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre.
+ * Returns 0 if the plane has no coordinates. Allowed in a tick. */
 static inline int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
                                     double rates[2], double *steepest) {
     double most = 0.0;

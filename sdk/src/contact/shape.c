@@ -1,4 +1,4 @@
-/* Creates a plane or a mesh from a description; the function tables of both. SPDX-License-Identifier: MIT */
+/* Creates a plane or a mesh from a description; function tables of both. SPDX-License-Identifier: MIT */
 #include "contact/shape.h"
 
 #include "base/base.h"
@@ -21,7 +21,7 @@ void knurl_mesh_desc_init(knurl_mesh_desc *desc, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
-/* --- the plane's row of the table --- */
+/* --- function table of the plane --- */
 
 static int plane_contact(const void *plane, const knurl_contact_query *query, knurl_contact_state *state,
                          knurl_contact *contact) KNURL_NONBLOCKING {
@@ -80,7 +80,7 @@ static const knurl_shape_functions plane_functions = {plane_contact,     plane_c
                                                       plane_anchor,      plane_facts,  plane_exceeds_visits,
                                                       plane_other_users, plane_destroy};
 
-/* --- the mesh's --- */
+/* --- function table of the mesh --- */
 
 static int mesh_contact(const void *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                         knurl_contact *contact) KNURL_NONBLOCKING {
@@ -111,7 +111,7 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .mixed = mesh->mixed,
                               .seam = mesh->seam,
                               .touching = mesh->touching,
-                              .error = 0.0}; /* meshes are given as floats, and kept as they are given */
+                              .error = 0.0}; /* meshes are stored as given, in floats */
     memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;
 }

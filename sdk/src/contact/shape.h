@@ -1,4 +1,4 @@
-/* A shape in its own frame: a bounded plane or a triangle mesh. The kind is decided at creation and reached through a
+/* A shape in its own frame: a bounded plane or a triangle mesh. The kind is chosen at creation and called through a
  * table of functions. Immutable once created.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHAPE_H
@@ -11,7 +11,7 @@
 
 #include <knurl/contact.h>
 
-/* What every kind of shape can do, geometry being its own: descriptions stand at knurl_shape_contact() and below. */
+/* Functions of one kind of shape; geometry: its own data. Described at knurl_shape_contact() and below. */
 typedef struct knurl_shape_functions {
     int (*contact)(const void *geometry, const knurl_contact_query *query, knurl_contact_state *state,
                    knurl_contact *contact) KNURL_NONBLOCKING;
@@ -27,61 +27,61 @@ typedef struct knurl_shape_functions {
 
 typedef struct knurl_shape {
     const knurl_shape_functions *functions;
-    void *geometry;           /* what the functions are given */
-    const knurl_plane *plane; /* the same where it is a plane, else null: calls are longer */
+    void *geometry;           /* passed to the functions */
+    const knurl_plane *plane; /* the geometry if it is a plane, else null: a direct call is faster */
     double low[3];            /* bounds, m */
     double high[3];
-    double seam;             /* m: a cast misses what is farther beyond its edges */
-    int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres say where on a grating a point is */
-    int32_t double_sided;    /* 1: it was given with both sides of every triangle */
-    const char *why;         /* static: why this model */
+    double seam;             /* m: beyond its edges that a cast still hits */
+    int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres give positions on the grating */
+    int32_t double_sided;    /* 1: every triangle can be touched from both sides */
+    const char *why;         /* static: reason for this model */
 } knurl_shape;
 
-/* What a shape is made from. */
+/* Description of a shape to create. */
 typedef struct knurl_shape_desc {
-    const knurl_plane_desc *plane; /* exactly one of these two is not null */
+    const knurl_plane_desc *plane; /* exactly one of plane and mesh is set */
     const knurl_mesh_desc *mesh;
-    const double *axis; /* unit, in the frame of what is given: the grating's x; or null: tangents, else uvs */
-    int32_t full_model; /* 1: a mesh stays a mesh, also where it is flat */
+    const double *axis; /* unit, in the frame of the plane or mesh: the grating's x; null: tangents, else uvs */
+    int32_t full_model; /* 1: a flat mesh stays a mesh */
 } knurl_shape_desc;
 
-/* position, rotation (row-major): where the shape's own frame stands in the frame of what was given.
- * Errors: KNURL_ERROR_ARGUMENT (what, which, expected, found), KNURL_ERROR_MEMORY; *shape is zeroed then. */
+/* Creates a shape. position, rotation (row-major): its own frame, in the frame of the given plane or mesh. Errors:
+ * KNURL_ERROR_ARGUMENT (field, index, expected, found), KNURL_ERROR_MEMORY; *shape has no geometry then. */
 knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, knurl_shape *shape, double position[3],
                                 double rotation[9]);
 
-/* A further shape of the same geometry: a copy of the struct, each to be destroyed. [any thread] */
+/* Another shape with the same geometry: a copy of the struct. Destroy each. [any thread] */
 knurl_shape knurl_shape_share(const knurl_shape *shape);
 
-/* How many shapes have this geometry, itself one of them. */
+/* Number of shapes that share this geometry, including this one. */
 static inline uint32_t knurl_shape_users(const knurl_shape *shape) {
     return 1 + __atomic_load_n(shape->functions->other_users(shape->geometry), __ATOMIC_RELAXED);
 }
 
-/* The last of those that share a geometry frees it. A zeroed shape is allowed. [any thread] */
+/* The last shape that shares a geometry frees it. A zeroed shape is allowed. [any thread] */
 void knurl_shape_destroy(knurl_heap *heap, const knurl_shape *shape);
 
-/* 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a zeroed
- * state. Allowed in a tick. */
+/* Returns 1 and a contact while the HIP is inside, on the surface (KNURL_ON_SURFACE) or within reach, else 0 and a
+ * zeroed state. Allowed in a tick. */
 static inline int knurl_shape_contact(const knurl_shape *shape, const knurl_contact_query *query,
                                       knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING {
     return shape->functions->contact(shape->geometry, query, state, contact);
 }
 
-/* 1 and the first hit of a way. Allowed in a tick. */
+/* Returns 1 and the first hit of a segment. Allowed in a tick. */
 static inline int knurl_shape_cast(const knurl_shape *shape, const knurl_cast *cast,
                                    knurl_cast_hit *hit) KNURL_NONBLOCKING {
     return shape->functions->cast(shape->geometry, cast, hit);
 }
 
-/* Contact at a point of the face that was hit: state and contact, but for normal and z. Allowed in a tick. */
+/* Sets state and contact at a point of the face that was hit, except normal and z. Allowed in a tick. */
 static inline void knurl_shape_rest(const knurl_shape *shape, const knurl_cast_hit *hit, const double point[3],
                                     knurl_contact_state *state, knurl_contact *contact) KNURL_NONBLOCKING {
     shape->functions->rest(shape->geometry, hit, point, state, contact);
 }
 
-/* The surface's tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and a mesh's
- * coordinates (m; of a plane by knurl_plane_coordinates(), because a smooth one needs none). Allowed in a tick. */
+/* Tangent frame at a contact (x, y: unit, tangent to the contact's normal, y = n x x), and a mesh's coordinates (m; for
+ * a plane use knurl_plane_coordinates(), which a smooth one does not need). Allowed in a tick. */
 static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_contact *contact, double x[3], double y[3],
                                      double coordinates[2]) KNURL_NONBLOCKING {
     if (shape->plane) {
@@ -91,8 +91,8 @@ static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_conta
     }
 }
 
-/* How fast those coordinates change (m/s) where the HIP moves at `velocity` (m/s), and by how much at most in a metre
- * along the surface. 0 and not to be used where there are no coordinates. Allowed in a tick. */
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre along
+ * the surface. Returns 0 if there are no coordinates: do not use the outputs then. Allowed in a tick. */
 static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contact *contact, const double velocity[3],
                                     double rates[2], double *steepest) KNURL_NONBLOCKING {
     if (shape->plane) {
@@ -102,13 +102,13 @@ static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contac
     return knurl_mesh_rates(shape->geometry, contact, moving, rates, steepest);
 }
 
-/* A place for a stroke to begin, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh what a
- * hand would meet first. rotation (row-major): from the shape's axes to the scene's. */
+/* Start of a stroke, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh, the face that a hand
+ * would meet first. rotation (row-major): from the shape's axes to the scene's. */
 static inline void knurl_shape_anchor(const knurl_shape *shape, const double rotation[9], knurl_contact *anchor) {
     shape->functions->anchor(shape->geometry, rotation, anchor);
 }
 
-/* 1 where contact somewhere meets a tick's limit of visits; reach: m, of the crests. */
+/* 1 if contact can meet a tick's limit of visits; reach: m, of the crests. */
 static inline int knurl_shape_exceeds_visits(const knurl_shape *shape, double reach, uint32_t max_visits) {
     return shape->functions->exceeds_visits(shape->geometry, reach, max_visits);
 }

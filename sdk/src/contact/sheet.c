@@ -8,13 +8,14 @@
 
 #include <string.h>
 
-/* Flat is what lies within both of these of a plane: 1 um, a fiftieth of what a good device's encoders tell apart; and
- * 1e-5 of the sheet's size, which keeps slopes and directions within 1e-5 rad or so on a sheet of a few millimetres.
- * The second is the stricter one below 0.1 m. Single precision needs 1e-7 of the distance from the mesh's origin. */
+/* A sheet is flat if it lies within both of these of a plane: 1 um, a fiftieth of the resolution of a good device's
+ * encoders; and 1e-5 of its size, which keeps slopes and directions within 1e-5 rad or so on a sheet of a few
+ * millimetres. The second is stricter below 0.1 m. Single precision needs 1e-7 of the distance from the mesh's
+ * origin. */
 #define FLAT_DISTANCE 1e-6
 #define FLAT_SHARE    1e-5
 
-/* So many triangles, evenly spread over the list, are looked at first: most meshes show here that they are not flat. */
+/* Triangles, evenly spread over the list, that are tested first: most meshes that are not flat end here. */
 #define SAMPLES 64
 
 void knurl_sheet_place(const knurl_sheet *sheet, uint32_t vertex, double out[2]) {
@@ -25,7 +26,7 @@ void knurl_sheet_place(const knurl_sheet *sheet, uint32_t vertex, double out[2])
     out[1] = vec3_dot(p, sheet->axes[1]);
 }
 
-/* Twice the area times the normal; 0 for a triangle without an area (by the measure that a mesh's copy uses). */
+/* Twice the area times the normal; 0 if a triangle has no area, by the same measure as has_area() of mesh_build.c. */
 static int area_of(const knurl_mesh_desc *d, uint64_t triangle, double area[3]) {
     double corners[3][3];
     double edges[3][3];
@@ -41,7 +42,7 @@ static int area_of(const knurl_mesh_desc *d, uint64_t triangle, double area[3]) 
     return longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_length(area) > 1e-6 * longest;
 }
 
-/* Vertices to lay a plane through: those listed, or all those marked. */
+/* Vertices to fit a plane to: those in `list`, or all that are marked. */
 typedef struct points {
     const knurl_mesh_desc *desc;
     const uint32_t *list;
@@ -52,8 +53,8 @@ typedef struct points {
 typedef struct fit {
     double origin[3];
     double normal[3];
-    double size;       /* m: from the origin to the vertex farthest from it */
-    double heights[2]; /* m: the lowest and the highest vertex over the plane through the origin */
+    double size;       /* m: from the origin to the farthest vertex */
+    double heights[2]; /* m: lowest and highest vertex above the plane through the origin */
 } fit;
 
 static int next_point(const points *p, uint32_t *i, const double from[3], double out[3]) {
@@ -69,8 +70,9 @@ static int next_point(const points *p, uint32_t *i, const double from[3], double
     return 0;
 }
 
-/* Through the first vertex, the one farthest from it, and the one farthest from the line of those two: whatever plane
- * all vertices are within d of, they are within 8 d of this one (d at each of the three tilts it by no more). */
+/* Fits a plane through the first vertex, the one farthest from it, and the one farthest from the line through both. If
+ * all vertices are within d of some plane, they are within 8 d of this one (d at each of the three tilts it by no
+ * more). */
 static void fit_plane(const points *p, fit *f) {
     static const double zero[3] = {0.0, 0.0, 0.0};
     double along[3] = {0.0, 0.0, 0.0};
@@ -117,7 +119,7 @@ static int samples_are_curved(const knurl_mesh_desc *d) {
     return fmax(-f.heights[0], f.heights[1]) > 8.0 * FLAT_DISTANCE;
 }
 
-/* The plane of all triangles that have an area; it faces as the first of them does. */
+/* Finds the plane of all triangles with an area; it faces like the first of them. */
 static void find_plane(const knurl_mesh_desc *d, knurl_sheet *sheet, const char **why) {
     double first[3] = {0.0, 0.0, 0.0};
     for (uint64_t i = 0; i < knurl_sheet_triangles(d); i++) {
@@ -151,7 +153,7 @@ static void find_plane(const knurl_mesh_desc *d, knurl_sheet *sheet, const char 
     vec3_cross(sheet->axes[2], sheet->axes[0], sheet->axes[1]);
 }
 
-/* A triangle's welded corners, lowest first. */
+/* Welded corners of a triangle, lowest first. */
 static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t out[3]) {
     for (uint32_t k = 0; k < 3; k++) {
         out[k] = sheet->welds[knurl_sheet_vertex(sheet->desc, triangle, k)];
@@ -168,7 +170,7 @@ static void sorted_corners(const knurl_sheet *sheet, uint64_t triangle, uint32_t
 
 enum { FRONT = 1, BACK = 2 };
 
-/* Where a triangle's corners are, or would go, in the table of those kept (number + 1, or 0). */
+/* Slot of a triangle's corners in the table of those kept (number + 1, or 0), or the free slot to add them at. */
 static uint64_t find_corners(const knurl_sheet *sheet, const knurl_seeded_hash *hash, const uint32_t *table,
                              uint64_t mask, const uint32_t corners[3]) {
     uint64_t slot = knurl_seeded_hash_of(hash, corners[0], corners[1], corners[2]) & mask;

@@ -1,5 +1,5 @@
-/* A flat sheet of triangles that faces one way: the first step from a mesh to a plane. A step that finds that the mesh
- * is no plane sets *why (a static sentence) and returns KNURL_OK.
+/* A flat sheet of triangles that faces one way: the first step from a mesh to a plane. If the mesh cannot become a
+ * plane, a step sets *why (a static sentence) and returns KNURL_OK.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHEET_H
 #define KNURL_SRC_SHEET_H
@@ -8,18 +8,18 @@
 
 #include <knurl/contact.h>
 
-/* The triangles that a flat, one-sided sheet is made of, and the frame they are looked at in. */
+/* Triangles of a flat, one-sided sheet, and its frame. */
 typedef struct knurl_sheet {
     const knurl_mesh_desc *desc;
-    uint32_t *welds;   /* of each vertex: the first that stands at the same place; not set where no triangle uses it */
+    uint32_t *welds;   /* per vertex: the first at the same position; not set if no triangle uses it */
     uint32_t *kept;    /* by their numbers in the description */
-    uint32_t count;    /* of those kept */
-    uint32_t dropped;  /* for want of area, or as duplicates */
-    uint32_t twins;    /* left out, because another has the same corners and faces the front */
+    uint32_t count;    /* triangles kept */
+    uint32_t dropped;  /* triangles dropped because they have no area or are duplicates */
+    uint32_t twins;    /* triangles dropped because another has the same corners and faces the front */
     double origin[3];  /* a point on the plane, in the mesh's frame */
     double axes[3][3]; /* x, y and the normal, unit, right-handed, in the mesh's frame */
-    double limit;      /* m: how far anything may be off */
-    double flatness;   /* m: how far the vertices are off the plane */
+    double limit;      /* m: largest deviation allowed */
+    double flatness;   /* m: largest distance of a vertex from the plane */
 } knurl_sheet;
 
 static inline uint64_t knurl_sheet_triangles(const knurl_mesh_desc *desc) {
@@ -36,10 +36,10 @@ static inline void knurl_sheet_position(const knurl_mesh_desc *desc, uint32_t ve
     }
 }
 
-/* Where a vertex stands in the sheet's x and y. */
+/* Position of a vertex in the sheet's x and y. */
 void knurl_sheet_place(const knurl_sheet *sheet, uint32_t vertex, double out[2]);
 
-/* Decides whether the mesh is flat and faces one way, and which triangles make it. Errors: KNURL_ERROR_MEMORY. */
+/* Decides if the mesh is flat and faces one way, and collects its triangles. Errors: KNURL_ERROR_MEMORY. */
 knurl_result knurl_sheet_make(knurl_heap *heap, const knurl_mesh_desc *desc, knurl_sheet *sheet, const char **why);
 void knurl_sheet_release(knurl_heap *heap, knurl_sheet *sheet);
 

@@ -1,4 +1,4 @@
-/* Surface coordinates of a flat sheet where they are affine: the grating's x, and the map. The same rules as in
+/* Surface coordinates of a flat sheet if they are affine: the grating's x, and the map. The same rules as in
  * mesh_frame.c and surface/surface_frame.h.
  * SPDX-License-Identifier: MIT */
 #include "contact/sheet_coordinates.h"
@@ -7,16 +7,16 @@
 
 #include <string.h>
 
-/* An axis or tangent nearer to the normal than this (rad) leaves a direction that turns with the last digits of the
- * positions: 1e-6 of slope over it has to stay within what a direction may be off. */
+/* rad: an axis or tangent closer to the normal has a direction that turns with the last digits of the positions: 1e-6
+ * of slope over it must stay within SAME_DIRECTION. */
 #define NEAR_NORMAL 1e-2
 
-/* rad: how far the tangents' directions may be off their mean. 1e-4 of a 1 m/s stroke is 0.1 mm/s. */
+/* rad: largest deviation of the tangents' directions from their mean. 1e-4 of a 1 m/s stroke is 0.1 mm/s. */
 #define SAME_DIRECTION 1e-4
 
 static const char *const along_normal = "mesh: its x direction stands on it like a post";
 
-/* Puts the sheet's x along a direction in its present x and y; what there is of the map turns with it. */
+/* Rotates the sheet's x to a direction in its present x and y; the map rotates with it. */
 static void align_x(knurl_sheet *sheet, const double direction[2], knurl_plane *plane) {
     const double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
     const double c = direction[0] / length;
@@ -53,7 +53,7 @@ static void map_by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *p
 
 static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     double mean[2] = {0.0, 0.0};
-    for (int pass = 0; pass < 2; pass++) { /* their mean, then how far each is off it */
+    for (int pass = 0; pass < 2; pass++) { /* their mean, then the deviation of each */
         for (uint64_t i = 0; i < 3 * (uint64_t)sheet->count; i++) {
             const uint32_t v = knurl_sheet_vertex(sheet->desc, sheet->kept[i / 3], (uint32_t)(i % 3));
             const float *t = &sheet->desc->tangents[4 * (size_t)v];
@@ -77,14 +77,14 @@ static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char
     align_x(sheet, mean, plane);
 }
 
-/* Sums over the area that has been looked at. */
+/* Sums over the triangles so far. */
 typedef struct uv_sums {
     double area;
     double lengths[2];  /* of |dP/du|, |dP/dv| */
     double inverse[2];  /* of 1 / |dP/du|, 1 / |dP/dv| */
     double shortest[2]; /* |dP/du|, |dP/dv| */
     double longest[2];
-    double slopes[2][2]; /* of the gradients of u and v in the sheet's x and y */
+    double slopes[2][2]; /* of the gradients of u and v, in the sheet's x and y */
     int mirrored;        /* 1: v runs against n x x; the same for all triangles */
 } uv_sums;
 
@@ -93,7 +93,7 @@ static void uv_of(const knurl_sheet *sheet, uint32_t vertex, double uv[2]) {
     uv[1] = (double)sheet->desc->uvs[2 * (size_t)vertex + 1];
 }
 
-/* One triangle's share; 0 where its uvs have no area or run the other way round. */
+/* Adds one triangle; 0 if its uvs have no area or are mirrored unlike the others. */
 static int add_uvs(const knurl_sheet *sheet, uint32_t triangle, uv_sums *sums) {
     double p[3][2];
     double uv[3][2];
@@ -132,7 +132,7 @@ static int add_uvs(const knurl_sheet *sheet, uint32_t triangle, uv_sums *sums) {
     return area > 0.0;
 }
 
-/* Lays the mean slopes through all corners, in the middle of what they are off it; 0 where that is too far. */
+/* Sets the map's offsets to the middle of the corners' deviations; 0 if a deviation exceeds the limit. */
 static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane *plane) {
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -153,8 +153,8 @@ static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane 
     return 0.5 * (high[0] - low[0]) <= sheet->limit && 0.5 * (high[1] - low[1]) <= sheet->limit;
 }
 
-/* What is affine to the sheet's limit over the sheet's size runs one way as well: no triangle's own dP/du is asked for,
- * which on a fine mesh is as rough as its floats. */
+/* uvs that are affine to the limit over the whole sheet also have one direction: each triangle's own dP/du is not
+ * tested, which on a fine mesh is as rough as its floats. */
 static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     uv_sums sums = {.shortest = {HUGE_VAL, HUGE_VAL}};
     for (uint32_t i = 0; i < sheet->count; i++) {
@@ -200,7 +200,7 @@ void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_pla
     }
     if (d->tangents) {
         align_by_tangents(sheet, plane, why);
-    } else { /* along dP/du: coordinate 1 does not change on the way */
+    } else { /* along dP/du: coordinate 1 is constant there */
         const double along[2] = {plane->map[1][1], -plane->map[1][0]};
         align_x(sheet, along, plane);
     }

@@ -1,12 +1,12 @@
-/* Surface coordinates of a flat sheet where they are affine. SPDX-License-Identifier: MIT */
+/* Surface coordinates of a flat sheet if they are affine. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHEET_COORDINATES_H
 #define KNURL_SRC_SHEET_COORDINATES_H
 
 #include "contact/plane.h"
 #include "contact/sheet.h"
 
-/* Turns the sheet's x along the grating's; fills in the plane's x, map, stretch and has_coordinates, from the sheet's
- * origin. */
+/* Rotates the sheet's x to the grating's; sets the plane's x, map, stretch and has_coordinates, relative to the sheet's
+ * origin. *why: set if the coordinates are not affine. */
 void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why);
 
 #endif

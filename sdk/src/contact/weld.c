@@ -1,4 +1,4 @@
-/* Finds vertices at the same place, which uv seams and hard edges duplicate. SPDX-License-Identifier: MIT */
+/* Finds vertices at the same position, which uv seams and hard edges duplicate. SPDX-License-Identifier: MIT */
 #include "contact/weld.h"
 
 #include "contact/seeded_hash.h"
@@ -8,7 +8,7 @@
 static uint64_t hash_position(const knurl_seeded_hash *hash, const float *p) {
     uint32_t bits[3];
     for (int axis = 0; axis < 3; axis++) {
-        const float value = p[axis] + 0.0f; /* -0 and 0 are one place */
+        const float value = p[axis] + 0.0f; /* -0 and 0 are the same position */
         memcpy(&bits[axis], &value, sizeof value);
     }
     return knurl_seeded_hash_of(hash, bits[0], bits[1], bits[2]);

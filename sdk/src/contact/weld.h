@@ -1,4 +1,4 @@
-/* Finds vertices at the same place, which uv seams and hard edges duplicate. SPDX-License-Identifier: MIT */
+/* Finds vertices at the same position, which uv seams and hard edges duplicate. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_WELD_H
 #define KNURL_SRC_WELD_H
 
@@ -6,11 +6,11 @@
 
 #include <knurl/contact.h>
 
-/* Of each vertex the first that stands exactly where it stands. welds: vertex_count entries of the caller's; where
- * `marked`, only vertices whose entry is not 0 are looked at. Errors: KNURL_ERROR_MEMORY. */
+/* Finds for each vertex the first at exactly the same position. welds: vertex_count entries; if `marked`, only vertices
+ * whose entry is not 0 are tested. Errors: KNURL_ERROR_MEMORY. */
 knurl_result knurl_mesh_weld(knurl_heap *heap, const knurl_mesh_desc *desc, int marked, uint32_t *welds);
 
-/* Slots of an open hash table for so many entries: a power of two, at most half full. */
+/* Slots of an open hash table for `entries` entries: a power of two, at most half full. */
 uint64_t knurl_table_slots(uint64_t entries);
 
 #endif
