@@ -1,6 +1,5 @@
-/* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Splits are tried only along the axis with the
- * widest spread of centres: a third of the binning.
- * SPDX-License-Identifier: MIT */
+/* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Only the axis with the widest spread of
+ * centres is split: a third of the binning. SPDX-License-Identifier: MIT */
 #include "contact/bvh.h"
 
 #include <string.h>
@@ -59,9 +58,7 @@ static float centre(const item *i, int axis) {
 
 static uint32_t bin_of(const item *i, const split *s) {
     const float bin = (centre(i, s->axis) - s->low) * s->scale;
-    return !(bin > 0.0f)              ? 0
-           : bin >= (float)(BINS - 1) ? BINS - 1
-                                      : (uint32_t)bin; /* NaN, from huge boxes, gives bin 0 */
+    return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* NaN, from huge boxes, is 0 */
 }
 
 /* Computes a range's bounds, and a split along the widest axis of its centres; choose_bin() sets its bin. */
@@ -87,8 +84,7 @@ static split measure(const item *items, const range *r, box *bounds) {
         }
     }
     s.low = centres.min[s.axis];
-    s.scale =
-        widest > 1e-30f ? (float)BINS * 0.999f / widest : 0.0f; /* for a smaller extent the scale could overflow */
+    s.scale = widest > 1e-30f ? (float)BINS * 0.999f / widest : 0.0f; /* below, the scale could overflow */
     return s;
 }
 
@@ -151,8 +147,7 @@ static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl
     if (r->depth < SAH_DEPTH && s.scale > 0.0f) {
         choose_bin(items, r, &s);
     }
-    return s.bin > 0 ? partition(items, r, &s)
-                     : r->begin + count / 2; /* equal centres or a very deep range: halve it */
+    return s.bin > 0 ? partition(items, r, &s) : r->begin + count / 2; /* equal centres, or very deep: halve */
 }
 
 /* Makes room for one more node; 0 if out of memory. */
@@ -193,8 +188,7 @@ static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_si
         }
         node->count = 0;
         stack[top++] = (range){middle, r.end, index, r.depth + 1};
-        stack[top++] =
-            (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* popped first: a left child follows its parent */
+        stack[top++] = (range){r.begin, middle, UINT32_MAX, r.depth + 1}; /* the left child follows its parent */
     }
     return 1;
 }

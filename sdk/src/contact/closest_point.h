@@ -50,8 +50,7 @@ static inline void knurl_closest_on_triangle(const knurl_mesh *mesh, uint32_t tr
     closest->feature = 7;
 }
 
-/* Moves a point of the mesh towards p by 1e-6 of their distance: a ray from there does not hit the face it starts
- * on. */
+/* Moves a point of the mesh towards p by 1e-6 of their distance: a ray from it does not hit the face it is on. */
 static inline void knurl_offset_towards(const double point[3], const double p[3], double out[3]) {
     double way[3];
     const double size = fabs(point[0]) + fabs(point[1]) + fabs(point[2]);

@@ -81,8 +81,7 @@ typedef struct knurl_cast {
     knurl_visits *visits; /* budget of the cast; null: unlimited */
 } knurl_cast;
 
-/* Result of a cast. Faces extend beyond their edges by the shape's seam, so that no segment passes between two that
- * touch. */
+/* Result of a cast. Faces extend beyond their edges by the shape's seam: no segment passes between two that touch. */
 typedef struct knurl_cast_hit {
     double share;      /* fraction of the segment, 0 to 1 */
     double height;     /* m: of the segment's start above the face */

@@ -1,5 +1,4 @@
-/* A triangle mesh ready for contact, in the surface's own frame. Immutable once built, so any number of HIPs may read
- * it.
+/* A triangle mesh ready for contact, in the surface's own frame. Immutable once built: any number of HIPs may read it.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_H
 #define KNURL_SRC_MESH_H
@@ -14,8 +13,7 @@
 #define KNURL_BOUNDARY          3u          /* no triangle beyond this edge */
 #define KNURL_NON_MANIFOLD_EDGE 7u          /* more than one triangle beyond this edge */
 #define KNURL_FLIPPED           0x40000000u /* the triangle beyond this edge has the opposite winding */
-#define KNURL_NON_MANIFOLD                                                                                             \
-    0x80000000u /* of the vertex: swinging does not reach all of its triangles (knurl_vertex_corners) */
+#define KNURL_NON_MANIFOLD      0x80000000u /* of the vertex: swinging misses some triangles (knurl_vertex_corners) */
 
 /* A non-manifold vertex (a bow tie, or more than two sheets at an edge): its triangles are not all connected by edges
  * that two of them share, so its corners are listed. */
@@ -35,8 +33,7 @@ typedef struct knurl_mesh {
     float *uvs;           /* u, v per attribute, or null */
     uint32_t *triangles;  /* three vertices per triangle, in the hierarchy's leaf order */
     uint32_t *attributes; /* three per triangle: indices in uvs and tangents; null: same as the vertices */
-    uint32_t *opposite; /* three per triangle: of each corner, the corner opposite the same edge on its other side, and
-                           flags */
+    uint32_t *opposite;   /* three per triangle: of each corner, the corner opposite across the edge, and flags */
     knurl_vertex_corners *non_manifold; /* sorted by vertex, or null */
     uint32_t *non_manifold_corners;     /* the corners of those, run after run, or null */
     knurl_bvh_node *nodes;              /* the hierarchy; [0] is the root */

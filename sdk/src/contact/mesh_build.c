@@ -65,8 +65,8 @@ static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint3
     out[2] = w[(first + 2) % 3];
 }
 
-/* Searches for a triangle with the same corners as the one after the last, and adds that one if it is new. Returns 0 if
- * it is new, 1 for a duplicate, -1 for a duplicate with opposite winding. */
+/* Compares the triangle after the last with those kept; adds it to the table if its corners are new. Returns 0 if they
+ * are new, 1 for a duplicate, -1 for a duplicate with opposite winding. */
 static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_t *table, uint64_t mask) {
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
@@ -158,7 +158,7 @@ static knurl_result build_hierarchy(draft *d) {
     return result;
 }
 
-/* Numbers the names of the corners in order of use; names: null to number the corners themselves. Returns the count. */
+/* Numbers names[corner], or the corners themselves if names is null, in order of first use. Returns the count. */
 static uint32_t number_by_use(const draft *d, const uint32_t *names, uint32_t *numbers, uint32_t *out) {
     uint32_t count = 0;
     memset(numbers, 0, d->desc->vertex_count * sizeof *numbers);

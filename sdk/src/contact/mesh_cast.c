@@ -85,7 +85,7 @@ int knurl_mesh_cast(const knurl_mesh *mesh, const knurl_cast *cast, knurl_cast_h
     hit->share = 1.5;
     knurl_mesh_search_begin(&search, mesh, low, high, cast->visits, cast->part);
     while (knurl_mesh_search_next(&search, &box, &triangle) && knurl_visits_take(cast->visits, 1)) {
-        if (cast_at(mesh, triangle, cast, way, hit)) { /* search on only before this hit */
+        if (cast_at(mesh, triangle, cast, way, hit)) { /* continue only before this hit */
             bound(mesh, cast, hit->point, low, high);
             knurl_search_box_set(low, high, &box);
         }

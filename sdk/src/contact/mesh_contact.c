@@ -22,7 +22,7 @@ static int32_t has_parts(const knurl_mesh *mesh) {
     return mesh->touching > 0 ? KNURL_UNSURE_PARTS : 0;
 }
 
-/* Distance along the surface from the boundary that a closest point is on to the HIP; along: the same as a vector. */
+/* Distance of a HIP beyond the boundary that its closest point is on, along the surface; along: as a vector. */
 static double off_boundary(const knurl_closest_point *closest, double along[3]) {
     vec3_madd(closest->offset, -vec3_dot(closest->offset, closest->normal) / closest->area2, closest->normal, along);
     return vec3_length(along);
@@ -125,8 +125,7 @@ static int contact_in_between(const knurl_mesh *mesh, const knurl_contact_query 
     return 1;
 }
 
-/* 1 if contact continues: the HIP is behind the surface, behind another part that it crossed while leaving, or in
- * reach. */
+/* 1 if contact continues: the HIP is behind the surface, behind another part crossed while leaving, or in reach. */
 static int is_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach, int32_t *side,
                       knurl_contact *c) {
     return c->z <= 0.0 || contact_in_between(mesh, query, side, c) || c->z <= reach;
@@ -232,7 +231,7 @@ static int begin_by_crossing(const knurl_mesh *mesh, const knurl_contact_query *
     return 1;
 }
 
-/* 1 if the HIP moved less in this tick than its distance to the surface. */
+/* 1 if the HIP moved less in this tick than its distance to the surface, as found by a complete search. */
 static int cannot_have_crossed(const knurl_contact_query *query, double distance2) {
     double way[3];
     vec3_sub(query->hip, query->previous, way);
@@ -295,8 +294,7 @@ static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *qu
     return 1;
 }
 
-/* A HIP inside: the proxy follows it. The triangle under the proxy is cached: the proxy often stays on it for some
- * ticks. */
+/* A HIP inside: the proxy follows it. Its triangle is cached, because it often stays there for some ticks. */
 static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query, double reach,
                         knurl_contact_state *state, knurl_contact *c) {
     knurl_closest_point closest;
@@ -321,8 +319,7 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
 
 int knurl_mesh_contact(const knurl_mesh *mesh, const knurl_contact_query *query, knurl_contact_state *state,
                        knurl_contact *contact) {
-    const double reach =
-        query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* faster than a call of fmax() */
+    const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE; /* fmax() is slower */
     const int32_t was_inside = state->inside;
     contact->unsure = 0;
     const int held = was_inside ? hold_contact(mesh, query, reach, state, contact)

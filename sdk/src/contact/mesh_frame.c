@@ -101,7 +101,7 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
-/* Square of twice the area times the length of a gradient: of a value that grows by c1 and c2 along the edges. */
+/* Squared length of a gradient, times the square of twice the area. The value grows by c1 and c2 along the edges. */
 static double steepness2(double c1, double c2, const double edge1[3], const double edge2[3]) {
     double along[3];
     vec3_scale(c1, edge2, along);

@@ -9,8 +9,7 @@
 /* Part of knurl_mesh_create(): sets uv_scale and stretch. */
 void knurl_mesh_measure_uvs(knurl_mesh *mesh);
 
-/* After knurl_mesh_create(): makes x run along an axis (unit), and sets stretch to the length of its tangential
- * part. */
+/* After knurl_mesh_create(): makes x run along an axis (unit), and sets stretch to its tangential length. */
 void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]);
 
 /* Slow path of knurl_mesh_frame(), if no frame is cached. */

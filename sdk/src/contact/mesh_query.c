@@ -64,8 +64,7 @@ int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius,
         uint32_t index;
     } stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 1;
-    const double limit2 =
-        radius * radius * (1.0 + 1e-12) + 1e-300; /* a point at exactly `radius` counts, also if it is 0 */
+    const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* a point at `radius` counts, also at 0 */
     double best2 = limit2;
     double low[3], high[3];
     knurl_bvh_bound(p, p, sqrt(limit2), low, high);
@@ -169,13 +168,14 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
     return best < 1.5 ? side : 0;
 }
 
-/* Triangles that knurl_mesh_exceeds_visits() samples: many of those that lie on top of one another are among them. */
+/* Triangles that knurl_mesh_exceeds_visits() samples: a place with many overlapping triangles gets many of them. */
 #define SAMPLES 64
 
 /* m: motion of a fast hand in a tick. */
 #define SAMPLE_STEP 1e-3
 
-/* In front, contact gets half of a tick's visits; a segment through a face is cast several times. */
+/* 1 if contact at p takes more visits than it may: half of a tick's for the nearest point in front, a quarter for a
+ * crossing, because a segment is cast several times. */
 static int exceeds_visits_at(const knurl_mesh *mesh, const double p[3], const double normal[3], double reach,
                              uint32_t max_visits) {
     knurl_visits nearest = {max_visits / 2, 0};
@@ -210,8 +210,7 @@ int knurl_mesh_exceeds_visits(const knurl_mesh *mesh, double reach, uint32_t max
     return exceeds;
 }
 
-/* The first front face from above, then from the sides, then from below, towards the middle of the bounds; if there is
- * no such face, the point nearest to the middle. */
+/* The first front face on, then beside, then under the middle of the bounds; else the point nearest to the middle. */
 static void find_front_face(const knurl_mesh *mesh, const double rotation[9], knurl_contact *anchor) {
     static const double from[6][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
     double centre[3];

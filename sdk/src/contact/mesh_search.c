@@ -100,7 +100,6 @@ void knurl_mesh_search_begin(knurl_mesh_search *s, const knurl_mesh *mesh, const
     if (near->count != NOT_LISTED) {
         s->count = 0;
         s->listed = near->triangles;
-        s->end =
-            knurl_visits_take(visits, near->count / 4) ? near->count : 0; /* cheaper than the triangles of a leaf */
+        s->end = knurl_visits_take(visits, near->count / 4) ? near->count : 0; /* cheaper than a leaf's */
     }
 }

@@ -9,8 +9,7 @@
 /* Triangles of a leaf that are tested at a time. */
 #define LEAF_MAX 8
 
-/* A triangle with its bounding planes: its own and one through each edge, with unit normals; edge planes face
- * outwards. */
+/* A triangle with its bounding planes: its own and one through each edge, facing outwards; unit normals. */
 typedef struct bounded {
     double corners[3][3];
     double normal[3];
@@ -40,7 +39,7 @@ static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
     }
 }
 
-/* 1 if one of a triangle's planes has all corners beyond it, except the shared one (3: no corner is shared). */
+/* 1 if all of `corners`, except the shared one (3: no corner is shared), are beyond one plane of the triangle. */
 static int is_beyond(const bounded *b, const double corners[3][3], int shared, double seam) {
     int above = 1, below = 1, beside[3] = {1, 1, 1};
     for (int i = 0; i < 3; i++) {
@@ -144,8 +143,7 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, co
     bounded b;
     int shared[2];
     const int count = shared_corners((const double (*)[3])a->corners, corners, shared);
-    if (count > 1 ||
-        (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* a shared edge, or a corner inside a closed fan */
+    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* an edge, or a closed fan */
         return 0;
     }
     const int beyond = is_beyond(a, corners, shared[1], mesh->seam);
@@ -198,7 +196,7 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t
 /* Pairs counted per triangle: enough to show that the mesh is broken. */
 #define PAIRS_A_TRIANGLE 4
 
-/* Counts the touching pairs of a leaf and all leaves near it, as long as *steps lasts. */
+/* Counts the touching pairs of a leaf and all leaves near it, until *steps runs out. */
 static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf, uint64_t *steps) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;

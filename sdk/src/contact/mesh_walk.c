@@ -7,8 +7,8 @@
 #include "contact/corner.h"
 #include "contact/mesh_query.h"
 
-/* Maximum steps of a walk. A stroke of 1 m/s crosses a few triangles per tick; an uncapped teleport over a fine mesh
- * would take thousands. */
+/* Maximum steps of a walk. A stroke of 1 m/s crosses a few triangles per tick, a teleport over a fine mesh
+ * thousands. */
 #define MAX_STEPS 64
 
 /* Limits for vertices with very many triangles (the pole of a sphere, the hub of a fan): triangles tested for the next
@@ -54,8 +54,7 @@ static void vertex_of(const knurl_mesh *mesh, uint32_t corner, double out[3]) {
     out[2] = (double)p[2];
 }
 
-/* Prefetches the neighbours of a triangle: in a mesh larger than the caches, a walk would spend nearly all of its time
- * waiting for memory, one read after the other. */
+/* Prefetches the neighbours of a triangle: in a mesh larger than the caches, a walk would mostly wait for memory. */
 KNURL_PREFETCHING void fetch_neighbours(const knurl_mesh *mesh, uint32_t triangle) {
     const uint32_t *beyond = &mesh->opposite[3 * (size_t)triangle];
     for (int k = 0; k < 3; k++) {
@@ -110,7 +109,7 @@ static double continues(const knurl_closest_point *from, const knurl_closest_poi
     return along < 0.0 ? 2.0 + vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2) : -to->distance2;
 }
 
-/* Lists the corners of a non-manifold vertex; returns their number, at most MAX_SIDE. */
+/* Finds the listed corners of a non-manifold vertex; returns their number, at most MAX_SIDE. */
 static uint32_t corners_at(const knurl_mesh *mesh, const knurl_closest_point *closest, const uint32_t **corners) {
     const uint32_t vertex = mesh->triangles[3 * (size_t)closest->triangle + feature_corner(closest)];
     const knurl_vertex_corners *vertex_corners = &mesh->non_manifold[corner_find_non_manifold(mesh, vertex)];
@@ -309,8 +308,7 @@ static void jump_to_nearest(const walk *w, knurl_closest_point *closest) {
     }
 }
 
-/* A walk of many steps may be circling a vertex of many triangles: moves at once to the triangle whose edge leads most
- * towards p. */
+/* A walk of many steps may be circling a vertex: moves at once to the triangle whose edge leads most towards p. */
 static int step_across_fan(walk *w, const knurl_closest_point *from, uint32_t corner, knurl_closest_point *to) {
     const knurl_swing ways[2] = {{corner, corner_next(corner)}, {corner, corner_last(corner)}};
     double at[3], off[3], most = -HUGE_VAL;

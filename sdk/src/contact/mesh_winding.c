@@ -1,6 +1,5 @@
 /* Joins triangles into sets across the edges between them (union-find; each link stores if the two face opposite ways),
- * and turns over the smaller part of each set.
- * SPDX-License-Identifier: MIT */
+ * and turns over the smaller part of each set. SPDX-License-Identifier: MIT */
 #include "contact/mesh_winding.h"
 
 #include "base/vec3.h"
@@ -177,8 +176,7 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
 /* If the areas of the two sides differ by less than this fraction, neither is the front. */
 #define UNDECIDED 0.01
 
-/* The same in a mesh that is not clean, and the minimum number of triangles to decide by: a set may be a piece of a
- * larger one. */
+/* The same in a mesh that is not clean, and the minimum number of triangles: a set may be a piece of a larger one. */
 #define UNDECIDED_PIECE 0.25
 #define PIECE_MIN       8
 

@@ -9,8 +9,7 @@
 
 #include <string.h>
 
-/* Maximum number of edges before and after they are split at corners that lie on them: each is compared with all
- * corners. */
+/* Maximum number of edges before and after splitting them at corners that lie on them: each is compared with all. */
 #define MAX_UNSPLIT 256
 #define MAX_SPLIT   (4 * MAX_UNSPLIT)
 
@@ -192,8 +191,8 @@ static int reduce(outline *o, double limit) {
     return 1;
 }
 
-/* Splits edges at corners of others that lie on them, so that reverses of a part cancel it. Returns the number of
- * splits, or NONE if there is no room. */
+/* Splits edges at corners of others that lie on them, so that opposite edges cancel a part of them. Returns the number
+ * of splits, or NONE if there is no room. */
 static uint32_t split(outline *o, double limit) {
     const double tolerance = 0.5 * (limit - o->error);
     const uint32_t corners = o->count;

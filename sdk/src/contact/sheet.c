@@ -8,10 +8,9 @@
 
 #include <string.h>
 
-/* A sheet is flat if it lies within both of these of a plane: 1 um, a fiftieth of the resolution of a good device's
- * encoders; and 1e-5 of its size, which keeps slopes and directions within 1e-5 rad or so on a sheet of a few
- * millimetres. The second is stricter below 0.1 m. Single precision needs 1e-7 of the distance from the mesh's
- * origin. */
+/* A sheet is flat if it lies within both of these of a plane: 1 um, a fiftieth of a good device's encoder resolution;
+ * and 1e-5 of its size, which keeps slopes and directions within 1e-5 rad or so on a sheet of a few millimetres. The
+ * second is stricter below 0.1 m. Single precision needs 1e-7 of the distance from the mesh's origin. */
 #define FLAT_DISTANCE 1e-6
 #define FLAT_SHARE    1e-5
 
@@ -70,9 +69,8 @@ static int next_point(const points *p, uint32_t *i, const double from[3], double
     return 0;
 }
 
-/* Fits a plane through the first vertex, the one farthest from it, and the one farthest from the line through both. If
- * all vertices are within d of some plane, they are within 8 d of this one (d at each of the three tilts it by no
- * more). */
+/* Plane through the first vertex, the one farthest from it, and the one farthest from the line through both. If all
+ * vertices are within d of some plane, they are within 8 d of this one (d at each of the three tilts it by no more). */
 static void fit_plane(const points *p, fit *f) {
     static const double zero[3] = {0.0, 0.0, 0.0};
     double along[3] = {0.0, 0.0, 0.0};

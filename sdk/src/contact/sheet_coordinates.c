@@ -153,8 +153,8 @@ static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane 
     return 0.5 * (high[0] - low[0]) <= sheet->limit && 0.5 * (high[1] - low[1]) <= sheet->limit;
 }
 
-/* uvs that are affine to the limit over the whole sheet also have one direction: each triangle's own dP/du is not
- * tested, which on a fine mesh is as rough as its floats. */
+/* uvs that are affine to the limit over the whole sheet have one direction: there is no test of each triangle's dP/du,
+ * which on a fine mesh is as rough as its floats. */
 static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
     uv_sums sums = {.shortest = {HUGE_VAL, HUGE_VAL}};
     for (uint32_t i = 0; i < sheet->count; i++) {

@@ -16,7 +16,7 @@ typedef struct knurl_visits {
 /* The same for a triangle reached by a walk: in a large mesh each waits for memory whose address the last one held. */
 #define KNURL_VISITS_STEP 9
 
-/* Takes `count` visits. 0 if there are not more than that left: the query must end. visits: null: unlimited. */
+/* Takes `count` visits. 0 unless more than that are left: the query must then end. visits: null: unlimited. */
 static inline int knurl_visits_take(knurl_visits *visits, uint32_t count) {
     if (!visits) {
         return 1;
