@@ -1,6 +1,7 @@
 /* Study `tracking`: where bandlimited takes a position from that comes in counts. Moved on by FOAW's velocity and kept
  * within half a count of what the encoder says, as it is built, against a second-order observer within the same bound.
  * SPDX-License-Identifier: MIT */
+#include "say.h"
 #include "steady.h"
 #include "study.h"
 
@@ -134,7 +135,7 @@ static int write_rows(FILE *csv, json_writer *json, void *user) {
         }
         fputs(names[kind], csv);
         study_end_row(csv, cells, OF(cells));
-        printf(
+        say(stdout,
             "%s: false tones %.3f (1 mm), %.3f (0.5 mm); felt to 440 Hz %.3f, %.3f; half cycles of a tremor of 0.01 mm "
             "%.0f (crossed %.0f), of 0.02 mm %.0f (%.0f)\n",
             names[kind], cells[0], cells[2], cells[1], cells[3], cells[4], cells[5], cells[6], cells[7]);
