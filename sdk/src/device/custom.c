@@ -1,4 +1,4 @@
-/* A device that is a caller's functions. SPDX-License-Identifier: MIT */
+/* A device made of a caller's functions. SPDX-License-Identifier: MIT */
 #include "base/base.h"
 #include "device/link.h"
 
@@ -8,18 +8,18 @@
 typedef struct custom {
     knurl_device base;
     knurl_device_functions functions;
-    knurl_link link; /* for functions that block */
-    /* for functions that do not */
+    knurl_link link; /* if the functions block */
+    /* if they do not */
     knurl_device_sample latest;
-    uint64_t without; /* reads since then without a position */
+    uint64_t without; /* reads without a position since `latest` */
     uint32_t has_latest;
 } custom;
 
 static custom *of(knurl_device *device) {
-    return (custom *)(void *)device; /* its first member */
+    return (custom *)(void *)device; /* first member */
 }
 
-/* Refuses reserved fields that are not 0, so that later versions can use them. */
+/* Fails if reserved fields are not 0, so that later versions can use them. */
 static knurl_result read_sample(custom *c, knurl_device_sample *sample) {
     memset(sample, 0, sizeof *sample);
     const knurl_result result = c->functions.read(c->functions.user, sample);
@@ -41,7 +41,6 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
                                                : KNURL_LINK_NOTHING;
 }
 
-/* Starts the I/O thread. */
 static knurl_result open_link(custom *c) {
     knurl_device_info info;
     const knurl_result result = knurl_device_ask(&c->base, &info);
@@ -73,7 +72,7 @@ static knurl_result custom_start(knurl_device *device, double update_rate_hz) {
     return f->start ? f->start(f->user, update_rate_hz) : KNURL_OK;
 }
 
-/* Without a new position the latest one holds for a while, as with an I/O thread. */
+/* If there is no new position, the last one stays valid for a while, as with an I/O thread. */
 static knurl_result custom_read(knurl_device *device, knurl_device_sample *sample) {
     custom *c = of(device);
     const knurl_result result = read_sample(c, sample);

@@ -1,4 +1,4 @@
-/* The device interface over all drivers: checks positions and forces. SPDX-License-Identifier: MIT */
+/* The device interface, above all drivers: checks positions and forces. SPDX-License-Identifier: MIT */
 #include "device/link.h"
 #include "device/port.h"
 
@@ -9,14 +9,14 @@
 
 #include <string.h>
 
-/* A force that was limited to the maximum already may exceed it by rounding; it is sent unchanged. */
+/* A force already limited to the maximum may exceed it by rounding; it is sent unchanged. */
 #define ROUNDING 1e-15
 
-/* ns that a close waits for a thread to send the zero: some periods of the slowest loop. */
+/* ns that a close waits for another thread to send the zero: a few periods of the slowest loop. */
 #define CLOSE_NS 50000000
 
-/* s: the shortest gap that a position is checked against. Devices that deliver positions at 1 kHz move in steps when
- * they are read faster. */
+/* s: the shortest gap that a position is checked against. If a device delivers positions at 1 kHz and is read faster,
+ * its positions move in steps. */
 #define LEAST_GAP 0.002
 
 void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
@@ -30,8 +30,8 @@ static void close_now(knurl_device *device) {
     device->driver->close(device);
 }
 
-/* Of a device in use, returns once its force is zero. A loop's haptic thread or an I/O thread sends that zero; if this
- * is the haptic thread, or there is none (the loop is stepped), it is sent here. */
+/* Waits until the force of a device in use is zero. The loop's haptic thread or the I/O thread sends the zero; if the
+ * caller is the haptic thread, or the loop is stepped and has no thread, it is sent here. */
 static void await_zero(knurl_device *device, uint32_t use) {
     static const double none[3] = {0.0, 0.0, 0.0};
     const int is_here = !(use & KNURL_DEVICE_THREAD) || knurl_load_acquire(&device->thread) == knurl_system_thread_id();
@@ -46,14 +46,14 @@ static void await_zero(knurl_device *device, uint32_t use) {
     }
 }
 
-/* Closed by the owner or by the loop that uses it, whichever comes last. */
+/* The last of the owner and the loop that uses the device frees it. */
 void knurl_device_close(knurl_device *device) {
     if (!device || KNURL_BAD_HANDLE(device, DEVICE)) {
         return;
     }
     (void)__atomic_fetch_or(&device->halted, KNURL_HALTED | KNURL_HALTED_FOR_GOOD, __ATOMIC_SEQ_CST);
     const uint32_t use = knurl_load_acquire(&device->use);
-    if (use & KNURL_DEVICE_LOOP) { /* before the loop can see that it was closed, and free it */
+    if (use & KNURL_DEVICE_LOOP) { /* must finish before the loop can see the close and free the device */
         await_zero(device, use);
     }
     if (__atomic_fetch_or(&device->use, KNURL_DEVICE_CLOSED, __ATOMIC_ACQ_REL) == 0) {
@@ -149,7 +149,7 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
-/* Checks its properties and discards earlier positions. */
+/* Checks the properties and discards earlier positions. */
 static knurl_result begin_check(knurl_device *device) {
     knurl_device_info info;
     const knurl_result result = knurl_device_ask(device, &info);
@@ -206,7 +206,7 @@ knurl_result knurl_device_finish_open(knurl_device *device, knurl_result result,
     return KNURL_OK;
 }
 
-/* KNURL_OK if a hand can have moved the device there. */
+/* KNURL_OK if a hand can have moved the device to `position`. */
 static knurl_result check_position(knurl_device *device, const double position[3]) {
     knurl_position_check *check = &device->check;
     if (!vec3_finite(position)) {
@@ -231,7 +231,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
     vec3_copy(position, check->last);
     check->has_last = 1;
     check->gap = 0.0;
-    if (check->settle > 0.0) { /* after a jump the new position is accepted once it stays */
+    if (check->settle > 0.0) { /* after a jump, a new position is accepted once it stays */
         check->settle -= device->period;
         return KNURL_ERROR_DEVICE_NOT_READY;
     }
@@ -239,7 +239,7 @@ static knurl_result check_position(knurl_device *device, const double position[3
     return KNURL_OK;
 }
 
-/* Replaces what is no unit quaternion by zeros. */
+/* Zeroes a quaternion that is not of unit length. */
 static void check_orientation(double q[4]) {
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     if (!(square > 0.98 && square < 1.02)) {
@@ -249,7 +249,7 @@ static void check_orientation(double q[4]) {
 
 static void lose(knurl_device *device) {
     knurl_device_halt(device);
-    if (!device->link) { /* an I/O thread has reported it already */
+    if (!device->link) { /* an I/O thread has already reported it */
         knurl_events_report(&device->events, KNURL_FAULT_LOST, 0.0);
     }
     knurl_store_release(&device->lost, 1u);
@@ -319,7 +319,7 @@ static knurl_result write_device(knurl_device *device, const double force[3]) {
     }
     const knurl_result result =
         device->link ? knurl_link_write(device->link, safe) : device->driver->write(device, safe);
-    if (!device->link && !device->driver->serve) { /* else the sending thread sets it after the transfer */
+    if (!device->link && !device->driver->serve) { /* otherwise the sending thread does this after the transfer */
         knurl_device_after_force(device, safe);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

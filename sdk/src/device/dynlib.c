@@ -1,4 +1,4 @@
-/* Libraries loaded at run time. SPDX-License-Identifier: MIT */
+/* Loads libraries at run time. SPDX-License-Identifier: MIT */
 #include "device/dynlib.h"
 
 #include "base/system.h"
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What *state says of a library. */
+/* Values of *state. */
 enum { ABSENT, LOADING, LOADED };
 
 static int load(const char *const *names, size_t name_count, const knurl_dynlib_function *functions,
@@ -21,7 +21,7 @@ static int load(const char *const *names, size_t name_count, const knurl_dynlib_
             (void)snprintf(why + used, why_size - used, "%s%s (%s)", used ? "; " : "", names[i], reason);
         }
     }
-    for (size_t i = 0; library && i < function_count; i++) { /* all are there before any is kept */
+    for (size_t i = 0; library && i < function_count; i++) { /* find all before setting any */
         void (*found)(void) = NULL;
         if (!knurl_system_find_function(library, functions[i].name, &found)) {
             (void)snprintf(why, why_size, "it has no %s", functions[i].name);
@@ -35,7 +35,7 @@ static int load(const char *const *names, size_t name_count, const knurl_dynlib_
     return library != NULL;
 }
 
-/* A state for each library, and no lock for all: one whose maker's start-up code hangs must not stop the others. */
+/* A state for each library instead of a common lock: if one vendor's start-up code hangs, others still load. */
 int knurl_dynlib_load(uint32_t *state, const char *const *names, size_t name_count,
                       const knurl_dynlib_function *functions, size_t function_count, char *why, size_t why_size) {
     uint32_t was = ABSENT;

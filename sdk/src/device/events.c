@@ -1,11 +1,11 @@
-/* The ring of events, and the names of faults. SPDX-License-Identifier: MIT */
+/* The event ring and the names of faults. SPDX-License-Identifier: MIT */
 #include "device/events.h"
 
 #include "base/atomic.h"
 #include "base/system.h"
 
-/* A slot is one writer's at a time. One that was held up since the ring went round, or that finds another one still
- * inside, drops its event: waiting is not allowed, and what two write at once is torn. */
+/* Only one writer at a time may hold a slot. A writer drops its event if the ring has overtaken it or if another one
+ * still holds the slot: it must not wait, and two at once would write a torn event. */
 void knurl_events_report(knurl_events *events, int32_t code, double value) {
     const uint64_t number = __atomic_fetch_add(&events->head, 1, __ATOMIC_RELAXED);
     const size_t at = number % KNURL_EVENT_ROOM;
@@ -22,7 +22,7 @@ void knurl_events_report(knurl_events *events, int32_t code, double value) {
     knurl_store_release(&events->slots[at].sequence, 2 * number + 2);
 }
 
-/* Reads number `next`; 0 where its slot has been taken by a later one, or is being written. */
+/* Reads event number `next`; 0 if its slot was reused or is being written. */
 static int read_slot(knurl_events *events, knurl_device_event *event) {
     const size_t at = events->next % KNURL_EVENT_ROOM;
     const uint64_t whole = 2 * events->next + 2;
@@ -36,7 +36,7 @@ static int read_slot(knurl_events *events, knurl_device_event *event) {
     return knurl_load_relaxed(&events->slots[at].sequence) == whole;
 }
 
-/* 1: number `next` will still be written, or has been by now. */
+/* 1 if event number `next` is still to be written, or is complete by now. */
 static int is_on_its_way(const knurl_events *events) {
     const size_t at = events->next % KNURL_EVENT_ROOM;
     return knurl_load_acquire(&events->slots[at].sequence) <= 2 * events->next + 2 &&
@@ -49,14 +49,14 @@ uint32_t knurl_events_next(knurl_events *events, knurl_device_event *event) {
     if (head - events->next > KNURL_EVENT_ROOM) {
         events->next = head - KNURL_EVENT_ROOM;
     }
-    while (events->next < head) { /* 64 at most */
+    while (events->next < head) { /* 64 times at most */
         if (read_slot(events, &found)) {
             events->next++;
             *event = found;
             return 1;
         }
         if (is_on_its_way(events)) {
-            return 0; /* next time */
+            return 0; /* retry on the next call */
         }
         events->next++; /* overwritten, or dropped */
     }
@@ -74,7 +74,7 @@ static const struct {
 
 #define FAULT_COUNT (sizeof faults / sizeof *faults - 1)
 
-/* Its row, or the last one. */
+/* Index of the code's row; the last row if the code is unknown. */
 static size_t find(int32_t code) {
     size_t i = 0;
     while (i < FAULT_COUNT && faults[i].code != code) {

@@ -3,18 +3,18 @@
 #include "base/system.h"
 #include "device/driver.h"
 
-/* More devices than a desk holds. Further ones get no force at the end either, but are not waited for. */
+/* More devices than fit on a desk. The force of any further device is zeroed at the end too, but not waited for. */
 #define DEVICE_ROOM 16
 
-/* How long the end of the process waits for sending threads: an I/O thread's exchange takes at most 5 ms. */
+/* ns that the end of the process waits for sending threads: an I/O thread's exchange takes at most 5 ms. */
 #define WAIT_NS 20000000
 
-/* Bits of `reasons`; the rest counts stops under way. */
+/* Bits of `reasons`; the upper bits count stops in progress. */
 #define ENDING   1u
 #define ONE_STOP 2u
 
 static knurl_device *open_devices[DEVICE_ROOM]; /* atomics */
-static uint32_t reasons;                        /* atomic; 0: forces may go out */
+static uint32_t reasons;                        /* atomic; if 0, forces may be sent */
 
 uint32_t knurl_device_must_be_zero(void) {
     return __atomic_load_n(&reasons, __ATOMIC_SEQ_CST) != 0;
@@ -25,10 +25,10 @@ static int is_zero(const double force[3]) {
 }
 
 /* A sending thread clears `quiet`, then reads `reasons` and `halted`; a thread that ends the process or closes the
- * device sets one of these, then reads `quiet`. So at least one of the two sees the other's store. */
+ * device sets one of these, then reads `quiet`. So at least one of the two threads sees the other's store. */
 void knurl_device_before_force(knurl_device *device, double force[3]) {
     if (!is_zero(force)) {
-        if (knurl_load_relaxed(&device->quiet)) { /* only this thread writes it */
+        if (knurl_load_relaxed(&device->quiet)) { /* written by this thread only */
             __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
         }
         if (knurl_device_must_be_zero() || __atomic_load_n(&device->halted, __ATOMIC_SEQ_CST)) {
@@ -44,7 +44,7 @@ void knurl_device_after_force(knurl_device *device, const double force[3]) {
 }
 
 void knurl_device_register(knurl_device *device) {
-    if (!device->link) { /* an I/O thread reports it itself */
+    if (!device->link) { /* an I/O thread sets it itself */
         knurl_store_release(&device->quiet, 1u);
     }
     for (int i = 0; i < DEVICE_ROOM; i++) {
@@ -81,7 +81,7 @@ static void halt_all(void) {
     }
 }
 
-/* These may run in a signal handler: nothing but atomics, the clock and naps. */
+/* The functions below may run in a signal handler: only atomics, the clock and sleeps. */
 static void zero_now(void) {
     const int64_t until = knurl_system_now_ns() + WAIT_NS;
     while (!all_quiet() && knurl_system_now_ns() < until) {
@@ -100,7 +100,7 @@ static void stop(void) {
 }
 
 static void resume(void) {
-    halt_all(); /* so that forces return by the ramp */
+    halt_all(); /* so that forces ramp up again */
     (void)__atomic_fetch_sub(&reasons, ONE_STOP, __ATOMIC_SEQ_CST);
 }
 

@@ -1,4 +1,4 @@
-/* Finds the driver for a URI, and lists connected devices. SPDX-License-Identifier: MIT */
+/* Finds the driver of a URI, and lists connected devices. SPDX-License-Identifier: MIT */
 #include "device/drivers.h"
 
 #include "base/atomic.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LISTING_ROOM 64 /* of one kind */
+#define LISTING_ROOM 64 /* per driver */
 #define LOOK_NS      INT64_C(2000000000)
 #define STACK_BYTES  ((size_t)256 * 1024)
 
@@ -37,7 +37,7 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
                       "device: expected fake, touch, falcon, rawhid, serial, dhd or inverse3, found '%s'", uri);
 }
 
-/* One driver's listing, on a thread of its own: a maker's library may hang. */
+/* One driver's listing, on its own thread because a vendor's library may hang. */
 typedef struct look {
     const knurl_driver *driver;
     knurl_thread *thread;
@@ -67,7 +67,7 @@ static look *start_look(const knurl_driver *driver) {
     return l;
 }
 
-/* Takes over what was found by `deadline`. A look that hangs keeps its thread and its memory. */
+/* Adds the devices found before `deadline`. If the driver hangs, its thread and memory are leaked. */
 static void finish_look(look *l, int64_t deadline, knurl_listings *listings) {
     while (!knurl_load_acquire(&l->is_done) && knurl_system_now_ns() < deadline) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 500000);

@@ -4,7 +4,7 @@
 #include "base/atomic.h"
 
 void knurl_device_halt(knurl_device *device) {
-    /* The fake device's motors obey the flag by themselves; an I/O thread writes zero within its next exchange. */
+    /* The fake device's motors check the flag directly; an I/O thread writes zero within its next exchange. */
     if (KNURL_IS_HANDLE(device, DEVICE)) {
         (void)__atomic_fetch_or(&device->halted, KNURL_HALTED, __ATOMIC_ACQ_REL);
     }

@@ -1,4 +1,4 @@
-/* A device's properties, checked wherever they are asked for. SPDX-License-Identifier: MIT */
+/* Device properties, checked each time they are read. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
 
 #include "base/base.h"

@@ -13,7 +13,7 @@ static int64_t patience_ns(void) {
     return (int64_t)(KNURL_LINK_PATIENCE * 1e9);
 }
 
-/* The force to send now: the newest; zero if the device is halted or the force is too old. */
+/* The newest force; zero if the device is halted or the force is too old. */
 static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = link->device;
@@ -22,7 +22,7 @@ static void choose_force(knurl_link *link, int64_t now, double force[3]) {
     const int64_t age = now - link->forces[link->orders.front].time_ns;
     const int is_late = vec3_dot(newest, newest) > 0.0 && age > patience_ns();
     if (is_late && !link->is_late && !knurl_load_acquire(&device->halted)) {
-        knurl_device_halt(device); /* later forces return by a ramp */
+        knurl_device_halt(device); /* so that later forces ramp up */
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
@@ -37,7 +37,7 @@ static void publish(knurl_link *link, const knurl_device_sample *sample) {
     knurl_count_up(&link->exchanges);
 }
 
-/* Reported once by either thread, until the device answers again. */
+/* Reports silence once, from either thread, until the device answers again. */
 static void tell_silence(knurl_link *link, double seconds) {
     if (!knurl_load_relaxed(&link->is_silent) && !__atomic_exchange_n(&link->is_silent, 1, __ATOMIC_ACQ_REL)) {
         knurl_device_halt(link->device);
@@ -45,7 +45,7 @@ static void tell_silence(knurl_link *link, double seconds) {
     }
 }
 
-/* Acts on the outcome of an exchange. */
+/* Handles the outcome of an exchange. */
 static void judge(knurl_link *link, int outcome, int64_t now) {
     knurl_device *device = link->device;
     const uint32_t is_off = outcome == KNURL_LINK_OFF;
@@ -55,7 +55,7 @@ static void judge(knurl_link *link, int outcome, int64_t now) {
     if (outcome == KNURL_LINK_POSITION || outcome == KNURL_LINK_NO_POSITION || is_off) {
         link->heard_at = now;
         knurl_store_release(&link->is_off, is_off);
-        knurl_store_release(&link->is_silent, 0u); /* the position has been posted */
+        knurl_store_release(&link->is_silent, 0u); /* after the position has been posted */
     }
     const int64_t silence = now - link->heard_at;
     if (silence > patience_ns() && outcome != KNURL_LINK_LOST) {
@@ -68,7 +68,7 @@ static void judge(knurl_link *link, int outcome, int64_t now) {
     }
 }
 
-/* The guard process counts silence as the host's end. */
+/* Sends a heartbeat to the guard process, which takes silence as the end of this process. */
 static void tell_guard(knurl_link *link, int64_t now) {
     if (link->guard && !link->is_unguarded && now - link->told_guard_at >= KNURL_GUARD_SIGN_MS * (int64_t)1000000) {
         link->told_guard_at = now;
@@ -79,7 +79,7 @@ static void tell_guard(knurl_link *link, int64_t now) {
     }
 }
 
-/* One exchange. Returns 0 after the last. */
+/* One exchange. Returns 0 if the device is lost. */
 static int run_cycle(knurl_link *link) {
     double force[3];
     knurl_device_sample sample;
@@ -109,14 +109,14 @@ static void io_thread(void *argument) {
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
         if (!run_cycle(link)) {
-            knurl_store_release(&link->device->quiet, 1u); /* no device is left to send to */
+            knurl_store_release(&link->device->quiet, 1u); /* no device left to send to */
             return;
         }
         const int64_t now = knurl_system_now_ns();
-        next = next + period > now ? next + period : now; /* slow transfers set the rate */
+        next = next + period > now ? next + period : now; /* if transfers are slow, they set the rate */
         knurl_system_sleep_until_ns(next);
     }
-    (void)link->exchange(link->device, none, &ignored); /* twice: the first may answer for an earlier one */
+    (void)link->exchange(link->device, none, &ignored); /* twice: the first may be answered for an earlier one */
     (void)link->exchange(link->device, none, &ignored);
     knurl_store_release(&link->device->quiet, 1u);
 }
@@ -125,7 +125,7 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     link->device = device;
     link->exchange = exchange;
     link->native_rate = native_rate;
-    if (device->link != link) { /* after a reopen it is set already, and other threads may read it */
+    if (device->link != link) { /* after a reopen it is already set, and other threads may read it */
         device->link = link;
     }
     knurl_mailbox_init(&link->positions);
@@ -152,7 +152,7 @@ void knurl_link_close(knurl_link *link) {
 
 void knurl_link_start(knurl_link *link, double update_rate_hz) {
     const double slower = update_rate_hz < link->native_rate ? update_rate_hz : link->native_rate;
-    const double period = 1.0 / slower; /* the slower of the two limits new positions */
+    const double period = 1.0 / slower; /* the slower rate limits new positions */
     link->patience = (uint64_t)((KNURL_LINK_PATIENCE + 2.0 * period) * update_rate_hz);
 }
 
@@ -197,7 +197,7 @@ knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
 }
 
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
-    status->lost |= knurl_load_acquire(&link->lost); /* also if it was not read since */
+    status->lost |= knurl_load_acquire(&link->lost); /* also if no read has happened since */
     status->exchanges = knurl_load_relaxed(&link->exchanges);
     status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
     status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);

@@ -15,7 +15,7 @@ void knurl_listings_add(knurl_listings *listings, const char *uri, const char *n
         va_start(arguments, reason);
         (void)vsnprintf(listing->reason, sizeof listing->reason, reason, arguments);
         va_end(arguments);
-        (void)knurl_text_line(listing->name, sizeof listing->name, listing->name); /* a device's own, or a path's */
+        (void)knurl_text_line(listing->name, sizeof listing->name, listing->name); /* from the device, or a path */
         (void)knurl_text_line(listing->reason, sizeof listing->reason, listing->reason);
     }
 }

@@ -4,7 +4,7 @@
 
 #include "device/driver.h"
 
-/* One more; `reason` is printf's, "" for a device that can be opened. */
+/* Appends a device. `reason`: printf format; "" if the device can be opened. */
 void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...)
     KNURL_PRINTF(4, 5);
 

@@ -1,8 +1,8 @@
-/* The check of the motors' directions. Read end_block() first.
+/* Checks the motors' directions. Read end_block() first.
  *
- * A position alone cannot tell a backwards motor from a hand that presses: in both cases the handle goes against the
- * force. So the force is switched on and off by a pattern that the hand does not know. What the handle does in time
- * with the pattern is the motors' doing.
+ * A position alone cannot distinguish a backwards motor from a hand that presses: in both cases the handle moves
+ * against the force. So the force is switched on and off in a pattern unknown to the hand. Motion in time with the
+ * pattern is caused by the motors.
  * SPDX-License-Identifier: MIT */
 #include "device/motor_check.h"
 
@@ -10,36 +10,35 @@
 
 #include <string.h>
 
-/* A block: force, none, none, force. Each lasts QUARTER steps of 1 ms, the last one LAG steps longer, because
- * positions follow the force by about LAG steps: a transfer each way. */
+/* A block: on, off, off, on. Each part lasts QUARTER steps of 1 ms, the last one LAG steps longer, because positions
+ * follow the force by about LAG steps: one transfer in each direction. */
 #define STEP    0.001 /* s */
 #define QUARTER 12
 #define LAG     2
-#define WINDOW  (4 * QUARTER) /* positions that count, from step LAG on */
+#define WINDOW  (4 * QUARTER) /* positions used, from step LAG on */
 #define BLOCK   (WINDOW + LAG)
 
-/* Which blocks are inverse, as bits: the Barker code of length 13, so that no rhythm of the hand's keeps step with
- * them. */
+/* Bits: blocks that are inverted. The Barker code of length 13, so that no rhythm of the hand matches it. */
 #define POLARITY   0x0a60u
 #define POLARITIES 13
 
-#define KNOWN       0.25 /* N: does no harm in either direction */
-#define LIMIT       1.0  /* N: of the first pulses: a free handle of 100 g moves by some 10 mm in two blocks */
-#define RAMP_TIME   0.1  /* s from LIMIT to the greatest force */
-#define SIGNIFICANT 0.5  /* a force checks the axes that carry so much of it */
+#define KNOWN       0.25 /* N: harmless in either direction */
+#define LIMIT       1.0  /* N: of the first pulses: moves a free handle of 100 g by about 10 mm in two blocks */
+#define RAMP_TIME   0.1  /* s from LIMIT to max_force */
+#define SIGNIFICANT 0.5  /* an axis counts as pushed if it carries this share of the force */
 
 /* Chosen by the study in tests/device/core/test_motor_check.c. */
-#define SURE         4.0    /* standard errors of a mean that is believed */
+#define SURE         4.0    /* standard errors required of a mean */
 #define LEAST_NOISE  1.0    /* m/s^2 of a block's answer */
 #define LEAST_BLOCKS 2      /* for a decision */
-#define LEAST_ASIDE  4      /* for "it goes aside": hands also move aside */
+#define LEAST_ASIDE  4      /* for a verdict of "sideways", because hands also move sideways */
 #define MOST_BLOCKS  12     /* then the limit is doubled */
-#define TRAVEL       0.0005 /* m: a handle that moves less, for example at its stop, gives no result */
-#define ASIDE        2.0    /* tangent of the angle to the force from which on the handle goes aside */
+#define TRAVEL       0.0005 /* m: if the handle moves less, for example at its stop, there is no result */
+#define ASIDE        2.0    /* tangent of the angle to the force above which the handle moves sideways */
 
 /* sum of weight * position = (acceleration with force - without), m/s^2 for steps of 1 ms. The least-squares fit of a
- * mass' path under the pulses; fitted beside it, and therefore without a trace in the sum: a cubic (the hand's own
- * motion), the pulses (a spring) and their integral (a damper). Symmetric: this is the first half. */
+ * mass' path under the pulses; a cubic (the hand's own motion), the pulses (a spring) and their integral (a damper) are
+ * fitted with it and so do not affect the sum. Symmetric: this is the first half. */
 static const double weights[WINDOW / 2] = {6666.6824,  3812.7145,  1451.2996,  -417.56201, -1793.8705, -2677.6258,
                                            -3068.8279, -2967.4769, -2373.5726, -1287.1152, 291.89532,  2363.4591,
                                            -9010.0219, -6659.5814, -4522.8173, -2599.7296, -890.31837, 605.41649,
@@ -68,7 +67,7 @@ void knurl_motor_check_start(knurl_motor_check *check, double period) {
     begin_answers(check);
 }
 
-/* The axes that carry the force, as bits. */
+/* Bits: axes that carry the force. */
 static uint32_t axes_of(const double force[3], double length) {
     uint32_t axes = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -128,7 +127,7 @@ static void add_answer(knurl_motor_check *check) {
     check->blocks++;
 }
 
-/* Many blocks and no answer: the handle is held too firmly, or follows no force. What was tried so far does no harm. */
+/* No answer after many blocks: the handle is held too firmly, or does not move. Forces tried so far are harmless. */
 static void try_harder(knurl_motor_check *check, double length) {
     if (length > 0.5 * check->limit) {
         check->known = check->limit;
@@ -138,7 +137,7 @@ static void try_harder(knurl_motor_check *check, double length) {
     begin_answers(check);
 }
 
-/* The axis on which `sum` is furthest from where `force`, a unit vector, points. */
+/* The axis on which the direction of `sum` differs most from the unit vector `force`. */
 static int worst_axis(const double force[3], const double sum[3]) {
     const double length = vec3_length(sum);
     int worst = 0;
@@ -151,7 +150,7 @@ static int worst_axis(const double force[3], const double sum[3]) {
     return worst;
 }
 
-/* Did the handle go where the force pointed? The noise is taken from how much one answer differs from the next. */
+/* Compares the handle's motion with the force. The noise is estimated from differences of successive answers. */
 static int end_block(knurl_motor_check *check) {
     double force[3];
     double beside[3];
@@ -169,7 +168,7 @@ static int end_block(knurl_motor_check *check) {
     if (check->blocks >= LEAST_BLOCKS) {
         const double noise = fmax(LEAST_NOISE, sqrt(check->spread / (2.0 * (check->blocks - 1))));
         const double root = sqrt((double)check->blocks);
-        const double sure = SURE * noise * (root + 1.0 / root); /* of few blocks the noise is not known well either */
+        const double sure = SURE * noise * (root + 1.0 / root); /* few blocks give an uncertain noise, too */
         const int goes_aside = check->blocks >= LEAST_ASIDE && aside >= sure && aside > ASIDE * along;
         if ((along <= -sure && travel <= -TRAVEL) || (goes_aside && vec3_length(moved) >= TRAVEL)) {
             check->is_on = 0;

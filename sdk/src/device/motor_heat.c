@@ -1,20 +1,20 @@
-/* Remembers the heat of the motors of closed devices. SPDX-License-Identifier: MIT */
+/* Keeps the motor heat of closed devices. SPDX-License-Identifier: MIT */
 #include "device/driver.h"
 #include "device/port.h"
 
 #include "base/atomic.h"
 
-/* As many as there are drivers of real devices; one more would begin cold. */
+/* Slots, one per driver; if all are taken, further kinds start cold. */
 #define KINDS 4
 
 static struct {
-    const knurl_driver *driver; /* null: free */
+    const knurl_driver *driver; /* null if free */
     knurl_motor_heat motors;
 } kept[KINDS];
 
-static uint32_t held; /* atomic: 1 for the few loads and stores of a thread that closes a device or starts a loop */
+static uint32_t held; /* atomic: spin lock for a few loads and stores when a device is closed or a loop starts */
 
-/* With `held`. Null: there is none of the device's kind, or no room. */
+/* Called with `held`. Null if the driver keeps no heat, or if there is no room. */
 static knurl_motor_heat *find(const knurl_device *device) {
     for (int i = 0; i < KINDS && device->driver->keeps_heat; i++) {
         if (!kept[i].driver || kept[i].driver == device->driver) {

@@ -6,11 +6,11 @@
 
 #include <stdint.h>
 
-/* What a device's latest loop left: how warm the motors were, when, and by which clock. */
+/* Motor heat at the end of a device's last loop, with its time and clock. */
 typedef struct knurl_motor_heat {
-    double square;              /* N^2: as a force of this square makes them in the long run */
+    double square;              /* N^2: a steady force with this square would heat the motors as much */
     int64_t at;                 /* ns */
-    int64_t (*now)(void *user); /* null: no loop has run */
+    int64_t (*now)(void *user); /* null if no loop has run */
     void *user;
 } knurl_motor_heat;
 

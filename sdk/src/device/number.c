@@ -28,8 +28,8 @@ int knurl_number_hex(const char *text, size_t length, double *value) {
 typedef struct decimal {
     int64_t mantissa;
     int significant; /* digits in it */
-    int digits;      /* seen, zeros in front included */
-    int scale;       /* of ten */
+    int digits;      /* read, including leading zeros */
+    int scale;       /* power of ten */
 } decimal;
 
 static size_t take_digits(const char *text, size_t at, size_t length, int scale, decimal *d) {
@@ -53,7 +53,7 @@ static size_t take_exponent(const char *text, size_t at, size_t length, int *exp
 }
 
 int knurl_number(const char *text, size_t length, double *value) {
-    /* a mantissa below 2^53 and a power of ten up to 22 are both exact, so that one rounding is all there is */
+    /* a mantissa below 2^53 and a power of ten up to 22 are exact, so that the result is rounded only once */
     static const double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                       1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     if (length > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {

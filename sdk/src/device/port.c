@@ -1,4 +1,4 @@
-/* The device as a loop uses it. SPDX-License-Identifier: MIT */
+/* The device interface of loops. SPDX-License-Identifier: MIT */
 #include "device/port.h"
 #include "device/driver.h"
 

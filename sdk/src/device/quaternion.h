@@ -1,4 +1,4 @@
-/* Orientations of styli. SPDX-License-Identifier: MIT */
+/* Stylus orientations. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_QUATERNION_H
 #define KNURL_SRC_QUATERNION_H
 
@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* The unit quaternion x, y, z, w of a rotation whose matrix has these columns; 0, 0, 0, 0 where they are none. The
- * greatest component comes from the diagonal, so that none is divided by what is nearly 0. */
+/* Unit quaternion x, y, z, w of the rotation matrix with these columns; 0, 0, 0, 0 if it is not a rotation. Divides by
+ * the largest component, found from the diagonal, never by one close to 0. */
 static inline void quaternion_from_axes(const double x[3], const double y[3], const double z[3], double q[4]) {
     double across[3];
     vec3_cross(x, y, across);
