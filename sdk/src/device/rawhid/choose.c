@@ -1,4 +1,4 @@
-/* Chooses among HID interfaces. SPDX-License-Identifier: MIT */
+/* Chooses a HID interface. SPDX-License-Identifier: MIT */
 #include "device/rawhid/choose.h"
 
 #include "device/listings.h"
@@ -15,7 +15,7 @@ static const struct {
 
 #define KNOWN_COUNT (sizeof known / sizeof *known)
 
-/* How well an interface fits, the best last. */
+/* Quality of an interface's fit, in rising order. */
 enum { OTHER_DEVICE, OTHER_USAGE, OTHER_SIZE, DENIED, FITS };
 
 static size_t known_bytes(uint16_t vendor, uint16_t product) {
@@ -54,7 +54,7 @@ static int rank(const knurl_rawhid_wanted *wanted, const knurl_rawhid_found *fou
     return found->is_denied ? DENIED : FITS;
 }
 
-/* Why it is not the one. */
+/* Describes an interface that does not fit. */
 static void explain(const knurl_rawhid_wanted *wanted, const knurl_rawhid_found *found, char *text, size_t size) {
     char expected[48] = "14 to 64 bytes, the same both ways";
     if (wanted->report_bytes) {
@@ -169,7 +169,7 @@ void knurl_rawhid_list(const knurl_rawhid_bus *bus, knurl_listings *listings) {
     (void)knurl_rawhid_want("", &geometry, &wanted);
     const size_t count = bus->look(bus->user, 0, 0, found, KNURL_RAWHID_FOUND);
     for (size_t i = 0; i < count; i++) {
-        if (best_of_its_kind(&wanted, found, count, i)) { /* a Teensy has a second interface of another usage */
+        if (best_of_its_kind(&wanted, found, count, i)) { /* a Teensy has a second interface with another usage */
             explain(&wanted, &found[i], text, sizeof text);
             (void)snprintf(uri, sizeof uri, "rawhid:%04x:%04x", found[i].vendor, found[i].product);
             knurl_listings_add(listings, uri, found[i].name[0] ? found[i].name : "raw HID device", "%s", text);

@@ -1,4 +1,4 @@
-/* Chooses the device among the connected HID interfaces, or says why none fits. SPDX-License-Identifier: MIT */
+/* Chooses among the connected HID interfaces, or reports why none fits. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_CHOOSE_H
 #define KNURL_SRC_RAWHID_CHOOSE_H
 
@@ -6,21 +6,21 @@
 #include "device/rawhid/geometry.h"
 #include "device/rawhid/transport.h"
 
-/* What is looked for. */
+/* Search criteria. */
 typedef struct knurl_rawhid_wanted {
-    uint16_t vendor, product; /* 0, 0: whichever is known */
+    uint16_t vendor, product; /* 0, 0: any known device */
     uint16_t usage_page, usage;
-    size_t report_bytes; /* 0: as many as it says, or as is known of it */
+    size_t report_bytes; /* 0: as the report descriptor has it, or the known device */
 } knurl_rawhid_wanted;
 
-/* By `id` ("" or "VID:PID") before the geometry. Errors: KNURL_ERROR_ARGUMENT. */
+/* Sets the criteria from `id` ("" or "VID:PID"), which overrides the geometry. Errors: KNURL_ERROR_ARGUMENT. */
 knurl_result knurl_rawhid_want(const char *id, const knurl_rawhid_geometry *geometry, knurl_rawhid_wanted *wanted);
 
-/* The first that fits, and the length of its reports. Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_SYSTEM. */
+/* Finds the first interface that fits, and its report length. Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_SYSTEM. */
 knurl_result knurl_rawhid_choose(const knurl_rawhid_bus *bus, const knurl_rawhid_wanted *wanted,
                                  knurl_rawhid_found *chosen, size_t *report_bytes);
 
-/* All that are known; one entry with a reason where none is there. */
+/* Lists all known devices; if no device is connected, adds one entry with the reason. */
 void knurl_rawhid_list(const knurl_rawhid_bus *bus, knurl_listings *listings);
 
 #endif

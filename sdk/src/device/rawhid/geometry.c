@@ -17,7 +17,7 @@
 #define REAL  0
 #define WHOLE KNURL_WHOLE
 #define HEX   (KNURL_WHOLE | 16)
-#define SIGN  (KNURL_WHOLE | 32) /* not 0 */
+#define SIGN  (KNURL_WHOLE | 32) /* -1 or 1 */
 
 typedef struct key {
     knurl_field field;
@@ -33,11 +33,11 @@ static const key keys[] = {
 
 #define KEY_COUNT (sizeof keys / sizeof *keys)
 
-/* Where in the file. */
+/* Position in the file. */
 typedef struct spot {
     const char *file;
     unsigned long line;
-    uint64_t seen; /* which keys; the last bit: the name */
+    uint64_t seen; /* bits: keys read so far; the last bit is the name */
 } spot;
 
 typedef struct word {
@@ -57,7 +57,7 @@ void knurl_rawhid_geometry_init(knurl_rawhid_geometry *geometry) {
     }
 }
 
-/* As much of it as a message has room for. */
+/* Length of the part that a message quotes. */
 static int shown(word w) {
     return (int)(w.length < 60 ? w.length : 60);
 }
@@ -124,7 +124,7 @@ static knurl_result set_number(const spot *s, const key *k, word text, knurl_raw
 static knurl_result set_line(spot *s, word line, knurl_rawhid_geometry *geometry) {
     const char *equals = memchr(line.at, '=', line.length);
     if (!equals) {
-        /* what it holds instead is not told: a URI may name any file, and logs are read by others */
+        /* the line is not quoted: a URI may name any file, and other people may read the logs */
         return knurl_fail(KNURL_ERROR_FORMAT, "%s: line %lu: expected key = value, found no '='", s->file, s->line);
     }
     const word name = trim(line.at, (size_t)(equals - line.at));
@@ -155,7 +155,7 @@ void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *g
     arm->max_milliamps = 1000.0 * geometry->max_current;
 }
 
-/* What no key can say alone. */
+/* Checks relations between keys. */
 static knurl_result check(const char *where, const knurl_rawhid_geometry *g) {
     static const double centre[3] = {0.0, 0.0, 0.0};
     knurl_rawhid_arm arm;

@@ -1,5 +1,5 @@
-/* The mechanics of a WoodenHaptics or a similar device, from a text file, so that a variant needs no code: one `key =
- * value` per line, comments from # on, SI units.
+/* The mechanics of a WoodenHaptics or similar device, read from a text file, so that a variant needs no code: one
+ * `key = value` per line, comments from # on, SI units.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RAWHID_GEOMETRY_H
 #define KNURL_SRC_RAWHID_GEOMETRY_H
@@ -11,7 +11,7 @@
 
 #include <stddef.h>
 
-/* Least, greatest and unit of its mechanics. */
+/* Minimum, maximum and unit of each quantity. */
 #define KNURL_RAWHID_ID       0, 65535, ""
 #define KNURL_RAWHID_USAGE    1, 65535, ""
 #define KNURL_RAWHID_REPORT   0, 64, "bytes"
@@ -27,21 +27,21 @@
 #define KNURL_RAWHID_CURRENT  0.001, 2.0, "A"
 #define KNURL_RAWHID_RADIUS   0.001, 1.0, "m"
 
-/* Every key but `name`: key, field, default, range, kind. The defaults are WoodenHaptics v2015:
- * lengths, diameters, counts, torque constants (Maxon RE 30 310007), signs, home, workspace radius and the cap of 2 A
- * as in its makers' interface; 5 N, 1000 N/m and 8 N s/m as CHAI3D has them; what its motors hold for ever, how they
- * warm up, its mass and frictions are assumed. No file can raise the 2 A: the makers' amplifiers (Escon 24/4) do no
- * more for long, and their firmware stops at 3 A only. */
+/* Every key except `name`: key, field, default, range, kind. The defaults are WoodenHaptics v2015:
+ * lengths, diameters, counts, torque constants (Maxon RE 30 310007), signs, home, workspace radius and the limit of 2 A
+ * as in its makers' interface; 1000 N/m and 8 N s/m from CHAI3D, whose 5 N are reduced to 3 N, which 2 A can give; the
+ * continuous force, heat time, mass and frictions are assumed. No file can raise the 2 A: the makers' amplifiers (Escon
+ * 24/4) cannot sustain more, and their firmware stops only at 3 A. */
 #define KNURL_RAWHID_KEYS(X)                                                                                           \
-    X(vendor, vendor, 0, KNURL_RAWHID_ID, HEX)   /* 0: whichever is known */                                           \
-    X(product, product, 0, KNURL_RAWHID_ID, HEX) /* 0: whichever is known */                                           \
+    X(vendor, vendor, 0, KNURL_RAWHID_ID, HEX)   /* 0: any known device */                                             \
+    X(product, product, 0, KNURL_RAWHID_ID, HEX) /* 0: any known device */                                             \
     X(usage_page, usage_page, 0xffab, KNURL_RAWHID_USAGE, HEX)                                                         \
     X(usage, usage, 0x0200, KNURL_RAWHID_USAGE, HEX)                                                                   \
-    X(report_bytes, report_bytes, 0, KNURL_RAWHID_REPORT, WHOLE) /* 0: as the device that is known, or 64 */           \
+    X(report_bytes, report_bytes, 0, KNURL_RAWHID_REPORT, WHOLE) /* 0: of the known device, or 64 */                   \
     X(length_a, length[0], 0.080, KNURL_RAWHID_HEIGHT, REAL)     /* shoulder above the base */                         \
     X(length_b, length[1], 0.205, KNURL_RAWHID_LINK, REAL)       /* shoulder to elbow */                               \
     X(length_c, length[2], 0.245, KNURL_RAWHID_LINK, REAL)       /* elbow to grip */                                   \
-    X(origin_x, origin[0], 0.220, KNURL_RAWHID_ORIGIN, REAL) /* middle of the workspace from the base, its own axes */ \
+    X(origin_x, origin[0], 0.220, KNURL_RAWHID_ORIGIN, REAL)     /* workspace centre from the base, the arm's axes */  \
     X(origin_y, origin[1], 0.0, KNURL_RAWHID_ORIGIN, REAL)                                                             \
     X(origin_z, origin[2], 0.080, KNURL_RAWHID_ORIGIN, REAL)                                                           \
     X(capstan_a, capstan[0], 0.010, KNURL_RAWHID_DIAMETER, REAL) /* diameters */                                       \
@@ -53,13 +53,13 @@
     X(counts_a, counts[0], 2000, KNURL_RAWHID_COUNTS, WHOLE)                                                           \
     X(counts_b, counts[1], 2000, KNURL_RAWHID_COUNTS, WHOLE)                                                           \
     X(counts_c, counts[2], 2000, KNURL_RAWHID_COUNTS, WHOLE)                                                           \
-    X(sign_a, sign[0], 1, KNURL_RAWHID_SIGN, SIGN) /* -1: the motor turns the body the other way */                    \
+    X(sign_a, sign[0], 1, KNURL_RAWHID_SIGN, SIGN) /* -1: the motor turns the body backwards */                        \
     X(sign_b, sign[1], 1, KNURL_RAWHID_SIGN, SIGN)                                                                     \
     X(sign_c, sign[2], 1, KNURL_RAWHID_SIGN, SIGN)                                                                     \
     X(torque_constant_a, torque_constant[0], 0.0259, KNURL_RAWHID_TORQUE, REAL)                                        \
     X(torque_constant_b, torque_constant[1], 0.0259, KNURL_RAWHID_TORQUE, REAL)                                        \
     X(torque_constant_c, torque_constant[2], 0.0259, KNURL_RAWHID_TORQUE, REAL)                                        \
-    X(home_a, home[0], 0, KNURL_RAWHID_HOME, WHOLE) /* what the encoders say in the home pose */                       \
+    X(home_a, home[0], 0, KNURL_RAWHID_HOME, WHOLE) /* encoder counts in the home pose */                              \
     X(home_b, home[1], 0, KNURL_RAWHID_HOME, WHOLE)                                                                    \
     X(home_c, home[2], 6000, KNURL_RAWHID_HOME, WHOLE)                                                                 \
     X(home_on_open, home_on_open, 0, KNURL_RAWHID_FLAG, WHOLE) /* 1: as ?home=1 */                                     \
@@ -83,20 +83,20 @@ typedef struct knurl_rawhid_geometry {
     double workspace_radius, mass, viscous, coulomb;
 } knurl_rawhid_geometry;
 
-#define KNURL_RAWHID_FILE_ROOM 65536 /* bytes of a geometry file */
+#define KNURL_RAWHID_FILE_ROOM 65536 /* size limit of a geometry file */
 
-/* WoodenHaptics v2015. */
+/* Sets the defaults: WoodenHaptics v2015. */
 void knurl_rawhid_geometry_init(knurl_rawhid_geometry *geometry);
 
-/* Reads a file's text; keys that are not there keep their defaults. `where` is for messages.
- * Errors: KNURL_ERROR_FORMAT: file, line, key, expected, found. */
+/* Parses a file's text; missing keys keep their defaults. `where`: the file, for messages. Errors: KNURL_ERROR_FORMAT:
+ * file, line, key, expected, found. */
 knurl_result knurl_rawhid_geometry_parse(const char *where, const char *text, size_t size,
                                          knurl_rawhid_geometry *geometry);
 
-/* The same from a file. Errors also: KNURL_ERROR_IO, KNURL_ERROR_MEMORY. */
+/* Reads and parses a file. Further errors: KNURL_ERROR_IO, KNURL_ERROR_MEMORY. */
 knurl_result knurl_rawhid_geometry_load(const char *path, knurl_rawhid_geometry *geometry);
 
-/* Of a checked geometry. */
+/* Derives the arm from a checked geometry. */
 void knurl_rawhid_arm_init(knurl_rawhid_arm *arm, const knurl_rawhid_geometry *geometry);
 
 #endif

@@ -1,11 +1,11 @@
-/* The arm. SPDX-License-Identifier: MIT */
+/* Kinematics of the arm. SPDX-License-Identifier: MIT */
 #include "device/rawhid/kinematics.h"
 
 #include "base/vec3.h"
 
 #define TWO_PI 6.283185307179586
 
-/* Which of the arm's own axes (0: towards the user, 1: right, 2: up) Knurl's x, y and z are. */
+/* The arm's own axis (0: towards the user, 1: right, 2: up) of Knurl's x, y and z. */
 static const int own_axis[3] = {1, 2, 0};
 
 void knurl_rawhid_angles(const knurl_rawhid_arm *arm, const int16_t counts[3], double angles[3]) {
@@ -14,7 +14,7 @@ void knurl_rawhid_angles(const knurl_rawhid_arm *arm, const int16_t counts[3], d
     }
 }
 
-/* How far the grip is from the vertical through the base. */
+/* Distance of the grip from the vertical through the base, m. */
 static double reach(const knurl_rawhid_arm *arm, const double angles[3]) {
     return arm->length[1] * sin(angles[1]) + arm->length[2] * sin(angles[2]);
 }
@@ -55,7 +55,7 @@ int knurl_rawhid_inverse(const knurl_rawhid_arm *arm, const double position[3], 
     if (!(far > 0.0 && out > 0.0)) {
         return 0;
     }
-    /* law of cosines: how far the links stand off the line from shoulder to grip, either side of it */
+    /* law of cosines: cosines of the angles between the links and the line from shoulder to grip */
     const double at_shoulder = (b * b + far * far - c * c) / (2.0 * b * far);
     const double at_grip = (c * c + far * far - b * b) / (2.0 * c * far);
     if (!(fabs(at_shoulder) <= 1.0 && fabs(at_grip) <= 1.0)) {
@@ -69,8 +69,8 @@ int knurl_rawhid_inverse(const knurl_rawhid_arm *arm, const double position[3], 
 }
 
 int knurl_rawhid_is_pose(const knurl_rawhid_arm *arm, const double angles[3]) {
-    /* The elbow's angle is B + C, 0 folded up and pi stretched out. 0.2 rad are nearer to either than bodies with a
-     * thickness come, and forces there would be beyond all measure. */
+    /* B + C is the elbow's angle: 0 folded, pi stretched. Links with a thickness stop more than 0.2 rad before both,
+     * and beyond that the forces would grow without limit. */
     return sin(angles[1] + angles[2]) > 0.2 && reach(arm, angles) > 0.0;
 }
 
@@ -102,7 +102,7 @@ double knurl_rawhid_resolution(const knurl_rawhid_arm *arm) {
     double jacobian[9];
     double worst = 0.0;
     if (!knurl_rawhid_inverse(arm, centre, angles)) {
-        return 0.0; /* no geometry is let in whose arm does not reach there */
+        return 0.0; /* not reached: geometries are refused if the arm does not reach the centre */
     }
     knurl_rawhid_jacobian(arm, angles, jacobian);
     for (int axis = 0; axis < 3; axis++) {

@@ -1,5 +1,5 @@
-/* WoodenHaptics and devices like it: a microcontroller with encoders and current-controlled motors that speaks raw HID.
- * Read exchange() first. SPDX-License-Identifier: MIT */
+/* WoodenHaptics and similar devices: a microcontroller with encoders and current-controlled motors, over raw HID. Read
+ * exchange() first. SPDX-License-Identifier: MIT */
 #include "device/rawhid/rawhid.h"
 
 #include "base/atomic.h"
@@ -15,19 +15,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ANSWER_NS     4000000 /* how long a report is waited for: an exchange takes 5 ms at most */
-#define QUEUE_ROOM    64      /* reports that the kernel keeps */
-#define GREET_TRIES   25      /* of 20 ms: the firmware takes a while after power-up */
-#define HOME_MARGIN   100     /* counts that a hand may have moved since the counters were set */
-#define STRANGE_LIMIT 3       /* impossible poses in a row that make the counters untrustworthy */
+#define ANSWER_NS     4000000 /* to wait for a report: an exchange takes 5 ms at most */
+#define QUEUE_ROOM    64      /* reports that the kernel queues */
+#define GREET_TRIES   25      /* of 20 ms: the firmware starts slowly after power-up */
+#define HOME_MARGIN   100     /* counts that the hand may have moved since the counters were set */
+#define STRANGE_LIMIT 3       /* impossible poses in a row after which the counters are not trusted */
 #define HOLD_CYCLES   50 /* exchanges without a position after homing: the loop zeroes the force first, then ramps */
 
 typedef struct rawhid {
     knurl_device base;
     knurl_link link;
     const knurl_rawhid_bus *bus;
-    knurl_serial_bus serial; /* of a device on a serial port; its ports are null where it is on USB HID */
-    knurl_rawhid_port port;  /* self: null where it is closed */
+    knurl_serial_bus serial; /* if on a serial port; `ports` is null on USB HID */
+    knurl_rawhid_port port;  /* self is null if closed */
     knurl_rawhid_geometry geometry;
     knurl_rawhid_arm arm;
     knurl_rawhid_wanted wanted;
@@ -36,18 +36,18 @@ typedef struct rawhid {
     uint32_t home_on_open;
     uint32_t motors_known;
     uint32_t wants_guard;
-    /* the I/O thread's */
+    /* of the I/O thread */
     double angles[3];
     uint32_t knows_angles;
-    uint32_t is_corrupt; /* reported */
-    uint32_t is_lost;    /* its counters do not tell where it is; reported */
+    uint32_t is_corrupt; /* 1: already reported */
+    uint32_t is_lost;    /* 1: the counters are wrong until it is homed; reported */
     uint32_t strange;    /* impossible poses in a row */
-    uint32_t hold;       /* exchanges without a position still to come */
+    uint32_t hold;       /* exchanges still to come without a position */
     uint64_t bad_bytes;  /* atomic */
 } rawhid;
 
 static rawhid *of(knurl_device *device) {
-    return (rawhid *)(void *)device; /* its first member */
+    return (rawhid *)(void *)device; /* first member */
 }
 
 static const rawhid *look_at(const knurl_device *device) {
@@ -59,7 +59,7 @@ static const rawhid *look_at(const knurl_device *device) {
 enum { GONE = -1, NOTHING = 0, REPORT = 1, BAD = 2 };
 
 static int take_report(rawhid *r, int milliseconds, knurl_rawhid_in *in) {
-    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1]; /* one more, so that a report that is too long shows */
+    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1]; /* one more, to detect a report that is too long */
     const int got = r->port.read(r->port.self, bytes, sizeof bytes, milliseconds);
     if (got <= 0) {
         return got < 0 ? GONE : NOTHING;
@@ -76,7 +76,7 @@ static int take_report(rawhid *r, int milliseconds, knurl_rawhid_in *in) {
     return BAD;
 }
 
-/* Throws away what came too late to be an answer to what is sent next. 0: the device is gone. */
+/* Discards reports that came too late to answer the next one sent. Returns 0 if the device is gone. */
 static int drain(rawhid *r) {
     knurl_rawhid_in ignored;
     int outcome = REPORT;
@@ -86,7 +86,7 @@ static int drain(rawhid *r) {
     return outcome != GONE;
 }
 
-/* The next report that makes sense, within `ns`. */
+/* Waits up to `ns` for a valid report. */
 static int await_report(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
     const int64_t until = knurl_system_now_ns() + ns;
     for (int i = 0; i < QUEUE_ROOM; i++) {
@@ -99,7 +99,7 @@ static int await_report(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
     return NOTHING;
 }
 
-/* 0: nothing went out. */
+/* Returns 0 if nothing was sent. */
 static int send_currents(rawhid *r, const double force[3]) {
     uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
     int16_t ma[3] = {0, 0, 0};
@@ -116,9 +116,9 @@ static int send_home(rawhid *r) {
 
 /* --- the exchange --- */
 
-/* Where the grip is by its counters, unless they cannot be believed. */
+/* The grip's position from its counters, unless they cannot be trusted. */
 static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sample) {
-    if (in->info == 1) { /* its button: the grip is in the home pose */
+    if (in->info == 1) { /* its button was pressed: the grip is in the home pose */
         if (r->hold == 0 && !r->is_lost) {
             knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
         }
@@ -130,7 +130,7 @@ static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sam
     }
     knurl_rawhid_angles(&r->arm, in->counts, r->angles);
     r->strange = knurl_rawhid_is_pose(&r->arm, r->angles) ? 0 : r->strange + 1;
-    if (r->strange >= STRANGE_LIMIT && !r->is_lost) { /* until it is homed: it has lost power, or never was */
+    if (r->strange >= STRANGE_LIMIT && !r->is_lost) { /* until it is homed: it lost power, or was never homed */
         r->is_lost = 1;
         knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
     }
@@ -143,8 +143,8 @@ static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sam
     return KNURL_LINK_POSITION;
 }
 
-/* The firmware answers each report with one. The motors' currents are right for where the arm was in the exchange
- * before, a millisecond ago. */
+/* The firmware answers each report with one. The motor currents are computed for the arm's pose in the last exchange, a
+ * millisecond ago. */
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     rawhid *r = of(device);
     knurl_rawhid_in in;
@@ -161,7 +161,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
 
 /* --- opening --- */
 
-/* Zero currents until it answers: the first report is what makes it start. */
+/* Sends zero currents until the device answers: it starts with the first report it receives. */
 static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
     static const double none[3] = {0.0, 0.0, 0.0};
     int outcome = NOTHING;
@@ -188,7 +188,7 @@ static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
     return near;
 }
 
-/* Sets the counters, and sees them set. */
+/* Sets the counters, and checks that they are set. */
 static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
     knurl_result result = KNURL_OK;
     for (int i = 0; i < GREET_TRIES && !result; i++) {
@@ -205,7 +205,7 @@ static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
                       in->counts[0], in->counts[1], in->counts[2]);
 }
 
-/* Where it is wanted. */
+/* Starts the guard process if the URI requests it. */
 static knurl_result start_guard(rawhid *r, const knurl_rawhid_found *found) {
     static const int16_t none[3];
     knurl_guard_order order = {0, 0, {0}};
@@ -232,7 +232,7 @@ static void close_port(rawhid *r) {
     }
 }
 
-/* The one that is meant, and the length of its reports. */
+/* Finds the device of the URI, and its report length. */
 static knurl_result find_port(rawhid *r, knurl_rawhid_found *found) {
     if (!r->serial.ports) {
         return knurl_rawhid_choose(r->bus, &r->wanted, found, &r->report_bytes);
@@ -257,13 +257,13 @@ static knurl_result open_port(rawhid *r, knurl_rawhid_found *chosen) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device '%s' (%04x:%04x): %s could not be opened: %s",
                           r->base.driver->uri, found.vendor, found.product, found.path, why);
     }
-    r->wanted.vendor = found.vendor; /* from now on it is this one that is meant */
+    r->wanted.vendor = found.vendor; /* a reopen must find the same kind of device */
     r->wanted.product = found.product;
     *chosen = found;
     return KNURL_OK;
 }
 
-/* Finds it, hears it, homes it and starts the I/O thread; all closed again where that fails. */
+/* Finds, greets and homes the device and starts the I/O thread; on failure closes all of it. */
 static knurl_result connect(rawhid *r, int is_again) {
     knurl_rawhid_in in = {{0, 0, 0, 0, 0, 0}, 0};
     double angles[3];
@@ -276,7 +276,7 @@ static knurl_result connect(rawhid *r, int is_again) {
     }
     result = greet(r, &in);
     knurl_rawhid_angles(&r->arm, in.counts, angles);
-    /* one that was away is where it was, unless it lost its power; it must not be homed in the middle of a stroke */
+    /* a reopened device kept its counters unless it lost power; it must not be homed in the middle of a stroke */
     if (!result && r->home_on_open && !(is_again && knurl_rawhid_is_pose(&r->arm, angles))) {
         result = home(r, &in);
     }
@@ -302,7 +302,7 @@ static knurl_result read_options(const char *options, const knurl_serial_ports *
     result = result ? result : knurl_uri_flag(driver, "guard", guard, &r->wants_guard);
     result = result ? result : knurl_uri_flag(driver, "motors_known", known, &r->motors_known);
     knurl_rawhid_geometry_init(&r->geometry);
-    if (ports) { /* hfabapi's, for this firmware: motors b and c turn the other way */
+    if (ports) { /* hfabapi's for this firmware: motors b and c turn backwards */
         r->geometry.sign[1] = r->geometry.sign[2] = -1.0;
         r->geometry.home[2] = -6000.0;
     }
@@ -322,7 +322,7 @@ static knurl_result read_options(const char *options, const knurl_serial_ports *
     return result;
 }
 
-/* One of `bus` and `ports`. */
+/* Exactly one of `bus` and `ports` is set. */
 static knurl_result open_on(const char *options, const knurl_rawhid_bus *bus, const knurl_serial_ports *ports,
                             knurl_device **device) {
     const knurl_driver *driver = ports ? &knurl_serial_driver : &knurl_rawhid_driver;
@@ -362,7 +362,7 @@ static void rawhid_close(knurl_device *device) {
 
 static knurl_result rawhid_reopen(knurl_device *device) {
     rawhid *r = of(device);
-    knurl_link_close(&r->link); /* its thread has ended by itself */
+    knurl_link_close(&r->link); /* its thread has already ended */
     close_port(r);
     return connect(r, 1);
 }
@@ -371,15 +371,15 @@ static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
     const rawhid *r = look_at(device);
     const knurl_rawhid_geometry *g = &r->geometry;
     (void)snprintf(info->name, sizeof info->name, "%s", g->name);
-    for (int axis = 0; axis < 3; axis++) { /* the cube in its makers' sphere: the joints' stops are not published */
+    for (int axis = 0; axis < 3; axis++) { /* the cube inside the makers' sphere: the joints' stops are not published */
         info->workspace_max[axis] = 0.577350269189626 * g->workspace_radius;
         info->workspace_min[axis] = -info->workspace_max[axis];
     }
-    info->resolution = knurl_rawhid_resolution(&r->arm); /* of its encoders and gears */
-    info->max_force = g->max_force;                      /* CHAI3D */
+    info->resolution = knurl_rawhid_resolution(&r->arm); /* from its encoders and gears */
+    info->max_force = g->max_force;                      /* what 2 A can give */
     info->max_stiffness = g->max_stiffness;              /* CHAI3D */
     info->max_damping = g->max_damping;                  /* CHAI3D */
-    info->continuous_force = g->continuous_force;        /* assumed: a third of the peak */
+    info->continuous_force = g->continuous_force;        /* assumed: a third of CHAI3D's 5 N */
     info->heat_time = g->heat_time;                      /* assumed: as the Touch's */
     info->mass = g->mass;                                /* assumed */
     info->viscous = g->viscous;                          /* assumed */

@@ -34,7 +34,7 @@ int knurl_rawhid_parse(const uint8_t *bytes, size_t size, size_t report_bytes, k
 static size_t put_report(uint8_t *bytes, size_t report_bytes, const int16_t first[3], int16_t command,
                          const int16_t attributes[3]) {
     memset(bytes, 0, KNURL_RAWHID_MOST_BYTES + 1);
-    for (int i = 0; i < 3; i++) { /* behind the report ID */
+    for (int i = 0; i < 3; i++) { /* after the report ID */
         put(bytes + 1 + 2 * i, first[i]);
         put(bytes + 9 + 2 * i, attributes[i]);
     }
@@ -53,7 +53,7 @@ size_t knurl_rawhid_put_counters(uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1], siz
     return put_report(bytes, report_bytes, none, SET_COUNTERS, counts);
 }
 
-/* HID 1.11, 6.2.2: items of a prefix (two bits of length, two of type, four of tag) and 0, 1, 2 or 4 bytes. */
+/* HID 1.11, 6.2.2: an item is a prefix (two bits of length, two of type, four of tag) and 0, 1, 2 or 4 bytes. */
 enum { REPORT_SIZE = 0x74, REPORT_COUNT = 0x94, INPUT = 0x80, OUTPUT = 0x90, LONG_ITEM = 0xfe };
 
 int knurl_rawhid_measure(const uint8_t *descriptor, size_t size, knurl_rawhid_sizes *sizes) {

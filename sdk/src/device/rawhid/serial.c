@@ -1,4 +1,4 @@
-/* Lines of text as reports. Read port_read() and port_write() first. SPDX-License-Identifier: MIT */
+/* Converts between lines of text and reports. Read port_read() and port_write() first. SPDX-License-Identifier: MIT */
 #include "device/rawhid/serial.h"
 
 #include "base/system.h"
@@ -12,22 +12,22 @@
 #define NUMBERS      8 /* in a line from the device */
 #define LINE_ROOM    128
 #define REPORT_BYTES KNURL_RAWHID_LEAST_BYTES
-#define SENSOR_BITS  7 /* of its error: a sensor of the gimbal's, which has no part in this */
+#define SENSOR_BITS  7 /* of its error: a gimbal sensor, not used here */
 #define HELLO_TRIES  25
 #define HELLO_MS     20
 
 typedef struct serial_port {
     knurl_serial_wire wire;
     int32_t offset[3]; /* counts, added to the device's own */
-    int32_t raw[3];    /* the latest of its own */
-    uint32_t is_homed; /* 0: they tell nothing until its button is pressed */
+    int32_t raw[3];    /* last counts of the device */
+    uint32_t is_homed; /* 0: counts mean nothing until its button is pressed */
     uint32_t has_raw;
-    int32_t model; /* the latest line's */
+    int32_t model; /* of the last line */
     char text[LINE_ROOM];
-    size_t count; /* characters of the line that comes */
+    size_t count; /* characters received of the next line */
 } serial_port;
 
-/* "[n,n,...]" with `count` whole numbers, and nothing else. */
+/* Parses "[n,n,...]" with `count` whole numbers, and nothing else. */
 static int parse_line(const char *line, int32_t *numbers, int count) {
     const char *at = line;
     for (int i = 0; i < count; i++) {
@@ -45,13 +45,13 @@ static int parse_line(const char *line, int32_t *numbers, int count) {
     return strcmp(at, "]") == 0;
 }
 
-/* Its button sets all of its encoders to 0 at once, wherever they were. */
+/* Its button sets all its encoders to 0 at once, from any pose. */
 static int was_homed(const serial_port *p, const int32_t raw[3]) {
     const int was_away = abs(p->raw[0]) > 2 || abs(p->raw[1]) > 2 || abs(p->raw[2]) > 2;
     return p->has_raw && was_away && raw[0] == 0 && raw[1] == 0 && raw[2] == 0;
 }
 
-/* A line as a report of REPORT_BYTES; 0: it is none. */
+/* Converts a line to a report of REPORT_BYTES; returns 0 if the line is invalid. */
 static int make_report(serial_port *p, const char *line, uint8_t *bytes) {
     int32_t numbers[NUMBERS];
     int32_t words[7] = {0};
@@ -79,7 +79,7 @@ static int make_report(serial_port *p, const char *line, uint8_t *bytes) {
     return 1;
 }
 
-/* The line that is complete, if there is one, taken out of what came: 1 and a report, or -1: it was none. */
+/* Removes the first complete line from the received text. Returns 1 and a report, or -1 if it is invalid. */
 static int take_line(serial_port *p, uint8_t *bytes) {
     char *end = memchr(p->text, ']', p->count);
     if (!end && p->count < LINE_ROOM - 1) {
@@ -94,7 +94,7 @@ static int take_line(serial_port *p, uint8_t *bytes) {
     return end && make_report(p, begin, bytes) ? 1 : -1;
 }
 
-/* As knurl_rawhid_port.read; one byte stands for a line that made no report. */
+/* As knurl_rawhid_port.read; reads one byte in place of an invalid line. */
 static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
     serial_port *p = self;
     const int64_t until = knurl_system_now_ns() + (int64_t)milliseconds * 1000000;
@@ -118,14 +118,14 @@ static int word(const uint8_t *report, int which) {
     return value < 32768 ? value : value - 65536;
 }
 
-/* As knurl_rawhid_port.write. Counters are set on this side: the device has no such command. */
+/* As knurl_rawhid_port.write. Counters are set on this side, because the device has no such command. */
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
     serial_port *p = self;
     char text[64];
     if (size != REPORT_BYTES + 1) {
         return 0;
     }
-    const uint8_t *report = bytes + 1; /* behind its ID */
+    const uint8_t *report = bytes + 1; /* after its ID */
     const int sets_counters = word(report, 3) == 1;
     for (int i = 0; i < 3 && sets_counters && p->has_raw; i++) {
         p->offset[i] = word(report, 4 + i) - p->raw[i];
@@ -142,7 +142,7 @@ static void port_close(void *self) {
     free(p);
 }
 
-/* Checks the first line, which names the firmware: 1, or 0 and why it is another one. */
+/* Checks the firmware's model in its first line. Returns 1, or 0 and the reason. */
 static int say_hello(serial_port *p, char *why, size_t why_size) {
     static const char zero[] = "[0,0,0]\n";
     uint8_t report[REPORT_BYTES];

@@ -26,7 +26,7 @@ const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size) {
 #include <unistd.h>
 #endif
 
-/* What is loaded of hidapi. */
+/* Functions loaded from hidapi. */
 #define FUNCTIONS(X)                                                                                                   \
     X(close)                                                                                                           \
     X(enumerate)                                                                                                       \
@@ -65,7 +65,7 @@ static int load_functions(char *why, size_t why_size) {
                              sizeof functions / sizeof *functions, why, why_size);
 }
 
-/* hidapi's calls that are about no device share memory, and lib.exit() is for the whole process. */
+/* hidapi's functions that take no device share memory, and lib.exit() affects the whole process. */
 static uint32_t locked;
 static uint32_t users;
 
@@ -79,7 +79,7 @@ static void unlock(void) {
     __atomic_store_n(&locked, 0u, __ATOMIC_RELEASE);
 }
 
-/* Both under the lock. */
+/* Both with the lock held. */
 static int enter(void) {
     if (users == 0 && lib.init() != 0) {
         return 0;
@@ -94,7 +94,7 @@ static void leave(void) {
     }
 }
 
-/* hidapi's wide characters; what is not ASCII becomes '?'. */
+/* Copies hidapi's wide characters; those that are not ASCII become '?'. */
 static void narrow(const wchar_t *wide, char *text, size_t size) {
     size_t i = 0;
     for (; wide && wide[i] && i + 1 < size; i++) {
@@ -104,7 +104,7 @@ static void narrow(const wchar_t *wide, char *text, size_t size) {
 }
 
 #ifdef __linux__
-/* The kernel's own copy: hidapi has no function for its size. */
+/* Uses the kernel's copy, because hidapi has no function for the descriptor's size. */
 static void ask_sizes(const char *path, knurl_rawhid_sizes *sizes) {
     char where[512];
     uint8_t descriptor[4096]; /* HID_MAX_DESCRIPTOR_SIZE */
@@ -165,14 +165,14 @@ static size_t hid_look(void *user, uint16_t vendor, uint16_t product, knurl_rawh
     return count;
 }
 
-/* An open device. hidapi would open one twice, for two threads or programs that then both drive its motors. */
+/* An open device. hidapi would open it twice, and two threads or programs would drive its motors. */
 typedef struct port {
     hid_device *device;
     intptr_t node; /* knurl_system_take_node() */
 } port;
 
 static int port_write(void *self, const uint8_t *bytes, size_t size) {
-    return lib.write(((port *)self)->device, bytes, size) >= (int)size; /* Windows pads it to the longest report */
+    return lib.write(((port *)self)->device, bytes, size) >= (int)size; /* Windows pads to the longest report */
 }
 
 static int port_read(void *self, uint8_t *bytes, size_t room, int milliseconds) {
@@ -189,7 +189,7 @@ static void port_close(void *self) {
     free(p);
 }
 
-/* Null: `why` says why. */
+/* Returns null and the reason on failure. */
 static hid_device *open_path(const char *path, char *why, size_t why_size) {
     hid_device *device = NULL;
     lock();
@@ -218,7 +218,7 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     if (p->node == 0) {
         (void)snprintf(why, why_size, "it is in use: another program, or this one, has it open; end that");
     } else {
-        p->device = open_path(found->path, why, why_size); /* what could not be taken for want of rights says so here */
+        p->device = open_path(found->path, why, why_size); /* if permission is missing, this fails with the reason */
     }
     if (!p->device) {
         knurl_system_give_back_node(p->node);
@@ -230,7 +230,7 @@ static int hid_bus_open(void *user, const knurl_rawhid_found *found, knurl_rawhi
     return 1;
 }
 
-/* hidapi keeps its own descriptor to itself; a node may be opened more than once. */
+/* hidapi does not expose its descriptor, but a node may be opened more than once. */
 static int hid_share(void *user, const knurl_rawhid_found *found) {
     (void)user;
 #ifdef __linux__

@@ -1,4 +1,4 @@
-/* Serial ports by termios. SPDX-License-Identifier: MIT */
+/* Serial ports with termios. SPDX-License-Identifier: MIT */
 #include "device/rawhid/serial.h"
 
 #if defined(_WIN32)
@@ -30,7 +30,7 @@ static int tty_write(void *self, const char *text, size_t size) {
     return write(t->descriptor, text, size) == (ssize_t)size;
 }
 
-/* A port that is gone is readable, with an error or with nothing to read. */
+/* A port that is gone polls as readable; read() then fails or returns 0. */
 static int tty_read(void *self, char *text, size_t room, int milliseconds) {
     const tty *t = self;
     struct pollfd ready = {t->descriptor, POLLIN, 0};
@@ -47,7 +47,7 @@ static void tty_close(void *self) {
     free(t);
 }
 
-/* Raw bytes both ways; the speed is ignored by USB. */
+/* Raw bytes in both directions; USB ignores the speed. */
 static int set_raw(int descriptor) {
     struct termios settings;
     if (tcgetattr(descriptor, &settings)) {
@@ -64,7 +64,7 @@ static int set_raw(int descriptor) {
     return tcsetattr(descriptor, TCSANOW, &settings) == 0 && tcflush(descriptor, TCIOFLUSH) == 0;
 }
 
-/* Locks a port against other programs that lock it: two would drive the same motors. */
+/* Locks a port against other programs that lock it, so that two do not drive the same motors. */
 static int lock(int descriptor) {
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
         return 1;
@@ -99,7 +99,7 @@ static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char 
     return 1;
 }
 
-/* Linux names a port's USB device in /sys. */
+/* Linux lists a port's USB device in /sys. */
 static int tty_find(void *user, char *path, size_t size) {
     (void)user;
     for (int i = 0; i < PORTS; i++) {
