@@ -1,4 +1,4 @@
-/* Novint Falcon: an I/O thread sends a frame of motor commands and gets a frame of encoders. Read exchange() first.
+/* Novint Falcon: an I/O thread sends a frame of motor commands and receives a frame of encoders. Read exchange() first.
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/regular_file.h"
@@ -15,49 +15,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* N at the peak: 2 lbf in Novint's brochure, as it is quoted; CHAI3D has 8. With a gain near 1 the motors' limit comes
+/* N at the peak: quoted from Novint's brochure as 2 lbf; CHAI3D has 8. With a gain near 1 the motors' limit is reached
  * first in some directions, see kinematics.h. */
 #define MAX_FORCE 8.9
 
-/* What is sent to the motors, as a share of what libnifalcon's gain (kinematics.h) would send. In recorded packets of
- * the maker's own driver it is 0.35 to 0.53; nobody has weighed a force yet. With the least of that no force is
- * stronger than was asked for, and none weaker than 0.35 / 0.53 = 0.66 of it. */
+/* Motor commands, as a fraction of those by libnifalcon's gain (kinematics.h). In recorded packets of the maker's own
+ * driver it is 0.35 to 0.53; no force has been measured yet. With the smaller value no force is stronger than
+ * requested, and no force is weaker than 0.35 / 0.53 = 0.66 of the request. */
 #define GAIN       0.35
 #define GAIN_LEAST 0.05
 #define GAIN_MOST  1.0
 
-#define NATIVE_RATE 1000.0 /* Hz: frames that go out; more would queue in the device */
-#define EXCHANGE_MS 4      /* an answer takes some 0.3 ms and up to 1 ms of the USB's frame, each way */
+#define NATIVE_RATE 1000.0 /* Hz: frames sent; more would queue in the device */
+#define EXCHANGE_MS 4      /* an answer takes about 0.3 ms, plus up to 1 ms of USB frame in each direction */
 #define WRITE_MS    2
 
-/* Answers come in order, one a frame, and have no number. So many unanswered ones mean that what comes next is old: no
- * force may follow from it, and nothing is sent until all have come, or none for so long. */
+/* Answers arrive in order, one per frame, without a number. If this many are missing, the next ones are old: no force
+ * may be computed from them, and nothing is sent until all have arrived, or until QUIET_NS pass without an answer. */
 #define MOST_OWED 4
 #define QUIET_NS  30000000
 
-#define MOST_PACKETS 16 /* that are taken in at once; the rest waits for the next exchange */
+#define MOST_PACKETS 16 /* packets read at once; the rest waits for the next exchange */
 
 typedef struct falcon {
     knurl_device base;
     knurl_falcon_bus bus;
     knurl_falcon_transport transport;
-    char firmware[KNURL_URI_ROOM]; /* "": none is known */
+    char firmware[KNURL_URI_ROOM]; /* "": unknown */
     double gain;
-    uint32_t is_gain_set; /* 1: by the URI, or by knurl weigh */
+    uint32_t is_gain_set; /* 1: by the URI or KNURL_FALCON_GAIN */
     uint32_t wants_guard;
     uint32_t motors_known;
     knurl_link link;
-    /* the I/O thread's */
+    /* of the I/O thread */
     knurl_falcon_decoder decoder;
-    double position[3]; /* the latest, from which the next is looked for */
+    double position[3]; /* the last one; the search for the next starts here */
     double theta[3];
     uint32_t has_position;
     uint32_t owed;        /* frames without an answer */
-    uint32_t is_behind;   /* 1: too many of them */
-    uint32_t is_pushing;  /* 1: the latest frame had a force */
-    uint64_t told_bad;    /* of decoder.bad_bytes */
-    uint64_t unanswering; /* bad bytes that have not been counted as an answer yet */
-    uint32_t is_corrupt;  /* these three: 1: reported */
+    uint32_t is_behind;   /* 1: `owed` reached MOST_OWED */
+    uint32_t is_pushing;  /* 1: the last frame had a force */
+    uint64_t told_bad;    /* part of decoder.bad_bytes already counted */
+    uint64_t unanswering; /* bad bytes not yet counted as an answer */
+    uint32_t is_corrupt;  /* 1: already reported; so are the next two */
     uint32_t is_unhomed;
     uint32_t is_nowhere;
     int64_t heard_at;
@@ -66,7 +66,7 @@ typedef struct falcon {
 } falcon;
 
 static falcon *of(knurl_device *device) {
-    return (falcon *)(void *)device; /* its first member */
+    return (falcon *)(void *)device; /* first member */
 }
 
 static const falcon *look_at(const knurl_device *device) {
@@ -77,8 +77,8 @@ static int is_zero(const double force[3]) {
     return !(vec3_dot(force, force) > 0.0);
 }
 
-/* Red: not homed. Green: ready. Blue: pushing. The homing bit is in every frame, as in libnifalcon's: without it a
- * device may forget its homing. */
+/* Red: not homed. Green: ready. Blue: pushing. As in libnifalcon, every frame has the homing bit: without it a device
+ * may lose its homing. */
 static int send(falcon *f, const double force[3]) {
     uint8_t frame[KNURL_FALCON_FRAME_BYTES];
     int16_t motors[3] = {0, 0, 0};
@@ -98,7 +98,7 @@ static int send(falcon *f, const double force[3]) {
     return outcome;
 }
 
-/* Bytes that made no frame: sixteen are an answer that was lost. */
+/* Counts bytes that made no frame; sixteen of them replace one lost answer. */
 static void count_bad(falcon *f, uint32_t frames) {
     const uint64_t bad = f->decoder.bad_bytes - f->told_bad;
     if (bad == 0) {
@@ -117,7 +117,7 @@ static void count_bad(falcon *f, uint32_t frames) {
     knurl_store_relaxed(&f->bad_bytes, knurl_load_relaxed(&f->bad_bytes) + bad);
 }
 
-/* Takes in the next packet. *frames: answers. KNURL_FALCON_. */
+/* Reads the next packet and adds its answers to *frames. Returns KNURL_FALCON_. */
 static int take_in(falcon *f, uint32_t timeout_ms, uint32_t *frames) {
     uint8_t packet[KNURL_FALCON_PACKET];
     size_t size = 0;
@@ -133,7 +133,7 @@ static int take_in(falcon *f, uint32_t timeout_ms, uint32_t *frames) {
     return outcome;
 }
 
-/* Takes in what has come since the latest exchange: once the next frame is sent, it would pass for its answer. */
+/* Reads the packets that arrived since the last exchange, so that they are not taken for answers to the next frame. */
 static int catch_up(falcon *f, uint32_t *frames) {
     int outcome = KNURL_FALCON_DONE;
     for (int i = 0; i < MOST_PACKETS && outcome == KNURL_FALCON_DONE; i++) {
@@ -142,7 +142,7 @@ static int catch_up(falcon *f, uint32_t *frames) {
     return outcome;
 }
 
-/* Takes in what comes until every frame is answered or the time is over. *frames: answers more. KNURL_FALCON_. */
+/* Reads packets until every frame is answered or the deadline passes; adds the answers to *frames. KNURL_FALCON_. */
 static int receive(falcon *f, int64_t deadline, uint32_t *frames) {
     while (f->owed > 0) {
         const int64_t left = deadline - knurl_system_now_ns();
@@ -157,7 +157,7 @@ static int receive(falcon *f, int64_t deadline, uint32_t *frames) {
     return KNURL_FALCON_DONE;
 }
 
-/* The newest answer as a position. KNURL_LINK_. */
+/* Computes the position from the newest answer. Returns KNURL_LINK_. */
 static int locate(falcon *f, knurl_device_sample *sample) {
     const knurl_falcon_state *state = &f->decoder.newest;
     double position[3];
@@ -168,7 +168,7 @@ static int locate(falcon *f, knurl_device_sample *sample) {
         }
         f->is_unhomed = 1;
         f->has_position = 0;
-        knurl_device_halt(&f->base); /* without it the motors get no force: what comes next begins with a ramp */
+        knurl_device_halt(&f->base); /* without it the motors get no force; later forces ramp up */
         return KNURL_LINK_NO_POSITION;
     }
     f->is_unhomed = 0;
@@ -176,7 +176,7 @@ static int locate(falcon *f, knurl_device_sample *sample) {
     for (int leg = 0; leg < 3; leg++) {
         theta[leg] = knurl_falcon_angle(state->counts[leg]);
     }
-    if (!knurl_falcon_forward(theta, position)) { /* no hand can have brought it there */
+    if (!knurl_falcon_forward(theta, position)) { /* no hand can reach this */
         if (!f->is_nowhere) {
             knurl_events_report(&f->base.events, KNURL_FAULT_NOT_FINITE, 0.0);
         }
@@ -192,7 +192,7 @@ static int locate(falcon *f, knurl_device_sample *sample) {
     return KNURL_LINK_POSITION;
 }
 
-/* Whoever has been silent for so long may find the answers to a guard's frames among those to its own. */
+/* After a long silence the answers to the guard's frames may be among those to this driver's. */
 static void mind_the_guard(falcon *f, int64_t now) {
     const int64_t silence = KNURL_GUARD_SILENCE_MS * (int64_t)1000000;
     if (f->link.guard && f->exchanged_at > 0 && now - f->exchanged_at >= silence) {
@@ -203,7 +203,7 @@ static void mind_the_guard(falcon *f, int64_t now) {
     f->exchanged_at = now;
 }
 
-/* A force out, a position in, or what there is of them. */
+/* Sends a force and receives a position; copes with missing, late and extra answers. */
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     falcon *f = of(device);
     uint32_t frames = 0;
@@ -211,10 +211,10 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     const int was_held_up = (double)(begin - f->exchanged_at) > 1e9 * KNURL_LINK_PATIENCE;
     mind_the_guard(f, begin);
     int outcome = catch_up(f, &frames);
-    if (was_held_up) { /* what came meanwhile may be as old as that */
+    if (was_held_up) { /* answers received meanwhile may be as old as that */
         frames = 0;
     }
-    if (f->is_behind && begin - f->heard_at > QUIET_NS) { /* what has not come by now will not */
+    if (f->is_behind && begin - f->heard_at > QUIET_NS) { /* missing answers are lost */
         f->is_behind = 0;
         f->owed = 0;
     }
@@ -235,11 +235,11 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     if (frames == 0) {
         return KNURL_LINK_NOTHING;
     }
-    f->owed = 0; /* one came, and the others have had their time */
+    f->owed = 0; /* one arrived, and the time for the others is over */
     return locate(f, sample);
 }
 
-/* Where it is wanted. */
+/* Starts the guard process if the URI requests it. */
 static knurl_result start_guard(falcon *f) {
     static const int16_t none[3] = {0, 0, 0};
     knurl_guard_order order = {0, KNURL_FALCON_FRAME_BYTES, {0}};
@@ -260,7 +260,7 @@ static void stop_guard(falcon *f) {
     f->link.guard = NULL;
 }
 
-/* Opens the device, has it answer, and starts the thread; closes again what it has opened where that fails. */
+/* Opens and prepares the device and starts the thread; on failure closes all of it. */
 static knurl_result connect(falcon *f) {
     knurl_falcon_transport transport = {0};
     knurl_result result = f->bus.open(f->bus.user, &transport);
@@ -297,7 +297,7 @@ static void disconnect(falcon *f) {
     }
 }
 
-/* What `knurl calibrate falcon` wrote: a number and a line's end. */
+/* Reads the file that `knurl calibrate falcon` writes: a number and a newline. */
 static knurl_result read_gain(const char *path, char *text, size_t size) {
     char why[160];
     uint64_t there = 0;
@@ -311,7 +311,7 @@ static knurl_result read_gain(const char *path, char *text, size_t size) {
     return KNURL_OK;
 }
 
-/* `text`: what the URI says, or "". */
+/* `text`: the URI's gain, or "". */
 static knurl_result set_gain(falcon *f, const char *text) {
     char kept[64] = "";
     const char *path = knurl_system_environment("KNURL_FALCON_GAIN");
@@ -393,7 +393,7 @@ static void falcon_close(knurl_device *device) {
     knurl_device_free(device);
 }
 
-/* As the fake device's preset "falcon" has it, but for the workspace; sources there. */
+/* As the fake device's preset "falcon", which has the sources, except for the workspace. */
 static void falcon_info(const knurl_device *device, knurl_device_info *info) {
     const falcon *f = look_at(device);
     (void)snprintf(info->name, sizeof info->name, "Novint Falcon, gain %g%s", f->gain,
@@ -402,9 +402,9 @@ static void falcon_info(const knurl_device *device, knurl_device_info *info) {
         info->workspace_min[axis] = -KNURL_FALCON_WORKSPACE;
         info->workspace_max[axis] = KNURL_FALCON_WORKSPACE;
     }
-    info->resolution = 0.000048; /* a count of all three encoders at the centre, along z; one count of one: 0.041 mm */
+    info->resolution = 0.000048; /* all three encoders by one count, at the centre, along z; one encoder: 0.041 mm */
     info->max_force = device->max_force;
-    info->delay = 2.0;            /* assumed: a transfer each way at 1 kHz */
+    info->delay = 2.0;            /* assumed: one transfer in each direction at 1 kHz */
     info->continuous_force = 3.0; /* assumed: a third of the peak */
     info->heat_time = 60.0;       /* assumed */
     info->mass = 0.2;             /* assumed */
@@ -421,7 +421,7 @@ static void falcon_status(const knurl_device *device, knurl_device_status *statu
 }
 
 static knurl_result falcon_reopen(knurl_device *device) {
-    disconnect(of(device)); /* the thread has ended by itself */
+    disconnect(of(device)); /* the thread has already ended */
     return connect(of(device));
 }
 

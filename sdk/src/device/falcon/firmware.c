@@ -28,10 +28,10 @@ static const request load_mode[] = {{LINES, 0x100}, {BAUD, 0x15}};              
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #define PROBES      10 /* frames */
-#define PROBE_MS    20 /* for an answer to each */
+#define PROBE_MS    20 /* to wait for an answer to each */
 #define LOADS       10
-#define GREETINGS   60 /* 1.5 s in all, as long as libnifalcon waits */
-#define GREETING_MS 25 /* 7 characters at 9600 Bd, and the chip's 16 ms */
+#define GREETINGS   60 /* 1.5 s in total, as in libnifalcon */
+#define GREETING_MS 25 /* 7 characters at 9600 Bd, plus the chip's 16 ms */
 #define ECHO_MS     500
 #define WRITE_MS    200
 #define CHUNK       62u
@@ -61,7 +61,7 @@ static int64_t after_ms(int64_t ms) {
     return knurl_system_now_ns() + ms * 1000000;
 }
 
-/* The data of one packet, or none by the deadline. `bytes`: a packet's room. KNURL_FALCON_. */
+/* Receives the data of one packet before the deadline. `bytes`: room for a packet. KNURL_FALCON_. */
 static int receive(const knurl_falcon_transport *t, int64_t deadline, uint8_t *bytes, size_t *count) {
     for (;;) {
         uint8_t packet[KNURL_FALCON_PACKET];
@@ -82,8 +82,8 @@ static int receive(const knurl_falcon_transport *t, int64_t deadline, uint8_t *b
     }
 }
 
-/* Sends frames without force until one is answered; the beginning of another answer may have come with its end, and the
- * rest of that belongs to it too. KNURL_FALCON_. */
+/* Sends frames of zero force until one is answered. If the answer's packet also holds the start of another answer,
+ * reads that to its end, too. KNURL_FALCON_. */
 static int probe(const knurl_falcon_transport *t) {
     static const int16_t none[3] = {0, 0, 0};
     knurl_falcon_decoder decoder = {0};
@@ -109,7 +109,7 @@ static int probe(const knurl_falcon_transport *t) {
     return KNURL_FALCON_NOTHING;
 }
 
-/* Says hello until the boot loader does: 0A 44 2C 0D, sometimes after a 00. */
+/* Sends greetings until the boot loader replies 0A 44 2C 0D, sometimes after a 00. */
 static knurl_result greet(const knurl_falcon_transport *t) {
     static const uint8_t hello[] = {0x0a, 0x43, 0x0d};
     static const uint8_t reply[] = {0x0a, 0x44, 0x2c, 0x0d};
@@ -136,7 +136,7 @@ static knurl_result greet(const knurl_falcon_transport *t) {
                       GREETINGS);
 }
 
-/* Sends bytes that are to come back as they are. `at`: where in the image they stand. */
+/* Sends bytes and checks their echo. `at`: their offset in the image. */
 static knurl_result send_echoed(const knurl_falcon_transport *t, const uint8_t *bytes, size_t count, size_t at) {
     uint8_t heard[KNURL_FALCON_PACKET];
     size_t echoed = 0;
@@ -178,7 +178,7 @@ static knurl_result load(const knurl_falcon_transport *t, const uint8_t *image, 
     return result ? result : set_up(t, normal_mode, COUNT(normal_mode), "start its firmware");
 }
 
-/* Users of libnifalcon need several tries before one gets through. */
+/* Users of libnifalcon need several attempts before one succeeds. */
 static knurl_result load_until_it_answers(const knurl_falcon_transport *t, const char *path, const uint8_t *image,
                                           size_t size) {
     knurl_result result = KNURL_OK;
@@ -220,7 +220,7 @@ knurl_result knurl_falcon_prepare(const knurl_falcon_transport *t, const char *p
     if (result) {
         return result;
     }
-    const int outcome = probe(t); /* the last program to use it may have loaded it */
+    const int outcome = probe(t); /* the previous program may have loaded it */
     if (outcome == KNURL_FALCON_NOTHING && !path[0]) {
         return knurl_fail(
             KNURL_ERROR_DEVICE_LOST,

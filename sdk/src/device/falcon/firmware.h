@@ -1,14 +1,13 @@
-/* Makes an open Falcon ready for frames: after power-on it has a boot loader but no firmware, and keeps a loaded one
- * until power-off. Source: libnifalcon (FalconCommLibUSB, FalconFirmware).
- * SPDX-License-Identifier: MIT */
+/* Prepares an open Falcon for frames: after power-on it has a boot loader but no firmware, and it keeps a loaded one
+ * until power-off. Source: libnifalcon (FalconCommLibUSB, FalconFirmware). SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FALCON_FIRMWARE_H
 #define KNURL_SRC_FALCON_FIRMWARE_H
 
 #include "device/falcon/transport.h"
 
-/* Returns once the device answers a frame, of no force; where it does not, loads the image at `path` ("": none is
- * known). Takes 0.2 s at most without loading and some 3 s with. Errors: KNURL_ERROR_DEVICE_LOST (unplugged, or
- * does not answer), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (the image), KNURL_ERROR_MEMORY. */
+/* Returns when the device answers a frame of zero force. If it does not answer, loads the image at `path` ("" if
+ * unknown). Takes 0.2 s at most without loading and about 3 s with. Errors: KNURL_ERROR_DEVICE_LOST (unplugged, or no
+ * answer), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (the image), KNURL_ERROR_MEMORY. */
 knurl_result knurl_falcon_prepare(const knurl_falcon_transport *transport, const char *path);
 
 #endif

@@ -5,7 +5,7 @@
 #define FLAGS  13u
 #define SPARE  14u
 #define END    15u
-#define DIGITS 4u /* a number, the lowest first */
+#define DIGITS 4u /* per number, the lowest first */
 
 void knurl_falcon_encode(const int16_t motors[3], uint32_t flags, uint8_t frame[KNURL_FALCON_FRAME_BYTES]) {
     frame[0] = '<';
@@ -20,7 +20,7 @@ void knurl_falcon_encode(const int16_t motors[3], uint32_t flags, uint8_t frame[
     frame[END] = '>';
 }
 
-/* Whether a byte may stand there. Of the one before the last nothing is known but that it is no bracket. */
+/* 1 if `byte` is valid at this place. Of the spare byte nothing is known except that it is not a bracket. */
 static int fits(uint32_t at, uint8_t byte) {
     const uint32_t most = at < FLAGS ? FIRST + 15u : FIRST + 127u;
     return at == 0 ? byte == '<' : at == END ? byte == '>' : byte >= FIRST && byte <= most;
@@ -41,7 +41,7 @@ static void take(const uint8_t *frame, knurl_falcon_state *state) {
 uint32_t knurl_falcon_decode(knurl_falcon_decoder *decoder, const uint8_t *bytes, size_t count) {
     uint32_t frames = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!fits(decoder->count, bytes[i])) { /* no '<' can be among those that fitted: start again here */
+        if (!fits(decoder->count, bytes[i])) { /* no earlier byte of the frame is a '<', so start again here */
             decoder->bad_bytes += decoder->count;
             decoder->count = 0;
             if (bytes[i] != '<') {

@@ -11,9 +11,9 @@
 
 #define KNURL_FALCON_FRAME_BYTES 16
 
-/* The flags of a frame to the device. */
+/* Flags of a frame to the device. */
 enum {
-    KNURL_FALCON_HOMING = 1, /* in every frame: legs that pass their index set their encoders to it, and keep that */
+    KNURL_FALCON_HOMING = 1, /* in every frame: when a leg passes its index, its encoder is set, and stays homed */
     KNURL_FALCON_GREEN = 2,
     KNURL_FALCON_BLUE = 4,
     KNURL_FALCON_RED = 8
@@ -25,24 +25,23 @@ enum {
 typedef struct knurl_falcon_state {
     int16_t counts[3]; /* encoders */
     uint8_t buttons;   /* bits 0 to 3 */
-    uint8_t homed;     /* a bit a leg */
+    uint8_t homed;     /* one bit per leg */
 } knurl_falcon_state;
 
-/* Finds frames in what comes; zeroed: none yet. A frame has no checksum and no number. A lost, doubled or foreign
- * character is always seen; one of the sixteen in another's place never is. In the highest digit that is a position
- * that no hand reaches (the driver), or a jump (the position check of every device: 20 mm); in the low two it moves the
- * position by up to 10 mm for one reading, which may be believed. */
+/* Finds frames in received bytes; zeroed at first. A frame has no checksum and no number. A lost, doubled or foreign
+ * character is always detected; if one of the sixteen replaces another, it never is. In the highest digit that gives a
+ * position that no hand reaches (refused by the driver), or a jump (refused by every device's position check: 20 mm);
+ * in the low two it shifts the position by up to 10 mm for one reading, which may be accepted. */
 typedef struct knurl_falcon_decoder {
-    uint8_t bytes[KNURL_FALCON_FRAME_BYTES]; /* of the frame that is under way */
+    uint8_t bytes[KNURL_FALCON_FRAME_BYTES]; /* of the unfinished frame */
     uint32_t count;
-    uint64_t bad_bytes; /* thrown away so far */
+    uint64_t bad_bytes; /* discarded so far */
     knurl_falcon_state newest;
 } knurl_falcon_decoder;
 
 void knurl_falcon_encode(const int16_t motors[3], uint32_t flags, uint8_t frame[KNURL_FALCON_FRAME_BYTES]);
 
-/* Takes bytes in, less the status bytes of their packets; returns how many frames they ended, the last of which is
- * `newest` now. */
+/* Adds bytes, without their packets' status bytes; returns the number of completed frames. The last one is `newest`. */
 uint32_t knurl_falcon_decode(knurl_falcon_decoder *decoder, const uint8_t *bytes, size_t count);
 
 #endif

@@ -1,10 +1,10 @@
 /* Kinematics of a Novint Falcon. In a leg's own plane the upper arm turns by theta about the origin; u points outward,
- * w towards the user, v along the hinge. What the lower arm, a parallelogram, leaves is one equation a leg,
+ * w towards the user, v along the hinge. The lower arm, a parallelogram, leaves one equation per leg,
  *
  *     h(u, v, w, theta) = |(u, w) - a (cos theta, sin theta)| - (d + e + sqrt(b^2 - v^2)) = 0,
  *
- * from which everything here follows: solved for theta in closed form, for the position by Newton's method, and its
- * derivatives are the Jacobian. SPDX-License-Identifier: MIT */
+ * which is solved for theta in closed form and for the position by Newton's method; its derivatives are the Jacobian.
+ * SPDX-License-Identifier: MIT */
 #include "device/falcon/kinematics.h"
 
 #include "base/vec3.h"
@@ -15,29 +15,29 @@
 #define RODS   0.1025  /* b: the long sides of the parallelogram */
 #define HINGES 0.0225  /* d + e: from its short sides to the hinges, twice 0.01125 */
 #define OUT    0.02557 /* r - c: from the middle to the upper arm's axis (0.0400), less the grip's own (0.01443) */
-#define SIDE   0.00191 /* s - f: how far upper arm and grip are set off along the hinge: -0.02309 and -0.025 */
+#define SIDE   0.00191 /* s - f: offset of upper arm and grip along the hinge: -0.02309 and -0.025 */
 #define CENTRE 0.12    /* of the workspace, along the axis towards the user */
 
-#define STEPS    16    /* Newton's, at most; 3 or 4 from the last position, 9 at most from the centre */
-#define EXACT    1e-11 /* m: a residual that is none */
-#define LONGEST  0.02  /* m a step */
-#define FLAT     0.01  /* the volume that the three rods' unit vectors span is 1 at right angles, 0 in a plane */
-#define STRETCH  0.05  /* the sine between upper and lower arm at which a leg counts as stretched out */
-#define UNITS_NM 1e4   /* libnifalcon's, uncalibrated: motor units a N m */
+#define STEPS    16    /* of Newton's method, at most; 3 or 4 from the last position, 9 at most from the centre */
+#define EXACT    1e-11 /* m: residual that counts as 0 */
+#define LONGEST  0.02  /* m per step */
+#define FLAT     0.01  /* least volume spanned by the three rods' unit vectors: 1 at right angles, 0 in a plane */
+#define STRETCH  0.05  /* sine between upper and lower arm below which a leg counts as stretched out */
+#define UNITS_NM 1e4   /* libnifalcon's, uncalibrated: motor units per N m */
 
-/* cos and sin of where the legs stand: 105, -15 and -135 degrees. */
+/* cos and sin of the legs' directions: 105, -15 and -135 degrees. */
 static const double legs[3][2] = {{-0.25881904510252074, 0.96592582628906831},
                                   {0.96592582628906831, -0.25881904510252074},
                                   {-0.70710678118654757, -0.70710678118654757}};
 
 double knurl_falcon_angle(double counts) {
-    /* a drum of 110 mm is wound by a capstan of 14.25 mm with an encoder of 320 lines, 4 counts a line */
+    /* a capstan of 14.25 mm with an encoder of 320 lines, 4 counts per line, winds a drum of 110 mm */
     const double counts_a_turn = 320.0 * 4.0 * 0.110 / 0.01425;
     const double at_zero = 35.0 / 360.0;
     return 6.283185307179586 * (counts / counts_a_turn + at_zero);
 }
 
-/* The grip's end of a leg in its own frame, with the upper arm's axis at the origin. */
+/* Converts a position to the leg's own frame, with the upper arm's axis at the origin. */
 static void into_leg(int leg, const double position[3], double uvw[3]) {
     const double c = legs[leg][0];
     const double s = legs[leg][1];
@@ -54,7 +54,7 @@ int knurl_falcon_inverse(const double position[3], double theta[3]) {
         const double lower = HINGES + sqrt(RODS * RODS - p[1] * p[1]);
         const double d2 = p[0] * p[0] + p[2] * p[2];
         const double cosine = (d2 + ARM * ARM - lower * lower) / (2.0 * ARM * sqrt(d2));
-        if (!(fabs(cosine) <= 1.0)) { /* NaN too: v beyond the rods */
+        if (!(fabs(cosine) <= 1.0)) { /* also if NaN: v is beyond the rods */
             return 0;
         }
         found[leg] = atan2(p[2], p[0]) - acos(cosine); /* elbows outward */
@@ -64,7 +64,7 @@ int knurl_falcon_inverse(const double position[3], double theta[3]) {
 }
 
 /* One leg's equation: its residual, its gradient in the device frame, and its derivative by theta. `arm`: cos, sin of
- * theta. 0: v is beyond the rods, or a number is none. */
+ * theta. Returns 0 if v is beyond the rods or a number is not finite. */
 static int weigh(int leg, const double position[3], const double arm[2], double *residual, double normal[3],
                  double *by_theta) {
     double p[3];
@@ -88,7 +88,7 @@ static int weigh(int leg, const double position[3], const double arm[2], double 
     return 1;
 }
 
-/* m x = b by Cramer's rule, the rows of m as long as unit vectors. 0: they lie in a plane. */
+/* Solves m x = b by Cramer's rule, for rows of about unit length. Returns 0 if they lie in a plane. */
 static int solve(double m[3][3], const double b[3], double x[3]) {
     double across[3][3];
     vec3_cross(m[1], m[2], across[0]);
@@ -104,7 +104,7 @@ static int solve(double m[3][3], const double b[3], double x[3]) {
     return 1;
 }
 
-/* Elbows outward, none stretched out, near the centre: of the poses that the angles allow, the device's own. */
+/* Of all poses with these angles accepts the device's: elbows outward, no leg stretched out, near the centre. */
 static int is_pose(const double position[3], const double by_theta[3]) {
     for (int axis = 0; axis < 3; axis++) {
         if (!(by_theta[axis] < -STRETCH * ARM && fabs(position[axis]) <= KNURL_FALCON_REACH)) {
@@ -173,8 +173,8 @@ int knurl_falcon_motors(const double position[3], const double theta[3], const d
     if (!knurl_falcon_jacobian(position, theta, jacobian)) {
         return 0;
     }
-    /* Virtual work, F . dx = tau . J dx: J^T tau = F. Solved by rows as long as unit vectors, three wrenches that have
-     * to make up the force, so the transpose's columns are brought to that length first. */
+    /* Virtual work, F . dx = tau . J dx: J^T tau = F. The columns of J^T are scaled to unit length first, so that
+     * solve() finds three unit wrenches whose sum is the force. */
     double unit[3][3];
     for (int leg = 0; leg < 3; leg++) {
         vec3_copy(&jacobian[3 * leg], unit[leg]);
@@ -188,7 +188,7 @@ int knurl_falcon_motors(const double position[3], const double theta[3], const d
     }
     double most = 0.0;
     for (int leg = 0; leg < 3; leg++) {
-        torque[leg] *= -UNITS_NM / lengths[leg]; /* a positive unit turns the arm, and the count, down */
+        torque[leg] *= -UNITS_NM / lengths[leg]; /* a positive unit lowers the arm and the count */
         most = fmax(most, fabs(torque[leg]));
     }
     if (!vec3_finite(torque)) {

@@ -1,6 +1,5 @@
-/* A Falcon over libusb. An input transfer is always pending, so that no answer waits for a request. libusb's events are
- * handled by the calling thread.
- * SPDX-License-Identifier: MIT */
+/* A Falcon over libusb. An input transfer is always pending, so that no answer waits for a request. The calling thread
+ * handles libusb's events. SPDX-License-Identifier: MIT */
 #include "device/falcon/transport.h"
 #include "device/listings.h"
 
@@ -40,10 +39,10 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
 #define END_OUT      0x02
 #define REQUEST_TYPE 0x40
 #define CONTROL_MS   1000
-#define ROOM         16u  /* packets that have come and were not read yet; while it is full, none is asked for */
-#define CLOSE_MS     1000 /* for what is under way to end */
+#define ROOM         16u  /* packets received but not read; while full, no more are requested */
+#define CLOSE_MS     1000 /* for pending transfers to end */
 
-/* What is loaded of libusb. */
+/* Functions loaded from libusb. */
 #define FUNCTIONS(X)                                                                                                   \
     X(alloc_transfer)                                                                                                  \
     X(cancel_transfer)                                                                                                 \
@@ -111,7 +110,7 @@ typedef struct usb {
     unsigned char in_bytes[KNURL_FALCON_PACKET];
     unsigned char out_bytes[KNURL_FALCON_PACKET];
     int is_in_pending, is_out_pending;
-    int is_gone, is_closing, has_failed; /* has_failed: the latest transfer out */
+    int is_gone, is_closing, has_failed; /* has_failed: the last transfer out */
     struct {
         uint8_t bytes[KNURL_FALCON_PACKET];
         size_t count;
@@ -133,7 +132,7 @@ static void LIBUSB_CALL on_in(struct libusb_transfer *transfer) {
         if (transfer->actual_length > (int)KNURL_FALCON_STATUS) {
             keep(u, u->in_bytes, transfer->actual_length);
         }
-        /* else the next read or write tries, and sees why */
+        /* if it fails, the next read or write retries and gets the error */
         u->is_in_pending = u->held < ROOM && lib.submit_transfer(transfer) == 0;
     }
 }
@@ -145,13 +144,13 @@ static void LIBUSB_CALL on_out(struct libusb_transfer *transfer) {
     u->has_failed = transfer->status != LIBUSB_TRANSFER_COMPLETED;
 }
 
-/* A request's own outcome. */
+/* Outcome of a libusb call. */
 static int outcome_of(usb *u, int code) {
     u->is_gone |= code == LIBUSB_ERROR_NO_DEVICE;
     return code >= 0 ? KNURL_FALCON_DONE : u->is_gone ? KNURL_FALCON_GONE : KNURL_FALCON_NOTHING;
 }
 
-/* Handles events until `deadline`, or until one was handled. */
+/* Handles events until `deadline`, or until the first event. */
 static void wait_for_events(usb *u, int64_t deadline) {
     const int64_t left = deadline - knurl_system_now_ns();
     struct timeval time = {0, 0};
@@ -185,7 +184,7 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
     usb *u = self;
     const int64_t deadline = after_ms(timeout_ms);
     while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
-        wait_for_events(u, deadline); /* for the one before */
+        wait_for_events(u, deadline); /* for the previous one */
     }
     if (u->is_gone) {
         return KNURL_FALCON_GONE;
@@ -193,11 +192,11 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
     if (u->is_out_pending || count > sizeof u->out_bytes) {
         return KNURL_FALCON_NOTHING;
     }
-    const int outcome = begin_in(u); /* before the answer can come */
+    const int outcome = begin_in(u); /* before the answer can arrive */
     if (outcome != KNURL_FALCON_DONE) {
         return outcome;
     }
-    const int had_failed = u->has_failed; /* of the previous write: this one is not waited for */
+    const int had_failed = u->has_failed; /* of the previous write: the caller does not wait for this one */
     memcpy(u->out_bytes, bytes, count);
     libusb_fill_bulk_transfer(u->out, u->handle, END_OUT, u->out_bytes, (int)count, on_out, u, 0);
     const int code = lib.submit_transfer(u->out);
@@ -209,7 +208,7 @@ static int usb_write(void *self, const uint8_t *bytes, size_t count, uint32_t ti
 static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *count, uint32_t timeout_ms) {
     usb *u = self;
     const int64_t deadline = after_ms(timeout_ms);
-    for (int was_asked = 0; u->held == 0; was_asked = 1) { /* at least once, for what the system has already */
+    for (int was_asked = 0; u->held == 0; was_asked = 1) { /* at least once: packets may have arrived */
         const int outcome = begin_in(u);
         if (outcome != KNURL_FALCON_DONE) {
             return outcome;
@@ -226,13 +225,13 @@ static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *cou
     return KNURL_FALCON_DONE;
 }
 
-/* Takes back what is under way, and everything else. */
+/* Cancels pending transfers and frees everything. */
 static void usb_close(void *self) {
     usb *u = self;
     const int64_t deadline = after_ms(CLOSE_MS);
     u->is_closing = 1;
     while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
-        wait_for_events(u, deadline); /* the last frame: it sets the force to zero */
+        wait_for_events(u, deadline); /* the last frame sets the force to zero */
     }
     if (u->is_in_pending) {
         (void)lib.cancel_transfer(u->in);
@@ -245,7 +244,7 @@ static void usb_close(void *self) {
     }
     if (u->handle) {
         (void)lib.release_interface(u->handle, 0);
-        lib.close(u->handle); /* forgets transfers that are still under way */
+        lib.close(u->handle); /* drops transfers that are still pending */
     }
     lib.free_transfer(u->in);
     lib.free_transfer(u->out);
@@ -260,7 +259,7 @@ static knurl_result refused(const char *doing, int code) {
     if (code == LIBUSB_ERROR_BUSY) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", in_use);
     }
-    if (code == LIBUSB_ERROR_NOT_SUPPORTED) { /* on Windows alone */
+    if (code == LIBUSB_ERROR_NOT_SUPPORTED) { /* Windows only */
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'falcon': found (0403:cb48), but %s", no_driver);
     }
     if (code == LIBUSB_ERROR_NO_DEVICE) {
@@ -273,7 +272,7 @@ static knurl_result refused(const char *doing, int code) {
                       lib.strerror((enum libusb_error)code));
 }
 
-/* Calls `visit` for every Falcon until it returns 0. Returns how many USB devices there are, or libusb's error. */
+/* Calls `visit` for each Falcon until it returns 0. Returns the number of USB devices, or libusb's error. */
 static long visit_falcons(libusb_context *context, int (*visit)(libusb_device *device, void *user), void *user) {
     libusb_device **devices = NULL;
     const ssize_t count = lib.get_device_list(context, &devices);
@@ -294,7 +293,7 @@ static int visit_to_list(libusb_device *device, void *user) {
     knurl_listings *listings = user;
     libusb_device_handle *handle = NULL;
     int code = lib.open(device, &handle);
-    if (code == 0) { /* that another program uses it shows when its interface is claimed */
+    if (code == 0) { /* only claiming the interface detects use by another program */
         (void)lib.set_auto_detach_kernel_driver(handle, 1);
         code = lib.claim_interface(handle, 0);
         if (code == 0) {
@@ -308,7 +307,7 @@ static int visit_to_list(libusb_device *device, void *user) {
                       : code                               ? lib.strerror((enum libusb_error)code)
                                                            : "";
     knurl_listings_add(listings, "falcon", "Novint Falcon", "%s", why);
-    return 0; /* the first one is the one that is opened */
+    return 0; /* only the first one can be opened */
 }
 
 static void usb_list(void *user, knurl_listings *listings) {
@@ -364,7 +363,7 @@ static knurl_result claim(usb *u) {
     if (s.code) {
         return refused("open it", s.code);
     }
-    (void)lib.set_auto_detach_kernel_driver(u->handle, 1); /* where a system has no such thing, there is no need */
+    (void)lib.set_auto_detach_kernel_driver(u->handle, 1); /* if a system does not support it, it is not needed */
     code = lib.claim_interface(u->handle, 0);
     if (code) {
         return refused("claim its interface 0", code);
@@ -375,7 +374,7 @@ static knurl_result claim(usb *u) {
 }
 
 #ifdef __linux__
-/* libusb tells no descriptor of a device, but those that it polls: of them a device's alone is polled for writing, and
+/* libusb does not expose a device's descriptor, but those that it polls. Only a device's is polled for writing, and
  * this context has one device. */
 static int usb_share(void *self, int32_t *endpoint) {
     const usb *u = self;
