@@ -1,5 +1,5 @@
-/* Force Dimension's omega, delta, sigma and lambda, and a Falcon under its maker's DHD library: an I/O thread hands
- * over a force and asks for a position. Read exchange() first. SPDX-License-Identifier: MIT */
+/* Force Dimension's omega, delta, sigma and lambda, and a Falcon under its maker's DHD library: an I/O thread sets a
+ * force and reads a position. Read exchange() first. SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd.h"
 
 #include "device/dhd/rights.h"
@@ -17,10 +17,10 @@
 #include <string.h>
 
 #define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
-#define STATUS_CYCLES 10u    /* exchanges between two looks at the status: nobody presses a button twice in between */
+#define STATUS_CYCLES 10u    /* exchanges per status query: too few for a hand to press a button twice */
 
-/* What each can do. Force, stiffness, damping and the workspace's radius: CHAI3D's cDeltaDevices; lambdas and the other
- * sigmas: taken for a sigma.7. A continuous force is not published: a third of the peak. */
+/* Properties by model. Force, stiffness, damping and workspace radius: CHAI3D's cDeltaDevices; lambdas and the other
+ * sigmas: as a sigma.7. Continuous forces are not published: a third of the peak. */
 static const struct {
     int type;
     double max_force, max_stiffness, max_damping, radius;
@@ -34,7 +34,7 @@ static const struct {
     {DHD_SIGMA3, 12.0, 4000.0, 30.0, 0.09},  {DHD_LAMBDA3, 12.0, 4000.0, 30.0, 0.09},
     {DHD_LAMBDA6, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 30.0, 0.09},
     {DHD_LAMBDA7, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_FALCON, 8.0, 3000.0, 20.0, 0.04}, /* also the weakest: what another one is taken for */
+    {DHD_FALCON, 8.0, 3000.0, 20.0, 0.04}, /* also the weakest: used if the type is unknown */
 };
 
 #define MODEL_COUNT (sizeof models / sizeof *models)
@@ -42,20 +42,20 @@ static const struct {
 typedef struct dhd {
     knurl_device base;
     knurl_link link;
-    char index; /* among those that are connected */
-    char id;    /* what the library calls it while it is open */
+    char index; /* among the connected devices */
+    char id;    /* the library's ID of the open device */
     uint32_t is_open;
-    size_t model; /* of models[] */
+    size_t model; /* index into models[] */
     char name[64];
-    /* the I/O thread's */
+    /* of the I/O thread */
     uint32_t until_status;
-    int32_t trouble; /* KNURL_FAULT_, reported: why it plays no forces; 0: it does */
+    int32_t trouble; /* KNURL_FAULT_ why it plays no forces, reported; 0 if it plays them */
 } dhd;
 
 static dhd_api api;
 
 static dhd *of(knurl_device *device) {
-    return (dhd *)(void *)device; /* its first member */
+    return (dhd *)(void *)device; /* first member */
 }
 
 static int load_functions(const char *path, char *why, size_t why_size) {
@@ -87,7 +87,7 @@ static int is_gone(void) {
     return error == DHD_ERROR_COM || error == DHD_ERROR_NO_DEVICE || error == DHD_ERROR_NOT_AVAILABLE;
 }
 
-/* KNURL_FAULT_ by which it plays no forces, and for KNURL_FAULT_FORCE_OFF its cause; 0: it plays them. */
+/* KNURL_FAULT_ why it plays no forces, and the cause if it is KNURL_FAULT_FORCE_OFF; 0 if it plays them. */
 static int32_t find_trouble(const int *status, int32_t *cause) {
     *cause = 0;
     if (!status[DHD_STATUS_RESET]) {
@@ -102,7 +102,7 @@ static int32_t find_trouble(const int *status, int32_t *cause) {
     return KNURL_FAULT_FORCE_OFF;
 }
 
-/* KNURL_LINK_POSITION while it plays forces. */
+/* KNURL_LINK_POSITION if the device plays forces. */
 static int look_at_status(dhd *d) {
     int status[DHD_STATUS_ROOM] = {0};
     int32_t cause = 0;
@@ -126,7 +126,7 @@ static int look_at_status(dhd *d) {
     return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
 }
 
-/* From the library's axes. Its rows are a matrix whose columns are the stylus' axes x, y, z. */
+/* Converts from the library's axes. The rows form a matrix whose columns are the stylus' axes x, y, z. */
 static void tell_orientation(dhd *d, double q[4]) {
     double rows[9] = {0.0};
     if (api.get_orientation(rows, d->id) < 0) {
@@ -141,7 +141,7 @@ static void tell_orientation(dhd *d, double q[4]) {
     quaternion_from_axes(columns[1], columns[2], columns[0], q);
 }
 
-/* A device whose forces are off is told none: one that is switched on again plays at once what it is told. */
+/* While forces are off, sends zeros: when they are switched on again, the device at once plays the last force sent. */
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     dhd *d = of(device);
     double x = NAN;
@@ -257,7 +257,7 @@ static knurl_result dhd_open(const char *options, knurl_device **device) {
 }
 
 static knurl_result dhd_reopen(knurl_device *device) {
-    disconnect(of(device)); /* the thread has ended by itself */
+    disconnect(of(device)); /* the thread has already ended */
     return connect(of(device));
 }
 
@@ -289,7 +289,7 @@ static void dhd_list(knurl_listings *listings) {
 static void dhd_info(const knurl_device *device, knurl_device_info *info) {
     const dhd *d = (const dhd *)(const void *)device;
     (void)snprintf(info->name, sizeof info->name, "%s", d->name);
-    for (int axis = 0; axis < 3; axis++) { /* the cube in the sphere */
+    for (int axis = 0; axis < 3; axis++) { /* the cube inside the sphere */
         info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
         info->workspace_min[axis] = -info->workspace_max[axis];
     }

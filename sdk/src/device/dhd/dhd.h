@@ -1,5 +1,5 @@
-/* The part of Force Dimension's DHD library that is needed: numbers and functions, written down anew from its public
- * header (3.7 and later). The library itself is loaded at run time. Axes: x towards the user, y right, z up; m, N.
+/* The part of Force Dimension's DHD library that Knurl uses: constants and functions, rewritten from its public header
+ * (3.7 and later). The library is loaded at run time. Axes: x towards the user, y right, z up; m, N.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_DHD_H
 #define KNURL_SRC_DHD_H
@@ -37,22 +37,21 @@ enum {
     DHD_LAMBDA3 = 203
 };
 
-/* Places in what dhdGetStatus() fills in. */
+/* Indices into the status array of dhdGetStatus(). */
 enum {
     DHD_STATUS_POWER = 0,
     DHD_STATUS_CONNECTED = 1,
     DHD_STATUS_RESET = 3,
-    DHD_STATUS_FORCE = 5,            /* the controller is in its force mode */
-    DHD_STATUS_FORCE_OFF_CAUSE = 14, /* of the latest time that it left it: KNURL_FORCE_OFF_BUTTON to _DEADMAN; it stays
-                                        when forces are on again */
+    DHD_STATUS_FORCE = 5,            /* 1 if the controller is in its force mode */
+    DHD_STATUS_FORCE_OFF_CAUSE = 14, /* of the last time: KNURL_FORCE_OFF_BUTTON to _DEADMAN; kept afterwards */
     DHD_STATUS_ROOM = 64             /* 16 in 3.7, more in later ones */
 };
 
-/* Result of dhdErrorGetLast() when the device is gone. */
+/* Results of dhdErrorGetLast() if the device is gone. */
 enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 };
 
-/* Every function that is needed: field, what it returns, symbol, what it takes. All or none is loaded. Below 0 is an
- * error; 1 and 2 tell that the library has waited, or that a motor is at its limit. */
+/* Functions: field, return type, symbol, parameters. Loaded only if all exist. Results below 0 are errors; 1 and 2 mean
+ * that the library has waited, or that a motor is at its limit. */
 #define DHD_FUNCTIONS(X)                                                                                               \
     X(count, int, dhdGetDeviceCount, (void))                                                                           \
     X(open, int, dhdOpenID, (char index))                                                                              \

@@ -1,4 +1,4 @@
-/* Looks at the USB devices that Linux lists. SPDX-License-Identifier: MIT */
+/* Checks the USB devices that Linux lists. SPDX-License-Identifier: MIT */
 #include "device/dhd/rights.h"
 
 #ifndef __linux__
@@ -23,7 +23,7 @@ int knurl_usb_is_denied(unsigned vendor, char *text, size_t size) {
 
 typedef struct usb_device {
     unsigned vendor, product;
-    char node[128]; /* "": an interface, which has none of its own */
+    char node[128]; /* "" for an interface, which has no node */
 } usb_device;
 
 static void read_device(const char *name, usb_device *device) {
