@@ -1,5 +1,5 @@
-/* The HD API of 3D Systems' OpenHaptics, as far as it is needed: types, numbers and functions, written down anew from
- * its public reference. The library itself is loaded at run time (hd_load.h). Lengths mm, stiffness N/mm, forces N.
+/* The part of 3D Systems' OpenHaptics HD API that Knurl uses: types, constants and functions, rewritten from its public
+ * reference. The library is loaded at run time (hd_load.h). Lengths mm, stiffness N/mm, forces N.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HD_H
 #define KNURL_SRC_HD_H
@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-/* Functions and callbacks alike; other platforms have one convention. */
+/* Of functions and callbacks; other platforms have one convention. */
 #if defined(_WIN32) && !defined(_WIN64)
 #define HD_CALL __stdcall
 #else
@@ -20,20 +20,20 @@ typedef uint32_t hd_device;              /* HHD */
 typedef unsigned long hd_scheduler_code; /* HDSchedulerHandle: 8 bytes on 64-bit Linux, 4 on Windows */
 typedef uint32_t(HD_CALL *hd_callback)(void *user);
 
-/* Comes by value, newest first. */
+/* Returned by value, newest first. */
 typedef struct hd_error {
-    uint32_t code; /* 0: there is none (any more) */
+    uint32_t code; /* 0: no (further) error */
     int32_t internal;
-    hd_device device; /* current when it happened */
+    hd_device device; /* current when it occurred */
 } hd_error;
 
 #define HD_NO_DEVICE ((hd_device)0xFFFFFFFF)
 
-/* Handles count from 0. After a call of hdInitDevice() that failed, the next one may return a greater number without an
- * error, which is no device (a warning in HAPI's PhantomHapticsDevice.cpp). */
+/* Handles count from 0. After a failed hdInitDevice(), the next call may return a larger number without an error,
+ * although it is not a device (a warning in HAPI's PhantomHapticsDevice.cpp). */
 #define HD_DEVICE_MOST 1024u
 
-/* What a callback returns. */
+/* Return values of a callback. */
 enum { HD_DONE = 0, HD_AGAIN = 1 };
 
 #define HD_PRIORITY_MOST ((unsigned short)65535)
@@ -45,8 +45,8 @@ enum {
     HD_VERSION = 0x2500,
     HD_MODEL = 0x2501,
     HD_DRIVER_VERSION = 0x2502,
-    HD_USABLE_WORKSPACE = 0x2551,  /* 6 doubles, mm: least x, y, z, greatest x, y, z */
-    HD_CALIBRATION_STYLE = 0x2555, /* an integer: a mask of HD_STYLE_, those that the device offers */
+    HD_USABLE_WORKSPACE = 0x2551,  /* 6 doubles, mm: minimum x, y, z, maximum x, y, z */
+    HD_CALIBRATION_STYLE = 0x2555, /* an integer: mask of the device's HD_STYLE_ */
     HD_MAX_STIFFNESS = 0x2602,     /* N/mm */
     HD_MAX_FORCE = 0x2603,         /* N */
     HD_CONTINUOUS_FORCE = 0x2604,  /* N */
@@ -54,14 +54,14 @@ enum {
     HD_FORCE = 0x2700,             /* 3 doubles, N */
     HD_FORCE_OUTPUT = 0x4000,      /* a capability */
     HD_CALIBRATED = 0x5000,        /* results of hdCheckCalibration(): this and the next two */
-    HD_CALIBRATION_STALE = 0x5001, /* hdUpdateCalibration() mends it */
-    HD_CALIBRATION_MANUAL = 0x5002 /* a person has to help */
+    HD_CALIBRATION_STALE = 0x5001, /* hdUpdateCalibration() corrects it */
+    HD_CALIBRATION_MANUAL = 0x5002 /* needs a person's help */
 };
 
-/* Styles of calibration. hdUpdateCalibration() takes one of them. */
+/* Calibration styles. hdUpdateCalibration() takes one of them. */
 enum { HD_STYLE_ENCODER = 1, HD_STYLE_AUTO = 2, HD_STYLE_INKWELL = 4 };
 
-/* Every function that is needed: field, symbol, what it returns, what it takes. All or none is loaded. */
+/* Functions: field, symbol, return type, parameters. Loaded only if all exist. */
 #define HD_FUNCTIONS(X)                                                                                                \
     X(init, hdInitDevice, hd_device, (const char *name))                                                               \
     X(disable_device, hdDisableDevice, void, (hd_device device))                                                       \
@@ -93,7 +93,7 @@ typedef struct hd_api {
 #undef HD_FIELD
 } hd_api;
 
-/* Every error: code, and what is wrong; what helps. */
+/* Errors: code, and problem; remedy. */
 #define HD_ERRORS(X)                                                                                                   \
     X(0x0100, "HD knows no such parameter; another version of OpenHaptics may know it")                                \
     X(0x0101, "HD allows no such value")                                                                               \
@@ -119,16 +119,16 @@ typedef struct hd_api {
     X(0x0501, "HD's scheduler is full; end other uses of it")                                                          \
     X(0x0600, "HD found no valid licence; install the OpenHaptics edition that goes with the device's driver")
 
-/* The sentence; static, never null, also for codes that are none. */
+/* The sentence of an error; static, never null, also for unknown codes. */
 const char *hd_error_sentence(uint32_t code);
 
-/* 1: with this error the device is gone until it is initialised again. */
+/* 1 if after this error the device is gone until it is initialised again. */
 int hd_error_is_loss(uint32_t code);
 
-/* 1: with this error the device does not play the force that it was told. */
+/* 1 if after this error the device does not play the force it was sent. */
 int hd_error_is_refusal(uint32_t code);
 
-/* Takes away the errors that HD has kept, newest first. Returns how many. */
+/* Removes the errors that HD has queued, newest first. Returns their number. */
 #define HD_ERRORS_AT_ONCE 16
 int hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]);
 

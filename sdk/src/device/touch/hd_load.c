@@ -19,7 +19,7 @@ static const char help[] = "install 3D Systems' OpenHaptics (for Linux or Window
                            "GTDD_HOME as they say, and name the library by ?library=PATH or KNURL_HD_LIBRARY where it "
                            "lies elsewhere";
 
-/* One library for all devices of the process: HD has one scheduler. */
+/* One library for all devices of the process, because HD has one scheduler. */
 static struct {
     hd_api api;
     knurl_library *library;
@@ -27,12 +27,12 @@ static struct {
     char path[PATH_ROOM];
 } loaded;
 
-/* What was tried, "PATH (why); PATH (why)". */
+/* Failed attempts, "PATH (why); PATH (why)". */
 typedef struct attempts {
     char text[640];
 } attempts;
 
-/* The system's reasons often begin with the path, which is said already. */
+/* Omits the path that the system's reasons often begin with, because it is already in the text. */
 static void note(attempts *tried, const char *path, const char *why) {
     const size_t used = strlen(tried->text);
     const size_t length = strlen(path);
@@ -41,7 +41,7 @@ static void note(attempts *tried, const char *path, const char *why) {
     (void)snprintf(tried->text + used, sizeof tried->text - used, "%s%.300s (%.240s)", used ? "; " : "", path, reason);
 }
 
-/* Linux says "no such file" of a library that is there, but for another processor. */
+/* If a library is for another processor, Linux reports "no such file"; the ELF header has the reason. */
 #if defined(__x86_64__)
 #define ELF_MACHINE 62
 #elif defined(__i386__)
@@ -51,7 +51,7 @@ static void note(attempts *tried, const char *path, const char *why) {
 #elif defined(__arm__)
 #define ELF_MACHINE 40
 #else
-#define ELF_MACHINE 0 /* cannot tell */
+#define ELF_MACHINE 0 /* unknown */
 #endif
 
 static void look_for_machine(const char *path, char *why, size_t why_size) {
@@ -71,7 +71,7 @@ static void look_for_machine(const char *path, char *why, size_t why_size) {
     }
 }
 
-/* The first symbol that the library lacks, or null: all are there. */
+/* The first symbol that the library lacks, or null if it has all. */
 static const char *find_functions(knurl_library *library, hd_api *api) {
 #define HD_FIND(field, symbol, result, arguments)                                                                      \
     if (!knurl_system_find_function(library, #symbol, &api->field)) {                                                  \
@@ -82,7 +82,7 @@ static const char *find_functions(knurl_library *library, hd_api *api) {
     return NULL;
 }
 
-/* 1 when it is loaded with all its functions. */
+/* Returns 1 if it was loaded with all its functions. */
 static int try_path(const char *path, attempts *tried) {
     char why[512];
     hd_api api;

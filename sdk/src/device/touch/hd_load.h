@@ -6,13 +6,12 @@
 
 #include <knurl/base.h>
 
-/* The library for one more user. `path`: where it is, or "": the environment variable KNURL_HD_LIBRARY, else the usual
- * names. A second user gets what the first one loaded. `device`: whom messages name. Errors: KNURL_ERROR_UNSUPPORTED
- * (all that was tried, and what the system says to each), KNURL_ERROR_ARGUMENT (another one is loaded). [one thread at
- * a time] */
+/* Loads the library, or counts one more user if it is loaded. `path`: the library, or "" for the environment variable
+ * KNURL_HD_LIBRARY, then the usual names. `device`: for messages. Errors: KNURL_ERROR_UNSUPPORTED (every attempt, with
+ * the system's reason), KNURL_ERROR_ARGUMENT (another library is loaded). [one thread at a time] */
 knurl_result hd_acquire(const char *path, const char *device, const hd_api **hd);
 
-/* One user less; the last one unloads it. */
+/* Counts one user less, and unloads the library after the last one. */
 void hd_release(void);
 
 #endif

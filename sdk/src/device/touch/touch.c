@@ -1,5 +1,5 @@
-/* 3D Systems Touch, by the HD library. Its scheduler owns the servo thread and is one for all devices: it starts with
- * the first loop (better after all devices were opened) and stops when the last device is closed.
+/* 3D Systems Touch, through the HD library. Its scheduler owns the servo thread and serves all devices: it starts with
+ * the first loop (preferably after all devices were opened) and stops when the last device is closed.
  * SPDX-License-Identifier: MIT */
 #include "device/drivers.h"
 #include "device/listings.h"
@@ -12,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static unsigned long rate_now; /* Hz of the scheduler: HD's own when the first device is opened, then as it was set */
+static unsigned long rate_now; /* Hz of the scheduler: HD's default when the first device is opened, then as last set */
 
-#define HD_RATE 1000  /* HD's own */
-static uint32_t busy; /* atomic: held by who opens, closes, starts or looks again; never by a servo thread */
+#define HD_RATE 1000  /* HD's default */
+static uint32_t busy; /* atomic: a lock, never taken by a servo thread */
 
-/* hdInitDevice() takes a second or two. One that takes this long hangs, and keeps the lock. */
+/* hdInitDevice() takes a second or two. If it takes this long, it hangs, and keeps the lock. */
 #define LOCK_NS INT64_C(10000000000)
 
 static knurl_result lock(void) {
@@ -38,7 +38,7 @@ static void unlock(void) {
 }
 
 static touch *of(knurl_device *device) {
-    return (touch *)(void *)device; /* its first member */
+    return (touch *)(void *)device; /* first member */
 }
 
 static void take_slot(touch *t) {
@@ -113,7 +113,7 @@ static knurl_result touch_open(const char *options, knurl_device **device) {
 static void touch_close(knurl_device *device) {
     touch *t = of(device);
     if (lock()) {
-        knurl_handle_clear(&device->handle); /* as below */
+        knurl_handle_clear(&device->handle); /* leaked, as below */
         return;
     }
     if (touch_detach(t)) {
@@ -122,7 +122,7 @@ static void touch_close(knurl_device *device) {
         t->slot->owner = NULL;
         knurl_device_free(device);
         hd_release();
-    } else { /* HD hangs inside of a call for this device: what that may still use is left to it */
+    } else { /* HD hangs in a call for this device and may still use its memory, which is leaked */
         knurl_handle_clear(&device->handle);
     }
     unlock();
@@ -134,7 +134,7 @@ static void touch_info(const knurl_device *device, knurl_device_info *info) {
 
 static void touch_status(const knurl_device *device, knurl_device_status *status) {
     const touch_slot *slot = ((const touch *)(const void *)device)->slot;
-    status->bad_bytes = __atomic_load_n(&slot->others, __ATOMIC_RELAXED); /* HD hands out errors, not bytes */
+    status->bad_bytes = __atomic_load_n(&slot->others, __ATOMIC_RELAXED); /* HD reports errors, not bytes */
 }
 
 static knurl_result start_locked(touch *t, double rate) {
@@ -156,7 +156,7 @@ static knurl_result start_locked(touch *t, double rate) {
     t->hd->set_rate(whole);
     const uint32_t code = touch_take_errors(t->hd, t->slot);
     if (code == 0x0102 && whole == rate_now) {
-        return KNURL_OK; /* OpenHaptics 3.0 changes none, and has the one that is wanted */
+        return KNURL_OK; /* OpenHaptics 3.0 cannot change its rate, which is already right */
     }
     if (code == 0x0102) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,
@@ -188,7 +188,7 @@ static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *arg
     if (result) {
         return result;
     }
-    if (!touch_detach(t)) { /* the latest loop's last call */
+    if (!touch_detach(t)) { /* the last loop's last call */
         result =
             knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the latest loop", t->uri);
     } else {
@@ -223,12 +223,12 @@ static knurl_result touch_reopen(knurl_device *device) {
 }
 
 static uint32_t touch_leave(knurl_device *device) {
-    touch *t = of(device); /* HD may hang: it is asked for nothing here */
+    touch *t = of(device); /* no call of HD here, because HD may hang */
     return !knurl_load_acquire(&touch_is_paused) && !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) &&
            touch_detach(t);
 }
 
-/* Looks for the default device, unless this process has one open. */
+/* Looks for the default device. Only called if this process has no device open. */
 static void list_default(knurl_listings *listings) {
     touch t;
     memset(&t, 0, sizeof t);

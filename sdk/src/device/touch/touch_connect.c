@@ -1,4 +1,4 @@
-/* Connects a Touch through HD, and starts and stops HD's scheduler. All calls hold the lock of touch.c.
+/* Connects a Touch through HD, and starts and stops HD's scheduler. All calls need the lock of touch.c.
  * SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* How long a call of the scheduler's may go on after its tick has ended, ns. */
+/* ns that a detach waits for a scheduler call to end. */
 #define PATIENCE_NS 200000000
 
 static const char udev_help[] =
@@ -18,10 +18,10 @@ static const char udev_help[] =
     "--reload' and 'udevadm trigger', and plug it in again";
 #endif
 
-/* How long the forces of other devices are waited for before the scheduler is paused, ns. */
+/* ns to wait for the forces of other devices to become zero before the scheduler is paused. */
 #define PAUSE_NS 20000000
 
-static uint32_t users; /* devices for which the scheduler runs */
+static uint32_t users; /* devices that use the scheduler */
 uint32_t touch_is_paused;
 
 int touch_detach(touch *t) {
@@ -84,7 +84,7 @@ touch_slot *touch_find_slot(hd_device handle) {
     return NULL;
 }
 
-/* By its name; the default one by the names that HD's versions know it by. HD_NO_DEVICE: *code says why. */
+/* By its name; the default device by its names in versions of HD. On failure HD_NO_DEVICE, with the error in *code. */
 static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) {
     static const char *const defaults[] = {NULL, "Default Device", "Default PHANToM"};
     const size_t count = name[0] ? 1 : sizeof defaults / sizeof *defaults;
@@ -94,11 +94,11 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
         (void)touch_take_errors(hd, NULL);
         handle = hd->init(name[0] ? name : defaults[i]);
         const uint32_t error = touch_take_errors(hd, NULL);
-        *code = *code ? *code : error; /* the first name's */
+        *code = *code ? *code : error; /* of the first name */
         handle = handle <= HD_DEVICE_MOST ? handle : HD_NO_DEVICE;
         if (handle != HD_NO_DEVICE && touch_find_slot(handle)) {
             *code = 0x0301;
-            return HD_NO_DEVICE; /* another of ours: nothing to give back */
+            return HD_NO_DEVICE; /* another of this process: do not disable it */
         }
         if (handle != HD_NO_DEVICE && error) {
             hd->disable_device(handle);
@@ -109,8 +109,8 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
     return handle;
 }
 
-/* Calls that are about the current device: in a turn of the scheduler's where it runs for others, whose frames would
- * else make theirs the current one in between. */
+/* Calls functions for the current device. If the scheduler runs for other devices, they are called in a turn of it, so
+ * that no frame makes another device current in between. */
 static void in_turn(touch *t, hd_callback calls) {
     if (users > 0) {
         t->hd->call_in_turn(calls, t, HD_PRIORITY_MOST);
@@ -119,7 +119,7 @@ static void in_turn(touch *t, hd_callback calls) {
     }
 }
 
-/* Of several styles that the device offers: the order of the maker's examples. 0: this version of HD does not tell. */
+/* Chooses one of the device's styles, in the order of the maker's examples. 0 if this version of HD lists no style. */
 static hd_enum choose_style(const hd_api *hd) {
     static const hd_enum best_first[] = {HD_STYLE_AUTO, HD_STYLE_INKWELL, HD_STYLE_ENCODER};
     int32_t offered = 0;
@@ -138,11 +138,11 @@ static uint32_t HD_CALL prepare(void *user) {
     (void)touch_take_errors(t->hd, NULL);
     t->hd->enable(HD_FORCE_OUTPUT);
     t->trouble = touch_take_errors(t->hd, NULL);
-    if (!t->title[0]) { /* once: others may be reading it later */
+    if (!t->title[0]) { /* once: other threads may read it later */
         touch_ask_info(t);
     }
     t->style = choose_style(t->hd);
-    (void)touch_take_errors(t->hd, NULL); /* of what this version of HD does not tell */
+    (void)touch_take_errors(t->hd, NULL); /* from queries that this version of HD does not support */
     return HD_DONE;
 }
 
@@ -150,12 +150,12 @@ static uint32_t HD_CALL switch_off(void *user) {
     touch *t = user;
     t->hd->make_current(t->handle);
     t->hd->disable(HD_FORCE_OUTPUT);
-    (void)touch_take_errors(t->hd, NULL); /* it may be away */
+    (void)touch_take_errors(t->hd, NULL); /* the device may be gone */
     return HD_DONE;
 }
 
-/* OpenHaptics' documents do not say whether hdInitDevice() may be called while the scheduler runs; SOFA stops it first.
- * So does this: the forces of the others go to zero before, and come back by their loops' ramps. */
+/* OpenHaptics' documents do not define whether hdInitDevice() may be called while the scheduler runs; SOFA stops it
+ * first, and so does this. Before that the forces of the other devices go to zero; their loops ramp them up again. */
 static int pause_scheduler(touch *t) {
     const int64_t until = knurl_system_now_ns() + PAUSE_NS;
     if (users == 0) {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* One number from HD times `unit`, or a known value where HD has none that is plausible. */
+/* A number from HD times `unit`, or `otherwise` if it is not plausible. */
 static double ask(touch *t, hd_enum what, double unit, double least, double most, double otherwise) {
     double value = NAN;
     t->hd->get_doubles(what, &value);
@@ -42,16 +42,16 @@ void touch_ask_info(touch *t) {
     (void)snprintf(t->title + used, sizeof t->title - used, "HD %.24s, driver %.24s)",
                    ask_string(t, HD_VERSION, "unknown"), ask_string(t, HD_DRIVER_VERSION, "unknown"));
     ask_workspace(t);
-    info->max_force = ask(t, HD_MAX_FORCE, 1.0, 0.1, 100.0, 3.3); /* else the paper's and the data sheet's */
-    info->continuous_force =                                      /* else the sheet's */
+    info->max_force = ask(t, HD_MAX_FORCE, 1.0, 0.1, 100.0, 3.3); /* default: the paper and the data sheet */
+    info->continuous_force =                                      /* default: the sheet */
         ask(t, HD_CONTINUOUS_FORCE, 1.0, 0.01, info->max_force, fmin(0.88, info->max_force));
-    info->max_stiffness = ask(t, HD_MAX_STIFFNESS, 1e3, 1.0, 1e5, 1020.0); /* else the sheet's least, of z */
+    info->max_stiffness = ask(t, HD_MAX_STIFFNESS, 1e3, 1.0, 1e5, 1020.0); /* default: the sheet's minimum, of z */
     info->max_damping = ask(t, HD_MAX_DAMPING, 1e3, 1e-3, 1e3, INFINITY);
     info->resolution = 0.055e-3; /* the paper, data sheet */
     info->mass = 0.045;          /* data sheet: apparent, at the tip */
     info->coulomb = 0.26;        /* data sheet: backdrive friction */
-    info->viscous = 0.5;         /* assumed, see the preset in fake.h */
+    info->viscous = 0.5;         /* assumed, see the preset in fake_uri.h */
     info->heat_time = 60.0;      /* assumed, see there */
     info->delay = 1.0;           /* assumed: the force is played in the scheduler's next turn */
-    info->native_rate = 0.0;     /* a frame a tick */
+    info->native_rate = 0.0;     /* one frame per tick */
 }

@@ -1,6 +1,5 @@
-/* A Touch on HD's scheduler thread: one frame per tick. If that thread ever hangs, HD's own device driver is assumed to
- * zero the force by its watchdog.
- * SPDX-License-Identifier: MIT */
+/* A Touch on HD's scheduler thread: one frame per tick. If that thread hangs, HD's own device driver is assumed to zero
+ * the force by its watchdog. SPDX-License-Identifier: MIT */
 #include "device/touch/touch_device.h"
 
 #include "base/atomic.h"
@@ -13,11 +12,11 @@
 touch_slot touch_slots[TOUCH_ROOM];
 
 static touch *of(knurl_device *device) {
-    return (touch *)(void *)device; /* its first member */
+    return (touch *)(void *)device; /* first member */
 }
 
 static touch_slot *slot_of(hd_device handle) {
-    const uint32_t key = handle + 1u; /* HD_NO_DEVICE: 0 */
+    const uint32_t key = handle + 1u; /* 0 if HD_NO_DEVICE */
     for (int i = 0; i < TOUCH_ROOM && key; i++) {
         if (knurl_load_acquire(&touch_slots[i].key) == key) {
             return &touch_slots[i];
@@ -45,7 +44,7 @@ uint32_t touch_take_errors(const hd_api *hd, touch_slot *own) {
     return oldest;
 }
 
-/* Not in a frame. HD takes over a new reference, such as the inkwell's, only when it is asked to. */
+/* Called outside a frame. HD adopts a new reference, such as the inkwell's, only on request. */
 static void keep_calibration(touch *t) {
     if (t->until_check > 0) {
         t->until_check--;
@@ -63,8 +62,8 @@ static void keep_calibration(touch *t) {
     t->uncalibrated = state != HD_CALIBRATED;
 }
 
-/* What HD does not fill in, because it fails, is not a number. Initialising a device makes it the current one, on
- * whatever thread: then what was read was perhaps that one's, and is read again. */
+/* If HD fails, the position stays NaN. If any thread initialises a device, that one becomes current; the values may
+ * then be of that device, so they are read again. */
 static void read_frame(touch *t) {
     double position[3] = {NAN, NAN, NAN};
     double transform[16] = {0.0};
@@ -82,10 +81,10 @@ static void read_frame(touch *t) {
     vec3_scale(1e-3, position, t->sample.position);
     t->sample.buttons = (uint32_t)buttons;
     quaternion_from_axes(&transform[0], &transform[4], &transform[8], t->sample.orientation);
-    memset(t->force, 0, sizeof t->force); /* a tick that writes nothing leaves no force */
+    memset(t->force, 0, sizeof t->force); /* without a write in the tick there is no force */
 }
 
-/* The loop may be gone when this returns 0. */
+/* If this returns 0, the loop may already be destroyed. */
 static int call_tick(touch *t) {
     knurl_store_release(&t->frame_thread, knurl_system_thread_id());
     const int more = t->tick(t->argument) != 0;
@@ -96,11 +95,10 @@ static int call_tick(touch *t) {
     return more;
 }
 
-/* Another thread that initialises a device makes that the current one: then this one got no force, and gets it again.
- */
+/* If another thread initialises a device, that one becomes current and may take this force, which is then set again. */
 static void set_force(touch *t, const double force[3]) {
     for (int attempt = 0; attempt < 2; attempt++) {
-        t->hd->make_current(t->handle); /* the tick took its time */
+        t->hd->make_current(t->handle); /* the tick took time */
         t->hd->set_doubles(HD_FORCE, force);
         if (t->hd->current() == t->handle) {
             break;
@@ -131,7 +129,7 @@ static void look_for_refusal(touch *t) {
     }
 }
 
-/* 1: another one shall come. */
+/* Returns 1 if another frame is to follow. */
 static int serve_frame(touch *t) {
     const hd_api *hd = t->hd;
     hd->make_current(t->handle);
@@ -146,7 +144,7 @@ static int serve_frame(touch *t) {
     if (!knurl_load_acquire(&t->slot->loss)) {
         return more;
     }
-    if (more && !t->told_loss) { /* the end of the frame showed it */
+    if (more && !t->told_loss) { /* lost at the end of the frame, so that no read has returned it */
         (void)call_tick(t);
     }
     knurl_store_release(&t->base.quiet, 1u);
@@ -155,7 +153,7 @@ static int serve_frame(touch *t) {
 
 uint32_t HD_CALL touch_servo(void *user) {
     touch_slot *slot = user;
-    /* Whoever takes the device away first does so, then looks whether a call is under way: each sees the other. */
+    /* touch_detach() clears `device`, then reads `inside`; so at least one of the two sees the other's store. */
     __atomic_store_n(&slot->inside, 1, __ATOMIC_SEQ_CST);
     touch *t = __atomic_load_n(&slot->device, __ATOMIC_SEQ_CST);
     const int again = t && serve_frame(t);
