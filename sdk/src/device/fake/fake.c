@@ -18,13 +18,13 @@ typedef struct fake {
     knurl_fake_settings settings;
     knurl_stroke_desc stroke;
     knurl_hand_path path; /* of the stroke */
-    knurl_hand_path used; /* since the start: the same, or that of a stroke before */
-    double *trace;        /* rows of t, x, y, z; null: a hand */
+    knurl_hand_path used; /* in use since the start: the same, or of an earlier stroke */
+    double *trace;        /* rows of t, x, y, z; null for a simulated hand */
     uint64_t trace_rows;
-    uint64_t trace_at; /* the row whose interval the time is in */
+    uint64_t trace_at; /* the row before the present time */
     double dt;
-    uint64_t ticks; /* read since the start */
-    int found;      /* 1: plugged in again since the start */
+    uint64_t ticks; /* reads since the start */
+    int found;      /* 1: reopened since the start */
     knurl_plant plant;
     knurl_hand hand;
     double target[3];
@@ -32,7 +32,7 @@ typedef struct fake {
 } fake;
 
 static fake *of(knurl_device *device) {
-    return (fake *)(void *)device; /* its first member */
+    return (fake *)(void *)device; /* first member */
 }
 
 static knurl_result fake_open(const char *options, knurl_device **device) {
@@ -49,12 +49,12 @@ static knurl_result fake_open(const char *options, knurl_device **device) {
     made->base.max_force = settings.max_force;
     made->settings = settings;
     knurl_stroke_desc_init(&made->stroke, sizeof made->stroke);
-    (void)knurl_stroke_check(&made->stroke); /* the default is right; this resolves its speed */
+    (void)knurl_stroke_check(&made->stroke); /* cannot fail for the default; sets its speed */
     *device = &made->base;
     return knurl_device_start(*device, 1000.0);
 }
 
-/* The latest stroke's path goes, unless the hand follows it. */
+/* Frees the last stroke's path, unless the hand follows it. */
 static void drop_path(fake *f) {
     if (f->path.rows != f->used.rows) {
         knurl_hand_path_destroy(&f->path);
@@ -114,10 +114,10 @@ static knurl_result fake_start(knurl_device *device, double update_rate_hz) {
     return KNURL_OK;
 }
 
-/* The trace at the time of this tick, and quantised only where that was asked for. */
+/* The trace at the time of this tick, quantised only if the URI sets the resolution. */
 static void play_trace(fake *f, double t, double position[3]) {
     while (f->trace_at + 1 < f->trace_rows && f->trace[4 * (f->trace_at + 1)] <= t) {
-        f->trace_at++; /* a tick passes over as many rows as its period holds, each once in all */
+        f->trace_at++; /* a tick skips as many rows as its period holds; in total each row is visited once */
     }
     const double *row = &f->trace[4 * f->trace_at];
     vec3_copy(row + 1, position);
@@ -198,7 +198,7 @@ static knurl_result check_fake(const knurl_device *device, const char *what) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "device: only the fake device takes a %s, found '%s'", what,
                           device->driver->uri);
     }
-    return knurl_device_check_unused(device, KNURL_DEVICE_THREAD); /* which reads what is to be replaced */
+    return knurl_device_check_unused(device, KNURL_DEVICE_THREAD); /* the haptic thread reads it */
 }
 
 knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {
@@ -219,7 +219,7 @@ knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc
         drop_path(f);
         f->path = path;
         f->stroke = stroke;
-        f->stroke.path = NULL; /* the caller's, and copied */
+        f->stroke.path = NULL; /* belongs to the caller, and was copied */
     }
     return result;
 }
@@ -267,7 +267,7 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     return KNURL_OK;
 }
 
-/* Whoever looks for it finds the cable plugged in again. */
+/* Plugs the cable in again. */
 static knurl_result fake_reopen(knurl_device *device) {
     of(device)->found = 1;
     return KNURL_OK;

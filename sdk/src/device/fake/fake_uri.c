@@ -20,7 +20,7 @@ static const struct {
 #undef KNURL_FAKE_PRESET
 };
 
-/* "touch, falcon, ", and so on. */
+/* "touch, falcon, " etc. */
 #define KNURL_FAKE_PRESET_WORD(name, about, options) #name ", "
 #define PRESET_WORDS                                 KNURL_FAKE_PRESETS(KNURL_FAKE_PRESET_WORD)
 
@@ -42,8 +42,7 @@ const char *knurl_fake_keys(void) {
 static knurl_result set_value(const knurl_field *key, const char *text, size_t length, knurl_fake_settings *settings) {
     double value = 0.0;
     char expected[KNURL_RANGE_ROOM];
-    if (!knurl_number(text, length, &value) ||
-        !knurl_range_holds(&key->range, value)) { /* whatever the host's locale */
+    if (!knurl_number(text, length, &value) || !knurl_range_holds(&key->range, value)) { /* in any locale */
         return knurl_fail(KNURL_ERROR_ARGUMENT, "device fake: %s: expected %s, found '%.*s'", key->name,
                           knurl_range_text(&key->range, expected), (int)length, text);
     }
@@ -96,7 +95,7 @@ static knurl_result set_preset(const char *text, size_t length, knurl_fake_setti
             *settings = defaults;
             const knurl_result result = set_pairs(presets[i].options, settings);
             settings->preset = (int32_t)i;
-            settings->resolution_named = 0; /* by the preset, not for a trace */
+            settings->resolution_named = 0; /* a preset's resolution does not apply to traces */
             return result;
         }
     }

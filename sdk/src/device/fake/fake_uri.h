@@ -6,7 +6,7 @@
 
 #include <knurl/device.h>
 
-/* Least, greatest and unit of what no device has. */
+/* Minimum, maximum and unit of quantities that real devices do not have. */
 #define KNURL_FAKE_HAND_MASS      0.0, 10.0, "kg"
 #define KNURL_FAKE_HAND_STIFFNESS 0.0, 10000.0, "N/m"
 #define KNURL_FAKE_HAND_DAMPING   0.0, 100.0, "N s/m"
@@ -16,10 +16,9 @@
 #define KNURL_FAKE_SEED           0.0, 4294967295.0, ""
 #define KNURL_FAKE_TIME           0.0, 1e9, "s"
 
-/* Every key of a fake URI but `preset`: name, default, range, what else it may be (KNURL_OR_, KNURL_WHOLE), meaning.
- * One table for parsing and for the help. The defaults are the preset "touch" and nobody's hand in particular: a light
- * grip on a stylus, soft enough to be felt through, stiff enough to keep a 1 mm press, whose mass is counted as the
- * device's. */
+/* Every key of a fake URI except `preset`: name, default, range, further values (KNURL_OR_, KNURL_WHOLE), meaning. One
+ * table for parsing and for the help. The defaults are the preset "touch" and an assumed hand: a light grip on a
+ * stylus, soft enough to feel through and stiff enough to keep a 1 mm press; its mass is part of the device's. */
 #define KNURL_FAKE_KEYS(X)                                                                                             \
     X(mass, 0.045, KNURL_RANGE_MASS, 0, "the device's moving mass")                                                    \
     X(viscous, 0.5, KNURL_RANGE_VISCOUS, 0, "the device's viscous friction")                                           \
@@ -43,25 +42,24 @@
     X(lose_at, 0, KNURL_FAKE_TIME, 0, "when the cable is pulled, until it is looked for; 0 for never")                 \
     X(press_at, 0, KNURL_FAKE_TIME, 0, "when its button is pressed for 0.1 s; 0 for never")
 
-/* Every preset: name, what it is, and the keys in which it differs from the defaults.
+/* Every preset: name, description, and the keys that differ from the defaults.
  *
- * touch: 0.055 mm and 3.3 N as in the paper; 160 x 120 x 70 mm, 45 g, 0.26 N, 0.88 N continuous and 1.26, 2.31, 1.02
- * N/mm (x, y, z; the least counts) as on the Phantom Omni's data sheet, as it is quoted. Its viscous friction is not
- * published: 0.5 N s/m is what a passive 400 N/m wall at 1 kHz with a tick of delay needs. Its heat_time is assumed:
- * windings of small DC motors take some 10 s, their housings some minutes; with 60 s it plays 3.3 N for 4 s and 2 N for
- * 11 s before it gives way.
+ * touch: 0.055 mm and 3.3 N from the paper; 160 x 120 x 70 mm, 45 g, 0.26 N, 0.88 N continuous and 1.26, 2.31, 1.02
+ * N/mm (x, y, z; the smallest counts) from the Phantom Omni's data sheet, as it is quoted. Its viscous friction is not
+ * published: a passive 400 N/m wall at 1 kHz with a tick of delay needs 0.5 N s/m. Its heat_time is assumed: windings
+ * of small DC motors take about 10 s, their housings some minutes; with 60 s it plays 3.3 N for 4 s and 2 N for 11 s
+ * before the force is reduced.
  *
- * falcon: 8.9 N (2 lbf) at the peak, over 400 dpi (0.06 mm), 4 inches cubed as in Novint's brochure, as it is quoted;
- * 3000 N/m as CHAI3D has it. Mass, frictions, continuous force (a third of the peak), heat_time and delay (a transfer
- * each way at 1 kHz) are assumed.
+ * falcon: 8.9 N (2 lbf) at the peak, over 400 dpi (0.06 mm) and 4 inches cubed from Novint's brochure, as it is quoted;
+ * 3000 N/m from CHAI3D. Mass, frictions, continuous force (a third of the peak), heat_time and delay (one transfer in
+ * each direction at 1 kHz) are assumed.
  *
- * woodenhaptics, omega: what the drivers of these devices tell (geometry.h and dhd.c of the devices' folders, with
- * sources): CHAI3D's force, stiffness and radius, the cube in that sphere; the rest is assumed there.
+ * woodenhaptics, omega: as in the drivers of these devices (rawhid/geometry.h and dhd/dhd.c, with sources); the
+ * workspace is the cube inside the driver's sphere.
  *
- * inverse3: what its driver tells (inverse3.c of its folder): its maker's data sheet, as it is quoted; the rest is
- * assumed there.
+ * inverse3: as in its driver (inverse3/inverse3.c): its maker's data sheet, as it is quoted; the rest is assumed there.
  *
- * ideal: what theory starts from: a mass that does what it is told. Its hand does not shake. */
+ * ideal: the starting point of theory: a mass without friction, delay or quantisation, and a hand without tremor. */
 #define KNURL_FAKE_PRESETS(X)                                                                                          \
     X(touch, "a simulated Touch", "")                                                                                  \
     X(falcon, "a simulated Falcon",                                                                                    \
@@ -84,14 +82,14 @@ typedef struct knurl_fake_settings {
 #define KNURL_FAKE_FIELD(name, standard, range, kind, meaning) double name;
     KNURL_FAKE_KEYS(KNURL_FAKE_FIELD)
 #undef KNURL_FAKE_FIELD
-    int32_t resolution_named; /* 1: the URI named it, so it holds for traces too */
+    int32_t resolution_named; /* 1: the URI sets it, so that it also applies to traces */
     int32_t preset;           /* in the order of KNURL_FAKE_PRESETS */
 } knurl_fake_settings;
 
-/* What a preset is, for people; static. */
+/* Description of a preset, for display; static. */
 const char *knurl_fake_preset_name(int32_t preset);
 
-/* Reads "?key=value&key=value", or "". Errors: KNURL_ERROR_ARGUMENT (which key, expected, found). */
+/* Parses "?key=value&key=value", or "". Errors: KNURL_ERROR_ARGUMENT (which key, expected, found). */
 knurl_result knurl_fake_parse(const char *options, knurl_fake_settings *settings);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define TWO_PI    6.283185307179586
-#define HOVER     0.005 /* m above the surface where a stroke starts */
+#define HOVER     0.005 /* m above the surface at the start of a stroke */
 #define APPROACH  0.25  /* s to come down */
 #define TREMOR_HZ 10.0  /* physiological tremor of the hand: 8 to 12 Hz */
 
@@ -93,8 +93,8 @@ static double uniform(uint64_t *state) {
     return (double)((*state * 0x2545f4914f6cdd1du) >> 11) / 4503599627370496.0 - 1.0;
 }
 
-/* Noise through a resonance at 10 Hz with damping 0.3. For white noise of variance s2 a step dt its position has the
- * variance s2 dt / (4 zeta w^3) (Langevin), which sets the noise for the rms that is asked for. */
+/* Noise through a resonance at 10 Hz with damping 0.3. White noise of variance s2 per step dt gives a position of
+ * variance s2 dt / (4 zeta w^3) (Langevin); the noise is scaled for the requested rms. */
 static void shake(knurl_hand *hand, double dt, double target[3]) {
     const double w = TWO_PI * TREMOR_HZ;
     const double zeta = 0.3;
@@ -109,17 +109,17 @@ static void shake(knurl_hand *hand, double dt, double target[3]) {
     }
 }
 
-/* Where a point that goes back and forth over +-reach is after a path from the middle: a triangle wave whose turns are
- * rounded, as a hand's are. Nowhere faster than the path; at its full speed in the middle, at half of it 2 % before an
- * end. */
+/* Position of a point that moves back and forth over +-reach, as a function of the path from the middle: a triangle
+ * wave with rounded turns, as a hand's. Never faster than the path; at its full speed in the middle, at half of it 2 %
+ * before an end. */
 static double back_and_forth(double path, double reach) {
-    /* 0 is a sine, 1 turns so sharply that the hand's spring throws the mass past 300 mm/s */
+    /* 0 is a sine; with 1 it turns so sharply that the hand's spring throws the mass past 300 mm/s */
     const double roundness = 0.98;
     const double quarter = asin(roundness);
     return reach / quarter * asin(roundness * sin(path * quarter / (roundness * reach)));
 }
 
-/* How fast the path grows at time t after the approach. */
+/* Speed along the path at time t after the approach. */
 static double path_speed(const knurl_stroke_desc *s, double t) {
     if (s->stroke == KNURL_STROKE_SWEEP) {
         const double u = fmod(t, s->period) / s->period;
@@ -132,14 +132,14 @@ static int goes_back_and_forth(const knurl_stroke_desc *s) {
     return s->stroke == KNURL_STROKE_LINE || s->stroke == KNURL_STROKE_SWEEP;
 }
 
-/* The place over a flat surface, `height` above it. */
+/* The target over a flat surface, `height` above it. */
 static void straight_target(const knurl_hand *hand, double height, double target[3]) {
     const knurl_stroke_desc *s = &hand->stroke;
     double x = 0.0;
     double y = 0.0;
     if (hand->path != 0.0 && goes_back_and_forth(s)) {
         x = back_and_forth(hand->path, s->reach[0]);
-    } else if (hand->path != 0.0 && s->stroke == KNURL_STROKE_CIRCLE) { /* out to it from the middle within a turn */
+    } else if (hand->path != 0.0 && s->stroke == KNURL_STROKE_CIRCLE) { /* a spiral from the middle in the first turn */
         const double radius = fmin(s->reach[0], s->reach[1]);
         const double angle = hand->path / radius;
         const double grown = radius * fmin(1.0, angle / TWO_PI);
@@ -151,7 +151,7 @@ static void straight_target(const knurl_hand *hand, double height, double target
     vec3_madd(target, height, s->normal, target);
 }
 
-/* The place over a curved one. */
+/* The target over a curved surface. */
 static void target_on_path(const knurl_hand *hand, double height, double target[3]) {
     const double length = knurl_hand_path_length(&hand->way);
     double distance = 0.5 * length;

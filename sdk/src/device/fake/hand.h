@@ -6,11 +6,11 @@
 
 typedef struct knurl_hand {
     knurl_stroke_desc stroke; /* checked, speed resolved */
-    knurl_hand_path way;      /* its owner's, and set by it; zeroed: straight */
+    knurl_hand_path way;      /* owned and set by the caller; zeroed: a straight stroke */
     double y[3];              /* normal x x */
-    double tremor;            /* m, rms an axis */
+    double tremor;            /* m, rms per axis */
     double path;              /* m travelled along the stroke */
-    double shake[3];          /* the tremor's state: an oscillator an axis, driven by noise */
+    double shake[3];          /* state of the tremor: one oscillator per axis, driven by noise */
     double shake_velocity[3];
     uint64_t random;
 } knurl_hand;
@@ -21,7 +21,7 @@ knurl_result knurl_stroke_check(knurl_stroke_desc *stroke);
 /* stroke: checked. */
 void knurl_hand_init(knurl_hand *hand, const knurl_stroke_desc *stroke, double tremor, uint64_t seed);
 
-/* The target (m, device) at time t (s), having been asked dt earlier. */
+/* The target (m, device) at time t (s), if the previous call was dt earlier. */
 void knurl_hand_target(knurl_hand *hand, double t, double dt, double target[3]);
 
 #endif

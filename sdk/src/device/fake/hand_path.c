@@ -12,7 +12,7 @@ static double distance(const double *a, const double *b) {
     return vec3_length(between);
 }
 
-/* Its length, m, or an error. */
+/* Checks the rows and computes the path's length, m. */
 static knurl_result measure(const knurl_stroke_desc *stroke, double *length) {
     *length = 0.0;
     for (uint32_t i = 0; i < stroke->path_rows; i++) {
@@ -29,7 +29,7 @@ static knurl_result measure(const knurl_stroke_desc *stroke, double *length) {
     return KNURL_OK;
 }
 
-/* The row that is `at` of the way from row i to row i + 1. */
+/* Interpolates between row i (at 0) and row i + 1 (at 1). */
 static void between(const double *rows, uint32_t i, double at, double row[6]) {
     const double *from = &rows[6 * (size_t)i];
     for (int k = 0; k < 6; k++) {
@@ -41,7 +41,7 @@ static void between(const double *rows, uint32_t i, double at, double row[6]) {
     }
 }
 
-/* Rows at even distances along the given ones. */
+/* Resamples the given rows at even distances. */
 static void resample(const knurl_stroke_desc *stroke, knurl_hand_path *path) {
     double passed = 0.0; /* m up to row i */
     uint32_t i = 0;

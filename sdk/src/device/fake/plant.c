@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* Steps a tick. A quarter millisecond is short against the poles of the default device and hand (c/m 122 /s, w 125 /s).
+/* Steps per tick. A quarter millisecond is short against the poles of the default device and hand (c/m 122 /s, w 125
+ * /s).
  */
 #define SUBSTEPS 4
 
@@ -25,21 +26,21 @@ void knurl_plant_zero_force(knurl_plant *plant) {
     memset(plant->forces, 0, sizeof plant->forces);
 }
 
-/* Dry friction stops what it can within the step and slows what it cannot. */
+/* Dry friction stops the mass if it can within the step, otherwise slows it. */
 static void apply_coulomb(knurl_plant *plant, double dt) {
     const double speed = vec3_length(plant->velocity);
     const double loss = plant->config.coulomb * dt / plant->config.mass;
     vec3_scale(speed > loss ? 1.0 - loss / speed : 0.0, plant->velocity, plant->velocity);
 }
 
-/* exp(A step) of A = [0 1 0; -k/m -c/m 1; 0 0 0] by scaling and squaring: its third column is the push's. */
+/* exp(A step) of A = [0 1 0; -k/m -c/m 1; 0 0 0] by scaling and squaring; its third column belongs to the push. */
 static void make_motion(const knurl_plant_config *c, double step, knurl_plant_motion *motion) {
     const double stiff = c->hand_stiffness / c->mass;
     const double damped = (c->viscous + c->hand_damping) / c->mass;
     const double pace = step * (sqrt(stiff) + damped);
     const int squarings = pace > 0.25 ? (int)ceil(log2(pace / 0.25)) : 0;
     const double h = ldexp(step, -squarings);
-    double f[2][2] = {{1.0, 0.0}, {0.0, 1.0}}; /* the sums of the two series */
+    double f[2][2] = {{1.0, 0.0}, {0.0, 1.0}}; /* sums of the two series */
     double p[2] = {0.0, 0.0};
     double term[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
     for (int n = 1; n <= 12; n++) { /* 0.25^12/12! is below the precision of a double */
@@ -67,7 +68,7 @@ static void make_motion(const knurl_plant_config *c, double step, knurl_plant_mo
     motion->steps_coarse = pace > 1.0;
 }
 
-/* A plain step: the new velocity moves it (symplectic Euler), which keeps the energy bounded. `target` at its end. */
+/* A symplectic Euler step, which keeps the energy bounded. `target` at its end. */
 static void step_plainly(knurl_plant *plant, double h, const double motor[3], const double target[3],
                          const double target_velocity[3]) {
     const knurl_plant_config *c = &plant->config;
@@ -83,7 +84,7 @@ static void step_plainly(knurl_plant *plant, double h, const double motor[3], co
     }
 }
 
-/* Dry friction over an exact step: against the motion, or against the force that wants to start one. 0: it holds. */
+/* Dry friction during an exact step: against the motion, or at rest against the force. Returns 0 if it sticks. */
 static int coulomb_force(const knurl_plant *plant, const double motor[3], const double target[3],
                          const double target_velocity[3], double along[3], double friction[3]) {
     const knurl_plant_config *c = &plant->config;
@@ -105,8 +106,8 @@ static int coulomb_force(const knurl_plant *plant, const double motor[3], const 
     return 1;
 }
 
-/* The exact motion under constant forces, `target` at its beginning. Where dry friction turns the motion round within
- * the step, it ends it: a straight line between both speeds says when and where. */
+/* The exact motion under constant forces, `target` at its beginning. If dry friction reverses the motion within the
+ * step, the step ends there, at a time and place interpolated linearly between both speeds. */
 static void step_exactly(knurl_plant *plant, double h, const double motor[3], const double target[3],
                          const double target_velocity[3]) {
     const knurl_plant_config *c = &plant->config;
@@ -120,7 +121,7 @@ static void step_exactly(knurl_plant *plant, double h, const double motor[3], co
     if (!coulomb_force(plant, motor, target, target_velocity, along, friction)) {
         return;
     }
-    for (int axis = 0; axis < 3; axis++) { /* seen from the moving target */
+    for (int axis = 0; axis < 3; axis++) { /* relative to the moving target */
         const double push = (motor[axis] + friction[axis] - c->viscous * target_velocity[axis]) / c->mass;
         const double u = position[axis] - target[axis];
         const double w = before[axis] - target_velocity[axis];
@@ -158,13 +159,13 @@ static const double *acting(const knurl_plant *plant) {
 void knurl_plant_step(knurl_plant *plant, double dt, const double target[3], const double target_velocity[3]) {
     const double h = dt / SUBSTEPS;
     plant->newest = (plant->newest + 1) % (KNURL_PLANT_MAX_DELAY + 1);
-    vec3_copy(plant->commanded, plant->forces[plant->newest]); /* under way from this tick on */
+    vec3_copy(plant->commanded, plant->forces[plant->newest]); /* enters the delay with this tick */
     if (plant->motion.step != h) {
         make_motion(&plant->config, h, &plant->motion);
     }
     const int exact = plant->config.exact || plant->motion.steps_coarse;
     for (int step = 0; step < SUBSTEPS; step++) {
-        double reached[3]; /* the target given is the one at the tick's end */
+        double reached[3]; /* `target` is given for the tick's end */
         for (int axis = 0; axis < 3; axis++) {
             reached[axis] = target[axis] - (dt - h * (exact ? step : step + 1)) * target_velocity[axis];
         }
