@@ -1,5 +1,5 @@
-/* WebSockets by libwebsockets, which is loaded at run time: the same version as its header, whose structures it shares.
- * Its events are handled by the calling thread. SPDX-License-Identifier: MIT */
+/* WebSockets with libwebsockets, which is loaded at run time: the version of its header, whose structures it shares.
+ * The calling thread handles its events. SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
 #include <stdio.h>
@@ -25,27 +25,27 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
 #include <string.h>
 
 #define CONNECT_NS 1000000000
-#define FD_LIMIT   16 /* of a context; without one it makes room for as many as the process may open */
+#define FD_LIMIT   16 /* per context; by default it allocates as many as the process may open */
 
 typedef struct websocket {
     struct lws_context *context;
     struct lws *wsi;
     lws_sorted_usec_list_t timer;
-    int is_open, is_gone, is_late; /* is_late: the timer has run out */
+    int is_open, is_gone, is_late; /* is_late: the timer has expired */
     char why[128];
     /* to be sent */
     unsigned char out[LWS_PRE + KNURL_INVERSE3_COMMAND];
     size_t out_size;
-    /* messages: one that is complete, one that comes */
+    /* messages: the last complete one, and the one being received */
     char *texts[2];
     size_t sizes[2];
-    int coming;      /* of texts */
-    int is_too_long; /* the one that comes */
-    int count;       /* complete, since the last call */
+    int coming;      /* index of the one being received */
+    int is_too_long; /* of the one being received */
+    int count;       /* complete ones since the last call */
     knurl_pool pool;
 } websocket;
 
-/* What is loaded of libwebsockets. */
+/* Functions loaded from libwebsockets. */
 #define FUNCTIONS(X)                                                                                                   \
     X(callback_on_writable)                                                                                            \
     X(cancel_service)                                                                                                  \
@@ -68,19 +68,19 @@ typedef struct lws_functions {
 #undef FIELD
 } lws_functions;
 
-static lws_functions lib; /* null until it is loaded */
+static lws_functions lib; /* null until loaded */
 
 /* --- its memory --- */
 
-static KNURL_THREAD_LOCAL websocket *calling; /* by this thread; null while the host calls libwebsockets for itself */
+static KNURL_THREAD_LOCAL websocket *calling; /* by this thread; null while the host itself calls libwebsockets */
 
 static void *allocate(void *memory, size_t size, const char *reason) {
     (void)reason;
     return knurl_pool_realloc(calling ? &calling->pool : NULL, memory, size);
 }
 
-/* This library is unloaded, and a host may go on with libwebsockets: to the C library's own, which takes no notice of a
- * third argument. */
+/* When this library is unloaded, the host may still use libwebsockets: restores the C library's realloc(), which
+ * ignores the third argument. */
 __attribute__((destructor)) static void give_back(void) {
     if (lib.set_allocator) {
         lib.set_allocator((void *(*)(void *, size_t, const char *))(void (*)(void))realloc);
@@ -111,7 +111,7 @@ static int send_now(websocket *w) {
     return size == 0 || lib.write(w->wsi, w->out + LWS_PRE, size, LWS_WRITE_TEXT) >= (int)size ? 0 : -1;
 }
 
-/* Not 0 closes the connection. */
+/* A result other than 0 closes the connection. */
 static int on_event(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in, size_t size) {
     websocket *w = user;
     switch (reason) {
@@ -168,11 +168,11 @@ static int send_message(void *self, const char *text, size_t size) {
     (void)lib.service(w->context, -1); /* without waiting */
     calling = NULL;
     const int has_left = w->out_size == 0 && !w->is_gone;
-    w->out_size = 0; /* an old force must not follow later */
+    w->out_size = 0; /* an old force must not be sent later */
     return has_left;
 }
 
-/* Handles events until `*until` is not 0, the connection is gone or the time is up. */
+/* Handles events until `*until` is not 0, the connection is gone or the time is over. */
 static void wait_for(websocket *w, const int *until, int64_t ns) {
     w->is_late = 0;
     calling = w;
@@ -201,7 +201,7 @@ static int receive(void *self, int milliseconds, knurl_inverse3_message *message
     return count;
 }
 
-/* libwebsockets makes the process ignore SIGPIPE, which is the host's decision. It is not needed: sockets use
+/* libwebsockets makes the process ignore SIGPIPE, which is the host's decision. It is not needed, because sockets use
  * MSG_NOSIGNAL. */
 static struct lws_context *make_context(const struct lws_context_creation_info *info) {
 #if defined(_WIN32)
@@ -227,7 +227,7 @@ static int start(websocket *w, int port) {
     info.protocols = protocols;
     info.fd_limit_per_thread = FD_LIMIT;
     info.pt_serv_buf_size = 16384;
-    info.http_proxy_address = ""; /* else the environment's http_proxy and socks_proxy */
+    info.http_proxy_address = ""; /* otherwise http_proxy and socks_proxy from the environment */
 #if defined(LWS_WITH_SOCKS5)
     info.socks_proxy_address = "";
 #endif
@@ -241,7 +241,7 @@ static int start(websocket *w, int port) {
     }
     memset(&to, 0, sizeof to);
     to.context = w->context;
-    to.address = "127.0.0.1"; /* no other machine's: a network's delays are no haptic loop's */
+    to.address = "127.0.0.1"; /* this machine only: a haptic loop does not tolerate a network's delays */
     to.port = port;
     to.path = "/";
     to.host = "localhost";
@@ -292,7 +292,7 @@ static int load(char *why, size_t why_size) {
         (void)snprintf(why, why_size, "expected version %sx, found %.40s", version, lib.get_library_version());
         return 0;
     }
-    lib.set_log_level(0, NULL); /* it writes to stderr otherwise */
+    lib.set_log_level(0, NULL); /* by default it writes to stderr */
     lib.set_allocator(allocate);
     return 1;
 }

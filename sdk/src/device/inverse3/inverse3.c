@@ -1,4 +1,4 @@
-/* Haply's Inverse3, by its maker's service: an I/O thread sends a force and awaits the state that answers it. Read
+/* Haply's Inverse3, through its maker's service: an I/O thread sends a force and waits for the state in reply. Read
  * exchange() first. SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
@@ -17,19 +17,19 @@
 
 #define NATIVE_RATE 1000.0  /* Hz; the service allows more, up to 4000 */
 #define PORT        10001   /* the service's default */
-#define ANSWER_NS   5000000 /* that an exchange waits for its answer */
-#define HELLO_MS    500     /* for a first message, and for the first answer */
+#define ANSWER_NS   5000000 /* to wait for an answer in an exchange */
+#define HELLO_MS    500     /* to wait for a first message, and for the first answer */
 
-/* States in a row that leave the device out until it counts as lost: by then it has been told no force for a while,
- * because a device without a position is silent after 10 ms. */
+/* Consecutive states without the device after which it counts as lost: by then its force has been zero for a while,
+ * because a device without a position counts as silent after 10 ms. */
 #define LEFT_OUT_LIMIT 15u
 
 #define NAME    "Haply Inverse3"
 #define PLUG_IN "plug it in, and its power supply as well; the Haply Hub shows it then"
 
-/* What each type can do: N that it can play in 80 % of its workspace, N that it holds for long (assumed: a third of the
- * peak, 10 N), N/m, and m of its workspace's sphere (tutorial 06). Of a Minverse's forces nothing is published:
- * assumed, a quarter of an Inverse3's. An Inverse3x: taken for an Inverse3. */
+/* Properties by type: N that it can play in 80 % of its workspace, N that it holds for long (assumed: a third of the
+ * peak, 10 N), N/m, and m of its workspace's sphere (tutorial 06). A Minverse's forces are not published: assumed, a
+ * quarter of an Inverse3's. An Inverse3x is treated as an Inverse3. */
 static const struct {
     const char *type, *name;
     double max_force, continuous_force, max_stiffness, radius;
@@ -48,19 +48,19 @@ typedef struct inverse3 {
     knurl_inverse3_channel channel;
     int port;
     char id[KNURL_INVERSE3_ID_ROOM]; /* "": the first */
-    size_t model;                    /* of models[] */
+    size_t model;                    /* index into models[] */
     double force_gate;               /* as knurl_inverse3_entry */
-    /* the I/O thread's */
-    uint32_t unanswered; /* messages that were sent: each is answered once, in order */
-    uint32_t is_corrupt; /* reported */
-    uint32_t left_out;   /* states in a row that leave the device out */
-    int32_t trouble;     /* KNURL_FAULT_, reported: why it plays no forces; 0: it does */
+    /* of the I/O thread */
+    uint32_t unanswered; /* messages sent but not answered; each is answered once, in order */
+    uint32_t is_corrupt; /* 1: already reported */
+    uint32_t left_out;   /* consecutive states without the device */
+    int32_t trouble;     /* KNURL_FAULT_ why it plays no forces, reported; 0 if it plays them */
     /* atomic */
     uint64_t bad_bytes;
 } inverse3;
 
 static inverse3 *of(knurl_device *device) {
-    return (inverse3 *)(void *)device; /* its first member */
+    return (inverse3 *)(void *)device; /* first member */
 }
 
 /* --- the exchange --- */
@@ -70,7 +70,7 @@ static void count_answers(inverse3 *d, int came) {
     d->unanswered -= count < d->unanswered ? count : d->unanswered;
 }
 
-/* The answer to the latest message: KNURL_LINK_POSITION. A state that answers an earlier one is too old. */
+/* Waits for the answer to the last message: KNURL_LINK_POSITION. Answers to earlier messages are too old. */
 static int await_answer(inverse3 *d, int64_t until, knurl_inverse3_message *message) {
     int came = 0;
     do {
@@ -91,7 +91,7 @@ static int report_corrupt(inverse3 *d, const knurl_inverse3_message *message) {
     return KNURL_LINK_NOTHING;
 }
 
-/* KNURL_FAULT_ by which it plays no forces, and for KNURL_FAULT_FORCE_OFF its cause; 0: it plays them. */
+/* KNURL_FAULT_ why it plays no forces, and the cause if it is KNURL_FAULT_FORCE_OFF; 0 if it plays them. */
 static int32_t find_trouble(const knurl_inverse3_entry *entry, int32_t *cause) {
     *cause = 0;
     if (entry->is_uncalibrated && !entry->is_unpowered) {
@@ -137,7 +137,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     inverse3 *d = of(device);
     knurl_inverse3_message message = {NULL, 0};
     char text[KNURL_INVERSE3_COMMAND];
-    const int came = d->channel.receive(d->channel.self, 0, &message); /* what was late */
+    const int came = d->channel.receive(d->channel.self, 0, &message); /* late answers */
     if (came < 0) {
         return KNURL_LINK_LOST;
     }
@@ -161,7 +161,7 @@ static void disconnect(inverse3 *d) {
     }
 }
 
-/* The first message is the service's: all devices, with their configurations. */
+/* Connects and reads the service's first message: all devices, with their configurations. */
 static knurl_result receive_first(const knurl_inverse3_service *service, int port, knurl_inverse3_channel *channel,
                                   knurl_inverse3_state *state) {
     char why[160] = "";
@@ -185,7 +185,7 @@ static knurl_result receive_first(const knurl_inverse3_service *service, int por
                       port, 1e-3 * HELLO_MS, came > 0 ? "something else" : "nothing");
 }
 
-/* MODEL_COUNT: of none that is known. */
+/* Returns MODEL_COUNT if the type is unknown. */
 static size_t find_model(const knurl_inverse3_entry *entry) {
     size_t model = 0;
     while (model < MODEL_COUNT && strcmp(models[model].type, entry->type) != 0) {
@@ -217,8 +217,8 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
                           "does not know what force it can play",
                           entry->id, entry->type);
     }
-    (void)snprintf(d->id, sizeof d->id, "%s", entry->id); /* from now on it is this one that is meant */
-    if (d->base.max_force == 0.0) {                       /* once: others may be reading it later */
+    (void)snprintf(d->id, sizeof d->id, "%s", entry->id); /* a reopen must find the same device */
+    if (d->base.max_force == 0.0) {                       /* once: other threads may read it later */
         d->model = model;
         d->force_gate = entry->force_gate;
         d->base.max_force = models[model].max_force;
@@ -226,9 +226,9 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     return KNURL_OK;
 }
 
-/* No force, positions from the middle of the workspace, no damping, and no profile: under one, the Hub would set axes
- * of its own. The service's other filters stay: its oscillation damper cannot be set, and what the gain of its force
- * gate means is not published. */
+/* Sets no force, positions from the middle of the workspace, no damping, and no profile: if one were set, the Hub would
+ * set axes of its own. The service's other filters stay: its oscillation damper cannot be set, and the meaning of its
+ * force gate's gain is not published. */
 static knurl_result configure(inverse3 *d) {
     static const double none[3] = {0.0, 0.0, 0.0};
     char text[KNURL_INVERSE3_COMMAND];
@@ -304,7 +304,7 @@ static knurl_result inverse3_open(const char *options, knurl_device **device) {
 }
 
 static knurl_result inverse3_reopen(knurl_device *device) {
-    disconnect(of(device)); /* the thread has ended by itself */
+    disconnect(of(device)); /* the thread has already ended */
     return connect(of(device));
 }
 
@@ -313,7 +313,7 @@ static void inverse3_close(knurl_device *device) {
     knurl_device_free(device);
 }
 
-/* "": it plays forces. What it says while it is open is an event. */
+/* The reason for the listing; "" if it plays forces. Once the device is open, faults are events. */
 static const char *why_not(const knurl_inverse3_entry *entry, size_t model) {
     return model == MODEL_COUNT  ? "it is of a type whose forces this version does not know"
            : entry->is_unpowered ? "its power supply is out: plug it in"
@@ -326,7 +326,7 @@ void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *
     knurl_inverse3_channel channel;
     knurl_inverse3_state state;
     if (receive_first(service, PORT, &channel, &state)) {
-        const char *reason = knurl_error_message() + strlen("device 'inverse3': "); /* that stands in the listing */
+        const char *reason = knurl_error_message() + strlen("device 'inverse3': "); /* the listing already has that */
         knurl_listings_add(listings, "inverse3", NAME, "%s", reason);
         return;
     }
@@ -361,7 +361,7 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     if (d->force_gate != 0.0) {
         (void)snprintf(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
     }
-    for (int axis = 0; axis < 3; axis++) { /* the cube in its maker's sphere */
+    for (int axis = 0; axis < 3; axis++) { /* the cube inside its maker's sphere */
         info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
         info->workspace_min[axis] = -info->workspace_max[axis];
     }
@@ -374,7 +374,7 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     info->mass = 0.2;       /* assumed */
     info->viscous = 0.5;    /* assumed */
     info->coulomb = 0.3;    /* assumed */
-    info->delay = 2.0;      /* assumed: the service's threads come between */
+    info->delay = 2.0;      /* assumed: the service's threads are in between */
     info->native_rate = NATIVE_RATE;
 }
 

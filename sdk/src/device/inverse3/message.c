@@ -87,10 +87,10 @@ int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *sta
 
 #define JSMN_STATIC
 #define JSMN_STRICT
-#define JSMN_PARENT_LINKS /* the time it takes grows with the length alone */
+#define JSMN_PARENT_LINKS /* so that the time to parse only grows linearly with the length */
 #include <jsmn.h>
 
-#define TOKENS 2048 /* of a message: a device with its configuration has about 150 */
+#define TOKENS 2048 /* per message: a device with its configuration has about 150 */
 
 typedef struct json {
     const char *text;
@@ -98,7 +98,7 @@ typedef struct json {
     jsmntok_t tokens[TOKENS];
 } json;
 
-/* Values are known by the place of their token; NONE: there is no such value. */
+/* Values are referred to by their token's index; NONE if there is no such value. */
 #define NONE   (-1)
 
 static int has_text(const json *j, int at, const char *text) {
@@ -107,7 +107,7 @@ static int has_text(const json *j, int at, const char *text) {
     return length == strlen(text) && memcmp(j->text + token->start, text, length) == 0;
 }
 
-/* The token behind a value and all that is in it. */
+/* The first token after a value and its contents. */
 static int behind(const json *j, int at) {
     const int end = j->tokens[at].end;
     do {
@@ -129,7 +129,7 @@ static int member(const json *j, int object, const char *key) {
     return NONE;
 }
 
-/* The first of an array's elements, or the one behind `at`. */
+/* The first element of an array if `at` is NONE, otherwise the one after `at`. */
 static int element(const json *j, int array, int at) {
     if (array == NONE || j->tokens[array].type != JSMN_ARRAY) {
         return NONE;
@@ -138,7 +138,7 @@ static int element(const json *j, int array, int at) {
     return next < behind(j, array) ? next : NONE;
 }
 
-/* A number of JSON's. The service prints up to 17 significant digits, knurl_number() takes 15: the rest is left off. */
+/* Reads a JSON number. The service prints up to 17 significant digits, knurl_number() takes 15: the rest is cut off. */
 static int take_number(const json *j, int at, double *value) {
     char kept[32];
     size_t count = 0;
@@ -156,13 +156,13 @@ static int take_number(const json *j, int at, double *value) {
     }
     if (end + 2 < size && text[end + 1] == '-' && knurl_number(text + end + 2, size - end - 2, &exponent) &&
         exponent > 8.0) {
-        *value = 0.0; /* less than 0.1 um, and with 15 digits more than knurl_number() takes */
+        *value = 0.0; /* less than 0.1 um; with 15 digits out of knurl_number()'s range */
         return 1;
     }
     for (size_t i = 0; i < size && count < sizeof kept; i++) {
         const int is_digit = i < end && text[i] >= '0' && text[i] <= '9';
         if (!strchr("0123456789+-.eE", text[i])) {
-            return 0; /* jsmn takes more than JSON has */
+            return 0; /* jsmn accepts more than JSON allows */
         }
         has_point |= text[i] == '.';
         significant += is_digit && (significant > 0 || text[i] != '0');
@@ -173,7 +173,7 @@ static int take_number(const json *j, int at, double *value) {
     return count < sizeof kept && knurl_number(kept, count, value);
 }
 
-/* The numbers x, y, z and (4) w: 1 where all are there. */
+/* Reads the numbers x, y, z and (4) w. Returns 1 if all are present. */
 static int take_numbers(const json *j, int object, int wanted, double *values) {
     static const char *const keys[] = {"x", "y", "z", "w"};
     int has_all = 1;
@@ -187,12 +187,12 @@ static uint32_t is_true(const json *j, int at) {
     return at != NONE && j->tokens[at].type == JSMN_PRIMITIVE && has_text(j, at, "true");
 }
 
-/* 1: it is there, and not true. */
+/* 1 if it is present and not true. */
 static uint32_t is_denied(const json *j, int at) {
     return at != NONE && !is_true(j, at);
 }
 
-/* An id goes back to the service in commands: it must not end the text that it stands in. */
+/* Commands contain the id: it must not end the string around it. */
 static void take_id(const json *j, int at, char id[KNURL_INVERSE3_ID_ROOM]) {
     static const char allowed[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
     const size_t size = at == NONE ? 0 : (size_t)(j->tokens[at].end - j->tokens[at].start);

@@ -1,4 +1,4 @@
-/* Messages of the Haply Inverse Service, version 3.5: JSON, one answer for each message. Written from its public
+/* Messages of the Haply Inverse Service, version 3.5: JSON, one answer per message. Written from its public
  * documentation (docs.haply.co/inverseSDK). Its axes: x right, y away from the user, z up; m, N.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_INVERSE3_MESSAGE_H
@@ -9,20 +9,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KNURL_INVERSE3_ID_ROOM 16    /* bytes of a device's id; the documented ones have four characters */
-#define KNURL_INVERSE3_DEVICES 8     /* that are looked at; more are left out */
+#define KNURL_INVERSE3_ID_ROOM 16    /* bytes of a device's id; documented ids have four characters */
+#define KNURL_INVERSE3_DEVICES 8     /* read at most; more are ignored */
 #define KNURL_INVERSE3_COMMAND 256   /* bytes of the longest command */
-#define KNURL_INVERSE3_LONGEST 65536 /* bytes of the longest message that is taken */
+#define KNURL_INVERSE3_LONGEST 65536 /* bytes of the longest message accepted */
 
 /* One device in a message, in the service's axes. */
 typedef struct knurl_inverse3_entry {
     char id[KNURL_INVERSE3_ID_ROOM];
-    char type[KNURL_INVERSE3_ID_ROOM]; /* "inverse3", "inverse3x", "minverse"; "": not told, as in all but the first */
+    char type[KNURL_INVERSE3_ID_ROOM]; /* "inverse3", "inverse3x", "minverse"; "": not sent, as in all but the first */
     double position[3];                /* m */
-    double force_gate;                 /* the gain of the session's filter; 0: none, or not told */
-    uint32_t has_position;             /* 1: all three of its numbers were there */
-    uint32_t has_preset;               /* 1: its configuration names a preset: the service is 3.5 or newer */
-    /* 1: the service says so */
+    double force_gate;                 /* gain of the session's filter; 0: no filter, or not sent */
+    uint32_t has_position;             /* 1: all three of its numbers were present */
+    uint32_t has_preset;               /* 1: its configuration has a preset: the service is 3.5 or newer */
+    /* 1: reported by the service */
     uint32_t is_unpowered, is_uncalibrated, is_not_ready;
 } knurl_inverse3_entry;
 
@@ -34,25 +34,25 @@ typedef struct knurl_inverse3_grip {
 
 typedef struct knurl_inverse3_state {
     knurl_inverse3_entry entries[KNURL_INVERSE3_DEVICES];
-    knurl_inverse3_grip wireless, custom, wired; /* the first of each; zeros where there is none */
+    knurl_inverse3_grip wireless, custom, wired; /* the first of each; zeros if it is missing */
 } knurl_inverse3_state;
 
-/* Reads a message: 1; 0: it is no JSON object. What is missing in it, or not of its kind, is 0 or "" in *state. */
+/* Reads a message. Returns 0 if it is not a JSON object. Fields that are missing or invalid are 0 or "". */
 int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state);
 
-/* The entry with this id, "": the first; null where there is none. */
+/* The entry with this id, or the first if id is ""; null if there is no such entry. */
 const knurl_inverse3_entry *knurl_inverse3_find(const knurl_inverse3_state *state, const char *id);
 
-/* The handle's orientation x, y, z, w in Knurl's axes: a unit quaternion, or zeros where there is none. */
+/* The handle's orientation x, y, z, w in Knurl's axes: a unit quaternion, or zeros if there is no handle. */
 void knurl_inverse3_orientation(const knurl_inverse3_state *state, double q[4]);
 
-/* Positions to Knurl's axes (x right, y up, z towards the user), and forces to the service's. */
+/* Convert positions to Knurl's axes (x right, y up, z towards the user), and forces to the service's. */
 void knurl_inverse3_to_knurl(const double from[3], double to[3]);
 void knurl_inverse3_from_knurl(const double from[3], double to[3]);
 
-/* Writes the command that gives a device this force (N, Knurl's axes, each part below 1000), with a comma-less decimal
- * point in every locale. configures: 1 also sets the session up: positions from the middle of its workspace, and no
- * damping by the service. Returns its length. */
+/* Writes the command for a device to play this force (N, Knurl's axes, each component below 1000), with a decimal point
+ * in every locale. configures: 1 also sets up the session: positions from the middle of its workspace, and no damping
+ * by the service. Returns its length. */
 size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3], int configures);
 
 #endif

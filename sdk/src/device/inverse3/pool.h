@@ -1,4 +1,4 @@
-/* Memory for libwebsockets, had before it is called: where it gets none it leaks, or crashes.
+/* Memory for libwebsockets, allocated before it is called: if its allocations fail, it leaks or crashes.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_INVERSE3_POOL_H
 #define KNURL_SRC_INVERSE3_POOL_H
@@ -7,15 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes. Version 4.1 takes 30 KB for a connection, however long it lasts, of which 16 are the buffer that it is told to
- * make. */
+/* Bytes. Version 4.1 takes 30 KB per connection, however long that lasts, including the 16 KB of pt_serv_buf_size. */
 #define KNURL_POOL_ROOM ((size_t)128 * 1024)
 
-/* Blocks are taken from its start on, each behind its size. The last one that was taken makes room when it is given
- * back, all others do so with the pool. */
+/* Blocks are taken from its start, each after its size. Freeing the last block makes room; all others are freed with
+ * the pool. */
 typedef struct knurl_pool {
     size_t used;
-    size_t last; /* where the last block is; `used`: none is known */
+    size_t last; /* offset of the last block; `used` if unknown */
     unsigned char bytes[KNURL_POOL_ROOM] __attribute__((aligned(16)));
 } knurl_pool;
 
@@ -46,8 +45,8 @@ static inline void knurl_pool_give_back(knurl_pool *pool, void *memory) {
     }
 }
 
-/* As realloc(), but that a size of 0 gives the block back. pool: null for the heap alone; else what does not fit into
- * it comes from the heap. */
+/* As realloc(), except that a size of 0 frees the block. pool: if null, uses the heap alone; otherwise the heap is used
+ * for blocks that do not fit. */
 static inline void *knurl_pool_realloc(knurl_pool *pool, void *memory, size_t size) {
     size_t old = 0;
     if (size == 0) {
