@@ -104,7 +104,7 @@ static knurl_result custom_reopen(knurl_device *device) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     if (c->functions.blocking) {
-        knurl_link_close(&c->link); /* the thread has ended already */
+        knurl_link_close(&c->link); /* the thread has already ended */
     }
     const knurl_result result = c->functions.reopen(c->functions.user);
     c->has_latest = 0;

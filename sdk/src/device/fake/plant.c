@@ -5,9 +5,7 @@
 
 #include <string.h>
 
-/* Steps per tick. A quarter millisecond is short against the poles of the default device and hand (c/m 122 /s, w 125
- * /s).
- */
+/* Steps per tick: 0.25 ms is short against the poles of the default device and hand (c/m 122 /s, w 125 /s). */
 #define SUBSTEPS 4
 
 void knurl_plant_init(knurl_plant *plant, const knurl_plant_config *config, const double position[3]) {

@@ -153,7 +153,7 @@ static int serve_frame(touch *t) {
 
 uint32_t HD_CALL touch_servo(void *user) {
     touch_slot *slot = user;
-    /* touch_detach() clears `device`, then reads `inside`; so at least one of the two sees the other's store. */
+    /* touch_detach() clears `device` before it reads `inside`, so at least one of the two sees the other's store. */
     __atomic_store_n(&slot->inside, 1, __ATOMIC_SEQ_CST);
     touch *t = __atomic_load_n(&slot->device, __ATOMIC_SEQ_CST);
     const int again = t && serve_frame(t);
