@@ -19,7 +19,7 @@ knurl_result knurl_edges_make(knurl_heap *heap, uint64_t edges, knurl_edge_table
 void knurl_edges_clear(knurl_edge_table *table, uint64_t edges);
 
 /* Returns 0 if the edge is already present, or if there are more collisions than chance gives: a crafted mesh, which
- * stays a mesh. (The hash has no seed, because the order of its slots is the order of the outline's edges.) */
+ * does not become a plane. (The hash has no seed: the order of its slots is the order of the outline's edges.) */
 int knurl_edges_add(knurl_edge_table *table, uint32_t from, uint32_t to);
 
 /* Finds the next edge without a reverse, from slot *at on; 0 at the end. */

@@ -174,8 +174,7 @@ int knurl_mesh_cross(const knurl_mesh *mesh, const double a[3], const double b[3
 /* m: motion of a fast hand in a tick. */
 #define SAMPLE_STEP 1e-3
 
-/* 1 if contact at p takes more visits than it may: half of a tick's for the nearest point in front, a quarter for a
- * crossing, because a segment is cast several times. */
+/* 1 if contact at p exceeds its share of visits: half of a tick's in front, a quarter for one of several casts. */
 static int exceeds_visits_at(const knurl_mesh *mesh, const double p[3], const double normal[3], double reach,
                              uint32_t max_visits) {
     knurl_visits nearest = {max_visits / 2, 0};

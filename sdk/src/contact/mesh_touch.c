@@ -143,7 +143,7 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, co
     bounded b;
     int shared[2];
     const int count = shared_corners((const double (*)[3])a->corners, corners, shared);
-    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* an edge, or a closed fan */
+    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* share an edge or a closed fan */
         return 0;
     }
     const int beyond = is_beyond(a, corners, shared[1], mesh->seam);
@@ -237,7 +237,7 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
 
 uint32_t knurl_mesh_count_touching(const knurl_mesh *mesh) {
     uint32_t pairs = 0;
-    const uint32_t enough = PAIRS_A_TRIANGLE * mesh->triangle_count; /* cannot overflow: below 2^26 triangles */
+    const uint32_t enough = PAIRS_A_TRIANGLE * mesh->triangle_count; /* cannot overflow: at most 2^26 triangles */
     uint64_t steps = (uint64_t)STEPS_A_TRIANGLE * mesh->triangle_count;
     for (uint32_t i = 0; i < mesh->node_count && steps > 0 && pairs < enough; i++) {
         if (mesh->nodes[i].count > 0) {

@@ -49,8 +49,8 @@ static void join(const winding *w, uint32_t t, uint32_t other, uint32_t opposite
 
 #define NO_TRIANGLE UINT32_MAX
 
-/* Limits of the nodes and triangles that find_beside() visits: to detect a mixed mesh, and in addition per triangle to
- * mend it. If a mesh needs more, the rest of it stays as it is. */
+/* Nodes and triangles that find_beside() may visit: to detect a mixed mesh, and additionally per triangle to mend it.
+ * If a mesh needs more, the rest of it stays as it is. */
 #define STEPS            500000
 #define STEPS_A_TRIANGLE 96
 
@@ -236,7 +236,7 @@ knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
     const uint32_t count = mesh->triangle_count;
     winding w = {mesh, NULL, NULL, NULL, 0, mesh->touching == 0 && mesh->non_manifold_count == 0};
     w.steps = STEPS;
-    if (mesh->double_sided || !is_mixed(&w)) { /* so far by reversed twins */
+    if (mesh->double_sided || !is_mixed(&w)) { /* because of reversed twins */
         return KNURL_OK;
     }
     w.links = knurl_heap_alloc(heap, count, sizeof *w.links);

@@ -6,7 +6,7 @@
 #include "contact/sheet.h"
 
 /* Rotates the sheet's x to the grating's; sets the plane's x, map, stretch and has_coordinates, relative to the sheet's
- * origin. *why: set if the coordinates are not affine. */
+ * origin. *why: set if the sheet cannot be a plane. */
 void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why);
 
 #endif
