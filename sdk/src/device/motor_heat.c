@@ -4,8 +4,8 @@
 
 #include "base/atomic.h"
 
-/* Slots, one per driver; if all are taken, further kinds start cold. */
-#define KINDS 4
+/* Slots, one per driver that keeps heat (touch, falcon, rawhid, serial, dhd, inverse3). */
+#define KINDS 6
 
 static struct {
     const knurl_driver *driver; /* null if free */

@@ -182,6 +182,24 @@ TEST(what_cannot_be_opened_says_why) {
     assert_int_equal(dhd_stub.opens(), 0);
 }
 
+/* An omega (type 33, 12 N) is unplugged, and a Falcon (type 60, 8 N) has its place: the force limit is still the
+ * omega's. */
+TEST(another_model_in_its_place_is_not_had_back) {
+    knurl_device_sample sample;
+    dhd_stub.set(STUB_DHD_TYPE, 33);
+    knurl_device *device = open_released();
+    dhd_double.inject(DOUBLE_UNPLUG);
+    assert_int_equal(run(device, 20, none, &sample), KNURL_ERROR_DEVICE_LOST);
+    dhd_stub.set(STUB_DHD_TYPE, 60);
+    dhd_double.inject(DOUBLE_WELL);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
+    dhd_stub.set(STUB_DHD_TYPE, 33);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
+    dhd_double.close(device);
+    assert_int_equal(dhd_stub.opens(), 0);
+}
+
 TEST(a_pulled_cable_is_a_loss_and_the_device_is_had_back) {
     knurl_device_sample sample;
     knurl_device *device = open_released();

@@ -184,14 +184,29 @@ static void disconnect(dhd *d) {
     }
 }
 
-static void ask_what_it_is(dhd *d) {
+static size_t find_model(const dhd *d) {
     const int type = api.type(d->id);
-    const char *name = api.name(d->id);
-    d->model = 0;
-    while (d->model + 1 < MODEL_COUNT && models[d->model].type != type) {
-        d->model++;
+    size_t model = 0;
+    while (model + 1 < MODEL_COUNT && models[model].type != type) {
+        model++;
     }
+    return model;
+}
+
+/* At the first open. Other threads may read the model and the name later, and the force limit is the model's: another
+ * model in its place is not this device. */
+static knurl_result identify(dhd *d) {
+    const size_t model = find_model(d);
+    if (d->name[0]) {
+        return model == d->model
+                   ? KNURL_OK
+                   : knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'dhd:%d': expected the %s again, found another model",
+                                d->index, d->name);
+    }
+    const char *name = api.name(d->id);
+    d->model = model;
     (void)snprintf(d->name, sizeof d->name, "Force Dimension %.40s", name ? name : "device");
+    return KNURL_OK;
 }
 
 static knurl_result connect(dhd *d) {
@@ -213,8 +228,8 @@ static knurl_result connect(dhd *d) {
     d->is_open = 1;
     d->until_status = 0;
     d->trouble = 0;
-    ask_what_it_is(d);
-    knurl_result result = api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
+    knurl_result result = identify(d);
+    result = result ? result : api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
     if (result) {
         disconnect(d);
