@@ -3,6 +3,7 @@
 #define KNURL_SRC_HEAT_H
 
 #include "base/base.h"
+#include "base/vec3.h"
 
 #include "guard/hip_facts.h"
 
@@ -38,7 +39,7 @@ static inline double knurl_heat_limit(const knurl_heat *heat) {
 
 /* Heat after a step from `square` to `next`. Motors that are already too warm from an earlier use may stay so. */
 static inline double knurl_heat_cap(const knurl_heat *heat, double next) {
-    return KNURL_LIKELY(next <= heat->most) || next <= heat->square ? next : heat->most;
+    return KNURL_LIKELY(next <= heat->most) ? next : knurl_min(next, knurl_max(heat->most, heat->square));
 }
 
 /* Adds a force that was played for a tick, N^2. */
