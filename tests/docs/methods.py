@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""The spatial methods are listed wherever a user picks one. The lists are held against the table in methods.c and the
+numbers in grating.h. SPDX-License-Identifier: MIT
+
+    methods.py              every list
+    methods.py --self-test  a list that lacks a method, or has one by another name or number, is found"""
+import json
+import os
+import re
+import sys
+import xml.etree.ElementTree
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def methods():
+    """{number: name} and the default's number, from the C sources."""
+    numbers = {name: int(number) for name, number in
+               re.findall(r"\bKNURL_METHOD_(\w+) = (\d+)", read("sdk/include/knurl/grating.h"))}
+    names = dict(re.findall(r'\[KNURL_METHOD_(\w+)\] = \{"(\w+)"', read("sdk/src/grating/methods.c")))
+    default = re.search(r"grating->method = KNURL_METHOD_(\w+)", read("sdk/src/grating/grating.c"))[1]
+    if numbers.pop("DEFAULT") != 0 or numbers.keys() != names.keys():
+        sys.exit(f"methods: grating.h has {sorted(numbers)}, methods.c has {sorted(names)}")
+    return {numbers[name]: names[name] for name in sorted(numbers, key=numbers.get)}, numbers[default]
+
+
+def title(name):
+    """As enumerations spell it: Bandlimited."""
+    return name[0].upper() + name[1:]
+
+
+def any_of(names, quote="'"):
+    """A sentence's list: 'S1', 'S2' or 'bandlimited'."""
+    quoted = [quote + name + quote for name in names]
+    return ", ".join(quoted[:-1]) + " or " + quoted[-1]
+
+
+def pairs(pattern, text):
+    """{number: name} of a pattern with groups `name` and `number`."""
+    return {int(found["number"]): found["name"] for found in re.finditer(pattern, text)}
+
+
+def schema(text, known, default):
+    entry = json.loads(text)["$defs"]["method"]
+    return (entry["enum"], entry["default"]), (list(known.values()), known[default])
+
+
+def tags_gd(text, known, default):
+    row = re.search(r"METHODS: Dictionary = \{(.*)\}", text)[1]
+    return (pairs(r'"(?P<name>\w+)": (?P<number>\d+)', row), text.count(any_of(known.values()))), (known, 2)
+
+
+def grating_c(text, known, default):
+    hint = re.search(r'\{"method", [^{}]*?, 0\.0, (\d+)\.0, 1\.0, "([\w,]+)"', text)
+    constants = re.findall(r'\{"Method", "METHOD_(\w+)", KNURL_METHOD_(\w+)\}', text)
+    upper = ["DEFAULT", *(name.upper() for name in known.values())]
+    return (int(hint[1]), hint[2].split(","), constants), \
+        (max(known), ["Default", *map(title, known.values())], [(name, name) for name in upper])
+
+
+def grating_xml(text, known, default):
+    rows = [row for row in xml.etree.ElementTree.fromstring(text).iter("constant") if row.get("enum") == "Method"]
+    return ({int(row.get("value")): row.get("name") for row in rows}, rows[0].text), \
+        ({0: "METHOD_DEFAULT", **{n: "METHOD_" + name.upper() for n, name in known.items()}},
+         f"As METHOD_{known[default].upper()}.")
+
+
+def knurl_cs(text, known, default):
+    body = re.search(r"enum KnurlGratingMethod : long\s*\{(.*?)\}", text, re.DOTALL)[1]
+    return pairs(r"(?m)^\s*(?P<name>\w+) = (?P<number>\d+)", body), {0: "Default", **{n: title(m) for n, m in known.items()}}
+
+
+def method_cs(text, known, default):
+    found = pairs(r"(?m)^\s*(?P<name>\w+) = (?P<number>\d+)", text)
+    return (found, re.search(r'as <see cref="(\w+)"/>', text)[1]), \
+        ({0: "Default", **{n: title(m) for n, m in known.items()}}, title(known[default]))
+
+
+def settings_js(text, known, default):
+    found = json.loads(re.search(r"const METHODS = (\[.*\]);", text)[1])
+    chosen = int(re.search(r'\$\("method"\)\.value = feel\[5\] \|\| (\d+)', text)[1])
+    return (found, chosen), ([known[default], *known.values()], default)
+
+
+def index_html(text, known, default):
+    chooser = re.search(r'<select id="method">(.*?)</select>', text, re.DOTALL)[1]
+    return pairs(r'<option value="(?P<number>\d+)">(?P<name>\w+)</option>', chooser), known
+
+
+def help_c(text, known, default):
+    return re.search(r'#define METHODS "(.*)"', text)[1].split("|"), list(known.values())
+
+
+def scene_py(text, known, default):
+    return re.search(r"method: ([^.]*), or None\.", text)[1], ", ".join(f'"{name}"' for name in known.values())
+
+
+def assets(text, known, default):
+    names = list(known.values())
+    return re.search(r"`knurl_method` \(String: ([^)]*)\)", text)[1], any_of(names, "")
+
+
+# File: what it lists and what it should, as a pair.
+LISTS = {
+    "assets/knurl_extras.schema.json": schema,
+    "assets/README.md": assets,
+    "bindings/godot/addons/knurl/csharp/Knurl.cs": knurl_cs,
+    "bindings/godot/addons/knurl/tags.gd": tags_gd,
+    "bindings/godot/doc_classes/KnurlGrating.xml": grating_xml,
+    "bindings/godot/src/grating.c": grating_c,
+    "bindings/python/knurl/scene.py": scene_py,
+    "bindings/unity/package/Runtime/GratingMethod.cs": method_cs,
+    "samples/knurl/help.c": help_c,
+    "samples/web/index.html": index_html,
+    "samples/web/settings.js": settings_js,
+}
+
+
+def check(path, known, default):
+    """None, or what is wrong with a file's list."""
+    try:
+        found, expected = LISTS[path](read(path), known, default)
+    except (TypeError, KeyError, AttributeError, IndexError):
+        return f"{path}: its list of methods is not where this test looks for it"
+    return None if found == expected else f"{path}: expected {expected}, found {found}"
+
+
+def self_test():
+    known, default = methods()
+    last = max(known)
+    others = {"a new method": ({**known, last + 1: "other"}, default), "another name": ({**known, last: "other"}, default),
+              "other numbers": ({n + 1: name for n, name in known.items()}, default + 1)}
+    by_name_only = {"assets/knurl_extras.schema.json", "assets/README.md", "bindings/python/knurl/scene.py",
+                    "samples/knurl/help.c"}
+    return [f"{path}: {what} is not noticed" for what, (table, chosen) in others.items() for path in LISTS
+            if not check(path, table, chosen) and not (what == "other numbers" and path in by_name_only)]
+
+
+def main(arguments):
+    wrong = self_test() if "--self-test" in arguments else [line for path in LISTS if (line := check(path, *methods()))]
+    for line in wrong:
+        print("methods:", line, file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
