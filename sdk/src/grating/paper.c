@@ -5,10 +5,6 @@
 #include "grating/play.h"
 #include "vibration/ticks.h"
 
-double knurl_grating_mixed_height(const knurl_grating_state *state) {
-    return knurl_vibration_event_value(&state->event, state->next_tick);
-}
-
 double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
     return knurl_first_half(position * spatial_frequency) ? amplitude : -amplitude;
 }
