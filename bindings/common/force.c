@@ -3,11 +3,6 @@
 
 #include <string.h>
 
-knurl_result knurl_session_check_run(const knurl_session *session) {
-    return session->loop ? KNURL_OK
-                         : knurl_fail(KNURL_ERROR_STATE, "session: expected one that runs, found one that does not");
-}
-
 knurl_result knurl_session_set_gain(knurl_session *session, double gain) {
     if (KNURL_BAD_HANDLE(session, SESSION)) {
         return KNURL_ERROR_ARGUMENT;

@@ -66,8 +66,11 @@ typedef struct knurl_session_pace {
     double lag;     /* s: the surface's delay from now on */
 } knurl_session_pace;
 
-/* force.c: KNURL_OK, or KNURL_ERROR_STATE if the session was neither started nor played. */
-knurl_result knurl_session_check_run(const knurl_session *session);
+/* KNURL_OK, or KNURL_ERROR_STATE if the session was neither started nor played. */
+static inline knurl_result knurl_session_check_run(const knurl_session *session) {
+    return session->loop ? KNURL_OK
+                         : knurl_fail(KNURL_ERROR_STATE, "session: expected one that runs, found one that does not");
+}
 
 /* clock.c: the timing of a move by the way's clock. Returns 0 if the engine has not set that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
