@@ -37,11 +37,12 @@ typedef struct trial {
     int is_stepped;
     int skipped; /* 1: the latest ticks were not judged; the haptic thread's */
     uint64_t ticks;
-    int faults; /* that it has reported */
+    int64_t simulated_ns; /* of the clock of loops that are stepped */
+    int faults;           /* that it has reported */
 } trial;
 
-/* Runs one trial: 0, or 1 where the device cannot be opened or no loop made (knurl_error_message()). tick_count: what
- * it came to, is added to. */
+/* Runs one trial (run.c): 0, or 1 where the device cannot be opened or no loop made (knurl_error_message()).
+ * tick_count: what it came to, is added to. */
 int trial_run(const subject *on, uint64_t seed, judge *j, uint64_t *tick_count);
 
 /* --- random numbers (random.c) --- */
@@ -62,6 +63,8 @@ double trial_rate(trial *t);
 
 /* s: a ramp of none, shorter than the slew limit's 5 ms, or longer. */
 double trial_ramp(trial *t);
+
+/* --- its loop (trial.c) --- */
 
 /* Runs ticks: steps, or waits. */
 void trial_advance(trial *t, int ticks);
