@@ -83,6 +83,48 @@ class Tree(unittest.TestCase):
                                                          f"{objects[1]}: malloc U"]))
         self.assertEqual(code.circles(), [["scene/a", "scene/b"]])
 
+    def header_circle(self, body):
+        """The circles where b.c uses a.h, of that body, and defines b()."""
+        self.write("sdk/src/scene/a.h", body)
+        self.write("sdk/src/scene/b.c", '#include "scene/a.h"\n')
+        code = self.code()
+        objects = ["build/sdk/CMakeFiles/knurl.dir/src/scene/b.c.o"]
+        code.add_objects(objects, "build", self.fake_nm([f"{objects[0]}: b T 0 10", f"{objects[0]}: rows D 0 10"]))
+        return code.circles()
+
+    def test_inline_code_and_macros_of_a_header_make_one_as_a_source_would(self):
+        for body in ("static inline int a(void) {\n    return b();\n}\n", "#define A(x) \\\n    b(x)\n",
+                     "static inline int a(void) {\n    if (1) {\n    }\n    return rows[1];\n}\n",
+                     'extern "C" {\nstatic inline int a(void) { return b(); }\n}\n',
+                     "static int (*const a[])(void) = {b};\n"):
+            self.assertEqual(self.header_circle(body), [["scene/a", "scene/b"]], body)
+
+    def test_what_a_header_only_declares_or_mentions_makes_none(self):
+        for body in ("int b(void);\nextern int rows[];\n", "/* { b() } */ // { b()\n", "typedef struct a {\n    int b;\n} a;\n",
+                     "static inline int a(struct x *x) {\n    return x->b + x->y.b;\n}\nint b(void);\n",
+                     'static inline const char *a(void) {\n    return "b";\n}\n', "enum { A = 1 };\nint b(void);\n"):
+            self.assertEqual(self.header_circle(body), [], body)
+
+    def test_a_header_that_a_program_does_not_include_has_no_part_in_it(self):
+        self.write("samples/a.h", "static inline int a(void) { return b(); }\n")
+        self.write("samples/b.c", "#include <knurl/knurl.h>\n")
+        code = self.code()
+        objects = ["build/samples/CMakeFiles/sample.dir/b.c.o"]
+        code.add_objects(objects, "build", self.fake_nm([f"{objects[0]}: b T 0 10"]))
+        self.assertEqual(code.uses["samples/a"], set())
+
+    def test_calls_among_the_files_of_a_binding_make_a_circle_too(self):
+        self.write("bindings/common/force.c")
+        self.write("bindings/common/run.c")
+        self.write("bindings/common/sound.c")
+        code = self.code()
+        objects = [f"build/bindings/common/CMakeFiles/knurl_session.dir/{name}.c.o" for name in ("force", "run", "sound")]
+        lines = [f"{path}: {symbol} {kind}" for path, symbol, kind in
+                 ((objects[0], "check_run", "T 0 10"), (objects[0], "pause", "U"), (objects[1], "pause", "T 0 10"),
+                  (objects[1], "take", "U"), (objects[2], "take", "T 0 10"), (objects[2], "check_run", "U"))]
+        code.add_objects(objects, "build", self.fake_nm(lines))
+        self.assertEqual(code.circles(), [["bindings/common/force", "bindings/common/run", "bindings/common/sound"]])
+
     def test_a_function_of_one_file_is_no_other_files(self):
         self.write("sdk/src/scene/a.c")
         self.write("sdk/src/scene/b.c")

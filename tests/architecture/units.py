@@ -1,8 +1,9 @@
 """Which files depend on which, read off the sources' includes and the objects' symbols. SPDX-License-Identifier: MIT
 
 A unit is X.c and X.h together (and X_posix.c, X_windows.c). It depends on another whose header it includes, or in which
-something that it calls is defined: what the linker would look for. Units are named by their paths without an ending,
-from sdk/src for the library ("contact/mesh") and from the repository elsewhere ("bindings/godot/src/device")."""
+something that it calls is defined: what the linker would look for, and what its header's inline functions and macros name,
+which the compiler puts into other units' objects. Units are named by their paths without an ending, from sdk/src for the
+library ("contact/mesh") and from the repository elsewhere ("bindings/godot/src/device")."""
 import collections
 import os
 import re
@@ -12,6 +13,9 @@ LIBRARY = "sdk/src"
 PUBLIC = "sdk/include/knurl"
 FOLDERS = (LIBRARY, "bindings", "samples")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<knurl/(\w+)\.h>)', re.MULTILINE)
+NO_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\\\n', re.DOTALL)  # comments, strings, lines that go on
+DEFINE = re.compile(r"^\s*#\s*define\s+(\w+(?:\([^)]*\))?)(.*)$", re.MULTILINE)
+NAME = re.compile(r"(?<!\.)(?<!->)\b[A-Za-z_]\w*")  # of no member
 OBJECT = re.compile(r"^(.*?)/?CMakeFiles/[^/]+\.dir/(.*)\.(?:o|obj)$")
 
 
@@ -27,11 +31,29 @@ def source_of(object_path, build):
     return os.path.normpath(os.path.join(match[1], match[2].replace("__/", "../"))) if match else None
 
 
+def named_in_header(text):
+    """The names in a header's macros, function bodies and initialisers; not those in its declarations and structs."""
+    text = NO_CODE.sub(" ", text)
+    names = {name for _, body in DEFINE.findall(text) for name in NAME.findall(body)}
+    text = re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE)
+    depth, head = 0, ""  # of braces in a body; what stands before the next brace outside one
+    for part in re.findall(r"[^{};]+|[{};]", text):
+        if depth:
+            depth += {"{": 1, "}": -1}.get(part, 0)
+            names.update(NAME.findall(part))
+        elif part == "{" and ("(" in head or "=" in head):
+            depth = 1
+        head = part
+    return names
+
+
 class Code:
     def __init__(self, root):
         self.root = root
         self.files = sorted(self._find(FOLDERS) + self._find([PUBLIC]))  # from the repository
         self.uses = {unit_of(path): set() for path in self.files}  # unit: units
+        self.headers = collections.defaultdict(set)  # file: files of FOLDERS that it includes
+        self.named = {}  # header: what its inline code names
         self.public = collections.defaultdict(set)  # file: modules whose public headers it includes
         self.lines = {}  # file: how many
         self.nonblocking = set()  # units with something that may run in a tick
@@ -54,6 +76,8 @@ class Code:
         self.lines[path] = text.count("\n")
         if "KNURL_NONBLOCKING" in text:
             self.nonblocking.add(unit_of(path))
+        if path.endswith((".h", ".hpp")):
+            self.named[path] = named_in_header(text)
         for quoted, public in INCLUDE.findall(text):
             if public:
                 self.public[path].add(public)
@@ -61,6 +85,7 @@ class Code:
             for folder in (os.path.dirname(path), *self._roots(path), LIBRARY):
                 there = os.path.normpath(os.path.join(folder, quoted))
                 if os.path.exists(os.path.join(self.root, there)):
+                    self.headers[path].add(there)
                     self._depend(unit_of(path), unit_of(there))
                     if there.startswith(LIBRARY + "/") and not path.startswith(LIBRARY + "/"):
                         self.stray.append((path, quoted))
@@ -79,8 +104,10 @@ class Code:
             self.uses[unit].add(other)
 
     def add_objects(self, objects, build, nm):
-        """One program's or library's objects: what one of them calls and another defines."""
-        units = {path: unit_of(source) for path in objects if (source := source_of(path, build))}
+        """One program's or library's objects: what one of them, or inline code of a header in it, calls and another
+        defines. Inline C++ is seen where it calls C."""
+        sources = {path: source for path in objects if (source := source_of(path, build))}
+        units = {path: unit_of(source) for path, source in sources.items()}
         out = subprocess.run([nm, "-A", "-P", *units], capture_output=True, text=True, check=True).stdout
         defined, called = {}, []
         for line in out.splitlines():
@@ -94,6 +121,18 @@ class Code:
         for unit, symbol in called:
             if symbol in defined:
                 self._depend(unit, defined[symbol])
+        for header in self._included(sources.values()):
+            for name in self.named.get(header, set()) & defined.keys():
+                self._depend(unit_of(header), defined[name])
+
+    def _included(self, paths):
+        """The headers of FOLDERS that files include, and those that these include."""
+        found, left = set(), list(paths)
+        while left:
+            new = self.headers[left.pop()] - found
+            found |= new
+            left += new
+        return found
 
     def module(self, unit):
         """The library's module of a unit; else the unit's folder."""
