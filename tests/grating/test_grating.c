@@ -336,7 +336,7 @@ TEST(the_slowest_scan_of_the_coarsest_grating_plays_a_finite_event) {
     }
 }
 
-TEST(default_method_is_resolved_to_locked) {
+TEST(default_method_is_resolved_to_bandlimited) {
     assert_int_equal(make_grating(KNURL_METHOD_DEFAULT, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_BANDLIMITED);
     assert_int_equal(make_grating(KNURL_METHOD_BANDLIMITED, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_BANDLIMITED);
     assert_int_equal(make_grating(KNURL_METHOD_S1, 1000.0, 0.0, 1.0, 1000.0).method, KNURL_METHOD_S1);

@@ -52,7 +52,7 @@ double knurl_grating_frequency(const double spatial_frequency[2], const double v
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
     if (KNURL_UNLIKELY(!grating || !state || !velocity || !output ||
-                       (!position && grating->method == KNURL_METHOD_S1))) {
+                       (!position && knurl_methods[grating->method].needs_position))) {
         return;
     }
     const knurl_grating_input input = {{position ? position[0] : 0.0, position ? position[1] : 0.0},
