@@ -252,8 +252,8 @@ typedef struct knurl_hip_counts {
                                        device's heat */
     double half_cycles_crossed;  /**< ridges and grooves that the HIP crossed, for every method, not rounded: the sum of
                                       2 f_t / f_h over all ticks and touched surfaces (Eq. 12; a stroke of L metres
-                                      along x crosses 2 fsx L). BANDLIMITED's in the grating's coordinates, S1's and S2's
-                                      in metres; 0 without a grating */
+                                      along x crosses 2 fsx L). For S1 and BANDLIMITED in the grating's coordinates, for
+                                      S2 in metres; 0 without a grating */
     uint64_t half_cycles_played; /**< half cycles rendered: sign changes of the height */
     uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
     uint64_t visit_limit_ticks;  /**< ticks with KNURL_TICK_VISIT_LIMIT */
