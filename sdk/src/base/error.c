@@ -1,6 +1,8 @@
 /* Result codes, the thread's error message, versions, growable structs. SPDX-License-Identifier: MIT */
 #include "base/error.h"
 
+#include "base/finite.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,8 @@
 /* The table of spatial methods. SPDX-License-Identifier: MIT */
 #include "grating/methods.h"
 
+#include "base/finite.h"
+
 #include "base/handle.h"
 #include "grating/bandlimited.h"
 #include "grating/paper.h"

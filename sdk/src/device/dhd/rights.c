@@ -1,6 +1,8 @@
 /* Checks the USB devices that Linux lists. SPDX-License-Identifier: MIT */
 #include "device/dhd/rights.h"
 
+#include "base/finite.h"
+
 #ifndef __linux__
 
 int knurl_usb_is_denied(unsigned vendor, char *text, size_t size) {
