@@ -9,7 +9,7 @@
 namespace knurl::gltf {
 namespace {
 
-/// Elements in a buffer: `count` of them, `stride` bytes apart, all of them inside it.
+/// `count` elements in a buffer, `stride` bytes apart, all inside the buffer.
 struct Elements {
     const unsigned char *data = nullptr;
     size_t stride = 0;
@@ -27,12 +27,12 @@ struct Elements {
 template <typename T>
 T value_at(const unsigned char *at) {
     T value;
-    std::memcpy(&value, at, sizeof value); // files are not bound to align
+    std::memcpy(&value, at, sizeof value); // the file may not be aligned
     return value;
 }
 
-/// Places `elements` (all but its data and stride) at an offset into a bufferView. Numbers are at most 2^31
-/// (filter.cpp), so that none of these sums and products wraps.
+/// Sets data and stride of `elements` from an offset into a bufferView. The sums and products cannot wrap, because
+/// filter.cpp limits all numbers to 2^31.
 void locate(const Model &model, int view_index, size_t offset, bool strided, Elements &elements,
             const std::string &where) {
     const tinygltf::BufferView &view = model.filtered.views.at(static_cast<size_t>(view_index));
@@ -57,7 +57,7 @@ void locate(const Model &model, int view_index, size_t offset, bool strided, Ele
     elements.stride = static_cast<size_t>(stride);
 }
 
-/// An accessor's elements without its sparse ones; data is null where it has no bufferView (all zeros).
+/// An accessor's elements without the sparse ones. data is null if it has no bufferView: all elements are zero.
 Elements dense_elements(const Model &model, const tinygltf::Accessor &accessor, size_t most, const std::string &where) {
     Elements elements;
     elements.count = accessor.count;
@@ -166,7 +166,7 @@ size_t count_elements(const Model &model, int index, size_t components, size_t m
 std::vector<float> read_floats(const Model &model, int index, size_t components, const std::string &where) {
     const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
     const std::string place = where + " (" + model.accessor_label(index) + ")";
-    const Elements elements = dense_elements(model, accessor, vertices_max, place); // of so many components: counted
+    const Elements elements = dense_elements(model, accessor, vertices_max, place); // components: checked before
     if (elements.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         refuse(place, "componentType: expected 5126 (float) or integers of 8 or 16 bits, found 5125");
     std::vector<float> out(elements.count * components);

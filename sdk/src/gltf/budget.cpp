@@ -9,9 +9,9 @@ namespace {
 constexpr uint32_t surfaces_default = uint32_t{1} << 16U;
 constexpr double seconds_default = 60.0;
 
-// What every file may ask for, and more for what it holds: a vertex takes at least 3 bytes in a file, a triangle of a
-// strip 1 or 2. Files of exporters stay far below; 2^20 triangles take about a second, and some 100 MB while they are
-// built.
+// Defaults: a fixed number for every file, plus some per byte read. A vertex takes at least 3 bytes in a file, a
+// triangle of a strip 1 or 2. Files of exporters stay far below; 2^20 triangles take about a second, and some 100 MB
+// while they are built.
 constexpr uint64_t vertices_default = uint64_t{1} << 24U;
 constexpr uint64_t vertices_a_byte = 16;
 constexpr uint64_t triangles_default = uint64_t{1} << 20U;
@@ -24,7 +24,7 @@ constexpr uint64_t bytes_a_triangle = 2;
            KNURL_ERROR_FULL);
 }
 
-/// A limit as it was asked for, 0 where it was not; never beyond the greatest.
+/// Returns the limit asked for (0: default); throws Failure if it is above `greatest`.
 uint64_t limit_of(uint64_t asked, uint64_t greatest, const char *name) {
     if (asked > greatest)
         throw Failure(KNURL_ERROR_ARGUMENT, std::string("budget.") + name + ": expected 0 to " +

@@ -1,5 +1,5 @@
-// Knurl: the limits of one load. A file's size says little about what it asks for: a few
-// bytes name an array again, or count to millions.
+// Knurl: the limits of one load. A file's size does not bound its cost: a few bytes can reuse an array, or give a count
+// of millions.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_BUDGET_HPP
 #define KNURL_GLTF_BUDGET_HPP
@@ -12,14 +12,14 @@
 
 namespace knurl::gltf {
 
-/** Files, and the buffers of one load taken together, may not be larger. */
+/** Largest size of a file, and of all buffers of one load together. */
 constexpr uint64_t bytes_max = uint64_t{1} << 30U;
 
-/** What knurl_mesh_desc takes. */
+/** Limits of knurl_mesh_desc. */
 constexpr uint64_t vertices_max = uint64_t{1} << 28U;
 constexpr uint64_t triangles_max = uint64_t{1} << 26U;
 
-/** As many as a scene can hold. */
+/** The most surfaces that a scene can hold. */
 constexpr uint32_t surfaces_max = uint32_t{1} << 20U;
 
 /** knurl_gltf_budget's fields; 0: the default. */
@@ -42,14 +42,14 @@ class Budget {
         return surfaces_;
     }
 
-    /** Takes so many bytes of a file or buffer, before they are read. where: "" or "buffer 0". */
+    /** Charges bytes of a file or buffer; call before reading. `where` starts error messages: "" or "buffer 0". */
     void take_bytes(uint64_t count, const std::string &where);
-    /** Takes what shapes are made of, before it is read; after all bytes. */
+    /** Charges a shape's vertices and triangles; call before reading them and after take_bytes() for all buffers. */
     void take_shape(uint64_t vertices, uint64_t triangles, const std::string &where);
 
-    /** Throws Failure once max_seconds are over, or where the caller says that it is enough. done: 0 to 1. */
+    /** Reports progress. Throws Failure if max_seconds have passed or the callback cancels. done: 0 to 1. */
     void step(double done);
-    /** The same within a long step that is as far as the last one. */
+    /** The same without progress, inside a long step. */
     void step() {
         step(done_);
     }
@@ -59,7 +59,7 @@ class Budget {
 
     uint32_t surfaces_;
     uint64_t bytes_;
-    uint64_t vertices_;  ///< as asked for; 0: by what is read
+    uint64_t vertices_;  ///< 0: default plus a share of the bytes read
     uint64_t triangles_; ///< likewise
     double seconds_;
     uint64_t bytes_taken_ = 0;

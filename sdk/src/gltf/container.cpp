@@ -21,7 +21,7 @@ struct Chunk {
     Bytes bytes;
 };
 
-/// Takes the chunk that `rest` starts with off it.
+/// Removes the first chunk from `rest` and returns it.
 Chunk take_chunk(Bytes &rest, size_t number) {
     const std::string where = ".glb chunk " + std::to_string(number);
     if (rest.size < chunk_header_size)
@@ -56,7 +56,7 @@ Container split_binary(Bytes bytes) {
         refuse(".glb chunk 0", "expected the type JSON");
     Container parts;
     parts.json = {reinterpret_cast<const char *>(json.bytes.data), json.bytes.size};
-    // Chunks of other types are for readers that know them (4.4.3.1).
+    // Other chunk types are skipped, as 4.4.3.1 requires.
     for (size_t number = 1; rest.size > 0 && !parts.bin; ++number) {
         const Chunk chunk = take_chunk(rest, number);
         if (chunk.type == chunk_bin)
@@ -71,7 +71,7 @@ Container split(Bytes bytes) {
     if (bytes.size >= 4 && std::memcmp(bytes.data, "glTF", 4) == 0)
         return split_binary(bytes);
     const std::string_view text(reinterpret_cast<const char *>(bytes.data), bytes.size);
-    // A byte order mark may stand before the text, though it should not.
+    // Accept a byte order mark, although glTF forbids it.
     const size_t start = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (start == std::string_view::npos || text[start] != '{')
         throw Failure(KNURL_ERROR_FORMAT, "expected a JSON object or a .glb, found " +

@@ -1,4 +1,4 @@
-// Knurl: a glTF file's two parts, JSON text and binary chunk, out of a .gltf's or a .glb's bytes.
+// Knurl: splits a .gltf or .glb file into JSON text and binary chunk.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_CONTAINER_HPP
 #define KNURL_GLTF_CONTAINER_HPP
@@ -13,7 +13,7 @@ struct Container {
     std::optional<Bytes> bin;
 };
 
-/** The content decides: a .glb starts with the magic "glTF". Every length of a .glb is checked. */
+/** Detects the format by content: a .glb starts with "glTF". Checks every length in a .glb. Throws Failure. */
 Container split(Bytes bytes);
 
 } // namespace knurl::gltf

@@ -10,7 +10,7 @@ void refuse(const std::string &where, const std::string &what, knurl_result code
 std::string shortened(std::string_view text, size_t limit) {
     if (text.size() <= limit)
         return std::string(text);
-    // Not in the middle of a UTF-8 character: its further bytes are 10xxxxxx.
+    // Do not cut inside a UTF-8 character: continuation bytes are 10xxxxxx.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xC0U) == 0x80U)
         --limit;
     return std::string(text.substr(0, limit)) + "...";

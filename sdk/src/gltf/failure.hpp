@@ -1,4 +1,4 @@
-// Knurl: errors of the glTF loader: exceptions inside, knurl_fail() at its C functions (load.cpp).
+// Knurl: errors of the glTF loader: exceptions inside, turned into knurl_fail() by the C functions in load.cpp.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FAILURE_HPP
 #define KNURL_GLTF_FAILURE_HPP
@@ -14,7 +14,7 @@
 
 namespace knurl::gltf {
 
-/** One line that names object, key, what was expected and what was found; the file's name is put before it. */
+/** Its text is one line: object, key, expected value, found value. load.cpp puts the file's name in front. */
 class Failure : public std::runtime_error {
   public:
     Failure(knurl_result code, const std::string &text) : std::runtime_error(text), code_(code) {}
@@ -26,16 +26,16 @@ class Failure : public std::runtime_error {
     knurl_result code_;
 };
 
-/** Throws "where: what". */
+/** Throws a Failure with the text "PLACE: PROBLEM", or "PROBLEM" if the place is empty. */
 [[noreturn]] void refuse(const std::string &where, const std::string &what, knurl_result code = KNURL_ERROR_FORMAT);
 
-/** Text from a file, short enough to leave room for the rest of a message. */
+/** Cuts text from a file, so that it does not fill the whole message. */
 std::string shortened(std::string_view text, size_t limit = 64);
 
 /** The same in single quotes. */
 std::string in_quotes(std::string_view text);
 
-/** "material 'bars' (0)", or "material 0" where it has no name. */
+/** "material 'bars' (0)", or "material 0" if it has no name. */
 std::string label(const char *kind, std::string_view name, size_t index);
 
 } // namespace knurl::gltf

@@ -6,7 +6,7 @@
 namespace knurl::gltf {
 namespace {
 
-/// A whole number of any spelling (3, 3.0), or none.
+/// A whole number, written 3 or 3.0; empty if it is not one or out of range.
 std::optional<uint32_t> whole_of(const Json &value, uint32_t least, uint32_t most) {
     const double number = value.number().value_or(-1.0); // exact up to 2^53, and rounded above most
     if (!knurl_is_within(number, least, most) || number != std::floor(number))

@@ -1,4 +1,4 @@
-// Knurl: typed reading of one JSON object's keys: types and ranges are checked here, and nowhere after.
+// Knurl: typed reading of one JSON object's keys: all checks of types and ranges are here.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FIELDS_HPP
 #define KNURL_GLTF_FIELDS_HPP
@@ -12,22 +12,21 @@
 
 namespace knurl::gltf {
 
-/** The largest whole number that is taken: an int in tinygltf's structs, and above any offset in a file of bytes_max.
- */
+/** The largest whole number: fits an int in tinygltf's structs, and is above any offset in a file of bytes_max. */
 constexpr uint32_t whole_max = 0x7FFFFFFF;
 
-/** For the file's root, which is one of a kind. */
+/** Index of the file's root, which is not in an array. */
 constexpr size_t no_index = SIZE_MAX;
 
-/** A JSON object, and how messages call it. */
+/** A JSON object and its name in messages. */
 class Fields {
   public:
     /** kind, index: "material" 3; "" and no_index for the root. object: must outlive this. */
     Fields(const Json &object, const char *kind, size_t index);
 
-    /** The object under `key`, none where it is absent. Messages call its keys "key.name". */
+    /** The object under `key`, or empty if absent. Its keys appear in messages as "key.name". */
     std::optional<Fields> object(const char *key) const;
-    /** One object of the array under `key`; messages call its keys "key[i].name". */
+    /** Object i of the array under `key`. Its keys appear in messages as "key[i].name". */
     Fields element(const char *key, size_t i) const;
 
     const Json &json() const {
@@ -35,29 +34,29 @@ class Fields {
     }
     /** "material 'bars' (0)" */
     std::string where() const;
-    /** The object's name, "" where it has none. */
+    /** The object's name, or "". */
     std::string_view name() const;
 
-    /** The value under a key, null where it is absent. */
+    /** The value under a key, or null if absent. */
     const Json *find(const char *key) const;
     std::optional<uint32_t> whole(const char *key, uint32_t least = 0, uint32_t most = whole_max) const;
-    /** An index into an array of `size` things called `kind`. */
+    /** An index into an array of `size` elements; `kind` names the array in messages. */
     std::optional<uint32_t> index(const char *key, size_t size, const char *kind) const;
     /** Exactly `count` numbers. */
     std::optional<std::vector<double>> numbers(const char *key, size_t count) const;
     std::optional<bool> flag(const char *key) const;
     const std::string *text(const char *key) const;
-    /** The length of the array under `key`; 0 where it is absent. */
+    /** The length of the array under `key`; 0 if absent. */
     size_t array_size(const char *key) const;
-    /** Indices into an array of `size` things called `kind`; empty where it is absent. */
+    /** Indices into an array of `size` elements; empty if absent. */
     std::vector<uint32_t> indices(const char *key, size_t size, const char *kind) const;
 
-    /** Throws "where: key: expected `expected`, found ..." */
+    /** Throws "OBJECT: KEY: expected EXPECTED, found ...". */
     [[noreturn]] void refuse_value(const std::string &key, const std::string &expected, const Json &found) const;
-    /** Throws "where: key: what". */
+    /** Throws "OBJECT: KEY: PROBLEM". */
     [[noreturn]] void refuse_key(const std::string &key, const std::string &what,
                                  knurl_result code = KNURL_ERROR_FORMAT) const;
-    /** `value`, or throws "where: key: missing: expected ..." */
+    /** Returns the value; throws "OBJECT: KEY: missing: expected ..." if it is empty. */
     template <typename T>
     T required(std::optional<T> value, const char *key, const char *expected) const {
         if (!value)
@@ -71,10 +70,10 @@ class Fields {
     void check() const;
 
     const Json *object_;
-    const Json *named_; ///< whose name messages use
+    const Json *named_; ///< the object whose name appears in messages
     const char *kind_;
     size_t index_;
-    std::string prefix_; ///< of keys in messages
+    std::string prefix_; ///< put before keys in messages
 };
 
 } // namespace knurl::gltf

@@ -13,10 +13,10 @@ namespace fs = std::filesystem;
 namespace knurl::gltf {
 namespace {
 
-/// What is read between two looks at the budget.
+/// Bytes read between two checks of the budget.
 constexpr size_t block = size_t{1} << 22U;
 
-/// path: below the folder where there is one, and without links then.
+/// path: relative to `folder`, without symbolic links, unless `folder` is null.
 std::vector<unsigned char> read_regular(const fs::path *folder, const fs::path &path, Budget &budget,
                                         const std::string &where) {
     char why[200];
@@ -44,7 +44,7 @@ struct Place {
     fs::path file; ///< whole
 };
 
-/// The file that a relative URI names, symbolic links resolved; nothing outside the folder.
+/// Resolves a relative URI and its symbolic links; throws Failure if the file is not in the folder or below it.
 Place locate(const std::string &uri, const fs::path &folder) {
     const std::string decoded = percent_decoded(uri);
     const fs::path relative = fs::u8path(decoded);
@@ -67,7 +67,7 @@ std::vector<unsigned char> read_data_uri(const std::string &uri, uint64_t size) 
     if (bytes.size() < size)
         throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
                                               std::to_string(bytes.size()));
-    return bytes; // a longer one is allowed, and padded to 3 bytes is common
+    return bytes; // longer is allowed: padding to a multiple of 3 bytes is common
 }
 
 } // namespace
@@ -99,7 +99,7 @@ Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &reso
         return {known->second.data(), length};
     } catch (const Failure &failure) {
         if (failure.code() == KNURL_ERROR_FULL || failure.code() == KNURL_ERROR_CANCELLED)
-            throw; // of the load, and said in full
+            throw; // concerns the whole load; its message is complete
         refuse(where + ": uri " + in_quotes(uri), failure.what(), failure.code());
     }
 }

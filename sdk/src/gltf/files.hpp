@@ -1,4 +1,4 @@
-// Knurl: reads buffers from disk and from URIs, and refuses what a glTF file may not read.
+// Knurl: reads buffers from files and data: URIs; refuses files outside the glTF file's folder.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_FILES_HPP
 #define KNURL_GLTF_FILES_HPP
@@ -18,10 +18,10 @@ struct Bytes {
     size_t size = 0;
 };
 
-/** A whole regular file, links to it followed. */
+/** Reads a whole regular file; follows links to it. */
 std::vector<unsigned char> read_file(const std::filesystem::path &path, Budget &budget);
 
-/** Receives the names of the files that were read. */
+/** The caller's callback for files that were read. */
 struct Listener {
     void (*file_read)(void *user, const char *path) = nullptr;
     void *user = nullptr;
@@ -32,23 +32,23 @@ struct Listener {
     }
 };
 
-/** Where a glTF file's buffers may come from. */
+/** Sources that a glTF file's buffers may use. */
 struct Resources {
     std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
-    std::optional<std::filesystem::path> folder; ///< external files lie in it or below; none: they are refused
-    Listener listener;                           ///< told of external files
+    std::optional<std::filesystem::path> folder; ///< external files must be in it or below; empty: refused
+    Listener listener;                           ///< called for external files
     Budget *budget = nullptr;                    ///< required
 };
 
-/** What URIs name, each file read and held once. */
+/** The contents of all URIs; each file is read and stored once. */
 class Sources {
   public:
-    /** The first `size` bytes of what a buffer's URI names: data: or a file below the folder. where: for messages. */
+    /** The first `size` bytes of a buffer's URI: data: or a file below the folder. `where` starts error messages. */
     Bytes read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where);
 
   private:
     std::map<std::filesystem::path, std::vector<unsigned char>> files_; ///< whole
-    std::vector<std::vector<unsigned char>> texts_;                     ///< what data: URIs held
+    std::vector<std::vector<unsigned char>> texts_;                     ///< decoded data: URIs
 };
 
 } // namespace knurl::gltf

@@ -9,7 +9,7 @@
 namespace knurl::gltf {
 namespace {
 
-/// A checked whole number into one of tinygltf's members, whose types differ from version to version.
+/// Stores a checked whole number in a member of tinygltf, whose integer types differ between versions.
 template <typename T>
 void put(T &to, std::optional<uint32_t> value) {
     if (value)
@@ -20,7 +20,7 @@ std::vector<double> numbers_of(const Fields &from, const char *key, size_t count
     return from.numbers(key, count).value_or(std::vector<double>());
 }
 
-/// The vertex layouts that the accessors' reader knows.
+/// The component types that accessor.cpp can read.
 uint32_t component_type_of(const Fields &from) {
     constexpr uint32_t known[] = {5120, 5121, 5122, 5123, 5125, 5126};
     const uint32_t type = from.required(from.whole("componentType"), "componentType", "a number such as 5126 (float)");
@@ -42,7 +42,7 @@ int type_of(const Fields &accessor) {
                                     (type != nullptr ? in_quotes(*type) : "none"));
 }
 
-/// An array of the file, of which some elements are kept, in the order in which they are come across.
+/// The elements kept of one of the file's arrays, in the order of their first use.
 template <typename T>
 class Kept {
   public:
@@ -51,7 +51,7 @@ class Kept {
     size_t size() const {
         return size_;
     }
-    /// The place of element `number`, and whether it is a new one, which is still to be filled in.
+    /// The place of element `number`, and true if it is new: the caller must then fill it in.
     std::pair<uint32_t, bool> place(uint32_t number) {
         const auto [found, fresh] = places_.emplace(number, static_cast<uint32_t>(numbers_.size()));
         if (fresh) {
@@ -93,7 +93,7 @@ class Filter {
                  node = outline.parents[static_cast<size_t>(node)]) {
                 const auto [place, fresh] = nodes_.place(static_cast<uint32_t>(node));
                 if (!fresh)
-                    break; // and its ancestors are kept
+                    break; // its ancestors are kept already
                 nodes_[place] = node_of(static_cast<uint32_t>(node));
             }
             filtered.instance_primitives.push_back(primitive_place(instance.mesh, instance.primitive));
@@ -129,7 +129,7 @@ class Filter {
         return kept;
     }
 
-    /// Looked at once, whoever shows it; and those of the same accessors are one.
+    /// Reads each primitive once, for all nodes; primitives with the same mode and accessors share a place.
     uint32_t primitive_place(uint32_t mesh, uint32_t primitive) {
         const auto [known, fresh] = primitive_places_.emplace(uint64_t{mesh} << 32U | primitive, 0);
         if (fresh) {
@@ -149,7 +149,7 @@ class Filter {
         put(kept.mode, primitive.whole("mode", 0, 6).value_or(TINYGLTF_MODE_TRIANGLES));
         if (const auto accessor = primitive.index("indices", accessors_.size(), "accessors")) {
             put(kept.indices, accessor_place(*accessor));
-            // Zeros, by the specification: triangles without an area.
+            // By the specification all indices are then zero: triangles without area.
             if (accessors_[static_cast<uint32_t>(kept.indices)].bufferView < 0)
                 at("accessors", "accessor", *accessor).refuse_key("bufferView", "missing: expected one for indices");
         }

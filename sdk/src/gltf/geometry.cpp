@@ -24,7 +24,7 @@ const char *mode_name(int mode) {
     return names[mode];
 }
 
-/// Returns how many triangles so many vertices or indices make.
+/// Returns the number of triangles made by `count` vertices or indices.
 size_t check_count(size_t count, int mode, const std::string &where) {
     if (mode < TINYGLTF_MODE_TRIANGLES)
         refuse(where, std::string("mode: expected triangles in a tagged primitive, found ") + mode_name(mode));
@@ -38,8 +38,8 @@ size_t check_count(size_t count, int mode, const std::string &where) {
     return triangles;
 }
 
-/// glTF 2.0, 3.7.2.1: each second triangle of a strip is turned, so that all face the same way; a fan's triangles start
-/// at its rim.
+/// glTF 2.0, 3.7.2.1: every second triangle of a strip is reversed, so that all face the same side; a fan's triangles
+/// start at its rim.
 std::vector<uint32_t> triangles_of(const std::vector<uint32_t> &order, int mode) {
     std::vector<uint32_t> triangles;
     triangles.reserve((order.size() - 2) * 3);
@@ -62,7 +62,7 @@ void keep_used(std::vector<float> &values, size_t components, const std::vector<
     values.shrink_to_fit();
 }
 
-/// Primitives often share one array of vertices: each surface is to cost its own alone.
+/// Primitives often share one vertex array: keep only the vertices that this one uses.
 void drop_unused_vertices(Geometry &geometry) {
     std::vector<bool> used(geometry.positions.size() / 3);
     for (const uint32_t i : geometry.indices)
@@ -95,7 +95,7 @@ GeometryCount count_geometry(const Model &model, const tinygltf::Primitive &prim
             continue;
         const size_t elements =
             count_elements(model, found->second, read.components, vertices_max, where + ": " + read.name);
-        corners = corners == 0 ? elements : corners; // POSITION's, which is the first
+        corners = corners == 0 ? elements : corners; // POSITION is first
         count.elements += elements;
     }
     if (primitive.indices >= 0)

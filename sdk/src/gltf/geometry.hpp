@@ -1,4 +1,4 @@
-// Knurl: one primitive's triangles and vertices as arrays that knurl_mesh_desc takes.
+// Knurl: reads one primitive into the arrays of a knurl_mesh_desc.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_GEOMETRY_HPP
 #define KNURL_GLTF_GEOMETRY_HPP
@@ -9,22 +9,22 @@ namespace knurl::gltf {
 
 struct Geometry {
     std::vector<float> positions;  ///< x, y, z
-    std::vector<float> tangents;   ///< x, y, z, w; empty: none
-    std::vector<float> uvs;        ///< u, v; empty: none
+    std::vector<float> tangents;   ///< x, y, z, w; may be empty
+    std::vector<float> uvs;        ///< u, v; may be empty
     std::vector<uint32_t> indices; ///< three a triangle; never empty
 };
 
-/** What reading a primitive comes to. */
+/** The size of a primitive. */
 struct GeometryCount {
     uint64_t elements = 0; ///< of its attributes
     uint64_t triangles = 0;
 };
 
-/** Counts without reading; checks what can be told without. where: as below. Throws Failure. */
+/** Counts without reading the data, and checks mode and counts. Throws Failure. */
 GeometryCount count_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
 
-/** Reads a primitive in its mesh's frame: triangles, strips and fans as triangles, counter-clockwise out.
- * where: "mesh 'm' (0), primitive 1". Throws Failure. */
+/** Reads a primitive in its mesh's frame, strips and fans as triangles, counter-clockwise seen from outside. `where`
+ * starts error messages: "mesh 'm' (0), primitive 1". Throws Failure. */
 Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
 
 } // namespace knurl::gltf

@@ -32,7 +32,7 @@ std::vector<int32_t> find_parents(const Fields &root, const Children &children) 
     return parents;
 }
 
-/// Depth first from `roots`. Ends, for nodes with one parent each form trees below nodes without.
+/// Depth first from `roots`. It ends because each node has one parent, so that no ring hangs below a root.
 std::vector<uint32_t> walk(const Fields &root, const Children &children, const std::vector<uint32_t> &roots) {
     struct Step {
         uint32_t node;
@@ -55,7 +55,7 @@ std::vector<uint32_t> walk(const Fields &root, const Children &children, const s
     return order;
 }
 
-/// Nodes that no root leads to hang below a ring.
+/// A node that cannot be reached from a root is in a ring of parents, or below one.
 void refuse_rings(const Fields &root, const std::vector<int32_t> &parents, const std::vector<uint32_t> &reached) {
     if (reached.size() == parents.size())
         return;

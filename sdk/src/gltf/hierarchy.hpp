@@ -7,15 +7,15 @@
 
 namespace knurl::gltf {
 
-/** Nodes below each other. */
+/** The deepest nesting of nodes. */
 constexpr size_t node_depth_max = 1024;
 
 struct Hierarchy {
-    std::vector<int32_t> parents; ///< -1: none
+    std::vector<int32_t> parents; ///< -1: a root
     std::vector<uint32_t> shown;  ///< nodes of the scene to load, depth first, children in their order
 };
 
-/** Checks all nodes: each has one parent at most and is not its own ancestor, none is deeper than node_depth_max. */
+/** Throws Failure if a node has two parents, is its own ancestor or is deeper than node_depth_max. */
 Hierarchy read_hierarchy(const Fields &root);
 
 } // namespace knurl::gltf

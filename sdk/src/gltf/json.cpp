@@ -57,7 +57,7 @@ std::string Json::described() const {
     if (const uint64_t *value = std::get_if<uint64_t>(&value_))
         return std::to_string(*value);
     if (const double *value = std::get_if<double>(&value_))
-        return nlohmann::json(*value).dump(); // the shortest that reads back as the same
+        return nlohmann::json(*value).dump(); // the shortest text that reads back as the same number
     const std::optional<bool> value = flag();
     return value ? *value ? "true" : "false" : "null";
 }

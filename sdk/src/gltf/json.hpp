@@ -1,5 +1,5 @@
-// Knurl: a JSON value. nlohmann's would do, if its destructor did not ask for memory: where there is none left, that
-// ends the process. Nothing here does, and whatever throws leaves values that can be destroyed.
+// Knurl: a JSON value. Used instead of nlohmann's, whose destructor allocates and ends the process if memory runs out.
+// This one's does not, and a value can be destroyed after any exception.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_JSON_HPP
 #define KNURL_GLTF_JSON_HPP
@@ -21,7 +21,7 @@ namespace knurl::gltf {
 class Json {
   public:
     using Array = std::vector<Json>;
-    using Object = std::map<std::string, Json, std::less<>>; ///< sorted, so that messages are the same every time
+    using Object = std::map<std::string, Json, std::less<>>; ///< sorted, so that messages are reproducible
 
     Json() = default; ///< null
     explicit Json(bool value) : value_(value) {}
@@ -49,17 +49,17 @@ class Json {
         return get<std::string>();
     }
     std::optional<bool> flag() const;
-    /** Rounded to a double, if it is an integer above 2^53. */
+    /** Integers above 2^53 are rounded. */
     std::optional<double> number() const;
 
-    /** A member, null if this is no object that has one. */
+    /** The member, or null if this is not an object or has no such member. */
     const Json *find(std::string_view key) const;
 
-    /** What is known to be there: throws std::out_of_range. */
+    /** For a member or element known to exist: throws std::out_of_range if it does not. */
     const Json &at(std::string_view key) const;
     const Json &at(size_t i) const;
 
-    /** What it is, for "found ...". */
+    /** A description for "found ...". */
     std::string described() const;
 
   private:

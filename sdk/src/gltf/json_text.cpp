@@ -9,7 +9,7 @@
 namespace knurl::gltf {
 namespace {
 
-/// Builds the tree from the parser's events, so that limits are met while reading and not after it.
+/// Builds the tree from the parser's events, so that limits apply while parsing, not afterwards.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
   public:
     explicit Builder(Budget &budget) : budget_(budget) {}
@@ -43,7 +43,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         return true;
     }
     bool binary(binary_t & /*value*/) override {
-        return false; // there is none in JSON
+        return false; // not in JSON text
     }
     bool start_object(size_t /*size*/) override {
         open(Json(Json::Object()));
@@ -72,7 +72,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
     bool parse_error(size_t /*position*/, const std::string & /*token*/,
                      const nlohmann::json::exception &error) override {
-        // "[json.exception.parse_error.101] parse error at line 1, column 5: ...": the bracket is left out.
+        // "[json.exception.parse_error.101] parse error at line 1, column 5: ...": drop the bracket.
         std::string_view text = error.what();
         const size_t bracket = text.find("] ");
         if (bracket != std::string_view::npos)
@@ -102,7 +102,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         open_.push_back(add(std::move(container)));
     }
 
-    /// Where the reading is: "materials[0].extras".
+    /// The current position: "materials[0].extras".
     std::string path() const {
         std::string text;
         for (size_t i = 0; i + 1 < open_.size(); ++i) {
@@ -121,7 +121,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
     Budget &budget_;
     Json root_;
-    // Pointers into the tree stay good: a container grows only while none of its children is open.
+    // Pointers into the tree stay valid: a container does not grow while a child of it is open.
     std::vector<Json *> open_;
     Json *member_ = nullptr;
     size_t values_ = 0;

@@ -1,4 +1,4 @@
-// Knurl: the C functions of the glTF loader. No exception leaves them, and a scene gets all surfaces or none.
+// Knurl: the C functions of the glTF loader. No exception leaves them. If a load fails, the scene is unchanged.
 // SPDX-License-Identifier: MIT
 #include <knurl/gltf.h>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace knurl::gltf {
 namespace {
 
-/// The surfaces that one load added; takes them out again unless it is kept.
+/// The surfaces added by one load; removed by the destructor unless keep() was called.
 class Addition {
   public:
     explicit Addition(knurl_scene *scene) : scene_(scene) {}
@@ -30,7 +30,7 @@ class Addition {
     }
     /// The new surface's id.
     knurl_surface_id add(const knurl_surface_desc &desc, const std::string &where) {
-        added_.push_back(0); // before the surface is there: this may throw
+        added_.push_back(0); // before the surface is added, because this may throw
         const knurl_result result = knurl_scene_add_surface(scene_, &desc, &added_.back());
         if (result == KNURL_OK)
             return added_.back();
@@ -52,7 +52,7 @@ knurl_material_desc material_of(const Tag &tag) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.method = tag.method.value_or(KNURL_METHOD_DEFAULT);
-    // The outline saw to it that the first three are there.
+    // The outline has checked that the first three are present.
     const auto frequency = tag.spatial_frequency.value_or(std::array<double, 2>{});
     std::copy(frequency.begin(), frequency.end(), material.spatial_frequency);
     material.amplitude = tag.amplitude.value_or(0.0);
@@ -75,7 +75,7 @@ knurl_mesh_desc mesh_of(const Geometry &geometry) {
     return mesh;
 }
 
-/// What makes a shape the same: the primitive (its place), what is baked into it, its axis (0: none).
+/// Identifies a shape: the primitive's place, the baked transform, the axis (0, 0, 0: no axis).
 using ShapeKey = std::array<double, 13>;
 
 ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame) {
@@ -87,19 +87,19 @@ ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame
     return key;
 }
 
-/// A shape that nodes show.
+/// A shape shown by one or more nodes.
 struct Shape {
     uint64_t triangles = 0;
-    knurl_surface_id first = 0; ///< a surface that has it; 0: not made yet
+    knurl_surface_id first = 0; ///< the first surface with this shape; 0: not made yet
 };
 
-/// One instance, where it stands, and its shape.
+/// One instance's frame and shape.
 struct Plan {
     Frame frame;
     Shape *shape = nullptr;
 };
 
-/// From an outline to surfaces: all is counted before any of it is read.
+/// Makes surfaces from an outline. Counts everything before reading any of it.
 class Maker {
   public:
     Maker(const Json &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
@@ -120,7 +120,7 @@ class Maker {
     }
 
   private:
-    static constexpr double read_done = 0.25; ///< JSON and buffers are there
+    static constexpr double read_done = 0.25; ///< progress when JSON and buffers are read
 
     void plan() {
         Placement placement(model_, outline_.parents);
@@ -169,7 +169,7 @@ class Maker {
             plan.shape->first = add_shape(addition, i, surface, where);
     }
 
-    /// The first that shows a shape makes it.
+    /// Makes a shape for the first instance that needs it.
     knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc surface, const std::string &where) {
         const Frame &frame = plans_[i].frame;
         const tinygltf::Primitive &from = primitive(model_.filtered.instance_primitives[i]);
@@ -194,11 +194,11 @@ class Maker {
     Budget &budget_;
     knurl_scene *scene_;
     std::map<ShapeKey, Shape> shapes_;
-    std::vector<Plan> plans_; ///< of each instance
+    std::vector<Plan> plans_; ///< one per instance
     uint64_t triangles_ = 0;
 };
 
-/// What a load is given but for its bytes.
+/// A load's parameters except its bytes.
 struct Order {
     Budget budget;
     Listener listener;
@@ -212,17 +212,17 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
     knurl_gltf_report report{};
     report.skipped = outline.skipped;
     if (outline.instances.empty())
-        return report; // no buffer is read for nothing
+        return report; // do not read buffers for nothing
     Model model;
     load_model(filter(root, outline), {container.bin, std::move(folder), order.listener, &budget}, model);
     report.surfaces = Maker(root, outline, model, budget, scene).run();
     return report;
 }
 
-/// What a report held in version 0.1; callers of that version know no more.
+/// Size of a report in version 0.1, the smallest that callers can pass.
 constexpr uint32_t report_size_first = 16;
 
-/// As it was set, over the defaults.
+/// The caller's limits; 0 in a field that the caller's version does not have.
 Limits limits_of(const knurl_gltf_budget *wanted) {
     knurl_gltf_budget all{};
     if (wanted == nullptr)
@@ -242,7 +242,7 @@ Limits limits_of(const knurl_gltf_budget *wanted) {
     return {all.max_surfaces, all.max_bytes, all.max_vertices, all.max_triangles, all.max_seconds};
 }
 
-/// A report as it was set, over one that is empty: the caller may be of an older version.
+/// A copy of the caller's report, which may be shorter: the missing fields are zero.
 knurl_gltf_report complete(const knurl_gltf_report *report) {
     knurl_gltf_report all{};
     if (report == nullptr)
@@ -255,7 +255,7 @@ knurl_gltf_report complete(const knurl_gltf_report *report) {
     return all;
 }
 
-/// Runs `load` and turns what it throws into a result and a message that starts with the file's name.
+/// Runs `load` and turns exceptions into a result and a message that starts with the file's name.
 template <typename Load>
 knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &load) {
     const char *file = name != nullptr && *name != '\0' ? name : "glTF data";
@@ -314,8 +314,7 @@ void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
 }
 
 knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report) {
-    if (is_null(path, "path") ||
-        knurl_scene_get_bytes(scene) == 0) // which says what is wrong with a scene that has none
+    if (is_null(path, "path") || knurl_scene_get_bytes(scene) == 0) // 0 for an invalid scene, with a message
         return KNURL_ERROR_ARGUMENT;
     return knurl::gltf::guarded(path, report, [&](knurl::gltf::Order &order) {
         const fs::path file = fs::u8path(path);

@@ -8,19 +8,19 @@
 
 namespace knurl::gltf {
 
-/** Holds pointers into itself and the resources' BIN chunk. */
+/** Not movable: points into itself and the resources' BIN chunk. */
 struct Model {
     Filtered filtered;
     Sources sources;
     std::vector<Bytes> buffers;
 
-    /** "accessor 7": by its number in the file. */
+    /** "accessor 7", the number in the file. */
     std::string accessor_label(int place) const {
         return "accessor " + std::to_string(filtered.accessor_numbers.at(static_cast<size_t>(place)));
     }
 };
 
-/** Throws Failure. model: gets everything. */
+/** Fills in `model` and reads its buffers. Throws Failure. */
 void load_model(Filtered filtered, const Resources &resources, Model &model);
 
 } // namespace knurl::gltf

@@ -13,8 +13,8 @@ namespace {
 
 using Tags = std::map<size_t, Tag>;
 
-/// Extensions that change neither shapes nor TEXCOORD_0: looks, lights, images (which are never loaded), metadata, and
-/// quantised accessors, which are read like all others.
+/// Extensions that change neither shapes nor TEXCOORD_0: looks, lights, images (never loaded), metadata, and quantised
+/// accessors, which are read like any other.
 bool is_harmless(const std::string &extension) {
     static const char *const known[] = {
         "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",
@@ -51,7 +51,7 @@ void check_asset(const Fields &root) {
     }
 }
 
-/// Every tag of the array under `key`, also of what the scene does not show: a mistake is better told than kept.
+/// Reads every tag of the array under `key`, even of objects that the scene does not show, to report mistakes in them.
 Tags read_tags(const Fields &root, const char *key, const char *kind) {
     Tags tags;
     for (size_t i = 0; i < root.array_size(key); ++i)
@@ -65,7 +65,7 @@ const Tag *find(const Tags &tags, std::optional<size_t> index) {
     return found == tags.end() ? nullptr : &found->second;
 }
 
-/// What a mesh's primitives are, whichever node shows them.
+/// A mesh's primitives, the same for all nodes that show it.
 struct MeshPlan {
     std::vector<std::optional<uint32_t>> materials; ///< of each primitive
     std::vector<uint32_t> tagged;                   ///< primitives that carry a tag by material or mesh
@@ -130,7 +130,7 @@ class Reader {
         return at("nodes", "node", node).index("mesh", root_.array_size("meshes"), "meshes");
     }
 
-    /// Counts before it makes: nodes times primitives is soon more than memory holds.
+    /// Counts before making instances: nodes times primitives may not fit into memory.
     void check_count(const std::vector<uint32_t> &shown) {
         uint64_t total = 0;
         for (const uint32_t node : shown)
@@ -184,7 +184,7 @@ class Reader {
         outline_.instances.push_back(std::move(instance));
     }
 
-    /// The same whatever else is tagged, so that a script may rely on it.
+    /// Does not depend on other tags, so that scripts can rely on the name.
     std::string surface_name(const Fields &node, uint32_t index, const Fields &mesh, uint32_t primitive,
                              std::optional<uint32_t> material, size_t primitives) const {
         std::string name = shortened(!node.name().empty() ? node.name() : mesh.name(), name_part_max);

@@ -10,11 +10,11 @@
 namespace knurl::gltf {
 namespace {
 
-// Exporters write float32; what is further from a unit quaternion or from affine than this is a mistake.
+// Exporters write float32. A quaternion further from unit length, or a matrix further from affine, is a mistake.
 constexpr double unit_tolerance = 1e-2;
 constexpr double affine_tolerance = 1e-6;
 
-// A volume this small beside its sides' product is lost in float32 positions.
+// If the volume is smaller than this times the product of the sides, float32 positions cannot represent it.
 constexpr double flat_tolerance = 1e-9;
 
 const tinygltf::Node &node_at(const Model &model, uint32_t number) {
@@ -74,7 +74,7 @@ void put(std::vector<float> &values, size_t i, const glm::dvec3 &v) {
 } // namespace
 
 const glm::dmat4 &Placement::world(uint32_t node) {
-    // Up to an ancestor that is known, then down again.
+    // Up to the nearest ancestor with a known transform, then down again.
     std::vector<uint32_t> chain;
     glm::dmat4 matrix(1.0);
     for (int64_t i = node; i >= 0; i = parents_[static_cast<size_t>(i)]) {
@@ -105,7 +105,7 @@ Frame Placement::frame(uint32_t node) {
     if (!finite || !(std::fabs(glm::determinant(linear)) > flat_tolerance * volume))
         refuse(node_label(model_, node),
                finite ? "its transform flattens the mesh: expected a scale without 0" : "its transform is not finite");
-    // Gram-Schmidt. The third axis is the cross product, so that mirroring stays in `bake`.
+    // Gram-Schmidt. The third axis is a cross product, so that the rotation is proper and mirroring stays in `bake`.
     glm::dmat3 axes;
     axes[0] = glm::normalize(linear[0]);
     axes[1] = glm::normalize(linear[1] - axes[0] * glm::dot(axes[0], linear[1]));
@@ -120,7 +120,7 @@ std::array<double, 9> bake_key(const Frame &frame) {
     double largest = 0.0;
     for (int i = 0; i < 9; ++i)
         largest = std::fmax(largest, std::fabs(frame.bake[i / 3][i % 3]));
-    // Counts of 2^-40 of the largest: rotations leave some 2^-50, float32 keeps 2^-24.
+    // Round to 2^-40 of the largest element: rotations are off by some 2^-50, float32 keeps 2^-24.
     const double unit = std::ldexp(1.0, std::ilogb(largest) - 40);
     for (int i = 0; i < 9; ++i)
         key[static_cast<size_t>(i)] = std::nearbyint(frame.bake[i / 3][i % 3] / unit) * unit + 0.0;
@@ -138,7 +138,7 @@ void bake(Geometry &geometry, const Frame &frame, const std::string &where, cons
         put(geometry.positions, i, p);
     }
     for (size_t i = 0; i + 3 < geometry.tangents.size(); i += 4) {
-        // A direction: its length says nothing, but must not overflow or vanish on the way.
+        // Only the direction matters; normalise it, so that float32 neither overflows nor underflows.
         const glm::dvec3 tangent = frame.bake * at(geometry.tangents, i);
         const double length = glm::length(tangent);
         put(geometry.tangents, i, length > 0.0 ? tangent / length : tangent);

@@ -1,4 +1,4 @@
-// Knurl: where nodes stand, and geometry moved from a mesh's frame into its surface's: metres, not sheared.
+// Knurl: world transforms of nodes, and geometry moved from a mesh's frame into its surface's: metres, not sheared.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_PLACEMENT_HPP
 #define KNURL_GLTF_PLACEMENT_HPP
@@ -13,12 +13,12 @@
 
 namespace knurl::gltf {
 
-/** A node's world transform M as a rigid frame and what is left: M = translate(position) * rotation * bake. */
+/** A node's world transform M, split into a rigid frame and the rest: M = translate(position) * rotation * bake. */
 struct Frame {
     glm::dvec3 position;
     glm::dquat rotation;   ///< proper: right-handed
     glm::dmat3 bake;       ///< mesh to surface: scale, shear and mirroring
-    bool mirrored = false; ///< the triangles' winding is to be flipped
+    bool mirrored = false; ///< bake() must reverse the triangles' winding
 };
 
 /** World transforms of a model's nodes. */
@@ -27,7 +27,7 @@ class Placement {
     /** Both must outlive this. */
     Placement(const Model &model, const std::vector<int32_t> &parents) : model_(model), parents_(parents) {}
 
-    /** Throws Failure where the node's transform is not finite or flattens what it shows. */
+    /** Throws Failure if the node's transform is not finite or flattens its mesh. */
     Frame frame(uint32_t node);
 
   private:
@@ -38,12 +38,12 @@ class Placement {
     std::unordered_map<uint32_t, glm::dmat4> worlds_;
 };
 
-/** What a bake comes to but for its rounding: as good as the same for all that is stored in float32, and the same for
- * nodes that only stand and face differently. */
+/** Key of a frame's bake matrix, rounded: equal for nodes that differ only in position and rotation. The rounding does
+ * not show in float32 positions. */
 std::array<double, 9> bake_key(const Frame &frame);
 
-/** Moves a geometry from its mesh's frame into its surface's. where: "node 'n' (1)"; positions: what its POSITION is
- * called, "accessor 0". Throws Failure. */
+/** Moves a geometry from its mesh's frame into its surface's. For messages: `where` is "node 'n' (1)", `positions` is
+ * POSITION's accessor, "accessor 0". Throws Failure. */
 void bake(Geometry &geometry, const Frame &frame, const std::string &where, const std::string &positions);
 
 } // namespace knurl::gltf

@@ -9,7 +9,7 @@
 namespace knurl::gltf {
 namespace {
 
-/// One key's value, and what is needed to refuse it. Keys: "knurl.stiffness", or flat "knurl_stiffness".
+/// One key, its value, and its object for messages. Keys: "knurl.stiffness", or flat "knurl_stiffness".
 struct Entry {
     const Fields &extras;
     std::string key;
@@ -82,7 +82,7 @@ void read_axis(Tag &tag, const Entry &entry) {
         entry.refuse(expected);
     for (size_t i = 0; i < axis.size(); ++i)
         axis[i] = number(entry, (*three)[i], expected);
-    // Scaled to 1, so that squares of tiny and of huge components stay what they are.
+    // Scale the largest component to 1, so that squares neither overflow nor underflow.
     const double largest = std::max({std::fabs(axis[0]), std::fabs(axis[1]), std::fabs(axis[2])});
     if (largest == 0.0)
         entry.refuse(expected);
@@ -91,7 +91,7 @@ void read_axis(Tag &tag, const Entry &entry) {
     tag.axis = axis;
 }
 
-/// The methods' names as a sentence lists them: 'S1', 'S2' or 'bandlimited'.
+/// The methods' names for a message: "'S1', 'S2' or 'bandlimited'".
 std::string method_names() {
     std::string names;
     for (int32_t i = 1; const char *name = knurl_method_name(i); ++i)
@@ -124,7 +124,7 @@ constexpr std::array<Key, 9> keys = {{{"version", read_version},
                                       {"axis", read_axis},
                                       {"method", read_method}}};
 
-/// `prefix` is what the keys begin with in messages: "knurl." or "knurl_".
+/// prefix: of keys in messages, "knurl." or "knurl_".
 void read_entry(Tag &tag, const Fields &extras, const std::string &prefix, std::string_view name, const Json &value) {
     for (const Key &key : keys)
         if (name == key.name) {
@@ -172,7 +172,7 @@ std::optional<Tag> read_tag(const Fields &owner) {
     const Json *extras = owner.find("extras");
     const Json::Object *members = extras != nullptr ? extras->object() : nullptr;
     if (members == nullptr)
-        return std::nullopt; // extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
+        return std::nullopt; // extras may be anything (glTF 2.0, 3.2); if not an object, it has no tag
     const Json *nested = extras->find("knurl");
     std::optional<Tag> tag;
     if (nested != nullptr) {

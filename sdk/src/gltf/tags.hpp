@@ -9,7 +9,7 @@
 
 namespace knurl::gltf {
 
-/** What one object's tag says, or what several come to. Units as in knurl_material_desc. */
+/** The tag of one object, or several merged. Units as in knurl_material_desc. */
 struct Tag {
     std::optional<std::array<double, 2>> spatial_frequency;
     std::optional<double> amplitude;
@@ -20,17 +20,17 @@ struct Tag {
     std::optional<std::array<double, 3>> axis; ///< object space, not 0
     std::optional<int32_t> method;
 
-    /** Takes each key that `other` has from it. */
+    /** Replaces each key that `other` has. */
     void override_with(const Tag &other);
 
-    /** The first required key that is not there, or null. */
+    /** The first required key that is missing, or null. */
     const char *missing_key() const;
 };
 
-/** The tag of a material, mesh or node, in either form; none where its extras hold none. */
+/** The tag of a material, mesh or node, nested or flat; empty if its extras have no tag. Throws Failure. */
 std::optional<Tag> read_tag(const Fields &owner);
 
-/** Refuses a tag on what cannot carry one, where it would be lost in silence. */
+/** Throws Failure if `owner`, which cannot carry a tag, has one: it would be ignored silently. instead: advice. */
 void refuse_tag(const Fields &owner, const std::string &instead);
 
 } // namespace knurl::gltf

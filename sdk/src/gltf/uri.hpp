@@ -1,4 +1,4 @@
-// Knurl: the text side of a buffer's URI.
+// Knurl: parsing of buffers' URIs.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_URI_HPP
 #define KNURL_GLTF_URI_HPP
@@ -9,7 +9,7 @@
 
 namespace knurl::gltf {
 
-/** %41 becomes A; what is no such triple is left as it stands, for many exporters do not encode at all. */
+/** Replaces %41 by A. A % without two hex digits is kept, because many exporters do not encode at all. */
 std::string percent_decoded(std::string_view uri);
 
 /** Starts with "name:", such as "https:" and "file:" (RFC 3986, 3.1), or "c:". */
@@ -17,7 +17,7 @@ bool has_scheme(std::string_view uri);
 
 bool is_data_uri(std::string_view uri);
 
-/** The bytes of data:[type][;...];base64,TEXT. Throws Failure without a place. */
+/** The bytes of data:[type][;...];base64,TEXT. Throws Failure without the URI. */
 std::vector<unsigned char> data_uri_bytes(std::string_view uri);
 
 } // namespace knurl::gltf
