@@ -1,4 +1,4 @@
-/* Atomic loads and stores by the compiler's builtins: C99 has none of its own. SPDX-License-Identifier: MIT */
+/* Atomic loads and stores with compiler builtins, which C99 lacks. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_ATOMIC_H
 #define KNURL_SRC_ATOMIC_H
 
@@ -9,8 +9,8 @@
 #define knurl_store_relaxed(p, v) __atomic_store_n((p), (v), __ATOMIC_RELAXED)
 #define knurl_store_release(p, v) __atomic_store_n((p), (v), __ATOMIC_RELEASE)
 
-/* A floating-point number that one thread writes and any may read. (Clang's __atomic_store needs a source that is not
- * const; the copies compile to nothing.) */
+/* Relaxed store and load of a floating-point number. (Clang's __atomic_store needs a source that is not const; the
+ * copies compile to nothing.) */
 static inline void knurl_store_double(double *to, double value) {
     double copy = value;
     __atomic_store(to, &copy, __ATOMIC_RELAXED);

@@ -9,7 +9,7 @@
 
 #include <knurl/base.h>
 
-/* Which way a branch of a tick usually goes: the compiler lays that way out without jumps. */
+/* The usual outcome of a branch in a tick: the compiler lays out that path without jumps. */
 #if defined(__GNUC__)
 #define KNURL_LIKELY(condition)   (__builtin_expect(!!(condition), 1) != 0)
 #define KNURL_UNLIKELY(condition) (__builtin_expect(!!(condition), 0) != 0)
@@ -18,12 +18,12 @@
 #define KNURL_UNLIKELY(condition) (condition)
 #endif
 
-/* Begins a function that only prefetches: GCC 12 takes its call for one without effect, and leaves it out. */
+/* For functions that only prefetch: unless inlined, GCC 12 removes calls to them as having no effect. */
 #define KNURL_PREFETCHING static inline __attribute__((always_inline))
 
-/* Writes a filled-in local struct (its first field a uint32_t struct_size) into a caller's of `size` bytes, which may
- * be older and shorter, or newer and longer: what this version does not know becomes 0. Null: nothing is written, and
- * the error message names the parameter. */
+/* Copies a local struct (its first field is uint32_t struct_size) to a caller's of `size` bytes, which may be older and
+ * shorter, or newer and longer: fields unknown to this version become 0. If `caller` is null, writes nothing and sets
+ * an error message that names the parameter. */
 #define knurl_desc_write(local, local_size, caller, size)                                                              \
     (KNURL_IS_NULL(caller) ? (void)0 : knurl_desc_copy((local), (local_size), (caller), (size)))
 

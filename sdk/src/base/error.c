@@ -10,10 +10,9 @@
 #define KNURL_TEXT_(x) #x
 #define KNURL_TEXT(x)  KNURL_TEXT_(x)
 
-/* The loader sets this aside for every thread before it runs: no memory is asked for at its first use, which may be in
- * a tick. It has room for a word, not for a message. Other systems have no such promise; see
- * knurl_loop_haptic_thread().
- */
+/* The loader allocates this for every thread before it runs, so that its first use, perhaps in a tick, allocates
+ * nothing. There is room for a pointer, not for a message. Other systems give no such guarantee; see
+ * knurl_loop_haptic_thread(). */
 #if defined(__GLIBC__)
 #define READY_AT_ONCE __attribute__((tls_model("initial-exec")))
 #else
@@ -21,7 +20,7 @@
 #endif
 
 static KNURL_THREAD_LOCAL char formatted[1024];
-static KNURL_THREAD_LOCAL const char *latest READY_AT_ONCE; /* `formatted`, a static sentence, or null: none yet */
+static KNURL_THREAD_LOCAL const char *latest READY_AT_ONCE; /* `formatted`, a static sentence, or null */
 
 const char *knurl_result_string(knurl_result result) {
     switch (result) {
@@ -41,7 +40,7 @@ const char *knurl_error_message(void) {
 
 #if defined(__clang__) && __clang_major__ >= 20
 #pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wfunction-effects" /* what is thread-local may take memory: not `latest` */
+#pragma clang diagnostic ignored "-Wfunction-effects" /* thread-local variables may allocate: `latest` does not */
 #endif
 knurl_result knurl_fail_static(knurl_result code, const char *sentence) {
     latest = sentence;
@@ -53,7 +52,7 @@ knurl_result knurl_fail_static(knurl_result code, const char *sentence) {
 
 /* --- lines for terminals and logs --- */
 
-/* The code point that valid UTF-8 begins with here, and its bytes; 0 bytes: it is none. */
+/* The code point at `at` and its length in bytes; 0 bytes if it is not valid UTF-8. */
 static uint32_t code_point(const unsigned char *at, size_t *bytes) {
     static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
     const size_t length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3 : at[0] >> 3 == 30 ? 4 : 0;
@@ -71,7 +70,7 @@ static uint32_t code_point(const unsigned char *at, size_t *bytes) {
 }
 
 /* Characters that move a cursor, begin an escape, end a line, reverse the direction of text, or cannot be seen. The
- * joiners U+200C and U+200D are not among them: several scripts are spelled with them. */
+ * joiners U+200C and U+200D are kept, because several scripts need them. */
 static int is_harmful(uint32_t code) {
     static const uint32_t ranges[][2] = {
         {0x00, 0x1f},       /* C0 controls */
@@ -123,12 +122,12 @@ size_t knurl_text_line(char *to, size_t size, const char *from) {
 }
 
 knurl_result knurl_fail(knurl_result code, const char *format, ...) {
-    char text[sizeof formatted]; /* built apart, so that the old message may be one of the arguments */
+    char text[sizeof formatted]; /* a local buffer, so that the old message may be an argument */
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format ? format : "no reason was given", arguments);
     va_end(arguments);
-    (void)knurl_text_line(text, sizeof text, text); /* whatever a file's names hold */
+    (void)knurl_text_line(text, sizeof text, text); /* names from files may contain anything */
     memcpy(formatted, text, sizeof text);
     latest = formatted;
     return code;
@@ -149,7 +148,7 @@ void knurl_desc_copy(const void *local, uint32_t local_size, void *caller, uint3
     memcpy(caller, &size, size < sizeof size ? size : sizeof size);
 }
 
-/* Reads and checks the size that a caller's struct says it has. */
+/* Reads and checks a caller's struct_size. */
 static knurl_result check_size(const char *type, const void *caller, uint32_t *size) {
     if (!caller) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a struct, found null", type);

@@ -8,16 +8,16 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* What becomes of a signal that has a handler already. */
+/* Treatment of a signal that has a handler already. */
 enum {
-    ENDS,    /* it is left to that handler: exit() and a return from main are seen all the same */
-    FAULT,   /* as CRASH, unless the process has a runtime that recovers from it */
+    ENDS,    /* left to that handler: if it calls exit() or main() returns, atexit() still zeroes forces */
+    FAULT,   /* as CRASH; as ENDS if the process's runtime recovers from it */
     CRASH,   /* zero first, then that handler */
     SUSPENDS /* as ENDS; without a handler it stops the process, which may go on later */
 };
 
-/* Every signal that by default ends or stops a process, but: SIGKILL and SIGSTOP, which nobody sees; real-time signals,
- * of which runtimes look for free ones and have handlers for all that they use. */
+/* Every signal that by default ends or stops a process, except SIGKILL and SIGSTOP, which cannot be caught, and
+ * real-time signals, because runtimes search for unused ones and handle all that they use. */
 static const struct {
     int number, kind;
 } signals[] = {
@@ -26,7 +26,7 @@ static const struct {
     {SIGUSR2, ENDS},   {SIGXCPU, ENDS},     {SIGXFSZ, ENDS},     {SIGTRAP, ENDS},     {SIGSYS, ENDS},   {SIGPROF, ENDS},
     {SIGVTALRM, ENDS}, {SIGTSTP, SUSPENDS}, {SIGTTIN, SUSPENDS}, {SIGTTOU, SUSPENDS},
 #ifdef SIGPOLL
-    {SIGPOLL, ENDS}, /* and SIGIO, its other name */
+    {SIGPOLL, ENDS}, /* also named SIGIO */
 #endif
 #ifdef SIGPWR
     {SIGPWR, ENDS},
@@ -41,9 +41,9 @@ static const struct {
 static struct sigaction before[SIGNAL_COUNT];
 static uint32_t is_taken[SIGNAL_COUNT]; /* 1: the handler is ours */
 static const knurl_exit_actions *actions;
-static pid_t owner; /* a child that was forked has no threads that could send anything */
+static pid_t owner; /* a forked child has no threads that could send zero force */
 
-/* Defaults are told by their address, whatever the flags: Linux keeps both kinds of handlers in one place. */
+/* Compares sa_handler whatever the flags say: on Linux it shares its place with sa_sigaction. */
 static int is_plain(const struct sigaction *action, void (*handler)(int)) {
     return action->sa_handler == handler;
 }
@@ -54,12 +54,12 @@ static void end(void) {
     }
 }
 
-/* To the handler from before, or to the default, which comes when this handler returns. */
+/* Calls the earlier handler, or raises the signal again for its default action after this handler returns. */
 static void hand_on(size_t which, int number, siginfo_t *info, void *context) {
     const struct sigaction *old = &before[which];
     if (is_plain(old, SIG_DFL)) {
         (void)sigaction(number, old, NULL);
-        (void)raise(number); /* held back until the handler has returned */
+        (void)raise(number); /* blocked until the handler returns */
     } else if (old->sa_flags & SA_SIGINFO) {
         old->sa_sigaction(number, info, context);
     } else {
@@ -67,7 +67,7 @@ static void hand_on(size_t which, int number, siginfo_t *info, void *context) {
     }
 }
 
-/* Stops here, as by default, until SIGCONT comes; then this handler is there again for the next stop. */
+/* Stops the process by the default action until SIGCONT, then reinstalls this handler. */
 static void suspend(size_t which, int number) {
     struct sigaction mine;
     sigset_t one;
@@ -75,7 +75,7 @@ static void suspend(size_t which, int number) {
     (void)sigaction(number, &before[which], &mine);
     (void)sigemptyset(&one);
     (void)sigaddset(&one, number);
-    (void)raise(number); /* held back until it is let through */
+    (void)raise(number); /* blocked until the next line */
     (void)pthread_sigmask(SIG_UNBLOCK, &one, &mask);
     (void)pthread_sigmask(SIG_SETMASK, &mask, NULL);
     (void)sigaction(number, &mine, NULL);
@@ -96,12 +96,12 @@ static void on_signal(int number, siginfo_t *info, void *context) {
     }
 }
 
-#define STACK_BYTES ((size_t)64 * 1024) /* the handlers from before run there too */
+#define STACK_BYTES ((size_t)64 * 1024) /* earlier handlers run there too */
 
 static void *stack;
 
-/* A stack that overflowed is no place for a handler. For the calling thread, unless it has such a stack. It is no part
- * of the library, which may be unloaded while that thread lives on. */
+/* Gives the calling thread a signal stack unless it has one, because a handler cannot run on a stack that overflowed.
+ * It is mapped, not static: the library may be unloaded before the thread ends. */
 static void give_a_stack(void) {
     stack_t found;
     stack_t mine;
@@ -116,7 +116,7 @@ static void give_a_stack(void) {
     }
 }
 
-/* Where that thread is the calling one. */
+/* Only if called on the thread that got it. */
 static void take_the_stack_back(void) {
     stack_t found;
     if (stack && sigaltstack(NULL, &found) == 0 && found.ss_sp == stack && !(found.ss_flags & SS_ONSTACK)) {
@@ -144,7 +144,7 @@ static int take(size_t which, int faults_recover) {
     }
     memset(&action, 0, sizeof action);
     action.sa_sigaction = on_signal;
-    /* calls are restarted as before: nothing was interrupted by a signal without a handler */
+    /* restart system calls as before: a signal without a handler interrupts no call */
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
     action.sa_flags |=
         is_plain(&before[which], SIG_DFL) ? SA_RESTART : before[which].sa_flags & (SA_RESTART | (int)SA_RESETHAND);
@@ -153,7 +153,7 @@ static int take(size_t which, int faults_recover) {
     return (int)is_taken[which];
 }
 
-/* The library is unloaded: nothing may point into it. Handlers that were installed after ours stay. */
+/* The library is being unloaded: restore handlers that point into it. Handlers installed after ours stay. */
 __attribute__((destructor)) static void give_back(void) {
     for (size_t i = 0; i < SIGNAL_COUNT; i++) {
         struct sigaction now;

@@ -1,6 +1,6 @@
-/* Windows: hooks that run before an exception, abort(), a console event or exit() ends the process. Not before
- * TerminateProcess() and __fastfail(). At the exit() of a program that uses the DLL all other threads have ended
- * already, so that none is left to send a force.
+/* Windows: hooks that run before an exception, abort(), a console event or exit() ends the process. TerminateProcess()
+ * and __fastfail() cannot be hooked. If a program that uses the DLL calls exit(), all other threads have ended by then,
+ * so none can send zero force.
  * SPDX-License-Identifier: MIT */
 #include "base/system.h"
 
@@ -17,17 +17,17 @@ static void end(void) {
     actions->end();
 }
 
-/* Only for unhandled exceptions, so not for those that a runtime recovers from. */
+/* Called only for unhandled exceptions, not for those that a runtime recovers from. */
 static LONG WINAPI on_exception(EXCEPTION_POINTERS *what) {
     end();
     return filter_before ? filter_before(what) : EXCEPTION_CONTINUE_SEARCH;
 }
 
-/* Ctrl-C, Ctrl-Break, the console's close button, logging off, shutting down; in a thread of the system's. */
+/* Ctrl-C, Ctrl-Break, the console's close button, logging off, shutting down; called in a thread of the system's. */
 static BOOL WINAPI on_console(DWORD event) {
     (void)event;
     end();
-    return FALSE; /* on to the handler from before; the last one ends the process */
+    return FALSE; /* call the earlier handler; the last one ends the process */
 }
 
 /* abort() raises no exception. */
@@ -35,12 +35,12 @@ static void on_abort(int number) {
     end();
     if (abort_before != SIG_DFL && abort_before != SIG_IGN) {
         abort_before(number);
-    } /* else abort() goes on when this returns */
+    } /* else abort() continues when this returns */
 }
 
 static int installed;
 
-/* A filter that is set later is called first, and may not call ours. */
+/* A filter set later is called first, and may not call this one. */
 static BOOL CALLBACK install(INIT_ONCE *once, void *parameter, void **context) {
     (void)once;
     (void)parameter;
@@ -48,10 +48,10 @@ static BOOL CALLBACK install(INIT_ONCE *once, void *parameter, void **context) {
     filter_before = SetUnhandledExceptionFilter(on_exception);
     abort_before = signal(SIGABRT, on_abort);
     installed = abort_before != SIG_ERR && SetConsoleCtrlHandler(on_console, TRUE) && atexit(end) == 0;
-    return TRUE; /* once, even if it failed */
+    return TRUE; /* do not retry after a failure */
 }
 
-/* The library is unloaded: nothing may point into it. What was installed after ours stays. */
+/* The library is being unloaded: remove hooks that point into it. Hooks installed after ours stay. */
 __attribute__((destructor)) static void give_back(void) {
     if (installed) {
         const LPTOP_LEVEL_EXCEPTION_FILTER filter = SetUnhandledExceptionFilter(filter_before);

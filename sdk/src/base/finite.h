@@ -1,4 +1,4 @@
-/* Required compiler arithmetic, and tests for finite numbers that work under any compiler flags. Every source includes
+/* Checks the compiler's arithmetic; tests for finite numbers that work under any compiler flags. Every source includes
  * this.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FINITE_H
@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* __FAST_MATH__ is -ffast-math or -Ofast, the others are parts of it; _M_FP_FAST is /fp:fast. */
+/* __FAST_MATH__: -ffast-math or -Ofast; the next three: parts of it; _M_FP_FAST: /fp:fast. */
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) ||                           \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST)
 #error                                                                                                                 \
@@ -17,14 +17,14 @@ becomes a force, and gratings lose their ridges. Add -fno-fast-math after your o
 (Knurl's CMakeLists.txt does that by itself)."
 #endif
 
-/* 0: a double is computed as a double. 16: the same, and _Float16 is as itself too. */
+/* 0: doubles are computed as doubles. 16: so, and _Float16 is computed as _Float16. */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error                                                                                                                 \
     "Knurl must be compiled with doubles that are computed as doubles (FLT_EVAL_METHOD 0): with x87's longer ones S1 \
 is on the wrong side of its ridges. On x86 add -msse2 -mfpmath=sse (Knurl's CMakeLists.txt does that by itself)."
 #endif
 
-/* By its bits: what no compiler flag can take for granted, and no exception flag is raised for. */
+/* Tests the bits: no compiler flag can optimise that away, and it raises no floating-point exception. */
 static inline int knurl_is_finite(double value) {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);

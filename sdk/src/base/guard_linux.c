@@ -1,4 +1,4 @@
-/* Starting the guard process from memory, and talking to it. SPDX-License-Identifier: MIT */
+/* Starts the guard process from memory and sends it messages. SPDX-License-Identifier: MIT */
 #include "base/guard_process.h"
 
 #include <errno.h>
@@ -14,11 +14,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define EXECUTABLE 0x10u /* MFD_EXEC, of newer headers */
+#define EXECUTABLE 0x10u /* MFD_EXEC, missing in older headers */
 
-#define PATIENCE_MS 1000 /* for it to start, or to leave */
+#define PATIENCE_MS 1000 /* timeout for its start and its end */
 
-/* The program's file (made by embed.cmake). */
+/* The guard's executable (made by embed.cmake). */
 extern const unsigned char knurl_guard_image[];
 extern const size_t knurl_guard_image_size;
 
@@ -32,7 +32,7 @@ static void close_one(int fd) {
     }
 }
 
-/* Above 0 to 2, which the guard's own ends are put on. */
+/* Moves a descriptor above 2, because the guard's descriptors become 0 and 1. */
 static int lift(int fd) {
     const int high = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 3) : -1;
     close_one(fd);
@@ -57,7 +57,7 @@ static int open_image(void) {
     return file;
 }
 
-/* 0, or errno's number. It gets none of the host's handlers, environment or open files. */
+/* Returns 0 or an errno code. The child does not get the host's handlers, environment or open files. */
 static int spawn(int image, int socket, int device, pid_t *child) {
     char path[64];
     char name[] = "knurl-guard";
@@ -81,14 +81,14 @@ static int spawn(int image, int socket, int device, pid_t *child) {
     return code;
 }
 
-/* Waits for its first message; 0: there was none in time. */
+/* Waits for the guard's first message; 0 on timeout. */
 static int is_there(int socket) {
     char word;
     struct pollfd guard = {socket, POLLIN, 0};
     return poll(&guard, 1, PATIENCE_MS) == 1 && recv(socket, &word, 1, MSG_DONTWAIT) == 1;
 }
 
-/* 0, or errno's number; `ends`: the host's and the guard's. */
+/* Returns 0 or an errno code. ends: the socket's ends, the host's and the guard's. */
 static int start(const int ends[2], int device, const knurl_guard_order *order) {
     pid_t child = 0;
     const int image = open_image();
@@ -97,7 +97,7 @@ static int start(const int ends[2], int device, const knurl_guard_order *order) 
     if (code) {
         return code;
     }
-    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {} /* that one only starts the guard */
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {} /* this child only forks the guard */
     return send(ends[0], order, sizeof *order, MSG_NOSIGNAL) == (ssize_t)sizeof *order ? 0 : errno;
 }
 

@@ -1,5 +1,5 @@
-/* The guard process. Descriptor 0: the socket to the host; 1: the device. It holds nothing else, ignores signals, and
- * ends with the host.
+/* The guard process. Descriptor 0: the socket to the host; 1: the device. It has no other descriptors, blocks signals,
+ * and ends when the host ends.
  * SPDX-License-Identifier: MIT */
 #include "base/guard_process.h"
 
@@ -16,7 +16,7 @@
 
 enum { HOST = 0, DEVICE = 1, FIRST_OTHER = 2 };
 
-#define LAST_ZEROS 3 /* at the end, in case one is lost */
+#define LAST_ZEROS 3 /* at the end, sent repeatedly in case one is lost */
 #define TIMEOUT_MS 20
 
 static void zero(knurl_guard_order *order) {
@@ -27,7 +27,7 @@ static void zero(knurl_guard_order *order) {
         bulk.len = order->size;
         bulk.timeout = TIMEOUT_MS;
         bulk.data = order->bytes;
-        (void)ioctl(DEVICE, USBDEVFS_BULK, &bulk); /* the claim belongs to the open file, which host and guard share */
+        (void)ioctl(DEVICE, USBDEVFS_BULK, &bulk); /* the claim belongs to the open file, which the host shares */
     } else {
         (void)!write(DEVICE, order->bytes, order->size);
     }
@@ -44,25 +44,25 @@ static void close_others(void) {
     }
 }
 
-/* Not the host's child, so that a host that waits for its children does not wait for this one; 1: this is the one. */
+/* Forks, so that a host that waits for its children does not wait for the guard. Returns 1 in the guard. */
 static int leave_host(void) {
     sigset_t all;
     struct sched_param priority;
     (void)sigfillset(&all);
     (void)sigprocmask(SIG_BLOCK, &all, NULL);
-    (void)setsid(); /* no terminal's Ctrl-C or Ctrl-Z */
+    (void)setsid(); /* away from the terminal's Ctrl-C and Ctrl-Z */
     if (fork() != 0) {
         return 0;
     }
     memset(&priority, 0, sizeof priority);
-    priority.sched_priority = 71; /* one above the host's threads, where that is permitted */
+    priority.sched_priority = 71; /* one above the host's threads, if permitted */
     (void)sched_setscheduler(0, SCHED_FIFO, &priority);
     (void)prctl(PR_SET_NAME, "knurl-guard");
     (void)!chdir("/");
     return 1;
 }
 
-/* The host's latest message; 0: the host is gone. */
+/* The host's last message; 0 if the host has ended. */
 static uint8_t listen_to_host(void) {
     uint8_t word = KNURL_GUARD_ALIVE;
     ssize_t got = recv(HOST, &word, 1, 0);

@@ -1,26 +1,26 @@
-/* Checks of handles. The first member of each object is a number of its kind, cleared when it is destroyed; this tells
- * a live object from null, from another kind, and from a destroyed one as long as its memory is not reused. Header
- * only, because bindings/common links with public functions only.
+/* Checks of handles. Each object starts with its kind's number, cleared when it is destroyed. This detects null,
+ * another kind, and a destroyed object until its memory is reused. Header only, because bindings/common links with
+ * public functions only.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HANDLE_H
 #define KNURL_SRC_HANDLE_H
 
 #include <knurl/base.h>
 
-/* The kinds: numbers that memory does not hold by chance. */
+/* Kinds: numbers unlikely to be in memory by chance. */
 #define KNURL_HANDLE_SCENE   0x5343a61du
 #define KNURL_HANDLE_DEVICE  0x4456b72eu
 #define KNURL_HANDLE_LOOP    0x4c50c83fu
 #define KNURL_HANDLE_SESSION 0x5353d94bu
 #define KNURL_HANDLE_AUDIO   0x4155ea5cu
 
-/* Clears an object's number before its memory is freed; volatile, or the compiler would leave the store out. */
+/* Clears an object's number before its memory is freed; volatile, so that the compiler keeps the store. */
 static inline void knurl_handle_clear(uint32_t *number) {
     *(volatile uint32_t *)number = 0;
 }
 
-/* The number where a caller's handle points to, 0 for null. The object may have been freed: sanitizers
- * must not report this read. */
+/* Reads the number at a caller's handle; 0 if null or misaligned. The object may have been freed: sanitizers must not
+ * report this read. */
 #if defined(__GNUC__)
 __attribute__((no_sanitize("address"), no_sanitize("thread")))
 #endif
@@ -54,13 +54,12 @@ static inline int knurl_is_null(const void *pointer, const char *name) {
     return !pointer;
 }
 
-/* For public functions: 1, with the thread's error message set, where the parameter `handle` is no live object of the
- * kind (SCENE, DEVICE, LOOP, SESSION, AUDIO), or where the parameter `pointer` is null. Not in a tick: see
- * KNURL_IS_HANDLE. */
+/* For public functions: 1, with the thread's error message set, if `handle` is not a live object of the kind (SCENE,
+ * DEVICE, LOOP, SESSION, AUDIO), or `pointer` is null. Not in a tick: see KNURL_IS_HANDLE. */
 #define KNURL_BAD_HANDLE(handle, kind) knurl_is_bad_handle((handle), KNURL_HANDLE_##kind, #handle)
 #define KNURL_IS_NULL(pointer)         knurl_is_null((pointer), #pointer)
 
-/* The same for the haptic path, without a message: 1 where it is a live object of the kind. */
+/* For the haptic path, without a message: 1 if it is a live object of the kind. */
 #define KNURL_IS_HANDLE(handle, kind) (knurl_handle_number(handle) == KNURL_HANDLE_##kind)
 
 #endif

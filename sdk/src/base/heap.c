@@ -8,18 +8,18 @@
 
 #define ALIGNMENT 64 /* a cache line */
 
-/* Locking costs a system call, some microseconds, and a surface that moves has a new record in every frame: small
- * blocks of a locked heap are kept for the next. */
+/* Locking a block is a system call of some microseconds, and a moving surface needs a new record each frame: small
+ * blocks of a locked heap are kept for reuse. */
 #define SPARE_BYTES ((size_t)2048)
 #define SPARES      64u
 
 struct knurl_block {
     knurl_block *next;
     knurl_block *previous;
-    size_t size; /* with this header */
+    size_t size; /* including this header */
 };
 
-/* C99 has no aligned allocation: what malloc gave stands just before what is handed out. */
+/* C99 has no aligned allocation: the pointer from malloc() is stored just before the aligned block. */
 static void *default_allocate(size_t size, size_t alignment, void *user) {
     (void)user;
     if (size > SIZE_MAX - alignment - sizeof(void *)) {
@@ -87,14 +87,14 @@ static void link_block(knurl_heap *heap, knurl_block *block) {
     heap->first = block;
 }
 
-/* Of the caller's memory, when there is no spare one. */
+/* Gets a block from the caller's allocator. */
 static knurl_block *make_block(knurl_heap *heap, size_t bytes) {
     knurl_block *block = bytes ? heap->allocator.allocate(bytes, ALIGNMENT, heap->allocator.user) : NULL;
     if (block) {
         block->size = bytes;
         heap->bytes += bytes;
         if (heap->locked) {
-            (void)knurl_system_lock_memory(block, bytes); /* where it is refused, the tick may wait for a page */
+            (void)knurl_system_lock_memory(block, bytes); /* if refused, a tick may wait for a page */
         }
     }
     return block;
@@ -102,13 +102,13 @@ static knurl_block *make_block(knurl_heap *heap, size_t bytes) {
 
 static void release_block(knurl_heap *heap, knurl_block *block) {
     heap->bytes -= block->size;
-    if (heap->locked) { /* whole pages: a neighbour that lives on in one of them is unlocked with it */
+    if (heap->locked) { /* unlocks whole pages, with any neighbours in them */
         knurl_system_unlock_memory(block, block->size);
     }
     heap->allocator.release(block, block->size, heap->allocator.user);
 }
 
-/* With the last block in use, the spares go as well. */
+/* Called when the last block in use is freed. */
 static void release_spares(knurl_heap *heap) {
     while (heap->spares) {
         knurl_block *block = heap->spares;

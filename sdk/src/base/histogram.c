@@ -3,7 +3,7 @@
 
 #include "base/atomic.h"
 
-/* Values below 32 have a bucket each; above, the five bits after the leading one choose within the octave. */
+/* Values below 64 have a bucket each; above, the five bits after the leading one select it within the octave. */
 static uint32_t bucket_of(uint64_t value) {
     uint32_t octave = 0;
     while (value >> octave >= 64) {

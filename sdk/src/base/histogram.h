@@ -18,7 +18,7 @@ typedef struct knurl_histogram {
 /* [haptic thread] negative values count as 0 */
 void knurl_histogram_add(knurl_histogram *histogram, int64_t value) KNURL_NONBLOCKING;
 
-/* The value that a share (0..1) of what was added does not exceed, to the bucket's middle; 0 when empty. */
+/* The value that a share (0..1) of the added values does not exceed, rounded to the bucket's middle; 0 if empty. */
 double knurl_histogram_percentile(const knurl_histogram *histogram, double share);
 
 #endif

@@ -1,5 +1,5 @@
-/* The newest value from one writer to one reader. Neither waits or retries: there are three slots, of which the writer
- * owns one, the reader one, and the third is exchanged.
+/* Passes the newest value from one writer to one reader. Neither waits or retries: of three slots the writer owns one,
+ * the reader one, and the third is exchanged.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MAILBOX_H
 #define KNURL_SRC_MAILBOX_H
@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 typedef struct knurl_mailbox {
-    uint32_t middle; /* atomic: the slot that changes hands, and whether it is fresh */
+    uint32_t middle; /* atomic: the slot to exchange, and KNURL_MAILBOX_FRESH if the reader has not taken it */
     uint32_t back;   /* the writer's slot */
     uint32_t front;  /* the reader's slot */
 } knurl_mailbox;
@@ -20,12 +20,12 @@ static inline void knurl_mailbox_init(knurl_mailbox *mailbox) {
     mailbox->front = 2;
 }
 
-/* The writer has filled in slot `back`; from now on it is another one. */
+/* Publishes slot `back`, which the writer has filled in; `back` becomes another slot. */
 static inline void knurl_mailbox_post(knurl_mailbox *mailbox) {
     mailbox->back = __atomic_exchange_n(&mailbox->middle, mailbox->back | KNURL_MAILBOX_FRESH, __ATOMIC_ACQ_REL) & 3u;
 }
 
-/* 1: slot `front` is another one, with what was posted last; 0: nothing was posted since. */
+/* Returns 1 if `front` is now the slot posted last; 0 if nothing was posted since the last call. */
 static inline int knurl_mailbox_take(knurl_mailbox *mailbox) {
     if (!(__atomic_load_n(&mailbox->middle, __ATOMIC_RELAXED) & KNURL_MAILBOX_FRESH)) {
         return 0;

@@ -1,5 +1,5 @@
-/* The range of every number that describes a device or a HIP: one table for what callers, drivers, files and URIs give,
- * and one form of the sentence that refuses a number.
+/* The ranges of all numbers that describe a device or a HIP, for values from callers, drivers, files and URIs alike,
+ * and the message for a value out of range.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_RANGE_H
 #define KNURL_SRC_RANGE_H
@@ -10,10 +10,10 @@
 
 #include <stddef.h>
 
-/* Least, greatest, unit. Wide enough for any device that a hand holds, and narrow enough for every square, quotient and
- * exponential that a tick makes of them to be finite. The headers' comments repeat these numbers. */
+/* Least, greatest, unit. Wide enough for any hand-held device; narrow enough that every square, quotient and
+ * exponential in a tick is finite. The public headers repeat these numbers. */
 #define KNURL_RANGE_FORCE     0.01, 1000.0, "N"
-#define KNURL_RANGE_HIP_FORCE 0.01, 1e6, "N" /* a device's own limit holds as well */
+#define KNURL_RANGE_HIP_FORCE 0.01, 1e6, "N" /* the device's own limit applies too */
 #define KNURL_RANGE_HEAT_TIME 0.001, 1e6, "s"
 #define KNURL_RANGE_MASS      0.001, 10.0, "kg"
 #define KNURL_RANGE_VISCOUS   0.0, 1000.0, "N s/m"
@@ -27,9 +27,9 @@
 #define KNURL_RANGE_RATE        KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"
 #define KNURL_RANGE_SLEW        0.01, 1e9, "N/s"
 
-/* What else a number may be, or has to be. */
+/* Values allowed beyond least to most, and restrictions. */
 enum {
-    KNURL_OR_ZERO = 1,     /* unknown, none, or the default: as the field's comment says */
+    KNURL_OR_ZERO = 1,     /* unknown, absent or default, see the field's comment */
     KNURL_OR_NEGATIVE = 2, /* any negative number: the default */
     KNURL_OR_INFINITY = 4, /* no limit */
     KNURL_WHOLE = 8        /* a whole number */
@@ -41,7 +41,7 @@ typedef struct knurl_range {
     unsigned kind; /* KNURL_OR_ and KNURL_WHOLE bits */
 } knurl_range;
 
-/* A double of a struct. */
+/* A double field of a struct. */
 typedef struct knurl_field {
     const char *name;
     size_t offset;
@@ -52,10 +52,10 @@ int knurl_range_holds(const knurl_range *range, double value);
 
 #define KNURL_RANGE_ROOM 128
 
-/* "0 or 0.01 to 1000 N": for after "expected". text: KNURL_RANGE_ROOM bytes. Returns it. */
+/* "0 or 0.01 to 1000 N", to follow "expected". text: KNURL_RANGE_ROOM bytes. Returns it. */
 const char *knurl_range_text(const knurl_range *range, char *text);
 
-/* A point or a vector of a scene, within KNURL_COORDINATE_MAX. Errors: KNURL_ERROR_ARGUMENT (name, range, found). */
+/* Checks a scene's point or vector against KNURL_COORDINATE_MAX. Errors: KNURL_ERROR_ARGUMENT (name, range, found). */
 knurl_result knurl_check_coordinates(const char *name, const char *unit, const double at[3]);
 
 /* Checks fields of a struct in their order. Errors: KNURL_ERROR_ARGUMENT: "type.field: expected range, found value". */

@@ -7,8 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* O_NONBLOCK: opening a FIFO does not wait for who writes to it, and opening a device starts nothing that takes time.
- */
+/* O_NONBLOCK: opening a FIFO does not wait for a writer, and opening a device does not wait either. */
 #define FLAGS (O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)
 
 static FILE *refuse(const char *reason, char *why, size_t why_size) {
@@ -23,7 +22,7 @@ static FILE *refuse_errno(char *why, size_t why_size) {
                              : refuse(strerror(number), why, why_size);
 }
 
-/* Part by part, so that none can be a link when it is opened; -1 and errno where one is, or is not there. */
+/* Opens `path` part by part without following links. Returns -1 and errno if a part is a link or missing. */
 static int open_below(const char *folder, const char *path) {
     int at = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     while (at >= 0 && *path) {

@@ -13,7 +13,7 @@ static FILE *refuse(const char *reason, char *why, size_t why_size) {
     return NULL;
 }
 
-/* folder\path as UTF-16; 0 where there is no room, or no UTF-8. */
+/* Joins folder\path as UTF-16; 0 if it is too long or not valid UTF-8. */
 static int join(const char *folder, const char *path, wchar_t *wide, int room) {
     int length = 0;
     if (folder) {
@@ -21,12 +21,12 @@ static int join(const char *folder, const char *path, wchar_t *wide, int room) {
         if (length == 0 || length >= room) {
             return 0;
         }
-        wide[length - 1] = L'\\'; /* where its end was */
+        wide[length - 1] = L'\\'; /* replaces the terminator */
     }
     return MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, wide + length, room - length) != 0;
 }
 
-/* Below a folder a link is opened as itself, and refused as what it is. */
+/* Below a folder the link itself is opened, not its target, and then refused. */
 FILE *knurl_regular_open(const char *folder, const char *path, uint64_t *size, char *why, size_t why_size) {
     wchar_t wide[4096];
     BY_HANDLE_FILE_INFORMATION found;

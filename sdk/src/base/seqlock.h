@@ -16,17 +16,16 @@
         uint64_t words[sizeof(type) / sizeof(uint64_t)];                                                               \
     }
 
-/* Compilers leave loops of atomics as they are; there are some 40 words to a tick. */
+/* Compilers do not unroll loops of atomics; a tick writes some 40 words. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define KNURL_UNROLL _Pragma("GCC unroll 64")
 #else
 #define KNURL_UNROLL
 #endif
 
-/* Stores are most of what a tick's time goes to: a processor does one in a cycle, of 8 bytes or of 16. A reader may see
- * the halves of a 16-byte store one after the other; the proof below needs only that stores keep their order, as they
- * do on x86. C has no such store that is not a data race, hence the assembler. ThreadSanitizer does not look into it
- * and gets the atomics. */
+/* A tick spends most of its time on stores: a processor does one per cycle, of 8 or 16 bytes. A reader may see the
+ * halves of a 16-byte store one after the other; the proof below needs only that stores keep their order, as on x86. In
+ * C such a store would be a data race, hence the assembler. ThreadSanitizer cannot follow it and gets the atomics. */
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define KNURL_STORES_PAIRS 1
 typedef uint64_t knurl_pair __attribute__((vector_size(16), aligned(8), may_alias));
@@ -34,13 +33,13 @@ typedef uint64_t knurl_pair __attribute__((vector_size(16), aligned(8), may_alia
 #define KNURL_STORES_PAIRS 0
 #endif
 
-/* Writing: begin, put the parts (sizes are multiples of 8), end.
+/* To write: begin, put the parts (sizes are multiples of 8), end.
  *
- * There are no fences, which ThreadSanitizer does not understand; release and acquire are plain moves on x86. Proof
- * that they suffice: a reader that loads a word of a new write synchronises with that store, before which the odd
- * sequence was stored; so the reader's second load of the sequence cannot return the old even number, and it retries. A
- * reader also sees no word older than the write whose even sequence it began with, because that was stored with release
- * after all its words. */
+ * No fences, because ThreadSanitizer does not support them; release and acquire are plain moves on x86. Proof that they
+ * suffice: a reader that loads a word of a new write synchronises with that store, before which the odd sequence was
+ * stored; so the reader's second load of the sequence cannot return the old even number, and it retries. A reader never
+ * gets a word older than the write whose even sequence it began with, because that was stored with release after all
+ * its words. */
 static inline void knurl_seqlock_begin(uint64_t *sequence) {
     knurl_store_relaxed(sequence, knurl_load_relaxed(sequence) + 1);
 }
@@ -81,7 +80,7 @@ static inline void knurl_seqlock_write(uint64_t *sequence, uint64_t *words, cons
     knurl_seqlock_end(sequence);
 }
 
-/* Reads once: 1 where *value is consistent, 0 where a writer was inside. For a reader that must not wait. */
+/* Tries once: 1 if *value is consistent, 0 if a write was in progress. For a reader that must not wait. */
 static inline int knurl_seqlock_try_read(const uint64_t *sequence, const uint64_t *words, void *value, size_t size) {
     const uint64_t before = knurl_load_acquire(sequence);
     for (size_t i = 0; i < size / sizeof(uint64_t); i++) {
@@ -92,7 +91,7 @@ static inline int knurl_seqlock_try_read(const uint64_t *sequence, const uint64_
 }
 
 static inline void knurl_seqlock_read(const uint64_t *sequence, const uint64_t *words, void *value, size_t size) {
-    while (!knurl_seqlock_try_read(sequence, words, value, size)) {} /* the writer is inside for some ten ns a tick */
+    while (!knurl_seqlock_try_read(sequence, words, value, size)) {} /* a write takes some ten ns per tick */
 }
 
 #endif

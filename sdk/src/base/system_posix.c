@@ -20,7 +20,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Above the kernel's threaded interrupt handlers (50), where audio servers stand too; well below the watchdogs (99). */
+/* Above the kernel's threaded interrupt handlers (50) and beside audio servers; well below the watchdogs (99). */
 #define REALTIME_PRIORITY 70
 
 #define LOCKED_STACK ((size_t)64 * 1024)
@@ -29,11 +29,10 @@ struct knurl_thread {
     pthread_t handle;
     void (*entry)(void *argument);
     void *argument;
-    uintptr_t process; /* whose it is */
+    uintptr_t process; /* the process that started it */
 };
 
-/* Where there is one that goes on while the machine sleeps, that one: a force from before is then too old to be played.
- */
+/* CLOCK_BOOTTIME continues while the machine sleeps, so that a force from before is too old to be played. */
 #ifdef CLOCK_BOOTTIME
 #define CLOCK CLOCK_BOOTTIME
 #else
@@ -53,7 +52,7 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     while (clock_nanosleep(CLOCK, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
 }
 
-/* Its storage is a caller's, so that a scene's memory is all its allocator's. */
+/* The caller provides the storage, so that all of a scene's memory comes from its allocator. */
 typedef char mutex_fits[sizeof(pthread_mutex_t) <= sizeof(knurl_mutex) ? 1 : -1];
 
 static pthread_mutex_t *native(knurl_mutex *mutex) {
@@ -82,8 +81,8 @@ static void *run_thread(void *argument) {
     return NULL;
 }
 
-/* A handler of the host's must not run on a haptic or an I/O thread, and what zeroes forces before the process ends
- * waits for those. What a thread does itself stays its own. */
+/* Blocks signals in the new thread: a handler must not run on a haptic or I/O thread, because zeroing forces at exit
+ * waits for those threads. Faults raised by the thread itself are not blocked. */
 static int create(knurl_thread *thread, const pthread_attr_t *attributes) {
     static const int own[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT};
     sigset_t others;
@@ -92,7 +91,7 @@ static int create(knurl_thread *thread, const pthread_attr_t *attributes) {
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         (void)sigdelset(&others, own[i]);
     }
-    (void)pthread_sigmask(SIG_SETMASK, &others, &before); /* a thread inherits it */
+    (void)pthread_sigmask(SIG_SETMASK, &others, &before); /* the thread inherits the mask */
     const int failed = pthread_create(&thread->handle, attributes, run_thread, thread);
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
     return failed;
@@ -138,7 +137,7 @@ uintptr_t knurl_system_process_id(void) {
 }
 
 uintptr_t knurl_system_thread_id(void) {
-    static KNURL_THREAD_LOCAL char mine; /* its address is this thread's alone */
+    static KNURL_THREAD_LOCAL char mine; /* its address is unique to this thread */
     return (uintptr_t)&mine;
 }
 
@@ -148,7 +147,7 @@ int knurl_system_make_realtime(void) {
     memset(&parameters, 0, sizeof parameters);
     if (pthread_getschedparam(pthread_self(), &policy, &parameters) == 0 &&
         (policy == SCHED_FIFO || policy == SCHED_RR)) {
-        return 1; /* another library's thread: its priority is its maker's choice */
+        return 1; /* another library's thread: keep its priority */
     }
     parameters.sched_priority = REALTIME_PRIORITY;
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
@@ -163,7 +162,7 @@ void knurl_system_unlock_memory(void *memory, size_t size) {
 }
 
 void knurl_system_unlock_stack(uintptr_t start) {
-    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the frame is gone, its pages stay */
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the frame is gone, but its pages remain */
     (void)munlock((void *)start, LOCKED_STACK);
 }
 
@@ -177,8 +176,8 @@ int knurl_system_lock_stack(uintptr_t *start) {
     return mlock(pages, sizeof pages) == 0;
 }
 
-/* By a lock on an opening of our own: those who open the node for its data keep theirs to themselves. The kernel gives
- * a lock back with the last descriptor, so also after SIGKILL. */
+/* Locks a descriptor of its own: drivers that open the node for data do not share theirs. The kernel releases the lock
+ * with the last descriptor, even after SIGKILL. */
 intptr_t knurl_system_take_node(const char *path) {
     const int node = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (node < 0) {
@@ -199,7 +198,7 @@ void knurl_system_give_back_node(intptr_t node) {
 }
 
 knurl_library *knurl_system_load_library(const char *path, char *why, size_t why_size) {
-    if (path[0] != '/' && strchr(path, '/')) { /* below whatever folder is the current one */
+    if (path[0] != '/' && strchr(path, '/')) { /* relative to the current folder */
         (void)snprintf(why, why_size, "expected an absolute path or a bare name");
         return NULL;
     }
@@ -218,7 +217,7 @@ void knurl_system_unload_library(knurl_library *library) {
 int knurl_system_find_function(knurl_library *library, const char *name, void *function) {
     void *found = dlsym((void *)library, name);
     if (found) {
-        memcpy(function, &found, sizeof found); /* POSIX: the two kinds of pointers are alike; C99 has no cast */
+        memcpy(function, &found, sizeof found); /* POSIX: both kinds of pointers are alike; C99 has no cast */
     }
     return found != NULL;
 }

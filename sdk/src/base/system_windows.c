@@ -15,27 +15,27 @@
 #define CREATE_WAITABLE_TIMER_HIGH_RESOLUTION 0x2 /* Windows 10 1803 and later */
 #endif
 
-/* How late a wait may end. High-resolution timers are rounded up to half a millisecond (so people measured; no promise
- * of Microsoft's), Sleep() to the millisecond that timeBeginPeriod(1) asks for. */
+/* The longest that a wait may overrun. High-resolution timers round up to half a millisecond (measured by others, not
+ * documented by Microsoft), Sleep() to the millisecond set by timeBeginPeriod(1). */
 #define FINE_LATE_NS   600000
 #define COARSE_LATE_NS 2000000
 
 #define LOCKED_STACK ((size_t)64 * 1024)
 
-/* Windows rounds any size up; what POSIX refuses is refused here too. */
+/* Windows rounds any size up; refuse the sizes that POSIX refuses. */
 #define STACK_LEAST ((size_t)16 * 1024)
 
 struct knurl_thread {
     HANDLE handle;
     void (*entry)(void *argument);
     void *argument;
-    HANDLE timer;     /* made once, not in each cycle; null before Windows 10 1803 */
-    uint32_t on_time; /* 1: real-time, its waits end on time */
+    HANDLE timer;     /* created once, not per cycle; null before Windows 10 1803 */
+    uint32_t on_time; /* 1: real-time; spins so that waits end on time */
 };
 
-static DWORD current_slot = TLS_OUT_OF_INDEXES; /* not __thread: MinGW's takes memory, and crashes come here too */
+static DWORD current_slot = TLS_OUT_OF_INDEXES; /* not __thread: MinGW's allocates, and crash handlers use this */
 
-/* Null in threads that are not ours. */
+/* Null in threads not started here. */
 static knurl_thread *current_thread(void) {
     return current_slot == TLS_OUT_OF_INDEXES ? NULL : TlsGetValue(current_slot);
 }
@@ -59,7 +59,7 @@ static HANDLE make_timer(void) {
 
 static int wait_by(HANDLE timer, int64_t ns) {
     LARGE_INTEGER due;
-    due.QuadPart = -((ns + 99) / 100); /* relative: absolute ones follow the wall clock */
+    due.QuadPart = -((ns + 99) / 100); /* negative: relative; absolute times follow the wall clock */
     return timer && SetWaitableTimer(timer, &due, 0, NULL, NULL, FALSE) &&
            WaitForSingleObject(timer, INFINITE) == WAIT_OBJECT_0;
 }
@@ -73,8 +73,8 @@ static void wait_coarsely(int64_t ns) {
     Sleep((DWORD)((ns < 1000000000 ? ns : 1000000000) / 1000000 + 1));
 }
 
-/* A real-time thread stops waiting by as much earlier as waits may end late, and spins for the rest: at 1 kHz that is
- * 0.1 to 0.6 ms of each, and all of it on a Windows without fine timers. Others just wait and come late. */
+/* A real-time thread waits until one margin before the deadline and spins for the rest: 0.1 to 0.6 ms of each period at
+ * 1 kHz, and all of it on a Windows without high-resolution timers. Other threads only wait and may be late. */
 void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     if (deadline_ns <= knurl_system_now_ns()) {
         return;
@@ -94,7 +94,7 @@ void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     }
 }
 
-/* Its storage is a caller's, so that a scene's memory is all its allocator's. */
+/* The caller provides the storage, so that all of a scene's memory comes from its allocator. */
 typedef char mutex_fits[sizeof(SRWLOCK) <= sizeof(knurl_mutex) ? 1 : -1];
 
 static SRWLOCK *native(knurl_mutex *mutex) {
@@ -106,7 +106,7 @@ void knurl_system_mutex_init(knurl_mutex *mutex) {
 }
 
 void knurl_system_mutex_destroy(knurl_mutex *mutex) {
-    (void)mutex; /* nothing is kept outside it */
+    (void)mutex; /* SRW locks need no cleanup */
 }
 
 void knurl_system_mutex_lock(knurl_mutex *mutex) {
@@ -144,7 +144,7 @@ knurl_thread *knurl_system_start_thread(void (*entry)(void *argument), void *arg
     thread->entry = entry;
     thread->argument = argument;
     thread->timer = make_timer();
-    /* NOLINTNEXTLINE(performance-no-int-to-ptr): so the C library has it */
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): _beginthreadex() returns an integer */
     thread->handle = (HANDLE)_beginthreadex(NULL, (unsigned)stack_bytes, run_thread, thread,
                                             STACK_SIZE_PARAM_IS_A_RESERVATION, NULL);
     if (!thread->handle) {
@@ -178,8 +178,8 @@ uintptr_t knurl_system_process_id(void) {
     return GetCurrentProcessId();
 }
 
-/* The multimedia scheduler lifts a thread above what its process may otherwise ask for (23 to 26 instead of 15) and
- * lets it go when it ends; where its library is missing, the thread does without. */
+/* The multimedia scheduler raises a thread above its process's highest priority (23 to 26 instead of 15) until the
+ * thread ends. If its library is missing, the priority stays. */
 static int join_pro_audio(void) {
     typedef HANDLE(WINAPI * function)(const wchar_t *task, DWORD *index);
     HMODULE avrt = LoadLibraryExW(L"avrt.dll", NULL, LOAD_LIBRARY_SEARCH_SYSTEM32); /* stays for the thread's life */
@@ -198,7 +198,7 @@ int knurl_system_make_realtime(void) {
     return join_pro_audio() || critical;
 }
 
-/* A process may lock some 30 pages unless it asks for a larger working set first. */
+/* A process may lock only some 30 pages unless it enlarges its working set first. */
 static int make_room(size_t size) {
     static SRWLOCK lock = SRWLOCK_INIT;
     SIZE_T least;
@@ -220,7 +220,7 @@ void knurl_system_unlock_memory(void *memory, size_t size) {
 }
 
 void knurl_system_unlock_stack(uintptr_t start) {
-    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the frame is gone, its pages stay */
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the frame is gone, but its pages remain */
     (void)VirtualUnlock((void *)start, LOCKED_STACK);
 }
 
@@ -235,7 +235,7 @@ int knurl_system_lock_stack(uintptr_t *start) {
     return knurl_system_lock_memory(pages, sizeof pages);
 }
 
-/* What the system says of an error, in UTF-8 and without the line's end. */
+/* The system's message for an error, in UTF-8 and without the line end. */
 static void explain(DWORD error, char *why, size_t why_size) {
     wchar_t text[512];
     DWORD length = FormatMessageW(FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS, NULL, error, 0, text,
@@ -251,12 +251,12 @@ static void explain(DWORD error, char *why, size_t why_size) {
     }
 }
 
-/* By a named mutex, which lives as long as a handle to it does; its owner does not matter. */
+/* Uses a named mutex, which exists as long as a handle to it; nobody needs to own it. */
 intptr_t knurl_system_take_node(const char *path) {
     char name[MAX_PATH] = "Global\\knurl-";
     size_t used = strlen(name);
     for (; *path && used + 1 < sizeof name; path++) {
-        name[used++] = *path == '\\' ? '/' : *path; /* a backslash ends a namespace's name */
+        name[used++] = *path == '\\' ? '/' : *path; /* a backslash separates the namespace */
     }
     name[used] = '\0';
     HANDLE mutex = CreateMutexA(NULL, FALSE, name);
@@ -267,7 +267,7 @@ intptr_t knurl_system_take_node(const char *path) {
     if (mutex) {
         (void)CloseHandle(mutex);
     }
-    return mutex || why == ERROR_ACCESS_DENIED ? 0 : -1; /* denied: it is another account's */
+    return mutex || why == ERROR_ACCESS_DENIED ? 0 : -1; /* denied: created by another account */
 }
 
 void knurl_system_give_back_node(intptr_t node) {

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Of two numbers; of a NaN and a number, the second. fmin() and fmax() are calls. */
+/* Inlined, unlike fmin() and fmax(). If either is NaN, the result is b. */
 static inline double knurl_min(double a, double b) {
     return a < b ? a : b;
 }
@@ -72,7 +72,7 @@ static inline double vec3_normalise(double a[3]) {
     return length;
 }
 
-/* Takes what points along the unit vector n out of a. */
+/* Removes the component of a along the unit vector n. */
 static inline void vec3_make_tangent(const double n[3], double a[3]) {
     vec3_madd(a, -vec3_dot(a, n), n, a);
 }
@@ -82,12 +82,12 @@ static inline double vec3_sum(const double a[3]) {
     return fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
 }
 
-/* 1 where all three are finite, and not so large that their sum is not. */
+/* 1 if all three are finite and their sum does not overflow. */
 static inline int vec3_finite(const double a[3]) {
     return knurl_is_finite(vec3_sum(a));
 }
 
-/* 1 where each is from -most to most. */
+/* 1 if each is from -most to most. */
 static inline int vec3_within(const double a[3], double most) {
     return fabs(a[0]) <= most && fabs(a[1]) <= most && fabs(a[2]) <= most;
 }
@@ -114,7 +114,7 @@ static inline void quat_to_matrix(const double q[4], double m[9]) {
     m[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
-/* The unit quaternion of a rotation matrix (row-major), by its largest part, so that nothing small is divided by. */
+/* The unit quaternion of a rotation matrix (row-major), from its largest component, to avoid small divisors. */
 static inline void quat_from_matrix(const double m[9], double q[4]) {
     const double squares[4] = {1.0 + m[0] - m[4] - m[8], 1.0 - m[0] + m[4] - m[8], 1.0 - m[0] - m[4] + m[8],
                                1.0 + m[0] + m[4] + m[8]};
