@@ -1,4 +1,4 @@
-/* What a game adds to its surfaces' forces: a gain on all of it, a force, a vibration. SPDX-License-Identifier: MIT */
+/* A game's additions to the surfaces' forces: a gain on the sum, a force, a vibration. SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
 #include "base/base.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* N: no device is as strong; what is added is shortened to the device's own limit in the tick. */
+/* N: more than any device can play; the tick limits the sum to the device's max_force. */
 #define MOST_FORCE 1000.0
 
 /* s */
@@ -47,7 +47,7 @@ knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]) {
     return result;
 }
 
-/* A vibration of T3 ends after a whole event, whose impulse is zero. */
+/* A T3 vibration ends after a whole event, so that its impulse is zero. */
 static uint64_t ticks_of(const knurl_wave *wave, double seconds, double rate) {
     const uint64_t ticks = (uint64_t)ceil(seconds * rate);
     const uint64_t event = wave->method == KNURL_WAVE_T3 ? (uint64_t)wave->parts[0].length : 1;
@@ -83,7 +83,7 @@ knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequen
     return result;
 }
 
-/* Copies what the game wrote since `*seen`; what is being written now is there in the next tick. 1: there was some. */
+/* Copies what the game wrote after `*seen`; 1 if there was anything. A write in progress is left to the next tick. */
 static int take(const uint64_t *sequence, const uint64_t *words, uint64_t *seen, void *value, size_t size) {
     const uint64_t now = knurl_load_acquire(sequence);
     if (now == *seen) {

@@ -1,4 +1,4 @@
-/* When a loop ticks: its cycles on a thread of its own or the device's, late ones, and the ramp at its end.
+/* A loop's cycles, on a thread of its own or the device's: lateness, gaps, and the ramp at the end.
  * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A cycle that comes later than this has a gap before it. The watchdog waits as long by default. */
+/* A cycle later than this comes after a gap. Equal to the watchdog's default. */
 #define GAP_NS 50000000
 
 int knurl_loop_is_abandoned(const knurl_loop *loop) {
@@ -27,7 +27,7 @@ static uint64_t ramp_steps(const knurl_loop *loop) {
     return (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
 }
 
-/* Publishes a force that was sent without a tick. */
+/* Publishes a force sent without a tick. */
 static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     double scene_force[3];
     vec3_scale(gain, loop->force, force);
@@ -45,8 +45,8 @@ void knurl_loop_publish_zero_force(knurl_loop *loop) {
     tell_force(loop, 0.0, force);
 }
 
-/* One step of the ramp from the latest force to zero. Reads the device too, which some drivers need before a write.
- * Returns 0 after the last. */
+/* One step of the ramp from the last force to zero. Reads the device too, because some drivers need that before a
+ * write. Returns 0 after the last step. */
 static int ramp_down(knurl_loop *loop) {
     const uint64_t steps = ramp_steps(loop);
     if (loop->ramp_step >= steps) {
@@ -59,7 +59,7 @@ static int ramp_down(knurl_loop *loop) {
     gain = result || knurl_device_is_halted(loop->desc.device) ? 0.0 : gain;
     tell_force(loop, gain, force);
     if (result || knurl_device_write(loop->desc.device, force)) {
-        loop->ramp_step = steps; /* no answer: no ramp */
+        loop->ramp_step = steps; /* the device does not answer: skip the ramp */
     }
     knurl_count_up(&loop->cycles);
     return loop->ramp_step < steps;
@@ -67,7 +67,7 @@ static int ramp_down(knurl_loop *loop) {
 
 int knurl_loop_cycle(knurl_loop *loop) {
     if (knurl_loop_is_abandoned(loop)) {
-        return 0; /* at once, without a ramp */
+        return 0; /* end at once, without a ramp */
     }
     return knurl_loop_at_end(loop) ? ramp_down(loop) : knurl_loop_tick(loop);
 }
@@ -78,14 +78,14 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
     knurl_device_halt(device);
     knurl_loop_publish_zero_force(loop);
     knurl_loop_end_heat(loop);
-    if (knurl_port_may_hold_force(device)) { /* else it might hold its last force */
+    if (knurl_port_may_hold_force(device)) { /* otherwise it might keep playing its last force */
         (void)knurl_device_write(device, none);
     }
     knurl_store_release(&loop->state, state);
 }
 
-/* After a gap hand and device may be anywhere: no force until a tick has read them, then the ramp. Not where the device
- * or the watchdog has halted meanwhile, and reported it. */
+/* After a gap the handle may be anywhere: no force until a tick has read its position, then the ramp. Does nothing if
+ * the device or the watchdog has halted meanwhile, and reported it. */
 static void zero_after_gap(knurl_loop *loop, int64_t late) {
     knurl_device *device = loop->desc.device;
     if (late > GAP_NS && !loop->was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
@@ -98,7 +98,7 @@ static void zero_after_gap(knurl_loop *loop, int64_t late) {
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     zero_after_gap(loop, late);
     if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* reconnecting resets this check */
-        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand moved on meanwhile */
+        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand kept moving meanwhile */
     }
     if (knurl_loop_at_end(loop)) {
         return;
@@ -142,10 +142,10 @@ void knurl_loop_haptic_thread(void *argument) {
 uint32_t knurl_loop_serve(void *argument) {
     knurl_loop *loop = argument;
     const double period = 1e9 / loop->desc.update_rate_hz;
-    knurl_store_release(&loop->is_served, 1u); /* before the device can be found lost */
+    knurl_store_release(&loop->is_served, 1u); /* before the watchdog can declare the device lost */
     const int64_t now = loop->clock.now_ns(loop->clock.user);
     if (loop->served_at == 0) {
-        (void)knurl_error_message(); /* as on a haptic thread of ours */
+        (void)knurl_error_message(); /* as in knurl_loop_haptic_thread() */
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
         knurl_device_enter_thread(loop->desc.device);
         knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());

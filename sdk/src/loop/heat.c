@@ -1,4 +1,4 @@
-/* Heat of the motors: it belongs to the device and passes from loop to loop, by the loop's clock.
+/* Heat of the motors. It belongs to the device: a loop starts with the last loop's, cooled by the loop's clock.
  * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 

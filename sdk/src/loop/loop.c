@@ -1,4 +1,4 @@
-/* The loop's public functions: create, start, step, stop, statistics; and its watchdog thread. A cycle is in cycle.c.
+/* The loop's public functions: create, start, step, stop, statistics; and its watchdog thread. For a cycle see cycle.c.
  * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How often a lost device is looked for. */
+/* Interval of attempts to reopen a lost device. */
 #define RECONNECT_NS 250000000
 
-/* How long after its latest call a lost device with a servo thread counts as one that calls no more. */
+/* A lost device with a servo thread makes no more calls if its last one is longer ago than this. */
 #define LAST_CALL_NS 50000000
 
 /* A tick needs some kilobytes; callbacks get the rest. */
@@ -34,26 +34,26 @@ static int is_running(const knurl_loop *loop) {
     return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
 }
 
-/* A child that was forked has none of the threads that could end it. */
+/* A forked child does not have the threads that could end the loop. */
 static int is_running_here(const knurl_loop *loop) {
     return is_running(loop) && knurl_load_relaxed(&loop->process) == knurl_system_process_id();
 }
 
-/* Beside the haptic thread: zeroes the force when no cycle came for too long (a device may hold its last force for
- * ever), and looks for a device that got lost. */
+/* Runs beside the haptic thread. Zeroes the force if cycles stop (a device may keep playing its last force), and
+ * reopens a lost device. */
 typedef struct watchdog {
     uint64_t seen;   /* cycles */
-    int64_t seen_at; /* ns, when there was a new one */
+    int64_t seen_at; /* ns: when `seen` last changed */
     int64_t tried_at;
     uint64_t idle_cycles;
-    double idle; /* s without a cycle, in naps: a process that is stopped and goes on has not waited */
+    double idle; /* s without a cycle, counted in naps, so that time in which the process was stopped does not count */
 } watchdog;
 
 static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
     const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
     knurl_device *device = loop->desc.device;
-    if (cycles != k->seen || cycles == 0) { /* before the first there is no force */
+    if (cycles != k->seen || cycles == 0) { /* no force before the first */
         k->seen = cycles;
         k->seen_at = now;
     } else if (limit > 0 && !knurl_port_is_lost(device) && now - k->seen_at > limit && is_running(loop) &&
@@ -64,7 +64,8 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
     }
 }
 
-/* A device that owns the servo thread and has stopped calling is lost. No tick can detect that: none is called. */
+/* A device that owns the servo thread and has stopped calling is lost. Ticks cannot detect that, because they have
+ * stopped. */
 static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     knurl_device *device = loop->desc.device;
     const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
@@ -75,7 +76,7 @@ static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
     }
     k->idle = 0.0;
     if (!is_running(loop) || knurl_port_is_lost(device)) {
-        return; /* its last call came meanwhile */
+        return; /* its last call has ended the loop or found it lost */
     }
     knurl_device_halt(device);
     knurl_loop_publish_zero_force(loop);
@@ -90,13 +91,13 @@ static void look_for_device(knurl_loop *loop, watchdog *k, int64_t now) {
         return;
     }
     if (knurl_loop_at_end(loop) && knurl_port_owns_thread(loop->desc.device)) {
-        /* a lost device makes no more calls; but its last one may still run and use the loop */
+        /* a lost device makes no more calls, but its last one may still be using the loop */
         if (!knurl_load_acquire(&loop->is_served) && now - k->seen_at > LAST_CALL_NS) {
             knurl_loop_end(loop, KNURL_LOOP_DONE);
         }
     } else if (now - k->tried_at > RECONNECT_NS) {
         (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = k->seen_at = knurl_system_now_ns(); /* reopening took time in which no cycle could run */
+        k->tried_at = k->seen_at = knurl_system_now_ns(); /* no cycle could run while reopening */
     }
 }
 
@@ -167,7 +168,7 @@ void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, stats, size);
 }
 
-/* Reads what the scene needs to know of the device. */
+/* Reads the device's properties and passes them to the scene. */
 static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
@@ -181,7 +182,7 @@ static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     return d->scene ? knurl_scene_adopt_device(d->scene, d->hip, facts) : KNURL_OK;
 }
 
-/* Claims device and HIP for this loop alone. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */
+/* Claims device and HIP for this loop. Errors: KNURL_ERROR_STATE, KNURL_ERROR_ARGUMENT (hip). */
 static knurl_result claim(const knurl_loop_desc *d) {
     knurl_result result = knurl_device_claim(d->device);
     if (!result && d->scene) {
@@ -193,7 +194,7 @@ static knurl_result claim(const knurl_loop_desc *d) {
     return result;
 }
 
-/* May free both: a host may have destroyed them meanwhile. */
+/* Frees a device or scene that the host has closed or destroyed meanwhile. */
 static void release(const knurl_loop_desc *d) {
     if (d->scene) {
         knurl_scene_release_hip(d->scene, d->hip);
@@ -243,7 +244,7 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
     return KNURL_OK;
 }
 
-/* The haptic thread: the device's own, or one of ours. */
+/* Starts the haptic thread, or uses the device's own. */
 static knurl_result start_haptics(knurl_loop *loop) {
     knurl_device *device = loop->desc.device;
     if (knurl_port_owns_thread(device)) {
@@ -256,7 +257,7 @@ static knurl_result start_haptics(knurl_loop *loop) {
 static knurl_result start_watchdog(knurl_loop *loop) {
     const int is_needed =
         loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
-    if (!is_needed || loop->desc.clock) { /* with the caller's clock, real time has no meaning */
+    if (!is_needed || loop->desc.clock) { /* with the caller's clock, real time is meaningless */
         return KNURL_OK;
     }
     loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
@@ -272,7 +273,7 @@ static void end_watchdog(knurl_loop *loop) {
     }
 }
 
-/* Returns 1 where the loop's own memory and its scene's are locked into RAM. */
+/* Returns 1 if the loop's own memory and its scene's are locked into RAM. */
 static int lock_memory(knurl_loop *loop) {
     const int own = knurl_system_lock_memory(loop, sizeof *loop);
     const int scene = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
@@ -296,7 +297,7 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     knurl_store_relaxed(&loop->process, knurl_system_process_id());
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
-    knurl_result result = start_watchdog(loop); /* first: no force without it */
+    knurl_result result = start_watchdog(loop); /* before the haptic thread: no force without a watchdog */
     result = result ? result : start_haptics(loop);
     if (result) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
@@ -391,8 +392,7 @@ void knurl_loop_stop(knurl_loop *loop) {
     if (is_inside(loop)) {
         return; /* the loop ends when this returns */
     }
-    while (knurl_load_acquire(&loop->threaded) &&
-           is_running_here(loop)) { /* one that is stepped ends in its next step */
+    while (knurl_load_acquire(&loop->threaded) && is_running_here(loop)) { /* a stepped loop ends in its next step */
         (void)knurl_loop_wait(loop, 1.0);
     }
 }
@@ -412,7 +412,7 @@ void knurl_loop_destroy(knurl_loop *loop) {
     if (!loop || KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    if (is_inside(loop)) { /* its own thread can neither wait for its end nor free it */
+    if (is_inside(loop)) { /* a loop's own thread can neither wait for its end nor free it */
         knurl_loop_request_stop(loop);
         return;
     }

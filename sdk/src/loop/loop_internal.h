@@ -1,4 +1,4 @@
-/* The insides of a loop. SPDX-License-Identifier: MIT */
+/* Internals of a loop. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LOOP_H
 #define KNURL_SRC_LOOP_H
 
@@ -14,42 +14,42 @@
 
 #include <math.h>
 
-/* An absolute-deadline rhythm (pace.c). */
+/* Periodic wake-ups by absolute deadlines (pace.c). */
 typedef struct knurl_pace {
     knurl_clock clock;
     int64_t start_ns;
     double period_ns;
-    uint64_t cycle;  /* whole periods since the start at the latest deadline */
+    uint64_t cycle;  /* whole periods from the start to the last deadline */
     int64_t woke_at; /* ns */
 } knurl_pace;
 
 void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
 
-/* Sleeps until the next deadline. Returns how late it woke, ns; *overrun: 1 where that was more than half a period.
- * Missed periods are skipped, not made up for. [haptic thread] */
+/* Sleeps until the next deadline. Returns the lateness of the wake-up, ns; *overrun: 1 if that is more than half a
+ * period. Missed periods are skipped. [haptic thread] */
 int64_t knurl_pace_wait(knurl_pace *pace, int *overrun);
 
-/* A vibration of the game's. */
+/* A vibration set by knurl_loop_vibrate(). */
 typedef struct knurl_vibration {
     knurl_wave wave;     /* N */
     double direction[3]; /* unit, scene */
-    uint64_t ticks;      /* that it lasts */
+    uint64_t ticks;      /* duration */
 } knurl_vibration;
 
-/* What the game adds to its surfaces' forces (added.c). */
+/* The game's additions to its surfaces' forces (added.c). */
 typedef struct knurl_loop_added {
-    /* atomics, written by the game thread: two seqlocks and a number */
+    /* written by the game thread: an atomic and two seqlocks */
     double gain; /* 0 to 1 */
     uint64_t force_sequence, force_words[3];
     uint64_t cue_sequence, cue_words[sizeof(knurl_vibration) / sizeof(uint64_t)];
-    /* the haptic thread's */
-    uint64_t force_seen, cue_seen; /* the sequences at which they were copied */
-    double gain_now;               /* on its way to `gain` */
+    /* used by the haptic thread only */
+    uint64_t force_seen, cue_seen; /* the sequences of the copies below */
+    double gain_now;               /* approaches `gain` */
     double force[3];               /* N, scene */
     int32_t has_force;
     knurl_vibration cue;
-    uint64_t cue_tick; /* of the vibration, that is next */
-    double latest;     /* N: its value at the latest tick */
+    uint64_t cue_tick; /* the vibration's next tick */
+    double latest;     /* N: the vibration's value in the last tick */
 } knurl_loop_added;
 
 struct knurl_loop {
@@ -58,24 +58,24 @@ struct knurl_loop {
     knurl_clock clock;
     knurl_hip *hip; /* the scene's; null without a scene */
     knurl_thread *thread;
-    knurl_thread *watchdog; /* the watchdog, and who looks for a lost device */
+    knurl_thread *watchdog; /* watchdog; also reconnects */
     knurl_pace pace;
-    double force[3];        /* the latest, as sent, device axes, N */
+    double force[3];        /* last force sent, device axes, N */
     double scene_force[3];  /* the same in scene axes; 0 without a scene */
-    double gain;            /* 0..1 on the next force: ramps up again after a halt */
-    knurl_last_stage *last; /* what the force passes, and what knows how warm the motors are: the HIP's, or `own` */
-    knurl_last_stage own;   /* a force callback's */
-    double per_force;       /* 1/N^2: of the device's continuous force */
-    int64_t cycle_at;       /* ns: the latest cycle of a thread; 0: none */
-    uint64_t ramp_step;     /* done, of the ramp at the end */
+    double gain;            /* 0..1, for the next force; ramps up after a halt */
+    knurl_last_stage *last; /* final limits and motor heat: the HIP's, or `own` */
+    knurl_last_stage own;   /* for a force callback */
+    double per_force;       /* 1 / continuous_force^2, 1/N^2 */
+    int64_t cycle_at;       /* ns: the last cycle on a thread; 0 before the first */
+    uint64_t ramp_step;     /* steps done of the ramp at the end */
     int was_overrun;
-    int was_halted;    /* the device, when the latest tick's force was made */
-    int is_lost;       /* for good */
-    int64_t served_at; /* ns: the latest call by a device that owns the servo thread; 0: none */
+    int was_halted;    /* 1: the device was halted when the last force was computed */
+    int is_lost;       /* 1: lost, and not to be reopened */
+    int64_t served_at; /* ns: the last call by a device that owns the servo thread; 0 before the first */
     uint64_t heartbeats_seen;
     uint64_t since_heartbeat; /* ticks */
     int game_was_alive;
-    int wanted; /* 1: not paused, and the game is alive */
+    int wanted; /* 1: not paused, and the heartbeat is not overdue */
     knurl_loop_added added;
 
     /* atomics */
@@ -85,7 +85,7 @@ struct knurl_loop {
     uint32_t threaded;       /* 1: started, not stepped */
     uint32_t stepping;       /* 1: knurl_loop_step() runs */
     uint64_t ticks;
-    uint64_t cycles; /* ticks and steps of the ramp: what the watchdog looks at */
+    uint64_t cycles; /* ticks, absences and steps of the ramp, for the watchdog */
     uint64_t overruns;
     uint64_t watchdog_trips;
     uint64_t heat_ticks;
@@ -99,62 +99,61 @@ struct knurl_loop {
     uint32_t stack_locked;
     uintptr_t haptic_thread;
     uintptr_t watchdog_thread;
-    uintptr_t process; /* that has these threads */
+    uintptr_t process; /* the process that has these threads */
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
 };
 
-/* loop_tick.c: sets up a loop that is zeroed but for desc, hip and clock. */
+/* loop_tick.c: sets up a loop that is zero except desc, hip and clock. */
 void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts);
 
-/* A tick: reads the device, makes a force, writes it. Returns 0 where the loop must end. [haptic thread] */
+/* A tick: reads the device, computes a force, writes it. Returns 0 if the loop must end. [haptic thread] */
 int knurl_loop_tick(knurl_loop *loop);
 
-/* heat.c: a loop begins with how warm the device's latest one left the motors, cooled by the clock since. */
+/* heat.c: a loop begins with the motors' heat from the device's last loop, cooled by the time since. */
 void knurl_loop_begin_heat(knurl_loop *loop);
 void knurl_loop_end_heat(knurl_loop *loop);
 
-/* For knurl_loop_get_stats(): after a tick, or a force that was sent without one. */
+/* Publishes the heat for knurl_loop_get_stats(), after a tick or a force sent without one. */
 void knurl_loop_tell_heat(knurl_loop *loop);
 
-/* A cycle begins: the motors' heat advances by the periods that were missed. */
+/* Called when a cycle begins: advances the motors' heat by the missed periods. */
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now);
 
-/* added.c: what is added in this tick; null: nothing. */
+/* added.c: the force to add in this tick; null if zero. */
 const knurl_added_force *knurl_loop_next_added(knurl_loop_added *added, knurl_added_force *sum);
 
-/* 0: nothing is added, and nothing was written since the latest tick. */
+/* 0: nothing to add, and nothing written since the last tick. */
 static inline int knurl_loop_adds(const knurl_loop_added *a) {
     return knurl_load_acquire(&a->force_sequence) != a->force_seen ||
            knurl_load_acquire(&a->cue_sequence) != a->cue_seen || a->has_force || a->cue_tick < a->cue.ticks ||
            a->latest != 0.0;
 }
 
-/* A ramp's next value on the way to `to`. What rounding left over of the steps before takes no step more: a tick too
- * late. */
+/* A ramp's next value towards `to`. The 1e-9 absorbs rounding, which could cost an extra step, a tick too late. */
 static inline double knurl_loop_approach(double value, double to, double step) {
     return fabs(to - value) <= step + 1e-9 ? to : value + copysign(step, to - value);
 }
 
-/* The game's gain in this tick, on its way to the one that was set; it changes by `step` at most. */
+/* Moves the game's gain towards the one set, by at most `step`. Returns the gain for this tick. */
 double knurl_loop_move_gain(knurl_loop_added *added, double step);
 
 /* cycle.c */
 int knurl_loop_at_end(const knurl_loop *loop);
 
-/* 1: its device was closed or its scene destroyed; both are kept until the loop is destroyed. */
+/* 1 if its device was closed or its scene destroyed; their memory is kept until the loop is destroyed. */
 int knurl_loop_is_abandoned(const knurl_loop *loop);
 
-/* One cycle: a tick, a cycle without a position, or at the end a step of the ramp. Returns 0 after the last. */
+/* One cycle: a tick, a cycle without a position, or at the end a step of the ramp. Returns 0 after the last one. */
 int knurl_loop_cycle(knurl_loop *loop);
 
-/* Reports zero force to the scene. On the haptic thread, or while it cannot run. */
+/* Reports zero force to the scene. Only on the haptic thread, or while it cannot run. */
 void knurl_loop_publish_zero_force(knurl_loop *loop);
 
-/* Zeroes the motors for good. The last call of the haptic thread on a loop. */
+/* Zeroes the motors and ends the loop, which may be freed from then on: the haptic thread's last call. */
 void knurl_loop_end(knurl_loop *loop, int32_t state);
 
-/* The haptic thread, and the function that a device with a thread of its own calls instead. `argument`: the loop. */
+/* The haptic thread, and the function called instead by a device with a thread of its own. argument: the loop. */
 void knurl_loop_haptic_thread(void *argument);
 uint32_t knurl_loop_serve(void *argument);
 

@@ -21,7 +21,7 @@ static void report(knurl_loop *loop, int32_t code, double value) {
     knurl_port_report(loop->desc.device, code, value);
 }
 
-/* 1 while the game calls knurl_loop_heartbeat() often enough, or need not. A pause counts as alive. */
+/* 1 if the game calls knurl_loop_heartbeat() often enough, no heartbeat is needed, or the loop is paused. */
 static int is_game_alive(knurl_loop *loop, int paused) {
     if (loop->desc.heartbeat_s == 0.0 || paused) {
         loop->since_heartbeat = 0;
@@ -40,14 +40,14 @@ static int is_game_alive(knurl_loop *loop, int paused) {
     return is_alive;
 }
 
-/* How far a gain may go in a tick. */
+/* The largest change of a gain in a tick. */
 static double gain_step(const knurl_loop *loop) {
     return 1.0 / (1.0 + loop->desc.ramp_s * loop->desc.update_rate_hz);
 }
 
 /* The gain on this tick's force: after a halt it ramps up again; while paused or without a heartbeat it ramps down.
- * loop->was_halted: 1 where the device was halted. The halt lasts until this tick's force is written, because an I/O
- * thread may still hold an older one. */
+ * Sets loop->was_halted. A halt lasts until this tick's force is written, because an I/O thread may still hold an older
+ * one. */
 static double next_gain(knurl_loop *loop, int paused) {
     const double step = gain_step(loop);
     loop->was_halted = knurl_device_is_halted(loop->desc.device) != 0;
@@ -64,7 +64,7 @@ static double next_gain(knurl_loop *loop, int paused) {
     return gain;
 }
 
-/* Takes the caller's force, and limits it as a scene's. */
+/* Calls the force callback, and limits its force like a scene's. */
 static void call_back(knurl_loop *loop, const knurl_device_sample *sample, double game_gain, int paused) {
     uint32_t flags = 0;
     memset(loop->force, 0, sizeof loop->force);
@@ -102,12 +102,12 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
     }
 }
 
-/* Runs a cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 where the loop must
+/* Runs a cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 if the loop must
  * end. */
 static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_count_up(&loop->absences);
     knurl_count_up(&loop->cycles);
-    (void)knurl_loop_move_gain(&loop->added, gain_step(loop)); /* or a gain of 0 would begin when there is a position */
+    (void)knurl_loop_move_gain(&loop->added, gain_step(loop)); /* else a gain set meanwhile would start late */
     knurl_store_relaxed(&loop->absent, 1u);
     memset(loop->force, 0, sizeof loop->force);
     memset(loop->scene_force, 0, sizeof loop->scene_force);
@@ -122,17 +122,15 @@ static int run_without_position(knurl_loop *loop, knurl_result why) {
     }
     knurl_loop_tell_heat(loop);
     if (why == KNURL_ERROR_DEVICE_NOT_READY) {
-        (void)knurl_device_write(loop->desc.device, loop->force); /* zero; for drivers without a thread that would write
-                                                                     it */
+        (void)knurl_device_write(loop->desc.device, loop->force); /* zero, for drivers without an I/O thread */
         return 1;
     }
-    loop->served_at = 0; /* a device that comes back may call from another thread: no lateness is measured across the
-                            gap */
+    loop->served_at = 0; /* a reopened device may call from another thread: do not measure lateness across the gap */
     loop->is_lost = why != KNURL_ERROR_DEVICE_LOST || !loop->desc.reconnect;
     return !loop->is_lost;
 }
 
-/* What can wait is done once the force is written. */
+/* Bookkeeping comes after the write, so that it does not delay the force. */
 int knurl_loop_tick(knurl_loop *loop) {
     knurl_device_sample sample;
     knurl_tick_output output;
