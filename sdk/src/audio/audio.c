@@ -11,18 +11,18 @@
 #include <stdlib.h>
 
 #define RING_TICKS    16384 /* 1.6 s at 10 kHz */
-#define LATE_S        0.02  /* more than this behind, ticks are left out */
-#define FADE_S        0.005 /* from silence to full scale and back */
-#define DRIFT_MAX     0.005 /* faster or slower than the ticks, at most */
-#define DRIFT_S       2.0   /* in which a lag is caught up with */
+#define LATE_S        0.02  /* ticks are skipped if the lag is longer than this */
+#define FADE_S        0.005 /* fade between silence and full scale */
+#define DRIFT_MAX     0.005 /* the largest relative change of speed */
+#define DRIFT_S       2.0   /* time to catch up with a lag */
 #define EVEN_TICKS    2.0   /* ticks: a lag below this is the jitter of the threads, not drift */
 #define HIGHEST_HZ    20000.0
-#define SMOOTH_S      0.004 /* time constant of the decay that spreads steps: four ticks of a Touch */
+#define SMOOTH_S      0.004 /* time constant of the smoothing of steps: four ticks of a Touch */
 #define SMALLEST_STEP 1e-6
 #define SMALLEST      1e-9 /* ticks: sums of fractions are not exact */
 
 typedef struct audio_tick {
-    double step[2];  /* cycles since the tick before */
+    double step[2];  /* cycles since the previous tick */
     double loudness; /* 0 to 1 */
 } audio_tick;
 
@@ -33,14 +33,14 @@ struct knurl_audio {
     audio_tick *ring;
     /* atomics */
     uint64_t written, read;
-    /* the haptic thread's */
+    /* used by the haptic thread only */
     knurl_loudness loudness;
     double cycles[2];
-    double due[2]; /* cycles that were passed and are still to be queued */
-    double share;  /* of `due` that a tick queues */
+    double due[2]; /* cycles passed but not queued yet */
+    double share;  /* part of `due` queued per tick */
     uint32_t in_contact;
-    /* the audio thread's */
-    uint32_t plays; /* 1: there were ticks enough to begin */
+    /* used by the audio thread only */
+    uint32_t plays; /* 1: enough ticks were queued to begin */
     double at;      /* between tick `read` and the next, 0 to 1 */
     double place[2];
     double level, latency;
@@ -104,18 +104,17 @@ void knurl_audio_destroy(knurl_audio *audio) {
 
 /* --- the haptic thread --- */
 
-/* Cycles along one axis since the last tick. A jump that no motion made, as where uvs begin anew or a material was
- * replaced, keeps its fraction of a cycle alone. likely: cycles, by f_t. */
+/* Cycles along one axis since the last tick. A jump not caused by motion, for example at a uv seam or after a change of
+ * material, is reduced to its fraction of a cycle. likely: cycles expected from f_t. */
 static double find_step(double to, double from, double likely, double most) {
     double step = to - from;
     if (!(fabs(step) <= 4.0 * likely + 1.0)) {
         step -= floor(step + 0.5);
     }
-    return fabs(step) <= most ? step : 0.0; /* what is not finite too */
+    return fabs(step) <= most ? step : 0.0; /* not finite: 0 too */
 }
 
-/* Spreads a step over several ticks, because an encoder's counts arrive in some ticks and not in others. The sum stays
- * the same. */
+/* Spreads a step over several ticks, because an encoder's counts arrive only in some ticks. Keeps the sum. */
 static double smooth(knurl_audio *a, int axis, double step) {
     const double due = a->due[axis] + step;
     const double queued = fabs(due) < SMALLEST_STEP ? due : due * a->share;
@@ -149,8 +148,8 @@ void knurl_audio_take(const knurl_tick_output *output, void *audio) {
 
 /* --- the audio thread --- */
 
-/* Ticks per sample for the next `count` samples of which `written` ticks are there; 0: too few to begin with. What
- * comes too late is left out. The tick after the one that plays has to be there too: see find_level(). */
+/* Ticks per sample for the next `count` samples, with `written` ticks queued so far; 0 if too few to begin. Skips ticks
+ * that are too late. find_level() needs the tick after the playing one too. */
 static double choose_pace(knurl_audio *a, uint64_t written, uint32_t count) {
     const double rate = a->desc.update_rate_hz;
     const double pace = rate / a->desc.sample_rate_hz;
@@ -170,7 +169,7 @@ static double choose_pace(knurl_audio *a, uint64_t written, uint32_t count) {
     return fabs(lag) < EVEN_TICKS ? pace : pace * (1.0 + fmax(-DRIFT_MAX, fmin(DRIFT_MAX, lag / (rate * DRIFT_S))));
 }
 
-/* Goes on by so many ticks, less than one, and no further than there are: the tick that plays and one more. */
+/* Advances by `ticks`, less than one, if that many are queued: the playing tick and one more. */
 static void advance(knurl_audio *a, uint64_t written, double ticks) {
     while (ticks > SMALLEST && a->plays) {
         if (a->at > 1.0 - SMALLEST) {
@@ -188,7 +187,7 @@ static void advance(knurl_audio *a, uint64_t written, double ticks) {
     }
 }
 
-/* The mean over the next eighth of a sample. */
+/* Advances by an eighth of a sample and returns the mean height over it. */
 static double move(knurl_audio *a, uint64_t written, double ticks) {
     a->place[0] -= floor(a->place[0]);
     a->place[1] -= floor(a->place[1]);
@@ -197,7 +196,7 @@ static double move(knurl_audio *a, uint64_t written, double ticks) {
     return knurl_wave_mean(from, a->place);
 }
 
-/* The louder of the tick that plays and the next one, so that an edge is not faded in; approached by a fade. */
+/* Fades towards the louder of the playing tick and the next one, so that the fade-in precedes an edge. */
 static double find_level(knurl_audio *a) {
     const double most = 1.0 / (FADE_S * a->desc.sample_rate_hz);
     double wanted = 0.0;

@@ -1,5 +1,5 @@
-/* How loud a texture is. The force also changes as the hand presses, so changes count only at ticks where the height
- * changes; an edge may take two ticks. SPDX-License-Identifier: MIT */
+/* Loudness of a texture. The force also changes as the hand presses, so a change counts only if the height changes in
+ * the same tick; an edge may take two ticks. SPDX-License-Identifier: MIT */
 #include "audio/loudness.h"
 
 #include "base/finite.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* s. A stroke that crosses 16 or more ridges a second has an edge in each, so that its loudness is even. */
+/* s. A stroke over 16 or more ridges per second has an edge in each bucket, so that its loudness is even. */
 #define BUCKET_S 0.032
 
 void knurl_loudness_init(knurl_loudness *loudness, double update_rate_hz) {
@@ -15,7 +15,7 @@ void knurl_loudness_init(knurl_loudness *loudness, double update_rate_hz) {
     loudness->bucket_ticks = (uint32_t)(BUCKET_S * update_rate_hz + 0.5);
 }
 
-/* N: how far the force changed with the height, by this tick. */
+/* N: the change of the force that came with a change of height in this tick. */
 static double change(knurl_loudness *l, double height, double force) {
     double most = 0.0;
     l->forces[2] = l->forces[1];

@@ -1,4 +1,4 @@
-/* How loud a texture is, by what it does to the force. SPDX-License-Identifier: MIT */
+/* Loudness of a texture, by its effect on the force. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_LOUDNESS_H
 #define KNURL_SRC_LOUDNESS_H
 
@@ -7,15 +7,15 @@
 #include <stdint.h>
 
 typedef struct knurl_loudness {
-    double heights[2], forces[3]; /* of the latest ticks: m, N; [0] the newest */
-    uint32_t contact_ticks;       /* since it began, up to 2 */
-    uint32_t bucket_ticks, ticks; /* a bucket's length; so far in this one */
-    double buckets[2];            /* N: the greatest change in this bucket, and in the one before */
+    double heights[2], forces[3]; /* of the last ticks: m, N; [0] is the newest */
+    uint32_t contact_ticks;       /* since contact began, up to 2 */
+    uint32_t bucket_ticks, ticks; /* a bucket's length; ticks so far in this one */
+    double buckets[2];            /* N: the largest change in this bucket and in the previous one */
 } knurl_loudness;
 
 void knurl_loudness_init(knurl_loudness *loudness, double update_rate_hz);
 
-/* N: half of how far the force changed with the height in the latest one to two buckets; 0 without contact. */
+/* N: half of the largest force change at an edge in the last one to two buckets; 0 without contact. */
 double knurl_loudness_update(knurl_loudness *loudness, const knurl_tick_output *tick) KNURL_NONBLOCKING;
 
 #endif

@@ -1,5 +1,5 @@
-/* The height map as a signal. Means of eighths of a sample alias little: what a square wave of 1 kHz has within 20 kHz
- * of 384 kHz, where it would fold back, is 70 dB below its fundamental. SPDX-License-Identifier: MIT */
+/* The height map as a signal. Means of eighths of a sample alias little: the harmonics of a 1 kHz square wave within 20
+ * kHz of 384 kHz, which would fold back, are 70 dB below its fundamental. SPDX-License-Identifier: MIT */
 #include "audio/wave.h"
 
 #include "base/finite.h"
@@ -9,8 +9,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Of the low pass: 16 to 28 kHz at 48 kHz, as parts of the eight times higher rate. What it lets through above 24 kHz
- * folds back above 20 kHz. */
+/* The low pass's edges: 16 and 28 kHz at 48 kHz, relative to the eight times higher rate. Frequencies passed above 24
+ * kHz fold back above 20 kHz. */
 #define PASSED  (16.0 / 384.0)
 #define STOPPED (28.0 / 384.0)
 #define STOP_DB 70.0
@@ -18,7 +18,7 @@
 #define HIGH_PASS_HZ 20.0
 #define SILENCE      1e-6 /* 120 dB below full scale */
 
-/* At which share of the distance, 0 to 1, the sign of cos(2 pi p) changes; 1: it does not. */
+/* The fraction of the distance, 0 to 1, at which the sign of cos(2 pi p) changes; 1 if it does not. */
 static double crossing(double from, double to) {
     const double half = floor(2.0 * from + 0.5);
     const double next = floor(2.0 * to + 0.5);
@@ -41,7 +41,7 @@ double knurl_wave_mean(const double from[2], const double to[2]) {
     return sign * (1.0 - 2.0 * fabs(crossing(from[0], to[0]) - crossing(from[1], to[1])));
 }
 
-/* The modified Bessel function of the first kind and order 0, by its series. */
+/* Modified Bessel function of the first kind, order 0, by its series. */
 static double bessel(double x) {
     double term = 1.0;
     double sum = 1.0;
@@ -52,7 +52,7 @@ static double bessel(double x) {
     return sum;
 }
 
-/* A sinc in Kaiser's window. */
+/* A sinc with a Kaiser window. */
 void knurl_wave_filter_init(knurl_wave_filter *filter, double sample_rate_hz) {
     const double beta = 0.1102 * (STOP_DB - 8.7);
     const double middle = 0.5 * (KNURL_WAVE_TAPS - 1);
