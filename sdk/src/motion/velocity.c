@@ -19,24 +19,24 @@
 #include <emmintrin.h>
 #endif
 
-/* Positions become fixed point with this many steps a count: what sits on an encoder's counts stays exact, and what
- * does not (a device that reports millimetres from joint angles) is rounded far below its own noise. */
+/* Positions become fixed point with this many steps a count: positions on an encoder's counts stay exact, others (a
+ * device that computes millimetres from joint angles) are rounded far below their own noise. */
 #define STEPS_PER_COUNT 1024
 
-/* Half a count either side makes a backlash of one. */
+/* Half a count to either side: a backlash of one count. */
 #define HALF_COUNT (0.5 * STEPS_PER_COUNT)
 
 /* 16 positions are kept: the newest and the 15 before it. */
 #define RING (KNURL_FOAW_WINDOW + 1)
 
 /* lcm(1..15): slopes over 1 to 15 samples, scaled by it, are integers. Samples often lie exactly one count off the
- * line, and where such ties are rounded they choose the wrong window in a third of all ticks. While positions in the
- * window differ by less than 2^34 steps (2^24 counts), slopes and slacks stay below 2^53 and no operation here rounds;
- * beyond that ties are decided to a relative 2^-53, and nothing overflows. */
+ * line; if such ties were rounded, a third of all ticks would choose the wrong window. While positions in the window
+ * differ by less than 2^34 steps (2^24 counts), slopes and slacks stay below 2^53 and no operation here rounds; beyond
+ * that ties are decided to a relative 2^-53, and nothing overflows. */
 #define LCM 360360.0
 
-/* A position that was never seen: out of reach of any slope interval, and finite, so that no floating-point exception
- * is raised even where a host asks for traps. */
+/* A missing position: outside any slope interval, and finite, so that no floating-point exception is raised even if the
+ * host enables traps. */
 #define UNSEEN 1e300
 
 #define TAU 6.283185307179586
@@ -109,20 +109,20 @@ static void lowpass(knurl_velocity_state *velocity, const double position[3], do
     }
 }
 
-/* Beyond every slope between positions, within every slope to UNSEEN. */
+/* Larger than any slope between positions, smaller than any slope to UNSEEN. */
 #define ANY_SLOPE 1e304
 
-/* f(i) for each place of a table over windows; place 0 is not used. */
+/* A table of f(i) over windows; index 0 is not used. */
 #define WINDOWS(f)                                                                                                     \
     {f(1), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)}
 #define SCALE(i) (LCM / (i))
 static const double scales[RING] = WINDOWS(SCALE);
 
-/* Positions are held within it (a NaN too), so that all is finite. */
+/* Positions (NaN too) are clamped to it, so that everything is finite. */
 #define LIMIT 1099511627776.0    /* 2^40 steps */
-#define WHOLE 6755399441055744.0 /* 3 * 2^51: added and taken off again it rounds half to even */
+#define WHOLE 6755399441055744.0 /* 3 * 2^51: adding and subtracting it rounds half to even */
 
-/* Forgets all positions, rings and mirrors; this one is held, in the middle of its backlash. */
+/* Clears all rings and their mirrors. `position` becomes the held one, in the middle of its backlash. */
 static void forget(knurl_velocity_state *velocity, const double position[3]) {
     for (uint32_t phase = 0; phase < velocity->stride; phase++) {
         for (int i = 0; i < 2 * RING; i++) {
@@ -138,16 +138,16 @@ static void forget(knurl_velocity_state *velocity, const double position[3]) {
     velocity->started = 1;
 }
 
-/* Both versions below do the same operations on the same numbers. The held position is taken along by the new one and
- * goes into rows[0] and its mirror. The window is the widest whose interior samples all lie within one count of the
- * line through its newest and its oldest. Sample i back lies within it when the slope is in [(x0 - xi - d) / i,
- * (x0 - xi + d) / i]; the intersection of these intervals shrinks as the window grows, so one pass does. It does not
- * end where the interval is empty: an axis at rest never is. The velocity is not that line's slope, which hangs on two
- * samples, but the mean of the window's newest third less that of its oldest, over the time between (Bartlett 1949).
- * Sums along the way, sums[i] = (x0 - x1) + ... + (x0 - xi), give it for little; not trying every window pays for them
- * (the study `velocity` has the figures). */
+/* Both versions below do the same operations on the same numbers. The new position drags the held one, which is stored
+ * in rows[0] and its mirror. The window is the widest whose interior samples all lie within one count of the line
+ * through its newest and its oldest. Sample i back lies within it if the slope is in [(x0 - xi - d) / i, (x0 - xi + d)
+ * / i]; the intersection of these intervals shrinks as the window grows, so one pass is enough. It does not stop early
+ * if the interval is empty: for an axis at rest it never is. The velocity is not that line's slope, which depends on
+ * two samples only, but the mean of the window's newest third minus that of its oldest, over the time between (Bartlett
+ * 1949). Running sums, sums[i] = (x0 - x1) + ... + (x0 - xi), make that cheap, and trying only some windows pays for
+ * them (figures in the study `velocity`). */
 
-/* Of a window of i samples back, i + 1 in all: how many make a third, and which sums are looked up. */
+/* For a window of i + 1 samples: the samples in a third, and the indices of the sums used. */
 #define THIRD(i)  (((i) + 2) / 3)
 #define NEAR(i)   (THIRD(i) - 1)
 #define FAR(i)    ((i) - THIRD(i))
@@ -155,12 +155,12 @@ static void forget(knurl_velocity_state *velocity, const double position[3]) {
 /* NOLINTNEXTLINE(bugprone-integer-division): a third is a whole number of samples */
 static const double weights[RING] = WINDOWS(WEIGHT);
 
-/* The windows that are tried, a bit for each: 1, 2, 3, 4, 6, 8, 11 and 15. */
+/* Bits of the windows tried: 1, 2, 3, 4, 6, 8, 11 and 15. */
 #define TRIED    0x895eu
 #define TRIES(i) (TRIED >> (i) & 1u)
 
-/* By GCC's and Clang's vectors of two lanes, which SSE2 and NEON have; the fourth lane is not used. The least and the
- * greatest of two numbers are one instruction each on x86, where the compilers do not find it by themselves. */
+/* GCC's and Clang's vectors of two lanes, native in SSE2 and NEON; the fourth lane is not used. Minimum and maximum are
+ * one instruction each on x86, but compilers do not generate it by themselves. */
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
 
@@ -229,7 +229,7 @@ static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double
 #define SLACK(i) (STEPS_PER_COUNT * (LCM / (i)))
 static const double slacks[RING] = WINDOWS(SLACK);
 
-/* The choice by masks rather than by a blend, which GCC 12 takes apart into branches. */
+/* Selects with masks, because GCC 12 turns a blend into branches. */
 __attribute__((target("avx"))) static void foaw_avx(knurl_velocity_state *velocity, double (*rows)[4],
                                                     const double position[3], double out[3]) {
     const __m256d steps =
@@ -286,7 +286,7 @@ void knurl_velocity_update(knurl_velocity *velocity, const double position[3], d
     if (!state->started) {
         forget(state, position);
     }
-    if (++state->phase >= state->stride) { /* all rings have had their turn */
+    if (++state->phase >= state->stride) { /* all rings were used once */
         state->phase = 0;
         state->newest = (state->newest - 1) % RING;
     }

@@ -1,4 +1,4 @@
-/* What a knurl_velocity holds. SPDX-License-Identifier: MIT */
+/* The contents of a knurl_velocity. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_VELOCITY_H
 #define KNURL_SRC_VELOCITY_H
 
@@ -18,12 +18,12 @@ typedef struct knurl_velocity_state {
     uint32_t newest;    /* FOAW: row of the newest position of a ring, 0 to 15 */
     uint32_t started;   /* 1: a position has been seen */
     int32_t method;     /* KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
-    uint32_t avx;       /* FOAW: 1: computed with AVX, where available; 0 gives the same numbers, more slowly */
+    uint32_t avx;       /* FOAW: 1: computed with AVX, if available; 0: the same numbers, more slowly */
     uint32_t stride;    /* FOAW: ticks between samples */
     uint32_t phase;     /* FOAW: the ring of this tick, 0 to stride - 1 */
 } knurl_velocity_state;
 
-/* Compilers see no conflict with copies of a knurl_velocity, because that has characters in it. */
+/* Safe with copies of a knurl_velocity: it is an array of char, so compilers assume that it may alias the state. */
 static inline knurl_velocity_state *knurl_velocity_get_state(knurl_velocity *velocity) {
     return (knurl_velocity_state *)(void *)velocity;
 }

@@ -29,8 +29,7 @@ knurl_result knurl_workspace_check(const knurl_workspace *workspace) {
         return result;
     }
     const double *reserved = workspace->reserved;
-    if (!(reserved[0] == 0.0 && reserved[1] == 0.0 &&
-          reserved[2] == 0.0)) { /* a later version may give them a meaning */
+    if (!(reserved[0] == 0.0 && reserved[1] == 0.0 && reserved[2] == 0.0)) { /* reserved for later versions */
         return knurl_fail(KNURL_ERROR_ARGUMENT, "workspace.reserved: expected zeros, found [%g, %g, %g]", reserved[0],
                           reserved[1], reserved[2]);
     }
