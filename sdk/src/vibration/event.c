@@ -20,8 +20,8 @@ static void init_even(int32_t length, double amplitude, knurl_vibration_event *e
     event->negative = amplitude;
 }
 
-/* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly: T = Tp + Tn leaves of
- * it Ap = A sqrt(Tn / Tp), and An is Ap Tp / Tn (Eq. 5). */
+/* Algorithm 4; Eq. 7 with the period that is played, so that impulse and energy balance exactly: with T = Tp + Tn it
+ * becomes Ap = A sqrt(Tn / Tp), and An = Ap Tp / Tn (Eq. 5). */
 static void init_odd(int32_t length, double amplitude, knurl_vibration_event *event) {
     const double ratio = (length - 1.0) / (length + 1.0);
     event->kind = KNURL_EVENT_ODD;

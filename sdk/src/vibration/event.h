@@ -7,8 +7,8 @@
 /* Algorithm 5's six values in units of A (event.c). */
 extern const double knurl_mixed_heights[6];
 
-/* knurl_vibration_event_init() for what is in range: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and
- * >= 0. */
+/* knurl_vibration_event_init() without checks: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >=
+ * 0. */
 void knurl_vibration_event_prepare(double period_ticks, double amplitude,
                                    knurl_vibration_event *event) KNURL_NONBLOCKING;
 

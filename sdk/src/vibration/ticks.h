@@ -10,8 +10,8 @@
 #define KNURL_MAX_PERIOD_TICKS 1e6
 
 /* A period times an update rate is a few ulp off: 0.00225 * 1000 is not 2.25 in doubles. Every decision (parity,
- * Algorithm 6's thresholds, half a period) falls on quarters of a tick, so what is within 1e-9 of a quarter is meant to
- * be it. 1e-9 is far above the error of one product (2e-16) and far below any difference that could be felt. */
+ * Algorithm 6's thresholds, half a period) falls on quarters of a tick, so a period within 1e-9 of a quarter is set to
+ * it. 1e-9 is far above the error of one product (2e-16) and far below any difference that could be felt. */
 static inline double knurl_snap_ticks(double ticks) {
     const double quarters = floor(4.0 * ticks + 0.5);
     return fabs(4.0 * ticks - quarters) <= 1e-9 * quarters ? 0.25 * quarters : ticks;

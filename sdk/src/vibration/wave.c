@@ -6,12 +6,12 @@
 
 #include <math.h>
 
-/* Algorithm 3: the even periods either side, weighted so that period (Eq. 1) and energy (Eq. 2) come out right. */
+/* Algorithm 3: the even periods on either side, weighted to give the period (Eq. 1) and the energy (Eq. 2). */
 static knurl_result init_mix(knurl_wave *wave) {
     const double period = wave->period_ticks; /* >= 2, so the lower part is never shorter than 2 */
     const double upper = 2.0 * ceil(0.5 * period);
     const double lower = 2.0 * floor(0.5 * period);
-    if (upper == lower) { /* an even multiple: Eqs. 3, 4 are 0/0, and one component is meant */
+    if (upper == lower) { /* already even: Eqs. 3 and 4 would be 0/0, and one component is enough */
         wave->part_count = 1;
         return knurl_vibration_event_init(upper, wave->amplitude, &wave->parts[0]);
     }
@@ -29,8 +29,8 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
         return KNURL_ERROR_ARGUMENT;
     }
     if (method != KNURL_WAVE_T1 && method != KNURL_WAVE_T2 && method != KNURL_WAVE_T3) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3, found %d",
-                          (int)method);
+        return knurl_fail(KNURL_ERROR_UNKNOWN,
+                          "method: expected KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3, found %d", (int)method);
     }
     if (!(knurl_is_finite(period_s) && period_s > 0.0 && period_s <= 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to 10 s, found %g s", period_s);
@@ -61,8 +61,8 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
 }
 
 /* Algorithm 1, decided on the fractional phase. Periods that are whole quarters of a tick (the snapped ones) are
- * counted in integers, at any tick. For the others, a tick that lies on an edge but for rounding (a relative 1e-15,
- * some ulp) is meant to lie on it: 35 ticks are 15 periods of 7/3 ticks, and begin the sixteenth. */
+ * counted in integers, at any tick. For other periods, a tick within rounding of an edge (a relative 1e-15, some ulp)
+ * counts as on it: 35 ticks are 15 periods of 7/3 ticks, and begin the sixteenth. */
 static double sample(const knurl_wave *wave, uint64_t tick) {
     const double quarters = 4.0 * wave->period_ticks;
     if (quarters == floor(quarters)) {
