@@ -30,8 +30,8 @@
 #define KNURL_PRINTF(format_index, first)
 #endif
 
-/** Marks a function that another one has replaced: compilers warn where it is called, with `text` (a string: what to
- * call in its place). Before KNURL_API. */
+/** Marks a replaced function: compilers warn at each call, with `text` (a string that names the replacement). Goes
+ * before KNURL_API. */
 #if defined(__GNUC__)
 #define KNURL_DEPRECATED(text) __attribute__((deprecated(text)))
 #elif defined(_MSC_VER)
@@ -41,7 +41,7 @@
 #endif
 
 /** Marks functions that may be called in a tick: no heap, lock, wait or message. Clang 20 and later check it for all
- * that such a function calls (-Wfunction-effects); other compilers ignore it. */
+ * callees of such a function (-Wfunction-effects); other compilers ignore it. */
 #if defined(__has_attribute)
 #if __has_attribute(nonblocking)
 #define KNURL_NONBLOCKING __attribute__((nonblocking))
@@ -78,32 +78,33 @@ enum {
 #undef KNURL_RESULT_ENUMERATOR
 };
 
-/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are changed only where a call returns KNURL_OK.
+/** 0 (KNURL_OK) or a negative KNURL_ERROR_ code. Outputs are changed only if a call returns KNURL_OK.
  *
- * Null, where a function's comment does not allow it, and an invalid handle (a scene, device, loop or session of
- * another kind, or destroyed) give KNURL_ERROR_ARGUMENT and a sentence that names the parameter. Functions that do not
- * return a knurl_result do nothing and return 0 or null; they set the same sentence unless they may run in a tick. A
- * destroyed handle is recognised until its memory is used again: this finds most mistakes, but is not guaranteed. */
+ * Null, unless a function's comment allows it, and an invalid handle (of another kind, or destroyed) give
+ * KNURL_ERROR_ARGUMENT and a message that names the parameter. Functions that do not return a knurl_result do nothing
+ * and return 0 or null; they set the same message unless they may run in a tick. A destroyed handle is recognised until
+ * its memory is used again: this finds most mistakes, but is not guaranteed. */
 typedef int32_t knurl_result;
 
 /** The sentence for a result code. Static, never null, also for codes unknown to this version. [any thread] */
 KNURL_API const char *knurl_result_string(knurl_result result);
 
-/** The message of the latest failing call *on this thread*: what failed, what was expected and what was found. The
- * calls of the haptic path (knurl_scene_tick(), knurl_device_read() and _write(), knurl_fake_get_truth()) set one of a
- * few fixed sentences, which costs no time. Valid until the next failing call on this thread; "" before the first.
- * [any thread] */
+/** The message of the last failing call *on this thread*: the cause, the expected and the found value. The calls of the
+ * haptic path (knurl_scene_tick(), knurl_device_read() and _write(), knurl_fake_get_truth()) set one of a few fixed
+ * sentences, which takes no time. Valid until the next failing call on this thread; "" before the first. [any
+ * thread] */
 KNURL_API const char *knurl_error_message(void);
 
 /** Copies untrusted text (names, paths, a file's contents) as one line that is safe to print: control characters and
  * line ends become spaces; C1 controls, characters that change the direction of text or cannot be seen (Unicode tags,
  * zero width spaces, byte order marks), and invalid UTF-8 become '?'.
- * All messages of this library have passed it. to: `size` bytes, the caller's; longer text is cut between characters;
- * may be `from`. Returns the length without the final 0. [any thread, never from a tick] */
+ * All messages of this library are cleaned by it. to: `size` bytes, the caller's; longer text is cut between
+ * characters; may be the same as `from`. Returns the length without the final 0. [any thread, never from a tick] */
 KNURL_API size_t knurl_text_line(char *to, size_t size, const char *from);
 
-/** Sets this thread's error message (printf style, at most 1023 bytes, cleaned as by knurl_text_line(); null for none)
- * and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never from a tick] */
+/** Sets this thread's error message (printf style, at most 1023 bytes, cleaned as by knurl_text_line(); null: "no
+ * reason was given") and returns `code`. For code that extends Knurl, such as loaders and drivers. [any thread, never
+ * from a tick] */
 KNURL_API knurl_result knurl_fail(knurl_result code, const char *format, ...) KNURL_PRINTF(2, 3);
 
 /** The version of the loaded library, "major.minor.patch"; static. [any thread] */
@@ -112,14 +113,13 @@ KNURL_API const char *knurl_version_string(void);
 /** The same as a number: 10000 major + 100 minor + patch, for example 300 for 0.3.0. [any thread] */
 KNURL_API uint32_t knurl_version_number(void);
 
-/** m: the greatest coordinate in a scene: of meshes and planes, positions, workspaces, points that are asked about; of
- * a HIP |x| + |y| + |z|. There a double still tells 0.0001 mm apart, and nothing that a tick computes overflows. The
- * float32 coordinates of a mesh tell millimetres apart up to 10 km only: see KNURL_FAR. */
+/** m: the largest coordinate in a scene: of meshes and planes, positions, workspaces and queried points; for a HIP the
+ * limit of |x| + |y| + |z|. There doubles still resolve 0.0001 mm, and no computation in a tick overflows. The float32
+ * coordinates of a mesh resolve millimetres up to 10 km only: see KNURL_FAR. */
 #define KNURL_COORDINATE_MAX 1000000000.0
 
 /** A caller's memory functions, used for all memory of a scene; loops, devices and the glTF loader's own work use
- * malloc. Both are called on the thread that calls a function of the scene: the one that creates or destroys it, and
- * every thread that edits it, one at a time. Never in a tick. */
+ * malloc. Both are called on the threads that create, edit or destroy the scene, one at a time. Never in a tick. */
 typedef struct knurl_allocator {
     /** `size` bytes (> 0) aligned to `alignment` (a power of two), or null. */
     void *(*allocate)(size_t size, size_t alignment, void *user);

@@ -16,19 +16,19 @@ typedef struct knurl_plane_desc {
     double half_extents[2]; /**< m along the surface's x and y, 1e-9 to KNURL_COORDINATE_MAX; default 0.05 */
 } knurl_plane_desc;
 
-/** A triangle mesh in the surface's own frame; the front of a triangle is where its corners run counter-clockwise. All
+/** A triangle mesh in the surface's own frame; seen from its front, a triangle's corners run counter-clockwise. All
  * arrays are the caller's and are copied. Triangles without area are dropped and counted. */
 typedef struct knurl_mesh_desc {
     uint32_t struct_size;   /**< set by knurl_mesh_desc_init() */
     uint32_t vertex_count;  /**< vertices in each array, 3 to 2^28 */
     const float *positions; /**< x, y, z per vertex: m, within KNURL_COORDINATE_MAX. knurl_scene_check_surface() warns
                                  beyond 1e6 */
-    const float *tangents;  /**< x, y, z, w per vertex (w is not used), each within KNURL_COORDINATE_MAX, or null: the
-                                 surface's x direction */
-    const float *uvs; /**< u, v per vertex, each within KNURL_COORDINATE_MAX, or null: surface coordinates; also the x
-                         direction where there are no tangents */
+    const float *tangents;  /**< the surface's x direction: x, y, z, w per vertex (w is not used), each within
+                               KNURL_COORDINATE_MAX; or null */
+    const float *uvs; /**< surface coordinates u, v per vertex, each within KNURL_COORDINATE_MAX; or null. They also
+                         give the x direction if there are no tangents */
     const uint32_t *indices; /**< three per triangle, each below vertex_count; or null for 0, 1, 2, ... */
-    uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 where indices is null */
+    uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 if indices is null */
 } knurl_mesh_desc;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

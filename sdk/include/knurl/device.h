@@ -13,42 +13,41 @@ extern "C" {
 typedef struct knurl_device knurl_device;
 
 /** Properties of a device. An output: set struct_size with knurl_device_info_init() first. Device frame, SI. A device
- * that tells a number beyond its range is not opened. */
+ * with a number out of range is not opened. */
 typedef struct knurl_device_info {
     uint32_t struct_size;
     uint32_t reserved;       /**< 0 */
-    char name[64];           /**< for people */
+    char name[64];           /**< for display */
     double workspace_min[3]; /**< m, within KNURL_COORDINATE_MAX; 0 with 0 in workspace_max: not known */
     double workspace_max[3]; /**< m, workspace_min to KNURL_COORDINATE_MAX */
     double resolution;       /**< position quantum, 1e-9 to 0.01 m; 0: not quantised */
     double max_force;        /**< 0.01 to 1000 N */
-    double delay;            /**< 0 to 16 ticks from writing a force until it acts, beyond the tick itself */
+    double delay;            /**< ticks from writing a force until it acts, beyond the tick itself, 0 to 16 */
     double continuous_force; /**< 0.01 to 1000 N that the motors can hold indefinitely; INFINITY: no limit but
                                   max_force */
     double heat_time;        /**< time constant of the motors' heating, 0.001 to 1e6 s */
     double mass;             /**< apparent mass at the grip, without the hand's, 0.001 to 10 kg; 0: not known */
     double viscous;          /**< the device's own viscous friction, 0 to 1000 N s/m */
     double coulomb;          /**< the device's own dry friction, 0 to 10 N */
-    double max_stiffness;    /**< the stiffest wall that its maker specifies, 1 to 1e9 N/m; INFINITY: not specified */
-    double max_damping;      /**< the strongest damper that its maker specifies, 0 to 1e4 N s/m; INFINITY: not
-                                  specified */
+    double max_stiffness;    /**< the stiffest wall in its maker's specification, 1 to 1e9 N/m; or INFINITY */
+    double max_damping;      /**< the strongest damper in its maker's specification, 0 to 1e4 N s/m; or INFINITY */
     double native_rate;      /**< its own rate of position reports, 1 to 1e5 Hz; 0: a new position at each read */
 } knurl_device_info;
 
 /** One reading. Device frame: x right, y up, z towards the user. */
 typedef struct knurl_device_sample {
     double position[3];    /**< m */
-    double orientation[4]; /**< of the stylus: a unit quaternion x, y, z, w, from its axes to the device's. 0, 0, 0, 0:
-                                the device does not measure it. For drawing: contact stays a point's */
+    double orientation[4]; /**< of the stylus: a unit quaternion x, y, z, w, from its axes to the device's; 0, 0, 0, 0
+                              if the device does not measure it. For drawing only: contact is that of a point */
     uint32_t buttons;      /**< bit 0: first button */
     uint32_t reserved[9];  /**< 0 */
 } knurl_device_sample;
 
-/** A connected device, or a kind of device of which none is connected. */
+/** A connected device, or a kind of device without a connected one. */
 typedef struct knurl_device_listing {
     char uri[256];        /**< for knurl_device_open() */
-    char name[128];       /**< for people */
-    char reason[1024];    /**< why it cannot be used and what to do about it; "" where it can */
+    char name[128];       /**< for display */
+    char reason[1024];    /**< why it cannot be used, and the remedy; "" if it can */
     uint64_t reserved[4]; /**< 0 */
 } knurl_device_listing;
 
@@ -94,8 +93,7 @@ enum {
 #undef KNURL_FAULT_ENUMERATOR
 };
 
-/** Why a device has switched its forces off, the value of an event KNURL_FAULT_FORCE_OFF: constant, number, sentence.
- */
+/** Why a device has switched its forces off: the value of a KNURL_FAULT_FORCE_OFF event. Constant, number, sentence. */
 #define KNURL_FORCE_OFF_CAUSES(X)                                                                                      \
     X(KNURL_FORCE_OFF_UNTOLD, 0, "it does not tell why; press its force button, or open it again")                     \
     X(KNURL_FORCE_OFF_BUTTON, 1, "by its force button; press it again")                                                \
@@ -113,12 +111,12 @@ enum {
 #undef KNURL_FORCE_OFF_ENUMERATOR
 };
 
-/** A fault of a device, or its end. */
+/** A device's fault or recovery. */
 typedef struct knurl_device_event {
-    int64_t time_ns;   /**< when it was noticed, on a monotonic clock that goes on while the machine sleeps (Linux:
-                            CLOCK_BOOTTIME) */
-    double value;      /**< how long, how far or how much, in knurl_fault_unit(code); of KNURL_FAULT_FORCE_OFF a
-                            KNURL_FORCE_OFF_; else 0 */
+    int64_t time_ns;   /**< when it was detected, on a monotonic clock that continues while the machine sleeps (Linux:
+                          CLOCK_BOOTTIME) */
+    double value;      /**< a duration, distance or amount in knurl_fault_unit(code); for KNURL_FAULT_FORCE_OFF a
+                          KNURL_FORCE_OFF_; else 0 */
     int32_t code;      /**< KNURL_FAULT_ */
     uint32_t reserved; /**< 0 */
 } knurl_device_event;
@@ -126,56 +124,57 @@ typedef struct knurl_device_event {
 /** State of a device. An output: set struct_size with knurl_device_status_init() first. */
 typedef struct knurl_device_status {
     uint32_t struct_size;
-    uint32_t lost;          /**< 1: gone, until it is opened again */
-    uint32_t halted;        /**< 1: the force was zeroed, and no loop has resumed it yet */
-    uint32_t buttons;       /**< of the latest reading; bit 0: first button */
-    uint64_t exchanges;     /**< positions read by an I/O thread; 0 without such a thread */
-    uint64_t bad_bytes;     /**< bytes discarded because they were no valid message. Touch, whose library does not show
-                                 bytes: its errors other than losses and refusals */
-    uint64_t events;        /**< reported so far, see knurl_device_next_event() */
+    uint32_t lost;      /**< 1: lost, until it is reopened */
+    uint32_t halted;    /**< 1: the force was zeroed, and no loop has resumed it yet */
+    uint32_t buttons;   /**< of the last reading; bit 0: first button */
+    uint64_t exchanges; /**< positions read by the I/O thread; 0 if there is no such thread */
+    uint64_t bad_bytes; /**< bytes discarded because they were not a valid message. For a Touch, whose library does not
+                           show bytes: errors other than losses and refusals */
+    uint64_t events;    /**< reported so far, see knurl_device_next_event() */
     double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
     double exchange_ns_p99; /**< the same, 99th percentile */
-    double orientation[4];  /**< of the latest reading, as knurl_device_sample.orientation */
+    double orientation[4];  /**< of the last reading, as knurl_device_sample.orientation */
 } knurl_device_status;
 
-/** A caller's own device, for hardware that Knurl does not know. Each function gets `user`. */
+/** A caller's own device, for hardware that Knurl does not support. Each function gets `user`. */
 typedef struct knurl_device_functions {
     uint32_t struct_size; /**< set by knurl_device_functions_init() */
-    uint32_t blocking;    /**< 1: read and write may block. A thread of their own calls them in turn; the haptic thread
-                               takes the newest position and leaves the newest force. 0 (default): the haptic thread calls
-                               them; nothing zeroes the force while it hangs */
+    uint32_t blocking;    /**< 1: read and write may block. A separate I/O thread calls them in turn; the haptic thread
+                             exchanges the newest position and force with it. 0 (default): the haptic thread calls them;
+                             nothing zeroes the force while it hangs */
     void *user;
-    /** Fills in the properties; `info` comes with defaults that specify nothing: heat_time 60 s, INFINITY in
-     * continuous_force, max_stiffness and max_damping, else 0. Required, with a max_force. Do not call
-     * knurl_device_info_init(). [any thread] */
+    /** Fills in the properties; max_force must be set. `info` has these defaults: heat_time 60 s, INFINITY in
+     * continuous_force, max_stiffness and max_damping, 0 in all others. Required. Do not call knurl_device_info_init().
+     * [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
-    /** Prepares for this rate of reads; or null. Called first before any read; later also, where blocking, while the
+    /** Prepares for this rate of reads; or null. Called before the first read, and, if blocking, also later while the
      * I/O thread is reading. [game thread] */
     knurl_result (*start)(void *user, double update_rate_hz);
-    /** Gives the newest position, in a sample that comes zeroed. Required. Returns KNURL_OK,
-     * KNURL_ERROR_DEVICE_NOT_READY (no position this time: the last one is used for up to 10 ms, then the device counts
-     * as silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; where blocking, the I/O thread: it should return within 5
-     * ms, and after 1 s without a position the device counts as lost] */
+    /** Fills in the newest position; the sample is zeroed before. Required. Returns KNURL_OK,
+     * KNURL_ERROR_DEVICE_NOT_READY (no position this time: the last one is used for up to 10 ms, then the device is
+     * reported as silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; if blocking, the I/O thread: it should return
+     * within 5 ms, and after 1 s without a position the device is lost] */
     knurl_result (*read)(void *user, knurl_device_sample *sample);
     /** Applies a force, finite and at most max_force. Required. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST. [as read;
-     * also once at the end, on the thread that closes] */
+     * also once at the end, on the closing thread] */
     knurl_result (*write)(void *user, const double force[3]);
-    /** Tries to find a lost device again; null where that is not possible. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST.
-     * [a thread of the loop, while nothing is read or written] */
+    /** Tries to find a lost device again; null if that is not possible. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST. [a
+     * thread of the loop, while nothing is read or written] */
     knurl_result (*reopen)(void *user);
-    /** The last call; or null. [the thread that closes the device, or that destroys the last loop that uses it] */
+    /** Frees the device; or null. It is the last call. [the thread that closes the device, or that destroys the last
+     * loop that uses it] */
     void (*close)(void *user);
-    uint32_t motors_known; /**< 1: the motors are known to push where they are told to: they are not checked, see
-                                knurl_device_open(). Default 0 */
+    uint32_t motors_known; /**< 1: the motors are known to push in the right direction and are not checked, see
+                              knurl_device_open(). Default 0 */
     uint32_t reserved;     /**< 0 */
 } knurl_device_functions;
 
-/** The fake device's strokes: motions of its hand's target over a surface. */
+/** The fake device's strokes: motions of the simulated hand's target over a surface. */
 enum {
     KNURL_STROKE_LINE = 1,   /**< back and forth along x at constant speed, slower at the ends */
     KNURL_STROKE_SWEEP = 2,  /**< back and forth along x, speed 0 to `speed` and back to 0 within `period` */
     KNURL_STROKE_CIRCLE = 3, /**< a circle at constant speed: every direction of the grating */
-    KNURL_STROKE_PRESS = 4,  /**< down to three times the depth and up again, in one place */
+    KNURL_STROKE_PRESS = 4,  /**< down to three times the depth and up again, at one point */
     KNURL_STROKE_REST = 5    /**< rests at the depth */
 };
 
@@ -189,18 +188,17 @@ typedef struct knurl_stroke_desc {
     double normal[3];     /**< unit, outward, at right angles to x; default 0, 1, 0 */
     double reach[2];      /**< m either side of the centre along x and along normal x x, > 0; default 0.05, 0.02 */
     double depth;         /**< m below the surface; default 0.001 */
-    double speed;         /**< m/s, > 0; default 0 means: 0.25 for SWEEP, else 0.1 */
-    double period;        /**< s, of SWEEP and PRESS, > 0; default 5 */
+    double speed;         /**< m/s, > 0; default 0: 0.25 for SWEEP, else 0.1 */
+    double period;        /**< s, for SWEEP and PRESS, > 0; default 5 */
     const double *path;   /**< a path over a curved surface, instead of centre, x, normal and reach: rows of x, y, z on
                                the surface (m) and its outward normal (unit); copied. LINE and SWEEP start in its middle
-                               and go back and forth between its ends; CIRCLE goes from the first row to the last, then
-                               round from row path_loop; the others stay in its middle. Default null */
+                               and move back and forth between its ends; CIRCLE moves from the first row to the last and
+                               then loops from row path_loop; the others stay in its middle. Default null */
     uint32_t path_rows;   /**< 2 to KNURL_PATH_ROWS_MAX; 0 without a path */
-    uint32_t path_loop;   /**< CIRCLE: the row where the loop closes, below path_rows - 1; the same place as the last
-                               row */
+    uint32_t path_loop;   /**< CIRCLE: the row, below path_rows - 1, that closes the loop: the same point as the last */
 } knurl_stroke_desc;
 
-/** The most rows that a stroke's path may have. */
+/** The most rows of a stroke's path. */
 #define KNURL_PATH_ROWS_MAX 65536
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -211,98 +209,100 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
 /** Opens a device by URI; "name:" is the same as "name".
  *
- * - fake, fake:?key=value&...: a simulated device; keys are listed by knurl_fake_keys(). Of repeated keys the last
- *   counts; `preset` resets all of them.
- * - touch, touch:NAME: the default Touch, or the one with this name in its setup program. ?library=PATH: where libHD
- *   is; tried before the environment variable KNURL_HD_LIBRARY and the usual places.
+ * - fake, fake:?key=value&...: a simulated device; keys are listed by knurl_fake_keys(). If a key is repeated, the last
+ *   one counts; `preset` resets all of them.
+ * - touch, touch:NAME: the default Touch, or the one with this name in its setup program. ?library=PATH: the path of
+ *   libHD, tried before the environment variable KNURL_HD_LIBRARY and the usual places.
  * - falcon: the first one. ?firmware=PATH: the firmware image to load if the device has none; tried before the
  *   environment variable KNURL_FALCON_FIRMWARE. ?gain=G, 0.05 to 1: the scale of its motor commands, relative to
  *   libnifalcon's 10000 units per N m, which was never measured. Recorded packets of the maker's driver give 0.35 to
- *   0.53. Default 0.35: if those packets are right, no force is stronger than asked for. The device's name contains the
- *   gain. Without ?gain, the file that KNURL_FALCON_GAIN names (from `knurl calibrate falcon`).
+ *   0.53. Default 0.35: if those packets are right, no force is stronger than requested. The device's name contains the
+ *   gain. Without ?gain it is read from the file in KNURL_FALCON_GAIN (from `knurl calibrate falcon`).
  * - rawhid, rawhid:VID:PID: the first known one, or the one with these hexadecimal ids. ?geometry=PATH: a file that
- *   describes its mechanics, see assets/devices. ?home=1: the device rests in its home pose now.
+ *   describes its mechanics, see assets/devices. ?home=1: the device is in its home pose now.
  * - serial, serial:PATH: WoodenHaptics with its makers' Teensy 4.0 firmware, on the first Teensy's serial port or on
- * this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
+ *   this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
  * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
- *   before the environment variable KNURL_DHD_LIBRARY and the usual names.
+ *   tried before the environment variable KNURL_DHD_LIBRARY and the usual names.
  * - inverse3, inverse3:ID: the first Haply Inverse3, Inverse3x or Minverse, or the one with this id, by its maker's
  *   service on this machine, whose filters may cut textures.
  *   ?port=N: the service's port, 1 to 65535; default 10001.
  *
- * falcon, rawhid, serial and a caller's functions check their motors, because one that is wired or signed backwards
+ * falcon, rawhid, serial and a caller's functions check their motors, because a motor that is wired or signed backwards
  * pushes with the hand. The first force above 0.25 N along each axis is limited to 1 N and sent as pulses of 12 ms
- * until the handle has followed it, usually for 0.1 to 0.5 s, then it ramps up. A handle that goes against the force,
- * or aside, is a fault (backwards_x, _y, _z): no force until the device is opened again. ?motors_known=1: no check.
+ * until the handle has followed it, usually for 0.1 to 0.5 s, then it ramps up. If the handle moves against the force,
+ * or sideways, that is a fault (backwards_x, _y, _z): no force until the device is opened again. ?motors_known=1: no
+ * check.
  *
  * falcon and rawhid on Linux: ?guard=1 starts a small process in a session of its own that also holds the device. It
- * sends zero force when this process is gone (SIGKILL, _exit()) or has not run for 50 ms (SIGSTOP, a frozen machine),
- * and ends with this process or when the device is closed. If the guard itself is gone, that is an event (unguarded).
+ * sends zero force if this process has ended (SIGKILL, _exit()) or has not run for 50 ms (SIGSTOP, a frozen machine),
+ * and ends with this process or when the device is closed. If the guard itself ends, that is an event (unguarded).
  *
  * Errors: KNURL_ERROR_UNKNOWN (device), KNURL_ERROR_ARGUMENT (key or value), KNURL_ERROR_UNSUPPORTED (this build has no
- * such driver, a library that it needs cannot be loaded, or the device cannot be guarded), KNURL_ERROR_DEVICE_LOST
- * (none is connected, or it does not answer), KNURL_ERROR_SYSTEM (it exists but cannot be used: permissions, or this or
- * another program has it open), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file),
- * KNURL_ERROR_MEMORY. [game thread] */
+ * such driver, a library that it needs cannot be loaded, or the device cannot be guarded), KNURL_ERROR_DEVICE_LOST (not
+ * connected, or it does not answer), KNURL_ERROR_SYSTEM (it exists but cannot be used: permissions, or this or another
+ * program has it open), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file), KNURL_ERROR_MEMORY. [game
+ * thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
 
-/** Opens a device that consists of a caller's functions. Its positions are checked as any device's: not finite, or
- * faster than 10 m/s, is a fault. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY, KNURL_ERROR_SYSTEM (no thread).
- * [game thread] */
+/** Opens a device made of a caller's functions. Its positions are checked like any device's: a position that is not
+ * finite, or moves faster than 10 m/s, is a fault. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY, KNURL_ERROR_SYSTEM
+ * (no thread). [game thread] */
 KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device);
 
-/** Zeroes the force for good and closes the device; null is allowed. The force is zero on return. (A device in use is
- * waited for: a period of its loop, or a transfer; if one of these hangs, no longer than 50 ms.) A loop that uses the
- * device ends by itself, and the device is freed by that loop's knurl_loop_destroy(); what a caller's own device needs
- * must last until its `close` was called. The handle must not be used any more. [game thread, or any while no other
- * thread uses the device; not the haptic thread of a device that no loop has] */
+/** Zeroes the force and closes the device; null is allowed. The force is zero on return. (It waits for a period of the
+ * device's loop, or a transfer; if one of these hangs, no longer than 50 ms.) A loop that uses the device ends by
+ * itself, and its knurl_loop_destroy() frees the device; a caller's own device must keep its resources until its
+ * `close` is called. Do not use the handle afterwards. [game thread, or any while no other thread uses the device; not
+ * the haptic thread of a device that no loop has] */
 KNURL_API void knurl_device_close(knurl_device *device);
 
-/** Lists the connected devices, and for each kind of which none is connected, why and what to do. Fills at most
- * `capacity` listings (none where `listings` is null) and returns how many there are. Looks at the USB devices: takes
- * some milliseconds. A device whose library does not answer within 2 s is listed with that reason; the thread that
- * waits for it, and its memory, are then never freed. [game thread] */
+/** Lists the connected devices, and for each kind without one the reason and the remedy. Fills at most `capacity`
+ * listings (0 if `listings` is null) and returns the number that exist. Reads the USB devices, which takes some
+ * milliseconds. If a device's library does not answer within 2 s, the listing gives that reason; the thread that waits
+ * for it, and its memory, are then never freed. [game thread] */
 KNURL_API uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity);
 
-/** Gets a device's properties. Errors: KNURL_ERROR_ARGUMENT (also of a caller's device whose get_info now tells a
- * number beyond its range). [any thread] */
+/** Gets a device's properties. Errors: KNURL_ERROR_ARGUMENT (also if get_info of a caller's device now gives a number
+ * out of range). [any thread] */
 KNURL_API knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info);
 
 /** Gets a device's state. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_status *status);
 
-/** Takes the oldest event: 1, or 0 where there is none. The latest 64 are kept; older ones are lost
+/** Removes the oldest event: 1, or 0 if there is no event. The last 64 are kept; older ones are lost
  * (knurl_device_status.events counts all). [any thread, but only one] */
 KNURL_API uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event);
 
-/** A fault's name ("lost"), its sentence, and the unit of its events' value ("s"; "" where there is none). Static,
- * never null, also for codes unknown to this version. [any thread] */
+/** A fault's name ("lost"), its sentence, and the unit of its events' value ("s"; "" if it has no value). Static, never
+ * null, even for codes unknown to this version. [any thread] */
 KNURL_API const char *knurl_fault_name(int32_t code);
 KNURL_API const char *knurl_fault_string(int32_t code);
 KNURL_API const char *knurl_fault_unit(int32_t code);
 
-/** The sentence of an event's cause, where its value is one; "" where it is none. Static, never null. [any thread] */
+/** The sentence of an event's cause (KNURL_FORCE_OFF_), or "" if its value is not a cause. Static, never null. [any
+ * thread] */
 KNURL_API const char *knurl_fault_cause(int32_t code, double value);
 
-/** Prepares for reads every 1/update_rate_hz; the fake device's simulated time restarts. A lost device is searched for
- * first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep; with an I/O
- * thread below 200 Hz), KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE (a loop uses the device and has started it). [game
- * thread] */
+/** Prepares for reads every 1/update_rate_hz; the fake device's simulated time restarts. If the device is lost, it is
+ * searched for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep;
+ * with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE (a loop uses the device and has started
+ * it). [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
 /** Reads the newest sample; the fake device's simulated time advances by one period. A Touch can be read and written
  * only from its own scheduler, which calls the loop. Errors: KNURL_ERROR_DEVICE_LOST; KNURL_ERROR_DEVICE_NOT_READY (no
- * valid position now; the force is zeroed (halted), and an event says why); KNURL_ERROR_STATE. No heap, lock, wait or
- * formatting. [haptic thread] */
+ * valid position now; the force is zeroed (halted), and an event gives the reason); KNURL_ERROR_STATE. No heap, lock,
+ * wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample);
 
-/** Writes the force (device axes, N). A force that is not finite is written as 0; one beyond max_force is shortened;
+/** Writes the force (device axes, N). If it is not finite, 0 is written; if it is above max_force, it is shortened;
  * while the motors are checked (see knurl_device_open()) less is sent. A device with an I/O thread plays it until the
  * next one, for at most 10 ms.
  * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 
-/** Zeroes the force at once, whatever the haptic thread does. What is written after that has no effect until
+/** Zeroes the force at once, whatever the haptic thread does. Forces written later have no effect until
  * knurl_device_release_halt(). [any thread] */
 KNURL_API void knurl_device_halt(knurl_device *device);
 
@@ -313,26 +313,25 @@ KNURL_API void knurl_device_release_halt(knurl_device *device);
 KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
 /** Zeroes the forces of all open devices before the process ends or stops; off until called. It waits up to 20 ms until
- * zero has been sent by the thread that writes to the device: the I/O thread, or the haptic thread where there is
- * none.
+ * zero has been sent by the device's I/O thread, or by the haptic thread if there is no I/O thread.
  *
  * - exit(), a return from main(), quick_exit(), and unloading the library (dlclose()).
  * - SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT: afterwards the earlier handler is called, or the process ends.
  * - SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ, SIGTRAP, SIGSYS, SIGPROF,
- *   SIGVTALRM, SIGPOLL, SIGPWR, SIGSTKFLT where their action is the default, which ends the process.
- * - SIGTSTP (Ctrl-Z), SIGTTIN, SIGTTOU where their action is the default, which stops the process; after SIGCONT the
+ *   SIGVTALRM, SIGPOLL, SIGPWR, SIGSTKFLT if their action is the default, which ends the process.
+ * - SIGTSTP (Ctrl-Z), SIGTTIN, SIGTTOU if their action is the default, which stops the process; after SIGCONT the
  *   devices are halted, so that a loop's force ramps up again.
  * - Windows: unhandled exceptions, abort(), console events, exit().
  *
- * Ignored signals stay ignored. Signals of the last two groups that have a handler are left to it. Handlers installed
- * later replace this one: install yours first, or pass the signal on. Real-time signals are left alone. Once an end has
- * begun no force is sent any more, even if a handler keeps the process alive. SIGKILL, SIGSTOP, _exit() and a frozen
- * machine cannot be caught from within: see ?guard=1 at knurl_device_open().
+ * Ignored signals stay ignored. If a signal of the last two groups has a handler, it is left to that handler. Handlers
+ * installed later replace this one: install yours first, or pass the signal on. Real-time signals are not handled. Once
+ * an end has begun, no more force is sent, even if a handler keeps the process alive. SIGKILL, SIGSTOP, _exit() and a
+ * frozen machine cannot be caught from within: see ?guard=1 at knurl_device_open().
  *
  * @param faults_recover 0; or 1 in a process whose runtime recovers from SIGSEGV, SIGBUS, SIGFPE or SIGILL, as C#'s do
- * at a null reference: existing handlers of these signals are then left alone as well.
+ * at a null reference: existing handlers of these signals are then kept.
  *
- * The calling thread gets a signal stack if it has none. Only the first call counts.
+ * The calling thread gets a signal stack unless it has one. Only the first call has an effect.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_SYSTEM. [game thread] */
 KNURL_API knurl_result knurl_device_zero_on_exit(uint32_t faults_recover);
 
@@ -352,8 +351,8 @@ typedef struct knurl_fake_truth {
     double hand[3];     /**< N: the force of the hand's spring and damper now */
 } knurl_fake_truth;
 
-/** The fake device's state at its latest reading. Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays
- * a trace). No heap or lock. [haptic thread] */
+/** The fake device's state at its last reading. Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays a
+ * trace). No heap or lock. [haptic thread] */
 KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth);
 
 /** Plays recorded positions instead of a simulated hand: rows of t (s, ascending), x, y, z (m, device frame). Copied;

@@ -10,19 +10,19 @@
 extern "C" {
 #endif
 
-/** Limits of a load; 0 in a field is its default. They are checked before memory is taken, so that a small file that
- * asks for much fails at once: KNURL_ERROR_FULL, with a message that names the file and the limit
+/** Limits of a load; 0 in a field: its default. They are checked before memory is allocated, so that a small file with
+ * a huge cost fails at once: KNURL_ERROR_FULL, with a message that names the file and the limit
  * ("budget.max_bytes"). */
 typedef struct knurl_gltf_budget {
     uint32_t struct_size;   /**< set by knurl_gltf_budget_init() */
     uint32_t max_surfaces;  /**< default 2^16; at most 2^20. The scene's max_surfaces applies too */
-    uint64_t max_bytes;     /**< of the file and its buffers, each file once; default and at most 2^30 */
+    uint64_t max_bytes;     /**< of the file and its buffers, each file counted once; default and at most 2^30 */
     uint64_t max_vertices;  /**< elements of POSITION, TANGENT and TEXCOORD_0 read for all shapes; default 2^24 plus 16
                                  per byte read */
     uint64_t max_triangles; /**< of all shapes (nodes that show one mesh with the same scale share one); default 2^20
                                  plus one per 2 bytes read; at most 2^26 */
-    double max_seconds;     /**< s; checked between steps, the longest of which is the largest shape's (about 1 s per
-                                 million triangles); default 60 */
+    double max_seconds; /**< s; checked between steps, the longest of which is building the largest shape (about 1 s per
+                           million triangles); default 60 */
 } knurl_gltf_budget;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */
@@ -35,12 +35,12 @@ typedef struct knurl_gltf_report {
     uint32_t skipped;  /**< untagged primitives, counted once per node that shows them */
     uint32_t reserved; /**< 0 */
     /** The caller's, set after knurl_gltf_report_init(), or null: called for every file that is read, the glTF file
-     * first, for example to watch it for changes. path: UTF-8, valid during the call. Also called where the load fails
+     * first, for example to watch it for changes. path: UTF-8, valid during the call. Also called if the load fails
      * later. */
     void (*file_read)(void *user, const char *path);
     void *user; /**< passed to file_read and progress */
-    /** The caller's, set after knurl_gltf_report_init(), or null: called on the loading thread at least some times a
-     * second with the progress, 0 to 1, never decreasing. A return value other than 0 cancels the load
+    /** The caller's, set after knurl_gltf_report_init(), or null: called on the loading thread several times a second
+     * with the progress, 0 to 1, never decreasing. If it does not return 0, the load is cancelled
      * (KNURL_ERROR_CANCELLED). */
     int32_t (*progress)(void *user, double done);
     const knurl_gltf_budget *budget; /**< the caller's, set after knurl_gltf_report_init(); null: all defaults */
@@ -49,12 +49,12 @@ typedef struct knurl_gltf_report {
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
 
-/** Loads all tagged surfaces of a .gltf or .glb file into a scene, committed or not; on an error none of them. report:
- * may be null.
+/** Loads all tagged surfaces of a .gltf or .glb file into a scene, committed or not. If it fails, the scene is
+ * unchanged. report: may be null.
  *
- * The format is recognised by content; the name must end in .gltf or .glb. External buffers are read only from the
- * file's own folder or below it, also through symbolic links. Nodes that show the same accessors with the same scale
- * and axis share one shape (knurl_surface_desc.shape_of). Limits: JSON nested 32 deep, node trees 1024 deep,
+ * The format is detected by content; the name must end in .gltf or .glb. External buffers are read only from the file's
+ * own folder or below it; symbolic links must not lead out of it. Nodes that show the same accessors with the same
+ * scale and axis share one shape (knurl_surface_desc.shape_of). Limits: JSON nested 32 deep, node trees 1024 deep,
  * coordinates of KNURL_COORDINATE_MAX, with transforms; names are cut to 255 bytes.
  *
  * Errors: KNURL_ERROR_FULL (a limit of the budget, named), KNURL_ERROR_CANCELLED, KNURL_ERROR_IO, KNURL_ERROR_FORMAT
@@ -64,8 +64,8 @@ KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
 KNURL_API knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report);
 
 /** Loads from memory, as knurl_gltf_load_file(). data: `size` bytes of a .gltf or .glb, the caller's, not needed
- * afterwards. name: stands for the file in messages. folder: where external buffers are read from, or null to refuse
- * them. [any thread but the haptic] */
+ * afterwards. name: used for the file in messages. folder: of external buffers, or null to refuse them. [any thread but
+ * the haptic] */
 KNURL_API knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64_t size, const char *name,
                                               const char *folder, knurl_gltf_report *report);
 

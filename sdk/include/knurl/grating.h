@@ -12,16 +12,16 @@ extern "C" {
 
 /** The spatial methods.
  * - S1: the height at the position (Eqs. 10, 11).
- * - S2: complete T3 events at the frequency that follows from the velocity (Algorithm 7).
- * - BANDLIMITED, the default: of the square wave's harmonics those that the update rate can carry, at the phase of the
- *   position. */
+ * - S2: complete T3 events at the frequency given by the velocity (Algorithm 7).
+ * - BANDLIMITED, the default: those of the square wave's harmonics that the update rate can represent, at the phase of
+ *   the position. */
 enum { KNURL_METHOD_DEFAULT = 0, KNURL_METHOD_S1 = 1, KNURL_METHOD_S2 = 2, KNURL_METHOD_BANDLIMITED = 3 };
 
-/** No event is being played: S1 always, S2 while idle, BANDLIMITED before its first ridge. */
+/** No event is playing: S1 always, S2 while idle, BANDLIMITED before its first ridge. */
 #define KNURL_NO_EVENT (-1)
 
-/** m/s: below this speed S2 starts no event (Algorithm 7). With quantised positions, events that have begun continue
- * down to half of it, so that noise in the speed does not start and stop them. */
+/** m/s: below this speed S2 starts no event (Algorithm 7). With quantised positions, an event may follow another down
+ * to half of this speed, so that noise in the speed does not start and stop events. */
 #define KNURL_S2_DEADBAND 0.001
 
 /** A grating's parameters; filled in by the caller, constant while it is played. */
@@ -31,22 +31,22 @@ typedef struct knurl_grating {
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
     double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
-    double resolution; /**< m: a count of positions, 0 if they are exact. BANDLIMITED keeps within half of it */
+    double resolution; /**< m: quantum of the positions, 0 if they are exact. BANDLIMITED stays within half of it */
 } knurl_grating;
 
 /** The state of one HIP on one grating. Zero it to restart. */
 typedef struct knurl_grating_state {
-    knurl_vibration_event event; /**< S2: the event being played; its amplitude and kind do not change until its end */
-    int64_t event_count;         /**< S2: events started; BANDLIMITED: ridges begun; since the state was zeroed */
-    int32_t next_tick;           /**< S2: index into the event of the next tick */
-    int32_t playing;             /**< S2: 1 while an event has ticks left */
-    int32_t moving;              /**< S2: 1 after an event: the deadband is halved */
-    int32_t sign;                /**< sign of the latest height that was not 0: +1, -1, or 0 for none yet */
-    double tracked[2];           /**< BANDLIMITED: the position along x and y, m, smooth between its counts */
+    knurl_vibration_event event; /**< S2: the playing event; its amplitude and kind do not change until its end */
+    int64_t event_count;         /**< S2: events started, BANDLIMITED: ridges begun, since the state was zeroed */
+    int32_t next_tick;           /**< S2: the next tick's index in the event */
+    int32_t playing;             /**< S2: 1 if an event has ticks left */
+    int32_t moving;              /**< S2: 1 after an event: halves the deadband */
+    int32_t sign;                /**< sign of the last height other than 0: +1 or -1; 0 before the first */
+    double tracked[2];           /**< BANDLIMITED: the position along x and y, m, smoothed between counts */
     double phase;                /**< BANDLIMITED: cycles; a crest is at 0 */
-    double offset;               /**< BANDLIMITED on a grid: cycles that the phase is ahead of the position's */
+    double offset;               /**< BANDLIMITED on a grid: the phase's lead over the position's, cycles */
     int32_t axis;                /**< BANDLIMITED on a grid: 0 or 1, the axis whose cycles are counted */
-    int32_t direction;           /**< BANDLIMITED: of the latest motion, +1 or -1; 0 before the first tick */
+    int32_t direction;           /**< BANDLIMITED: of the last motion, +1 or -1; 0 before the first tick */
     uint64_t reserved[2];        /**< 0 */
 } knurl_grating_state;
 
@@ -55,47 +55,47 @@ typedef struct knurl_grating_output {
     double height;             /**< H: m */
     double spatial_frequency;  /**< fs of Eq. 12: cycles per metre in the direction of motion; 0 when at rest */
     double temporal_frequency; /**< f_t = max(fsx |vx|, fsy |vy|): Hz, not clamped */
-    int64_t event;             /**< number of the event being played, from 0 since the state was zeroed, or
-                                    KNURL_NO_EVENT. BANDLIMITED: number of the latest ridge */
-    uint32_t above_nyquist;       /**< 1: f_t is above f_h/2, which no method can render */
-    uint32_t turned;           /**< 1: the height changed sign in this tick: a half cycle begins. Heights of 0 in
-                                    between (idle S2) are skipped */
-    uint64_t reserved;         /**< 0 */
+    int64_t event; /**< number of the playing event, from 0 since the state was zeroed, or KNURL_NO_EVENT. BANDLIMITED:
+                      number of the last ridge */
+    uint32_t above_nyquist; /**< 1: f_t is above f_h/2, which no method can render */
+    uint32_t turned;   /**< 1: the height changed sign in this tick: a half cycle begins. Heights of 0 between (idle S2)
+                          are ignored */
+    uint64_t reserved; /**< 0 */
 } knurl_grating_output;
 
-/** Checks a grating's parameters, so that knurl_grating_step() need not. Replaces KNURL_METHOD_DEFAULT by
+/** Checks a grating's parameters, because knurl_grating_step() does not. Replaces KNURL_METHOD_DEFAULT by
  * KNURL_METHOD_BANDLIMITED.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
 
-/** The temporal frequency of a scan, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
+/** The temporal frequency of a motion, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
  * spatial_frequency: cycles/m along x and y. velocity: m/s along x and y. [any thread; allowed in a tick] */
 KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) KNURL_NONBLOCKING;
 
-/** S1 in 2D, Eq. 10: +amplitude while the fractional phase of position x spatial_frequency is below one half.
- * position: m. spatial_frequency: cycles/m. amplitude: m. [any thread; allowed in a tick] */
+/** S1 in 2D, Eq. 10: +amplitude if the fractional phase of position x spatial_frequency is below one half, else
+ * -amplitude. position: m. spatial_frequency: cycles/m. amplitude: m. [any thread; allowed in a tick] */
 KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) KNURL_NONBLOCKING;
 
-/** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars where one
+/** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars if one
  * frequency is 0. position: m along x and y. [any thread; allowed in a tick] */
 KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2],
                                   double amplitude) KNURL_NONBLOCKING;
 
 /** Runs one tick of a checked grating.
  *
- * position: m along the surface's x and y (S1, BANDLIMITED). BANDLIMITED accepts null and then integrates the velocity.
- * velocity: m/s along x and y, of the HIP relative to the surface. state, output: the caller's. With any other null
- * nothing is done.
+ * position: m along the surface's x and y (S1, BANDLIMITED). For BANDLIMITED it may be null: the velocity is then
+ * integrated. velocity: m/s along x and y, of the HIP relative to the surface. state, output: the caller's. Does
+ * nothing if another pointer is null.
  *
  * - S1: the height at the position.
- * - S2: when an event ends, the next takes its period and amplitude from the present velocity (Algorithm 7). Below the
- *   deadband, or if an event would last over 1e6 ticks, the height is 0.
+ * - S2: when an event ends, the next one gets its period and amplitude from the current velocity (Algorithm 7). Below
+ *   the deadband, or if an event would last over 1e6 ticks, the height is 0.
  * - BANDLIMITED: with p the phase, d = f_t/f_h and w a fade from 1 to 0 for n d from 0.38 to 0.5,
- *   H = 4/pi A (cos 2 pi p - w/3 cos 6 pi p + w/5 cos 10 pi p). Below d = 1/12 that fades into the mean of the square
- *   wave from the last tick's phase to this one's, which is all below 0.06. Above 1/2 the height is 0.7 A and changes
- *   sign every tick. p is fs times the position; a position in counts is moved on by the velocity and kept within half
- * a count of the measured one. On a grid, p counts along the axis that crosses the most cycles (Eq. 12) and goes on
- * from where it is when the other axis takes over, at 1.1 times as many.
+ *   H = 4/pi A (cos 2 pi p - w/3 cos 6 pi p + w/5 cos 10 pi p). Below d = 1/12 it fades into the mean of the square
+ *   wave from the last tick's phase to this one's, which alone is used below 0.06. Above 1/2 the height is 0.7 A and
+ *   changes sign every tick. p is fs times the position; a quantised position is advanced by the velocity and kept
+ *   within half a count of the measured one. On a grid, p counts cycles along the axis that crosses the most (Eq. 12),
+ *   and continues without a jump if the other axis takes over, at 1.1 times as many.
  *
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],

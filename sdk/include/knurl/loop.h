@@ -11,16 +11,16 @@ extern "C" {
 #endif
 
 /** A loop can be started once; it can be paused and resumed. The heat of the motors belongs to the device: its next
- * loop starts with the last one's heat, cooled by the time since then on the loop's clock (with another clock: not
- * cooled). In a loop that is stepped, each tick is one period of heating or cooling. */
+ * loop starts with the last one's heat, cooled by the time since then if both use the same clock. In a stepped loop,
+ * each tick is one period of heating or cooling. */
 typedef struct knurl_loop knurl_loop;
 
 /** Computes the force instead of a scene. tick: counts from 0. force: to be written, N, device axes. [haptic thread] */
 typedef void (*knurl_force_callback)(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user);
 
 /** Called with every tick's output once its force is written, for recording. It must not allocate, lock or wait. The
- * forces in `output` are as sent: ramps included, zero while the device is halted. The ramp at the loop's end is not
- * made of ticks; knurl_scene_get_tick() shows its forces. [haptic thread] */
+ * forces in `output` are as sent: ramps included, zero while the device is halted. The ramp at the loop's end has no
+ * ticks; see knurl_scene_get_tick() for its forces. [haptic thread] */
 typedef void (*knurl_tick_callback)(const knurl_tick_output *output, void *user);
 
 /** A monotonic clock that replaces the system's, for tests. [haptic thread] */
@@ -31,28 +31,26 @@ typedef struct knurl_clock {
 } knurl_clock;
 
 typedef struct knurl_loop_desc {
-    uint32_t struct_size;                /**< set by knurl_loop_desc_init() */
-    uint32_t hip;                        /**< which HIP of the scene; default 0. No other loop can use it while this one
-                                              exists */
-    knurl_device *device;                /**< required. No other loop can use it while this one exists */
-    knurl_scene *scene;                  /**< committed, its HIP configured with the same update rate; or null */
-    knurl_force_callback force_callback; /**< used where scene is null */
+    uint32_t struct_size; /**< set by knurl_loop_desc_init() */
+    uint32_t hip;         /**< index of the scene's HIP; default 0. No other loop can use it while this one exists */
+    knurl_device *device; /**< required. No other loop can use it while this one exists */
+    knurl_scene *scene;   /**< committed, its HIP configured with the same update rate; or null */
+    knurl_force_callback force_callback; /**< used if scene is null */
     knurl_tick_callback tick_callback;   /**< or null */
     void *user;                          /**< passed to both callbacks */
     double update_rate_hz;               /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
-    uint64_t tick_limit;                 /**< ends by itself after so many ticks; 0 (default): never */
-    double ramp_s;                       /**< s from full force to none, and back up; 0 to 1; default 0.02 */
-    double watchdog_s; /**< s without a tick after which the watchdog zeroes the force; default 0.05; 0: no watchdog.
-                            A haptic thread that wakes 50 ms late or more zeroes it in any case, reports it
-                            (KNURL_FAULT_GAP) and ramps */
+    uint64_t tick_limit;                 /**< the loop ends after so many ticks; 0 (default): never */
+    double ramp_s;                       /**< s from full force to zero, and back up; 0 to 1; default 0.02 */
+    double watchdog_s; /**< s without a tick after which the watchdog zeroes the force; default 0.05; 0: no watchdog. If
+                          the haptic thread wakes more than 50 ms late, it always zeroes the force, reports
+                          KNURL_FAULT_GAP and ramps up again */
     const knurl_clock *clock; /**< copied; null: the system's */
-    uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default), without it the device's
-                                   continuous_force is ignored; KNURL_PROTECT_SLEW: the force grows and turns at most
-                                   by max_force in 5 ms (default: its jumps may be a texture). A scene's HIP has its own
-                                   */
+    uint32_t protections;     /**< with a force callback: KNURL_PROTECT_HEAT (default; without it continuous_force is
+                                 ignored) and KNURL_PROTECT_SLEW: the force grows and turns by at most max_force in 5 ms
+                                 (off by default: jumps may be a texture). A scene's HIP has its own */
     uint32_t reconnect;       /**< 1: search for a lost device four times a second; default 0: the loop ends */
-    double heartbeat_s; /**< s without knurl_loop_heartbeat() after which the force ramps down to zero, until the next
-                             call; 0 (default): no heartbeat is needed */
+    double heartbeat_s; /**< if knurl_loop_heartbeat() is not called for so many s, the force ramps down to zero until
+                           the next call; 0 (default): no heartbeat is needed */
 } knurl_loop_desc;
 
 /** Percentiles of a duration, ns. */
@@ -71,92 +69,91 @@ enum {
 /** Statistics of a loop. An output: set struct_size with knurl_loop_stats_init() first. */
 typedef struct knurl_loop_stats {
     uint32_t struct_size;
-    int32_t state;             /**< KNURL_LOOP_ */
-    uint64_t ticks;            /**< without the ramp at the end */
-    uint64_t overruns;         /**< ticks more than half a period late. Missed ticks are not repeated: the loop goes on
-                                    at the next whole period */
-    uint64_t watchdog_trips;   /**< how often the watchdog zeroed the force */
-    uint32_t realtime;         /**< 1: the thread that ticks runs under SCHED_FIFO, or (a Touch's) SCHED_RR */
-    uint32_t memory_locked;    /**< 1: the scene and the loop's stack are locked into RAM */
-    knurl_percentiles tick_ns; /**< duration of the scene's tick or the force callback; within 3 % */
-    knurl_percentiles jitter_ns; /**< how late the thread woke up; within 3 % */
-    uint64_t heat_ticks;         /**< force callback: ticks whose force was shortened because the motors are warm (for a
-                                      scene see knurl_hip_counts) */
-    double heat;                 /**< heat of the device's motors: 0 is cold, 1 as warm as continuous_force makes them
-                                      in the long run; above 1 only without KNURL_PROTECT_HEAT, or if the HIP was given
-                                      a larger continuous_force */
-    uint64_t absences;           /**< cycles without a tick: the device was lost or had no valid position */
-    uint32_t absent;             /**< 1: the latest cycle was without a tick */
-    uint32_t paused;             /**< 1: paused */
+    int32_t state;     /**< KNURL_LOOP_ */
+    uint64_t ticks;    /**< not counting the ramp at the end */
+    uint64_t overruns; /**< ticks more than half a period late. Missed ticks are not repeated: the loop continues at the
+                          next whole period */
+    uint64_t watchdog_trips;     /**< number of times that the watchdog zeroed the force */
+    uint32_t realtime;           /**< 1: the haptic thread runs under SCHED_FIFO, or (a Touch's) SCHED_RR */
+    uint32_t memory_locked;      /**< 1: the scene and the loop's stack are locked into RAM */
+    knurl_percentiles tick_ns;   /**< duration of the scene's tick or the force callback; within 3 % */
+    knurl_percentiles jitter_ns; /**< lateness of the thread's wake-ups; within 3 % */
+    uint64_t heat_ticks; /**< force callback: ticks with a force shortened because the motors are warm (for a scene see
+                            knurl_hip_counts) */
+    double heat; /**< heat of the device's motors: 0 is cold, 1 as warm as continuous_force makes them in the long run;
+                    above 1 only without KNURL_PROTECT_HEAT, or if the HIP has a larger continuous_force */
+    uint64_t absences; /**< cycles without a tick: the device was lost or had no valid position */
+    uint32_t absent;   /**< 1: the last cycle had no tick */
+    uint32_t paused;   /**< 1: paused */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_loop_desc_init(knurl_loop_desc *desc, uint32_t size);
 KNURL_API void knurl_loop_stats_init(knurl_loop_stats *stats, uint32_t size);
 
-/** Creates a loop, which does not run yet. Until it is destroyed no other loop can use its device and HIP. If the
- * device is closed or the scene destroyed before, the force is zero at once, the loop ends, and both are freed with
- * the loop.
+/** Creates a loop, which does not run yet. Until it is destroyed, no other loop can use its device and HIP. If the
+ * device is closed or the scene destroyed before that, the force is zero at once, the loop ends, and they are freed
+ * with the loop.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (another loop uses the device or the HIP; or the scene is not
  * committed), KNURL_ERROR_MEMORY, those of knurl_device_start(). [game thread] */
 KNURL_API knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop);
 
 /** Stops the loop and frees it, together with a device and a scene that were closed or destroyed before; null is
- * allowed. From one of the loop's callbacks it only requests the stop, as knurl_loop_request_stop(): call it again
- * from outside. [game thread, or any while no other thread uses the loop] */
+ * allowed. If called from one of the loop's callbacks, it only requests the stop, as knurl_loop_request_stop(): call it
+ * again from outside. [game thread, or any while no other thread uses the loop] */
 KNURL_API void knurl_loop_destroy(knurl_loop *loop);
 
-/** Starts the haptic thread: absolute deadlines, SCHED_FIFO where permitted (see stats.realtime).
+/** Starts the haptic thread: absolute deadlines, SCHED_FIFO if permitted (see stats.realtime).
  * Errors: KNURL_ERROR_STATE (started before, or its device was closed or its scene destroyed), KNURL_ERROR_SYSTEM.
  * [game thread] */
 KNURL_API knurl_result knurl_loop_start(knurl_loop *loop);
 
 /** Runs up to `ticks` ticks on the calling thread, as fast as the machine can, instead of knurl_loop_start(). Forces
- * are the same, tick for tick. It ends earlier at the tick limit, a stop or a lost device (see stats.state).
- * Errors: KNURL_ERROR_STATE (a haptic thread was started). [game thread] */
+ * are the same, tick for tick. It returns earlier at the tick limit, at a stop, or if the device is lost (see
+ * stats.state). Errors: KNURL_ERROR_STATE (a haptic thread was started). [game thread] */
 KNURL_API knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks);
 
 /** Requests a stop and returns: the force ramps down to zero, then the loop ends. May be repeated. [any thread] */
 KNURL_API void knurl_loop_request_stop(knurl_loop *loop);
 
-/** Requests a stop and waits for it; from one of the loop's callbacks it only requests it. May be repeated. A child
- * that was forked has no haptic thread, and nothing to wait for: its parent's loop goes on. [any thread] */
+/** Requests a stop and waits for it; if called from one of the loop's callbacks, it does not wait. May be repeated. A
+ * forked child has no haptic thread, so it does not wait either, and its parent's loop continues. [any thread] */
 KNURL_API void knurl_loop_stop(knurl_loop *loop);
 
-/** Pauses: the force ramps down to zero and contacts end. Ticks go on and report the HIP's position and velocity, the
- * motors cool, and no heartbeat is needed. A force callback is still called; its force is not sent. Before
+/** Pauses: the force ramps down to zero and contacts end. Ticks continue to report the HIP's position and velocity, the
+ * motors cool, and no heartbeat is needed. A force callback is still called, but its force is not sent. Before
  * knurl_loop_start(): the loop starts paused. May be repeated. [any thread] */
 KNURL_API void knurl_loop_pause(knurl_loop *loop);
 
-/** Ends a pause: the force ramps up again (KNURL_FAULT_RESUMED). The first tick is as a scene's first: a HIP up to 10
- * mm inside a surface is in contact with it, under the entry ramp. May be repeated. [any thread] */
+/** Ends a pause: the force ramps up again (KNURL_FAULT_RESUMED). The first tick is like a scene's first: if the HIP is
+ * up to 10 mm inside a surface, it is in contact with it, under the entry ramp. May be repeated. [any thread] */
 KNURL_API void knurl_loop_resume(knurl_loop *loop);
 
-/** Sets a gain for all forces that the loop sends, for a player's setting. gain: 0 to 1, initially 1. It is approached
- * by the ramp, also while the device has no position. At 0 no force is sent; contacts go on. Errors:
+/** Sets a gain for all forces that the loop sends, for example a player's setting. gain: 0 to 1, initially 1. The
+ * change follows the ramp, even if the device has no position. At 0 no force is sent, but contacts continue. Errors:
  * KNURL_ERROR_ARGUMENT. [any thread] */
 KNURL_API knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain);
 
-/** Adds a force to that of the scene's surfaces, until the next call. force: N, scene axes, at most 1000 N; zeros end
- * it. The sum passes the HIP's protections: the slew limit, the heat limit and max_force. It ramps down to zero in a
- * pause and without a heartbeat. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the loop has a force callback). [game
- * thread] */
+/** Adds a constant force to the surfaces' forces, until the next call. force: N, scene axes, at most 1000 N; zeros end
+ * it. The sum passes the HIP's protections: the slew limit, the heat limit and max_force. It ramps down to zero during
+ * a pause and if the heartbeat is missing. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the loop has a force
+ * callback). [game thread] */
 KNURL_API knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]);
 
-/** Adds a vibration to the force, starting with the next tick; it replaces one that plays. method: KNURL_WAVE_T1, KNURL_WAVE_T2
- * or KNURL_WAVE_T3 (a T3 vibration ends after a complete event). frequency_hz: 0.1 to half the update rate. amplitude: 0 to
- * 1000 N. direction: scene axes, any length > 0. seconds: 0 to 3600; 0 ends the vibration that plays. The sum passes
- * the HIP's protections, except that the slew limit lets the vibration's own steps through. Errors:
- * KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_STATE (the loop has a force callback). [game thread]
- */
+/** Adds a vibration to the force, from the next tick on; replaces the playing one. method: KNURL_WAVE_T1, KNURL_WAVE_T2
+ * or KNURL_WAVE_T3 (a T3 vibration ends after a complete event). frequency_hz: 0.1 to half the update rate. amplitude:
+ * 0 to 1000 N. direction: scene axes, any length > 0. seconds: 0 to 3600; 0 ends the playing one. The sum passes the
+ * HIP's protections, except that the slew limit does not apply to the vibration's own steps. Errors:
+ * KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method), KNURL_ERROR_STATE (the loop has a force callback). [game
+ * thread] */
 KNURL_API knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequency_hz, double amplitude,
                                           const double direction[3], double seconds);
 
-/** Tells the loop that the game is alive; see heartbeat_s. [any thread] */
+/** A heartbeat from the game; see heartbeat_s. [any thread] */
 KNURL_API void knurl_loop_heartbeat(knurl_loop *loop);
 
-/** Waits up to `seconds` for the loop's end. Returns 1 if it is not running, or the handle is invalid; else 0. [any
- * thread but the haptic] */
+/** Waits up to `seconds` for the loop's end. Returns 1 if the loop is not running or the handle is invalid, else 0.
+ * [any thread but the haptic] */
 KNURL_API uint32_t knurl_loop_wait(knurl_loop *loop, double seconds);
 
 /** Gets a loop's statistics. Errors: KNURL_ERROR_ARGUMENT. [any thread] */
@@ -165,7 +162,7 @@ KNURL_API knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_s
 /** The result of knurl_fake_lay_stroke(). An output: set struct_size with knurl_stroke_report_init() first. */
 typedef struct knurl_stroke_report {
     uint32_t struct_size;
-    uint32_t is_outside; /**< 1: the surface's anchor is outside the device's workspace, so the stroke is cut short */
+    uint32_t is_outside; /**< 1: the surface's anchor is outside the device's workspace, so the stroke is shortened */
     uint32_t follows;    /**< 1: a path over a curved surface; 0: a straight stroke */
     uint32_t reserved;   /**< 0 */
     double length;       /**< m, device: LINE and SWEEP from end to end, CIRCLE once round; else 0 */
@@ -174,17 +171,17 @@ typedef struct knurl_stroke_report {
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_stroke_report_init(knurl_stroke_report *report, uint32_t size);
 
-/** Makes the fake device's hand stroke a surface, 1 mm below it, within a HIP's workspace. Takes effect at the next
- * knurl_device_start(); takes some milliseconds.
+/** Plans a stroke of the fake device's hand over a surface, 1 mm below it, within a HIP's workspace. It has an effect
+ * from the next knurl_device_start() on. Takes some milliseconds.
  *
- * LINE and SWEEP follow the surface's x from its anchor (knurl_surface_info), over nine tenths of the way to where the
- * surface or the workspace ends, bends by more than 60 degrees within a step of at most 0.5 mm, or closes on itself.
- * Where lines along x are small rings, as near a pole, the stroke starts further away. CIRCLE goes round the anchor. A
- * moving surface is taken where it is now.
+ * LINE and SWEEP follow the surface's x from its anchor (knurl_surface_info), over nine tenths of the distance to the
+ * point where the surface or the workspace ends, the surface bends by more than 60 degrees within a step of at most 0.5
+ * mm, or the line closes. If lines along x are small rings, as near a pole, the stroke starts further away. CIRCLE goes
+ * round the anchor. For a moving surface, its current pose is used.
  *
  * stroke: KNURL_STROKE_. report: may be null. Errors: KNURL_ERROR_STALE_ID, KNURL_ERROR_UNSUPPORTED (not a fake
- * device), KNURL_ERROR_ARGUMENT (hip, stroke), KNURL_ERROR_STATE (the scene chooses the workspace at the commit, and is
- * not committed), KNURL_ERROR_MEMORY. [game thread] */
+ * device), KNURL_ERROR_ARGUMENT (hip, stroke), KNURL_ERROR_STATE (the scene is to choose the workspace, and is not
+ * committed), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip,
                                              knurl_surface_id surface, int32_t stroke, knurl_stroke_report *report);
 

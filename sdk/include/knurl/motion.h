@@ -13,15 +13,15 @@ extern "C" {
  * - DIFFERENCE: the difference of the last two positions; exact without quantisation, half a tick late.
  * - FOAW (Janabi-Sharifi 2000): the widest window, of 1, 2, 3, 4, 6, 8, 11 or 15 samples, whose straight line stays
  *   within one quantum of all samples. The velocity is the mean of the window's newest third minus that of its oldest,
- *   divided by the time between them. Before that, positions pass a backlash of one quantum: an encoder that flickers
- *   between two neighbouring values gives exactly 0; constant motion is unchanged; a reversal loses one quantum, a
- *   first motion half of one.
+ *   divided by the time between them. Before that, positions pass a backlash of one quantum: if an encoder flickers
+ *   between two neighbouring values, the velocity is exactly 0; constant motion is unchanged; a reversal loses one
+ *   quantum, a first motion half of one.
  * - LOWPASS: the difference, filtered; for comparison.
- * - AUTO: FOAW where the resolution is known (> 0), DIFFERENCE where it is 0.
+ * - AUTO: FOAW if the resolution is known (> 0), DIFFERENCE if it is 0.
  *
- * Chosen by the study `velocity` (samples/study/README.md). Errors (rms) at 0.055 mm and 1 kHz from 5 to 200 mm/s: FOAW
- * 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. Below one quantum
- * in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
+ * FOAW was chosen by the study `velocity` (samples/study/README.md). Errors (rms) at 0.055 mm and 1 kHz from 5 to 200
+ * mm/s: FOAW 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. Below
+ * one quantum in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
 enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2, KNURL_VELOCITY_LOWPASS = 3 };
 
 /** FOAW's widest window in samples: 15 ms at 1 kHz, a common choice. In the study, twice that has 0.7 times the error
@@ -40,18 +40,18 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 /** A velocity estimator of one point; one per HIP, set up by knurl_velocity_init(). It may be copied and needs no
  * freeing. Its size is the same in all versions; its contents are the library's and may change. */
 typedef struct knurl_velocity {
-    uint64_t alignment; /**< of what follows */
+    uint64_t alignment; /**< of `state` */
     char state[11256];
 } knurl_velocity;
 
 /** Sets up an estimator. method: KNURL_VELOCITY_. resolution: position quantum in m, 0 to 1 (0: not quantised; FOAW
- * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz. FOAW covers 2^30 quanta either side of 0 (1 m at 1e-9); it chooses
- * its window exactly while 15 samples span less than 2^24 quanta, and to a double's rounding beyond.
+ * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz. FOAW covers 2^30 quanta to either side of 0 (1 m at 1e-9); its
+ * choice of the window is exact if 15 samples span less than 2^24 quanta, and rounded to doubles beyond.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
 KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
                                            knurl_velocity *velocity);
 
-/** Takes this tick's position (m, finite) and gives the velocity (m/s); 0 at the first tick. [haptic thread] */
+/** Adds this tick's position (m, finite) and computes the velocity (m/s); 0 at the first tick. [haptic thread] */
 KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3],
                                      double out[3]) KNURL_NONBLOCKING;
 
@@ -69,15 +69,15 @@ typedef struct knurl_workspace {
 /** Sets the identity: origin 0, no rotation, scale 1. [any thread] */
 KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
 
-/** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT: origin or scale beyond its range, or a rotation that is off
+/** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT if origin or scale is out of range, or the rotation is off
  * orthonormal by more than 1e-6. [any thread] */
 KNURL_API knurl_result knurl_workspace_check(const knurl_workspace *workspace);
 
-/** A device position (m) in the scene (m). [any thread; allowed in a tick] */
+/** Maps a device position (m) into the scene (m). [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const double device[3],
                                         double scene[3]) KNURL_NONBLOCKING;
 
-/** A scene position (m) in device coordinates (m). [any thread; allowed in a tick] */
+/** Maps a scene position (m) to device coordinates (m). [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3],
                                          double device[3]) KNURL_NONBLOCKING;
 
