@@ -136,7 +136,7 @@ typedef struct knurl_surface_info {
     uint32_t dropped_triangles; /**< left out: without area, or duplicates */
     uint32_t double_sided;      /**< 1: as given, or because the mesh has reversed pairs of triangles, or because mixed
                                    winding leaves it without a front (halves of the same area, a Moebius strip) */
-    const char *name;           /**< the scene's, valid while the surface is */
+    const char *name;           /**< the scene's, valid while the surface exists */
     const char *shape;          /**< "plane" or "mesh", as given; static */
     const char *model;          /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
     uint64_t bytes; /**< memory of this surface in the scene; if its shape is shared (knurl_surface_desc.shape_of), its
@@ -353,7 +353,7 @@ KNURL_API knurl_result knurl_scene_commit(knurl_scene *scene);
 /** Surfaces in the scene. [any thread] */
 KNURL_API uint32_t knurl_scene_get_surface_count(const knurl_scene *scene);
 
-/** The id of surface number `index`, 0 <= index < count, in the order of adding; 0 beyond. [any thread] */
+/** The id of surface number `index`, 0 <= index < count, in the order of adding; else 0. [any thread] */
 KNURL_API knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index);
 
 /** Finds a surface by name; if several have it, the one added first. Errors: KNURL_ERROR_UNKNOWN, with the existing
