@@ -195,8 +195,8 @@ enum {
     KNURL_TICK_HEAT = 128,         /**< the force was shortened because the motors are warm */
     KNURL_TICK_PASSIVITY = 256,    /**< a wall was softened because it made the HIP oscillate */
     KNURL_TICK_ABSENT = 512,       /**< the input was `absent` */
-    KNURL_TICK_SQUEEZED = 1024,   /**< the proxy was caught between two surfaces and one of them moved over it: that one
-                                     no longer holds the HIP, and the force falls at slew_rate. If the angle between them
+    KNURL_TICK_SQUEEZED = 1024, /**< the proxy was caught between two surfaces, one of which moved over it: that one no
+                                     longer holds the HIP, and the force falls at slew_rate. If the angle between them
                                      is above 11 degrees, the proxy is pushed out instead */
     KNURL_TICK_VISIT_LIMIT = 2048 /**< contact reached knurl_hip_desc.max_visits: a surface that holds the HIP is
                                        replaced by the plane through its last contact; a contact may begin late, or not
