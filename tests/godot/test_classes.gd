@@ -90,7 +90,7 @@ func setters() -> void:
 	g.stiffness = NAN
 	expect_error("KnurlGrating.spatial_frequency: expected 0 or more")
 	g.spatial_frequency = Vector2(1, -1)
-	expect_error("KnurlGrating.method: expected 0 to 4")
+	expect_error("KnurlGrating.method: expected 0 to 3")
 	g.method = 5
 	check("what is wrong is refused", g.amplitude == 0.0005 and g.stiffness == 400.0 and g.method == 2 and
 			g.spatial_frequency == Vector2(500, 250) and changes[0] == 3)

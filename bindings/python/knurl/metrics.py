@@ -80,15 +80,16 @@ def _push(values: np.ndarray, rate: float, frequency: float) -> float:
 
 def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]:
     """What a hand gets of a signal at `frequency` Hz: "fundamental" (the line there; a square wave of 1 has 4/pi),
-    "unevenness" (standard deviation over mean of the rms in windows of 12.5 ms), "net_50ms" (mean over blocks of 50 ms, to
+    "unevenness" (standard deviation over mean of the rms in 12 ms, as the window moves), "net_50ms" (mean over blocks of 50 ms, to
     whole cycles, of |mean|). values: 50 ms and a cycle at least."""
     signal = _values_of(values)
     push = _push(signal, rate, frequency)
     if isnan(push):
         raise ValueError(f"values: expected 50 ms and a cycle of {frequency} Hz at least, found {len(signal)} ticks")
     line = np.exp(2j * np.pi * np.fmod(frequency * np.arange(len(signal)) / rate, 1.0)) @ signal
-    window = max(1, int(0.0125 * rate + 0.5))
-    levels = np.sqrt((signal[: len(signal) // window * window].reshape(-1, window) ** 2).mean(axis=1))
+    window = max(1, int(0.012 * rate + 0.5))
+    sums = np.concatenate(([0.0], np.cumsum(signal**2)))
+    levels = np.sqrt(np.maximum(0.0, (sums[window:] - sums[:-window]) / window))
     mean = levels.mean() if len(levels) else 0.0
     return {"fundamental": float(2.0 * abs(line) / len(signal)), "unevenness": float(levels.std() / mean) if mean else 0.0,
             "net_50ms": push}
