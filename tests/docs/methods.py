@@ -105,6 +105,11 @@ def assets(text, known, default):
     return re.search(r"`knurl_method` \(String: ([^)]*)\)", text)[1], any_of(names, "")
 
 
+def tagging(text, known, default):
+    names = [f"`{name}`" + (" (default)" if number == default else "") for number, name in known.items()]
+    return re.search(r"\| `knurl_method` \| \| optional\. (.*?):", text)[1], any_of(names, "")
+
+
 # File: what it lists and what it should, as a pair.
 LISTS = {
     "assets/knurl_extras.schema.json": schema,
@@ -115,6 +120,7 @@ LISTS = {
     "bindings/godot/src/grating.c": grating_c,
     "bindings/python/knurl/scene.py": scene_py,
     "bindings/unity/package/Runtime/GratingMethod.cs": method_cs,
+    "docs/tagging.md": tagging,
     "samples/knurl/help.c": help_c,
     "samples/web/index.html": index_html,
     "samples/web/settings.js": settings_js,
@@ -136,7 +142,7 @@ def self_test():
     others = {"a new method": ({**known, last + 1: "other"}, default), "another name": ({**known, last: "other"}, default),
               "other numbers": ({n + 1: name for n, name in known.items()}, default + 1)}
     by_name_only = {"assets/knurl_extras.schema.json", "assets/README.md", "bindings/python/knurl/scene.py",
-                    "samples/knurl/help.c"}
+                    "docs/tagging.md", "samples/knurl/help.c"}
     return [f"{path}: {what} is not noticed" for what, (table, chosen) in others.items() for path in LISTS
             if not check(path, table, chosen) and not (what == "other numbers" and path in by_name_only)]
 
