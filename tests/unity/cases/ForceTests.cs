@@ -50,6 +50,24 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void ARayFindsTheFirstSurfaceFromItsFront()
+        {
+            KnurlSurface plate = MakeSmooth(Plate());
+            KnurlDevice d = StartPressing();
+            KnurlRayHit hit;
+            Assert.That(d.CastRay(new Vector3(0.01f, 0.3f, 0.02f), new Vector3(0.01f, -0.3f, 0.02f), out hit));
+            Assert.That(hit.Surface == plate);
+            Assert.That((hit.Position - new Vector3(0.01f, 0f, 0.02f)).magnitude, Is.LessThan(1e-6f));
+            Assert.That((hit.Normal - Vector3.up).magnitude, Is.LessThan(1e-6f));
+            Assert.That(hit.Distance, Is.EqualTo(0.3f).Within(1e-6f));
+            Assert.That(!d.CastRay(new Vector3(0f, -0.3f, 0f), new Vector3(0f, 0.3f, 0f), out hit), "from behind");
+            ExpectError("CastRay: from: expected");
+            Assert.That(!d.CastRay(new Vector3(0f, float.NaN, 0f), Vector3.zero, out hit));
+            d.StopDevice();
+            Assert.That(!d.CastRay(Vector3.up, Vector3.down, out hit), "without a run");
+        }
+
+        [Test]
         public void AVibrationIsPlayedAlongItsDirectionAndEnds()
         {
             KnurlDevice d = StartPressing();
