@@ -41,7 +41,7 @@ class MirrorTest(unittest.TestCase):
 
     def declare(self, text):
         """Adds a declaration to scene.h; returns its line's number."""
-        self.change("sdk/include/knurl/scene.h", "/** Makes an empty scene.", text + "\n/** Makes an empty scene.")
+        self.change("sdk/include/knurl/scene.h", "/** Creates an empty scene.", text + "\n/** Creates an empty scene.")
         lines = (folder / "sdk/include/knurl/scene.h").read_text().splitlines()
         return 1 + lines.index(text.splitlines()[0])
 
@@ -78,7 +78,7 @@ class MirrorTest(unittest.TestCase):
         self.assertEqual([(folder / path).read_bytes() for path in (CS, LAYOUT, EXPORTS)], before)
 
     def test_a_comment_may_change(self):
-        self.change("sdk/include/knurl/scene.h", "Makes an empty scene.", "Makes a scene without surfaces.")
+        self.change("sdk/include/knurl/scene.h", "Creates an empty scene.", "Creates a scene without surfaces.")
         self.assertEqual(self.check(), (0, ""))
 
     # --- what is out of date ---
