@@ -18,8 +18,8 @@ int main(int argc, char **argv) {
     knurl_loop_desc desc;
     (void)knurl_device_zero_on_exit(0); /* however this process ends, the motors get zero force */
     /* README: begin */
-    if (knurl_scene_create(NULL, &scene) || knurl_gltf_load_file(scene, file, NULL) || /* every tagged mesh */
-        knurl_scene_commit(scene) || knurl_device_open(uri, &device)) {                /* "fake", "touch", "falcon" */
+    if (knurl_scene_create(NULL, &scene) || knurl_gltf_load_file(scene, file, NULL, NULL) || /* every tagged mesh */
+        knurl_scene_commit(scene) || knurl_device_open(uri, &device)) { /* "fake", "touch", "falcon" */
         return fail();
     }
     knurl_loop_desc_init(&desc, sizeof desc);

@@ -125,7 +125,7 @@ int cmd_inspect(int argc, char **argv) {
     int full = 0;
     int checks = 0;
     const char *limits = NULL;
-    knurl_gltf_budget budget;
+    knurl_gltf_options budget;
     const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
                                    {"--full-model", TOOL_FLAG, &full, 0, 0, ""},
                                    {"--check", TOOL_FLAG, &checks, 0, 0, ""},

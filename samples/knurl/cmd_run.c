@@ -18,7 +18,7 @@
 
 typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav;
-    knurl_gltf_budget budget;
+    knurl_gltf_options budget;
     double seconds, rate;
     int fast, full_model, clamp, reconnect, pretty, view;
     int32_t stroke_id, method_id;

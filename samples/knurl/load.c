@@ -27,7 +27,7 @@ static int read_limit(const char *pair, size_t length, double limits[LIMITS]) {
     return 0;
 }
 
-int tool_parse_budget(const char *text, knurl_gltf_budget *budget) {
+int tool_parse_budget(const char *text, knurl_gltf_options *budget) {
     double limits[LIMITS] = {0.0};
     for (const char *pair = text, *end; pair; pair = *end ? end + 1 : NULL) {
         end = pair + strcspn(pair, ",");
@@ -38,7 +38,7 @@ int tool_parse_budget(const char *text, knurl_gltf_budget *budget) {
                               text);
         }
     }
-    knurl_gltf_budget_init(budget, sizeof *budget);
+    knurl_gltf_options_init(budget, sizeof *budget);
     budget->max_surfaces = (uint32_t)limits[SURFACES];
     budget->max_bytes = (uint64_t)limits[BYTES];
     budget->max_vertices = (uint64_t)limits[VERTICES];
@@ -71,15 +71,15 @@ static void tell_file(void *user, const char *path) {
     out_protect(path);
 }
 
-knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_budget *budget, uint32_t *skipped) {
+knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_options *budget, uint32_t *skipped) {
+    knurl_gltf_options options = *budget;
     knurl_gltf_report report;
     progress p = {now() + 0.5}; /* what is done by then needs no line */
     knurl_gltf_report_init(&report, sizeof report);
-    report.file_read = tell_file;
-    report.budget = budget;
-    report.user = &p;
-    report.progress = show_progress;
-    const knurl_result result = knurl_gltf_load_file(scene, path, &report);
+    options.file_read = tell_file;
+    options.user = &p;
+    options.progress = show_progress;
+    const knurl_result result = knurl_gltf_load_file(scene, path, &options, &report);
     say_progress_end();
     *skipped = report.skipped;
     return result;

@@ -22,10 +22,10 @@ uint32_t tool_warn(const knurl_scene *scene);
 /* --- loading (load.c) --- */
 
 /* --budget: "surfaces=1000,seconds=0.5"; null: not given. TOOL_OK, or TOOL_USAGE having said why. */
-int tool_parse_budget(const char *text, knurl_gltf_budget *budget);
+int tool_parse_budget(const char *text, knurl_gltf_options *budget);
 
 /* knurl_gltf_load_file(). What was read is protected from being written over; a terminal is shown how far it is. */
-knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_budget *budget, uint32_t *skipped);
+knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_options *budget, uint32_t *skipped);
 
 /* --- CSV input (csv_in.c) --- */
 

@@ -43,7 +43,7 @@ static knurl_result open_hip(void) {
 EMSCRIPTEN_KEEPALIVE int web_load(const void *data, uint32_t size, const char *name) {
     knurl_scene *fresh = NULL;
     knurl_result result = knurl_scene_create(NULL, &fresh);
-    result = result ? result : knurl_gltf_load_memory(fresh, data, size, name, NULL, NULL);
+    result = result ? result : knurl_gltf_load_memory(fresh, data, size, name, NULL, NULL, NULL);
     if (!result && knurl_scene_get_surface_count(fresh) == 0) {
         result = knurl_fail(KNURL_ERROR_FORMAT, "%s: nothing is tagged, so there is nothing to feel", name);
     }

@@ -93,7 +93,7 @@ static knurl_result load_while(const char *part, void (*how)(void)) {
     write_scene();
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     path_swaps(part, how);
-    const knurl_result result = knurl_gltf_load_file(scene, tool_path("in/a.gltf"), NULL);
+    const knurl_result result = knurl_gltf_load_file(scene, tool_path("in/a.gltf"), NULL, NULL);
     assert_null(swapped_part); /* it was opened */
     assert_int_equal(knurl_scene_get_surface_count(scene), result == KNURL_OK);
     knurl_scene_destroy(scene);

@@ -129,7 +129,7 @@ MAY_BE_NULL = {
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
     "knurl_scene_set_user_data.user_data",
-    "knurl_gltf_load_file.report", "knurl_fake_lay_stroke.report", "knurl_gltf_load_memory.report", "knurl_gltf_load_memory.name",
+    "knurl_gltf_load_file.options", "knurl_gltf_load_file.report", "knurl_fake_lay_stroke.report", "knurl_gltf_load_memory.options", "knurl_gltf_load_memory.report", "knurl_gltf_load_memory.name",
     "knurl_gltf_load_memory.folder", "knurl_grating_step.position",
     "knurl_session_start.warning", "knurl_session_explain.text", "knurl_session_fault_text.text",
 }

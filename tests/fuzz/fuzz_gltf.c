@@ -7,15 +7,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const uint8_t way[] = {20, 128, 20, 128, 20, 140, 20, 130, 20, 128, 20, 126, 20, 132, 20, 128, 20, 125};
     knurl_scene *scene = NULL;
     knurl_gltf_report report;
-    knurl_gltf_budget budget;
+    knurl_gltf_options budget;
     knurl_gltf_report_init(&report, sizeof report);
-    knurl_gltf_budget_init(&budget, sizeof budget);
+    knurl_gltf_options_init(&budget, sizeof budget);
     budget.max_surfaces = 64; /* deep rather than broad */
     budget.max_vertices = 20000;
     budget.max_triangles = 20000;
-    report.budget = &budget;
     EXPECT(knurl_scene_create(NULL, &scene) == KNURL_OK);
-    const knurl_result result = knurl_gltf_load_memory(scene, data, size, "fuzz", NULL, &report);
+    const knurl_result result = knurl_gltf_load_memory(scene, data, size, "fuzz", NULL, &budget, &report);
     const uint32_t count = knurl_scene_get_surface_count(scene);
     EXPECT(result == KNURL_OK ? count == report.surfaces : count == 0 && knurl_error_message()[0] != '\0');
     if (count > 0) {

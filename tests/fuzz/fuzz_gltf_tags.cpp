@@ -130,7 +130,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     glb += std::string("BIN\0", 4) + bin;
     knurl_scene *scene = nullptr;
     EXPECT(knurl_scene_create(nullptr, &scene) == KNURL_OK);
-    const knurl_result result = knurl_gltf_load_memory(scene, glb.data(), glb.size(), "fuzz", nullptr, nullptr);
+    const knurl_result result =
+        knurl_gltf_load_memory(scene, glb.data(), glb.size(), "fuzz", nullptr, nullptr, nullptr);
     EXPECT(result == KNURL_OK || knurl_scene_get_surface_count(scene) == 0);
     if (knurl_scene_get_surface_count(scene) > 0) {
         EXPECT(knurl_scene_commit(scene) == KNURL_OK);

@@ -190,6 +190,7 @@ class Loaded {
         knurl_scene_desc desc;
         knurl_scene_desc_init(&desc, sizeof desc);
         assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+        knurl_gltf_options_init(&options, sizeof options);
         knurl_gltf_report_init(&report, sizeof report);
     }
     explicit Loaded(const std::string &bytes) : Loaded() {
@@ -203,7 +204,7 @@ class Loaded {
     knurl_result load(const std::string &bytes, const char *folder = nullptr) {
         // A copy of the exact size, so that a sanitizer sees each byte that is read too far.
         const std::vector<char> exact(bytes.begin(), bytes.end());
-        return knurl_gltf_load_memory(scene, exact.data(), exact.size(), "test.glb", folder, &report);
+        return knurl_gltf_load_memory(scene, exact.data(), exact.size(), "test.glb", folder, &options, &report);
     }
     void assert_loads(const std::string &bytes, const char *folder = nullptr) {
         if (load(bytes, folder) != KNURL_OK)
@@ -223,6 +224,7 @@ class Loaded {
     }
 
     knurl_scene *scene = nullptr;
+    knurl_gltf_options options{};
     knurl_gltf_report report{};
 };
 

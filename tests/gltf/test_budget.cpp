@@ -9,18 +9,18 @@ using namespace builder;
 namespace {
 
 /// Loads with a budget; the result.
-knurl_result load_with(Loaded &loaded, const knurl_gltf_budget &budget, const std::string &bytes) {
-    loaded.report.budget = &budget;
+knurl_result load_with(Loaded &loaded, const knurl_gltf_options &budget, const std::string &bytes) {
+    loaded.options = budget;
     return loaded.load(bytes);
 }
 
-knurl_gltf_budget empty_budget() {
-    knurl_gltf_budget budget;
-    knurl_gltf_budget_init(&budget, sizeof budget);
+knurl_gltf_options empty_budget() {
+    knurl_gltf_options budget;
+    knurl_gltf_options_init(&budget, sizeof budget);
     return budget;
 }
 
-void assert_limit(const knurl_gltf_budget &budget, const char *message) {
+void assert_limit(const knurl_gltf_options &budget, const char *message) {
     Loaded loaded;
     File file = quad();
     file.nodes = showing(3, true);
@@ -30,7 +30,7 @@ void assert_limit(const knurl_gltf_budget &budget, const char *message) {
 }
 
 TEST(each_limit_is_told_by_its_name) {
-    knurl_gltf_budget budget = empty_budget();
+    knurl_gltf_options budget = empty_budget();
     budget.max_surfaces = 2;
     assert_limit(budget, "budget.max_surfaces: expected at most 2 tagged surfaces, found 3");
     budget = empty_budget();
@@ -48,7 +48,7 @@ TEST(each_limit_is_told_by_its_name) {
 }
 
 TEST(what_just_fits_loads) {
-    knurl_gltf_budget budget = empty_budget();
+    knurl_gltf_options budget = empty_budget();
     budget.max_surfaces = 3;
     budget.max_vertices = 24;
     budget.max_triangles = 6;
@@ -57,17 +57,16 @@ TEST(what_just_fits_loads) {
     File file = quad();
     file.nodes = showing(3, true);
     assert_int_equal(load_with(loaded, budget, file.glb()), KNURL_OK);
-    assert_ptr_equal(loaded.report.budget, &budget);
     assert_int_equal(loaded.report.surfaces, 3);
 }
 
 TEST(budgets_out_of_their_ranges_are_refused) {
-    const auto refuses = [](const knurl_gltf_budget &budget, const char *message) {
+    const auto refuses = [](const knurl_gltf_options &budget, const char *message) {
         Loaded loaded;
         assert_int_equal(load_with(loaded, budget, quad().glb()), KNURL_ERROR_ARGUMENT);
         assert_message("test.glb", {message});
     };
-    knurl_gltf_budget budget = empty_budget();
+    knurl_gltf_options budget = empty_budget();
     budget.max_bytes = (uint64_t{1} << 30U) + 1;
     refuses(budget, "budget.max_bytes: expected 0 to 1073741824");
     budget = empty_budget();
@@ -75,7 +74,7 @@ TEST(budgets_out_of_their_ranges_are_refused) {
     refuses(budget, "budget.max_seconds: expected >= 0");
     budget = empty_budget();
     budget.struct_size = 0;
-    refuses(budget, "knurl_gltf_budget.struct_size");
+    refuses(budget, "knurl_gltf_options.struct_size");
 }
 
 struct Watch {
@@ -96,8 +95,8 @@ TEST(progress_is_told_and_never_goes_back) {
     Watch watch;
     File file = quad();
     file.nodes = showing(50, true);
-    loaded.report.user = &watch;
-    loaded.report.progress = on_progress;
+    loaded.options.user = &watch;
+    loaded.options.progress = on_progress;
     loaded.assert_loads(file.glb());
     assert_true(watch.calls > 50);
     assert_number(watch.done, 1.0);
@@ -108,15 +107,15 @@ TEST(a_load_ends_wherever_it_is_stopped_and_leaves_nothing) {
     file.nodes = showing(20, true);
     Watch all;
     Loaded whole;
-    whole.report.user = &all;
-    whole.report.progress = on_progress;
+    whole.options.user = &all;
+    whole.options.progress = on_progress;
     whole.assert_loads(file.glb());
     for (int call = 1; call <= all.calls; ++call) {
         Loaded loaded;
         Watch watch;
         watch.stop_at = call;
-        loaded.report.user = &watch;
-        loaded.report.progress = on_progress;
+        loaded.options.user = &watch;
+        loaded.options.progress = on_progress;
         const uint64_t before = knurl_scene_get_bytes(loaded.scene);
         assert_int_equal(loaded.load(file.glb()), KNURL_ERROR_CANCELLED);
         assert_int_equal(watch.calls, call);
@@ -168,7 +167,7 @@ TEST(scaled_mirrored_and_otherwise_tagged_nodes_have_shapes_of_their_own) {
 
 TEST(buffers_that_name_one_file_are_read_once) {
     File file = quad();
-    knurl_gltf_budget budget = empty_budget();
+    knurl_gltf_options budget = empty_budget();
     const std::string uri = "data:;base64," + base64(file.bin);
     budget.max_bytes = 4000; // the text and 92 bytes
     file.buffers = R"({"byteLength":92,"uri":")" + uri + "\"}";

@@ -88,7 +88,8 @@ TEST(validator_files_load_or_fail_cleanly) {
     Counts tagged_counts[2];
     for (const fs::path &path : files_below(corpus() / "validator")) {
         Loaded as_it_is;
-        const knurl_result result = knurl_gltf_load_file(as_it_is.scene, path.string().c_str(), &as_it_is.report);
+        const knurl_result result =
+            knurl_gltf_load_file(as_it_is.scene, path.string().c_str(), nullptr, &as_it_is.report);
         assert_int_equal(as_it_is.report.surfaces, 0);
         count(plain_counts, path, result, as_it_is, path.string());
         for (const bool show : {false, true}) {
@@ -114,7 +115,7 @@ TEST(validator_files_load_or_fail_cleanly) {
 TEST(a_real_untagged_file_loads_as_nothing) {
     Loaded loaded;
     const std::string path = (corpus() / "moon/moon_petavius_crater.gltf").string();
-    assert_int_equal(knurl_gltf_load_file(loaded.scene, path.c_str(), &loaded.report), KNURL_OK);
+    assert_int_equal(knurl_gltf_load_file(loaded.scene, path.c_str(), nullptr, &loaded.report), KNURL_OK);
     assert_int_equal(loaded.report.surfaces, 0);
     assert_true(loaded.report.skipped > 0);
 }

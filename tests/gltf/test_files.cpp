@@ -39,7 +39,7 @@ class Folder {
 
 knurl_result load_file(const std::string &path, knurl_gltf_report *report = nullptr) {
     Loaded loaded;
-    const knurl_result result = knurl_gltf_load_file(loaded.scene, path.c_str(), &loaded.report);
+    const knurl_result result = knurl_gltf_load_file(loaded.scene, path.c_str(), &loaded.options, &loaded.report);
     assert_int_equal(loaded.report.surfaces, result == KNURL_OK ? knurl_scene_get_surface_count(loaded.scene) : 0);
     if (report != nullptr)
         *report = loaded.report;
@@ -99,21 +99,23 @@ TEST(names_and_kinds_of_files) {
 
 TEST(arguments_are_checked) {
     Loaded loaded;
-    assert_int_equal(knurl_gltf_load_file(nullptr, "a.glb", nullptr), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_gltf_load_file(loaded.scene, nullptr, nullptr), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_gltf_load_file(loaded.scene, "", nullptr), KNURL_ERROR_FORMAT);
-    assert_int_equal(knurl_gltf_load_memory(nullptr, "", 0, "m", nullptr, nullptr), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_gltf_load_memory(loaded.scene, nullptr, 5, "m", nullptr, nullptr), KNURL_ERROR_ARGUMENT);
-    assert_int_equal(knurl_gltf_load_memory(loaded.scene, nullptr, 0, nullptr, nullptr, nullptr), KNURL_ERROR_FORMAT);
-    assert_int_equal(knurl_gltf_load_memory(loaded.scene, "", uint64_t{1} << 31U, "m", nullptr, nullptr),
+    assert_int_equal(knurl_gltf_load_file(nullptr, "a.glb", nullptr, nullptr), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_gltf_load_file(loaded.scene, nullptr, nullptr, nullptr), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_gltf_load_file(loaded.scene, "", nullptr, nullptr), KNURL_ERROR_FORMAT);
+    assert_int_equal(knurl_gltf_load_memory(nullptr, "", 0, "m", nullptr, nullptr, nullptr), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_gltf_load_memory(loaded.scene, nullptr, 5, "m", nullptr, nullptr, nullptr),
+                     KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_gltf_load_memory(loaded.scene, nullptr, 0, nullptr, nullptr, nullptr, nullptr),
+                     KNURL_ERROR_FORMAT);
+    assert_int_equal(knurl_gltf_load_memory(loaded.scene, "", uint64_t{1} << 31U, "m", nullptr, nullptr, nullptr),
                      KNURL_ERROR_FULL);
     assert_message("m", {"budget.max_bytes"});
     const std::string bytes = quad().glb();
     loaded.report.struct_size = 0;
     assert_int_equal(loaded.load(bytes), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 0);
-    assert_int_equal(knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), nullptr, nullptr, nullptr),
-                     KNURL_OK);
+    assert_int_equal(
+        knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), nullptr, nullptr, nullptr, nullptr), KNURL_OK);
     assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 1);
 }
 

@@ -98,7 +98,8 @@ void *load_on_small_stack(void *failures) {
         knurl_scene_desc_init(&desc, sizeof desc);
         knurl_scene *scene = nullptr;
         if (knurl_scene_create(&desc, &scene) != KNURL_OK ||
-            knurl_gltf_load_memory(scene, one.bytes.data(), one.bytes.size(), "small", ".", nullptr) != one.result)
+            knurl_gltf_load_memory(scene, one.bytes.data(), one.bytes.size(), "small", ".", nullptr, nullptr) !=
+                one.result)
             ++*static_cast<int *>(failures);
         knurl_scene_destroy(scene);
     }

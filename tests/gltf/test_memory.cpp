@@ -61,7 +61,8 @@ TEST(the_loader_without_memory) {
     long failures = 0;
     for (; result != KNURL_OK; ++failures) {
         requests_left = failures;
-        result = knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr);
+        result =
+            knurl_gltf_load_memory(loaded.scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr, nullptr);
         requests_left = -1;
         if (result == KNURL_OK)
             break;
@@ -140,7 +141,7 @@ TEST(the_scene_without_memory) {
     long failures = 0;
     for (; result != KNURL_OK; ++failures) {
         pool.requests_left = failures;
-        result = knurl_gltf_load_memory(scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr);
+        result = knurl_gltf_load_memory(scene, bytes.data(), bytes.size(), "test.glb", nullptr, nullptr, nullptr);
         if (result == KNURL_OK)
             break;
         assert_int_equal(result, KNURL_ERROR_MEMORY);

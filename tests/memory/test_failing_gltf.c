@@ -37,7 +37,7 @@ static void make_scene(void) {
     knurl_scene_desc desc;
     knurl_scene_desc_init(&desc, sizeof desc);
     failing_need(knurl_scene_create(&desc, &scene));
-    failing_need(knurl_gltf_load_memory(scene, many_ways, strlen(many_ways), "before", NULL, NULL));
+    failing_need(knurl_gltf_load_memory(scene, many_ways, strlen(many_ways), "before", NULL, NULL, NULL));
 }
 
 static void free_scene(void) {
@@ -59,13 +59,13 @@ static void scene_state(char *text, size_t size) {
 static knurl_result load_file(const char *path) {
     knurl_gltf_report report;
     knurl_gltf_report_init(&report, sizeof report);
-    return knurl_gltf_load_file(scene, path, &report);
+    return knurl_gltf_load_file(scene, path, NULL, &report);
 }
 
 static knurl_result load_memory(const char *text) {
     knurl_gltf_report report;
     knurl_gltf_report_init(&report, sizeof report);
-    return knurl_gltf_load_memory(scene, text, strlen(text), "memory.gltf", NULL, &report);
+    return knurl_gltf_load_memory(scene, text, strlen(text), "memory.gltf", NULL, NULL, &report);
 }
 
 static knurl_result load_grid(void) {

@@ -38,7 +38,7 @@ class Folder {
 
 knurl_result load_uri(const Folder &folder, const std::string &uri) {
     const Loaded loaded;
-    return knurl_gltf_load_file(loaded.scene, folder.write("in/a.gltf", quad().json(uri)).c_str(), nullptr);
+    return knurl_gltf_load_file(loaded.scene, folder.write("in/a.gltf", quad().json(uri)).c_str(), nullptr, nullptr);
 }
 
 void assert_uri_loads(const Folder &folder, const std::string &uri) {
@@ -56,11 +56,11 @@ TEST(paths_are_utf8) {
     const Folder folder;
     const Loaded loaded;
     const std::string there = folder.write(std::string(odd_name) + ".glb", quad().glb());
-    assert_int_equal(knurl_gltf_load_file(loaded.scene, there.c_str(), nullptr), KNURL_OK);
+    assert_int_equal(knurl_gltf_load_file(loaded.scene, there.c_str(), nullptr, nullptr), KNURL_OK);
     const std::string none = (folder.root / fs::u8path("no-" + std::string(odd_name) + ".glb")).u8string();
-    assert_int_equal(knurl_gltf_load_file(loaded.scene, none.c_str(), nullptr), KNURL_ERROR_IO);
+    assert_int_equal(knurl_gltf_load_file(loaded.scene, none.c_str(), nullptr, nullptr), KNURL_ERROR_IO);
     assert_message(none.c_str(), {"no such file"});
-    assert_int_not_equal(knurl_gltf_load_file(loaded.scene, "bad \xC3\x28.glb", nullptr), KNURL_OK);
+    assert_int_not_equal(knurl_gltf_load_file(loaded.scene, "bad \xC3\x28.glb", nullptr, nullptr), KNURL_OK);
 }
 
 TEST(a_buffer_of_any_name_lies_in_the_files_folder_or_below_it) {
@@ -93,7 +93,7 @@ TEST(names_of_devices_are_no_files) {
         assert_int_not_equal(load_uri(folder, name), KNURL_OK);
     const Loaded loaded;
     for (const char *path : {"NUL.glb", "CON.glb", "COM1.glb"})
-        assert_int_not_equal(knurl_gltf_load_file(loaded.scene, path, nullptr), KNURL_OK);
+        assert_int_not_equal(knurl_gltf_load_file(loaded.scene, path, nullptr, nullptr), KNURL_OK);
 }
 
 } // namespace

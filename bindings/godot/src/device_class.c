@@ -355,7 +355,7 @@ static void load_gltf(void *self, const void *const *arguments, void *result) {
     char *path = globalise(arguments[0]);
     knurl_gltf_report_init(&report, sizeof report);
     knurl_result failed = path ? device_make_session(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
-    failed = failed ? failed : knurl_gltf_load_file(knurl_session_get_scene(d->session), path, &report);
+    failed = failed ? failed : knurl_gltf_load_file(knurl_session_get_scene(d->session), path, NULL, &report);
     if (failed) {
         (void)device_fail("KnurlDevice.load_gltf", failed);
     } else {

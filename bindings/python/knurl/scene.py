@@ -128,7 +128,7 @@ class Scene:
     def load(self, path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> List[Surface]:
         """Loads a glTF file; returns its tagged surfaces."""
         before = lib.knurl_scene_get_surface_count(self.handle)
-        check(lib.knurl_gltf_load_file(self.handle, os.fsencode(path), ffi.NULL))
+        check(lib.knurl_gltf_load_file(self.handle, os.fsencode(path), ffi.NULL, ffi.NULL))
         return self.surfaces[before:]
 
     @property

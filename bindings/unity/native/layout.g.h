@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "9a9c51811262ced5"
+#define KNURL_UNITY_INTERFACE "f7e2b166e7ee0d05"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -289,22 +289,21 @@
     FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
     FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
     FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
-    STRUCT(knurl_gltf_budget, 40) \
-    FIELD(knurl_gltf_budget, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_gltf_budget, max_surfaces, "max_surfaces", 4, 4) \
-    FIELD(knurl_gltf_budget, max_bytes, "max_bytes", 8, 8) \
-    FIELD(knurl_gltf_budget, max_vertices, "max_vertices", 16, 8) \
-    FIELD(knurl_gltf_budget, max_triangles, "max_triangles", 24, 8) \
-    FIELD(knurl_gltf_budget, max_seconds, "max_seconds", 32, 8) \
-    STRUCT(knurl_gltf_report, 48) \
+    STRUCT(knurl_gltf_options, 64) \
+    FIELD(knurl_gltf_options, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_gltf_options, max_surfaces, "max_surfaces", 4, 4) \
+    FIELD(knurl_gltf_options, max_bytes, "max_bytes", 8, 8) \
+    FIELD(knurl_gltf_options, max_vertices, "max_vertices", 16, 8) \
+    FIELD(knurl_gltf_options, max_triangles, "max_triangles", 24, 8) \
+    FIELD(knurl_gltf_options, max_seconds, "max_seconds", 32, 8) \
+    FIELD(knurl_gltf_options, file_read, "file_read", 40, 8) \
+    FIELD(knurl_gltf_options, progress, "progress", 48, 8) \
+    FIELD(knurl_gltf_options, user, "user", 56, 8) \
+    STRUCT(knurl_gltf_report, 16) \
     FIELD(knurl_gltf_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \
     FIELD(knurl_gltf_report, skipped, "skipped", 8, 4) \
     FIELD(knurl_gltf_report, reserved, "reserved", 12, 4) \
-    FIELD(knurl_gltf_report, file_read, "file_read", 16, 8) \
-    FIELD(knurl_gltf_report, user, "user", 24, 8) \
-    FIELD(knurl_gltf_report, progress, "progress", 32, 8) \
-    FIELD(knurl_gltf_report, budget, "budget", 40, 8) \
     STRUCT(knurl_clock, 24) \
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \

@@ -10,23 +10,30 @@
 extern "C" {
 #endif
 
-/** Limits of a load; 0 in a field: its default. They are checked before memory is allocated, so that a small file with
- * a huge cost fails at once: KNURL_ERROR_FULL, with a message that names the file and the limit
+/** The options of a load. Limits: 0 in a field is its default. They are checked before memory is taken, so that a small
+ * file that asks for much fails at once: KNURL_ERROR_FULL, with a message that names the file and the limit
  * ("budget.max_bytes"). */
-typedef struct knurl_gltf_budget {
-    uint32_t struct_size;   /**< set by knurl_gltf_budget_init() */
+typedef struct knurl_gltf_options {
+    uint32_t struct_size;   /**< set by knurl_gltf_options_init() */
     uint32_t max_surfaces;  /**< default 2^16; at most 2^20. The scene's max_surfaces applies too */
-    uint64_t max_bytes;     /**< of the file and its buffers, each file counted once; default and at most 2^30 */
+    uint64_t max_bytes;     /**< of the file and its buffers, each file once; default and at most 2^30 */
     uint64_t max_vertices;  /**< elements of POSITION, TANGENT and TEXCOORD_0 read for all shapes; default 2^24 plus 16
                                  per byte read */
     uint64_t max_triangles; /**< of all shapes (nodes that show one mesh with the same scale share one); default 2^20
                                  plus one per 2 bytes read; at most 2^26 */
-    double max_seconds; /**< s; checked between steps, the longest of which is building the largest shape (about 1 s per
-                           million triangles); default 60 */
-} knurl_gltf_budget;
+    double max_seconds;     /**< s; checked between steps, the longest of which is the largest shape's (about 1 s per
+                                 million triangles); default 60 */
+    /** Called for every file that is read, the glTF file first, for example to watch it for changes; or null. path:
+     * UTF-8, valid during the call. Also called if the load fails later. */
+    void (*file_read)(void *user, const char *path);
+    /** Called on the loading thread several times a second with the progress, 0 to 1, never decreasing; or null. A
+     * return value other than 0 cancels the load (KNURL_ERROR_CANCELLED). */
+    int32_t (*progress)(void *user, double done);
+    void *user; /**< passed to file_read and progress */
+} knurl_gltf_options;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */
-KNURL_API void knurl_gltf_budget_init(knurl_gltf_budget *budget, uint32_t size);
+KNURL_API void knurl_gltf_options_init(knurl_gltf_options *options, uint32_t size);
 
 /** The result of a load. An output: set struct_size with knurl_gltf_report_init() first. */
 typedef struct knurl_gltf_report {
@@ -34,16 +41,6 @@ typedef struct knurl_gltf_report {
     uint32_t surfaces; /**< added to the scene: one per node and tagged primitive */
     uint32_t skipped;  /**< untagged primitives, counted once per node that shows them */
     uint32_t reserved; /**< 0 */
-    /** The caller's, set after knurl_gltf_report_init(), or null: called for every file that is read, the glTF file
-     * first, for example to watch it for changes. path: UTF-8, valid during the call. Also called if the load fails
-     * later. */
-    void (*file_read)(void *user, const char *path);
-    void *user; /**< passed to file_read and progress */
-    /** The caller's, set after knurl_gltf_report_init(), or null: called on the loading thread several times a second
-     * with the progress, 0 to 1, never decreasing. If it does not return 0, the load is cancelled
-     * (KNURL_ERROR_CANCELLED). */
-    int32_t (*progress)(void *user, double done);
-    const knurl_gltf_budget *budget; /**< the caller's, set after knurl_gltf_report_init(); null: all defaults */
 } knurl_gltf_report;
 
 /** Sets struct_size; `size` is the caller's sizeof. [any thread] */
@@ -61,13 +58,15 @@ KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
  * (file, object and key are named), KNURL_ERROR_UNSUPPORTED (a required extension, another glTF version, a skin or
  * morph target on a tagged mesh), and those of knurl_scene_add_surface(). Needs under 128 KiB of stack. [any thread but
  * the haptic] */
-KNURL_API knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report);
+KNURL_API knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, const knurl_gltf_options *options,
+                                            knurl_gltf_report *report);
 
 /** Loads from memory, as knurl_gltf_load_file(). data: `size` bytes of a .gltf or .glb, the caller's, not needed
  * afterwards. name: used for the file in messages. folder: of external buffers, or null to refuse them. [any thread but
  * the haptic] */
 KNURL_API knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64_t size, const char *name,
-                                              const char *folder, knurl_gltf_report *report);
+                                              const char *folder, const knurl_gltf_options *options,
+                                              knurl_gltf_report *report);
 
 #ifdef __cplusplus
 }

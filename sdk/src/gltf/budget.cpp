@@ -20,7 +20,7 @@ constexpr uint64_t bytes_a_triangle = 2;
 [[noreturn]] void refuse_excess(const std::string &where, const char *name, uint64_t most, uint64_t found) {
     refuse(where,
            std::string("budget.") + name + ": expected at most " + std::to_string(most) + ", found " +
-               std::to_string(found) + " (see knurl_gltf_budget)",
+               std::to_string(found) + " (see knurl_gltf_options)",
            KNURL_ERROR_FULL);
 }
 
@@ -70,7 +70,7 @@ void Budget::step(double done) {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     if (seconds > seconds_)
         throw Failure(KNURL_ERROR_FULL, "budget.max_seconds: expected at most " + std::to_string(seconds_) +
-                                            " s, found more (see knurl_gltf_budget)");
+                                            " s, found more (see knurl_gltf_options)");
     if (progress_ != nullptr && progress_(user_, done_) != 0)
         throw Failure(KNURL_ERROR_CANCELLED, "the load was cancelled");
 }

@@ -22,7 +22,7 @@ constexpr uint64_t triangles_max = uint64_t{1} << 26U;
 /** The most surfaces that a scene can hold. */
 constexpr uint32_t surfaces_max = uint32_t{1} << 20U;
 
-/** knurl_gltf_budget's fields; 0: the default. */
+/** Limits in knurl_gltf_options; 0: the default. */
 struct Limits {
     uint32_t surfaces = 0;
     uint64_t bytes = 0;
@@ -35,7 +35,7 @@ class Budget {
   public:
     using Progress = int32_t (*)(void *user, double done);
 
-    /** progress: as in knurl_gltf_report. Throws Failure for limits out of their ranges. */
+    /** progress: as in knurl_gltf_options. Throws Failure for limits out of their ranges. */
     Budget(const Limits &asked, Progress progress, void *user);
 
     uint32_t surfaces() const {

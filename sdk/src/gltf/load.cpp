@@ -219,55 +219,51 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
     return report;
 }
 
-/// Size of a report in version 0.1, the smallest that callers can pass.
+/// Size of a report and of options in version 0.1, the smallest that callers can pass.
 constexpr uint32_t report_size_first = 16;
+constexpr uint32_t options_size_first = 8;
 
-/// The caller's limits; 0 in a field that the caller's version does not have.
-Limits limits_of(const knurl_gltf_budget *wanted) {
-    knurl_gltf_budget all{};
-    if (wanted == nullptr)
-        return {};
-    const uint32_t size = wanted->struct_size;
-    if (size < 8 || size > 65536)
-        throw Failure(KNURL_ERROR_ARGUMENT, "knurl_gltf_budget.struct_size: expected what knurl_gltf_budget_init() "
+/// The caller's options, which may be shorter or longer: 0 in fields that the caller's version does not have.
+knurl_gltf_options complete(const knurl_gltf_options *options) {
+    knurl_gltf_options all{};
+    if (options == nullptr)
+        return all;
+    const uint32_t size = options->struct_size;
+    if (size < options_size_first || size > 65536)
+        throw Failure(KNURL_ERROR_ARGUMENT, "knurl_gltf_options.struct_size: expected what knurl_gltf_options_init() "
                                             "sets, found " +
                                                 std::to_string(size));
-    const auto *bytes = reinterpret_cast<const unsigned char *>(wanted);
+    const auto *bytes = reinterpret_cast<const unsigned char *>(options);
     for (size_t i = sizeof all; i < size; ++i)
         if (bytes[i] != 0)
-            throw Failure(KNURL_ERROR_UNSUPPORTED, "knurl_gltf_budget: byte " + std::to_string(i) +
+            throw Failure(KNURL_ERROR_UNSUPPORTED, "knurl_gltf_options: byte " + std::to_string(i) +
                                                        " is set, but this version knows only " +
                                                        std::to_string(sizeof all) + " bytes of it");
-    std::memcpy(&all, wanted, std::min<size_t>(size, sizeof all));
-    return {all.max_surfaces, all.max_bytes, all.max_vertices, all.max_triangles, all.max_seconds};
+    std::memcpy(&all, options, std::min<size_t>(size, sizeof all));
+    return all;
 }
 
-/// A copy of the caller's report, which may be shorter: the missing fields are zero.
-knurl_gltf_report complete(const knurl_gltf_report *report) {
-    knurl_gltf_report all{};
-    if (report == nullptr)
-        return all;
-    if (report->struct_size < report_size_first || report->struct_size > 65536)
+void check(const knurl_gltf_report *report) {
+    if (report != nullptr && (report->struct_size < report_size_first || report->struct_size > 65536))
         throw Failure(KNURL_ERROR_ARGUMENT,
                       "knurl_gltf_report.struct_size: expected what knurl_gltf_report_init() sets, found " +
                           std::to_string(report->struct_size));
-    std::memcpy(&all, report, std::min<size_t>(report->struct_size, sizeof all));
-    return all;
 }
 
 /// Runs `load` and turns exceptions into a result and a message that starts with the file's name.
 template <typename Load>
-knurl_result guarded(const char *name, knurl_gltf_report *report, const Load &load) {
+knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_gltf_report *report, const Load &load) {
     const char *file = name != nullptr && *name != '\0' ? name : "glTF data";
     try {
-        const knurl_gltf_report asked = complete(report);
-        Order order{{limits_of(asked.budget), asked.progress, asked.user}, {asked.file_read, asked.user}};
-        knurl_gltf_report made = asked;
+        const knurl_gltf_options o = complete(options);
+        check(report);
+        Order order{{{o.max_surfaces, o.max_bytes, o.max_vertices, o.max_triangles, o.max_seconds}, o.progress, o.user},
+                    {o.file_read, o.user}};
         const knurl_gltf_report counts = load(order);
-        made.surfaces = counts.surfaces;
-        made.skipped = counts.skipped;
-        if (report != nullptr)
-            std::memcpy(report, &made, std::min<size_t>(made.struct_size, sizeof made));
+        if (report != nullptr) {
+            report->surfaces = counts.surfaces;
+            report->skipped = counts.skipped;
+        }
         return KNURL_OK;
     } catch (const Failure &failure) {
         return knurl_fail(failure.code(), "%.400s: %s", file, failure.what());
@@ -299,11 +295,11 @@ bool has_gltf_name(const fs::path &path) {
 using knurl::gltf::Failure;
 using knurl::gltf::is_null;
 
-void knurl_gltf_budget_init(knurl_gltf_budget *budget, uint32_t size) {
-    if (is_null(budget, "budget") || size < sizeof budget->struct_size)
+void knurl_gltf_options_init(knurl_gltf_options *options, uint32_t size) {
+    if (is_null(options, "options") || size < sizeof options->struct_size)
         return;
-    std::memset(budget, 0, size);
-    budget->struct_size = size;
+    std::memset(options, 0, size);
+    options->struct_size = size;
 }
 
 void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
@@ -313,10 +309,11 @@ void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
     report->struct_size = size;
 }
 
-knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gltf_report *report) {
+knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, const knurl_gltf_options *options,
+                                  knurl_gltf_report *report) {
     if (is_null(path, "path") || knurl_scene_get_bytes(scene) == 0) // 0 for an invalid scene, with a message
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(path, report, [&](knurl::gltf::Order &order) {
+    return knurl::gltf::guarded(path, options, report, [&](knurl::gltf::Order &order) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
             throw Failure(KNURL_ERROR_FORMAT, "expected a name that ends in .gltf or .glb");
@@ -327,10 +324,10 @@ knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, knurl_gl
 }
 
 knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64_t size, const char *name,
-                                    const char *folder, knurl_gltf_report *report) {
+                                    const char *folder, const knurl_gltf_options *options, knurl_gltf_report *report) {
     if ((size != 0 && is_null(data, "data")) || knurl_scene_get_bytes(scene) == 0)
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(name, report, [&](knurl::gltf::Order &order) {
+    return knurl::gltf::guarded(name, options, report, [&](knurl::gltf::Order &order) {
         order.budget.take_bytes(size, "");
         std::optional<fs::path> root;
         if (folder != nullptr)

@@ -26,7 +26,7 @@ int main(void) {
         return failed("scene");
     }
 #ifdef WITH_GLTF
-    if (knurl_gltf_load_memory(scene, "", 0, "nothing", NULL, NULL) != KNURL_ERROR_FORMAT) {
+    if (knurl_gltf_load_memory(scene, "", 0, "nothing", NULL, NULL, NULL) != KNURL_ERROR_FORMAT) {
         return failed("an empty file");
     }
 #endif

@@ -11,7 +11,7 @@ int main(int argc, char **argv) {
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.tick_limit = 1000;
     knurl_result result = argc < 2 ? KNURL_ERROR_ARGUMENT : knurl_scene_create(nullptr, &scene);
-    result = result ? result : knurl_gltf_load_file(scene, argv[1], nullptr);
+    result = result ? result : knurl_gltf_load_file(scene, argv[1], nullptr, nullptr);
     result = result ? result : knurl_scene_commit(scene);
     result = result ? result : knurl_device_open("fake", &device);
     result =

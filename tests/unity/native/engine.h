@@ -105,7 +105,7 @@ typedef struct plugin {
     void (*knurl_session_close)(knurl_session *);
     uint32_t (*knurl_session_next_event)(knurl_session *, knurl_session_event *);
     void (*knurl_session_get_state)(const knurl_session *, knurl_session_state *);
-    knurl_result (*knurl_gltf_load_file)(knurl_scene *, const char *, void *);
+    knurl_result (*knurl_gltf_load_file)(knurl_scene *, const char *, const void *, void *);
 } plugin;
 
 #define PLUGIN_FIND(name) assert_int_equal(knurl_system_find_function(p.library, #name, &p.name), 1)

@@ -258,8 +258,9 @@ static void play_round(int with_engine) {
     p.UnityPluginLoad(with_engine ? &engine_interfaces : NULL);
     knurl_session *session = plugin_run(&p);
     p.knurl_unity_update(session);
-    assert_int_equal(p.knurl_gltf_load_file(p.knurl_session_get_scene(session), KNURL_TEST_ASSETS "/none.glb", NULL),
-                     KNURL_ERROR_IO);
+    assert_int_equal(
+        p.knurl_gltf_load_file(p.knurl_session_get_scene(session), KNURL_TEST_ASSETS "/none.glb", NULL, NULL),
+        KNURL_ERROR_IO);
     p.UnityPluginUnload();
     p.knurl_session_destroy(session);
     plugin_close(&p);

@@ -191,7 +191,7 @@ namespace Knurl
                 fixed (byte* file = Utf8.Bytes(path, "path"))
                 {
                     KnurlException.Check(NativeMethods.knurl_gltf_load_file(NativeMethods.knurl_session_get_scene(session),
-                        file, &report));
+                        file, null, &report));
                 }
                 hasFiles = true;
                 return (int)report.surfaces;

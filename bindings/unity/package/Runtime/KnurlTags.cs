@@ -22,7 +22,7 @@ namespace Knurl
             {
                 fixed (byte* file = Utf8.Bytes(path, "path"))
                 {
-                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(scene, file, null));
+                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(scene, file, null, null));
                 }
                 return ReadAll(scene);
             }

@@ -420,7 +420,7 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_gltf_budget
+    internal unsafe struct knurl_gltf_options
     {
         public uint struct_size;
         public uint max_surfaces;
@@ -428,6 +428,9 @@ namespace Knurl
         public ulong max_vertices;
         public ulong max_triangles;
         public double max_seconds;
+        public IntPtr file_read;
+        public IntPtr progress;
+        public IntPtr user;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -437,10 +440,6 @@ namespace Knurl
         public uint surfaces;
         public uint skipped;
         public uint reserved;
-        public IntPtr file_read;
-        public IntPtr user;
-        public IntPtr progress;
-        public knurl_gltf_budget* budget;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -607,10 +606,10 @@ namespace Knurl
     internal unsafe delegate void knurl_device_functions_close(IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    internal unsafe delegate void knurl_gltf_report_file_read(IntPtr user, byte* path);
+    internal unsafe delegate void knurl_gltf_options_file_read(IntPtr user, byte* path);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    internal unsafe delegate int knurl_gltf_report_progress(IntPtr user, double done);
+    internal unsafe delegate int knurl_gltf_options_progress(IntPtr user, double done);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
@@ -630,7 +629,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "9a9c51811262ced5";
+        internal const string Interface = "f7e2b166e7ee0d05";
 
         internal const string Version = "0.3.0";
 
@@ -669,7 +668,7 @@ namespace Knurl
                 case "knurl_device_functions": return sizeof(knurl_device_functions);
                 case "knurl_stroke_desc": return sizeof(knurl_stroke_desc);
                 case "knurl_fake_truth": return sizeof(knurl_fake_truth);
-                case "knurl_gltf_budget": return sizeof(knurl_gltf_budget);
+                case "knurl_gltf_options": return sizeof(knurl_gltf_options);
                 case "knurl_gltf_report": return sizeof(knurl_gltf_report);
                 case "knurl_clock": return sizeof(knurl_clock);
                 case "knurl_loop_desc": return sizeof(knurl_loop_desc);
@@ -1127,17 +1126,18 @@ namespace Knurl
         internal static extern int knurl_stroke_from_name(byte* name, int* stroke);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_gltf_budget_init(knurl_gltf_budget* budget, uint size);
+        internal static extern void knurl_gltf_options_init(knurl_gltf_options* options, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_gltf_report_init(knurl_gltf_report* report, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_gltf_load_file(knurl_scene* scene, byte* path, knurl_gltf_report* report);
+        internal static extern int knurl_gltf_load_file(knurl_scene* scene, byte* path, knurl_gltf_options* options,
+            knurl_gltf_report* report);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_gltf_load_memory(knurl_scene* scene, IntPtr data, ulong size, byte* name,
-            byte* folder, knurl_gltf_report* report);
+            byte* folder, knurl_gltf_options* options, knurl_gltf_report* report);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_desc_init(knurl_loop_desc* desc, uint size);
