@@ -115,7 +115,7 @@ def draw_bench(data, folder):
     return figure
 
 
-HISTORY = ("plane", "plane_bandlimited", "mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m", "surfaces_10k", "moving",
+HISTORY = ("plane", "mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m", "surfaces_10k", "moving",
            "paced_plane_cold", "paced_plane", "paced_mesh_100k_cold", "paced_mesh_100k")
 
 
