@@ -1,4 +1,4 @@
-/* The loop's public functions: create, start, step, stop, statistics; and its watchdog thread. For a cycle see cycle.c.
+/* The loop's public functions: create, start, step, stop, statistics. For a cycle see cycle.c.
  * SPDX-License-Identifier: MIT */
 #include "loop/loop_internal.h"
 
@@ -11,15 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Interval of attempts to reopen a lost device. */
-#define RECONNECT_NS 250000000
-
-/* A lost device with a servo thread makes no more calls if its last one is longer ago than this. */
-#define LAST_CALL_NS 50000000
-
-/* A tick needs some kilobytes; callbacks get the rest. */
-#define STACK_BYTES ((size_t)256 * 1024)
-
 static int64_t system_now(void *user) {
     (void)user;
     return knurl_system_now_ns();
@@ -30,91 +21,9 @@ static void system_sleep(int64_t deadline_ns, void *user) {
     knurl_system_sleep_until_ns(deadline_ns);
 }
 
-static int is_running(const knurl_loop *loop) {
-    return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
-}
-
 /* A forked child does not have the threads that could end the loop. */
 static int is_running_here(const knurl_loop *loop) {
-    return is_running(loop) && knurl_load_relaxed(&loop->process) == knurl_system_process_id();
-}
-
-/* Runs beside the haptic thread. Zeroes the force if cycles stop (a device may keep playing its last force), and
- * reopens a lost device. */
-typedef struct watchdog {
-    uint64_t seen;   /* cycles */
-    int64_t seen_at; /* ns: when `seen` last changed */
-    int64_t tried_at;
-    uint64_t idle_cycles;
-    double idle; /* s without a cycle, counted in naps, so that time in which the process was stopped does not count */
-} watchdog;
-
-static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
-    const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
-    const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
-    knurl_device *device = loop->desc.device;
-    if (cycles != k->seen || cycles == 0) { /* no force before the first */
-        k->seen = cycles;
-        k->seen_at = now;
-    } else if (limit > 0 && !knurl_port_is_lost(device) && now - k->seen_at > limit && is_running(loop) &&
-               !knurl_device_is_halted(device)) {
-        knurl_device_halt(device);
-        knurl_port_report(device, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
-        knurl_count_up(&loop->watchdog_trips);
-    }
-}
-
-/* A device that owns the servo thread and has stopped calling is lost. Ticks cannot detect that, because they have
- * stopped. */
-static void look_for_stall(knurl_loop *loop, watchdog *k, double nap) {
-    knurl_device *device = loop->desc.device;
-    const uint64_t cycles = knurl_load_relaxed(&loop->cycles);
-    k->idle = cycles == k->idle_cycles && !knurl_port_is_lost(device) ? k->idle + nap : 0.0;
-    k->idle_cycles = cycles;
-    if (k->idle < KNURL_SERVE_GIVE_UP || !knurl_port_leave(device)) {
-        return;
-    }
-    k->idle = 0.0;
-    if (!is_running(loop) || knurl_port_is_lost(device)) {
-        return; /* its last call has ended the loop or found it lost */
-    }
-    knurl_device_halt(device);
-    knurl_loop_publish_zero_force(loop);
-    knurl_port_lose(device);
-    if (!loop->desc.reconnect) {
-        knurl_loop_end(loop, KNURL_LOOP_LOST);
-    }
-}
-
-static void look_for_device(knurl_loop *loop, watchdog *k, int64_t now) {
-    if (!loop->desc.reconnect || !knurl_port_is_lost(loop->desc.device)) {
-        return;
-    }
-    if (knurl_loop_at_end(loop) && knurl_port_owns_thread(loop->desc.device)) {
-        /* a lost device makes no more calls, but its last one may still be using the loop */
-        if (!knurl_load_acquire(&loop->is_served) && now - k->seen_at > LAST_CALL_NS) {
-            knurl_loop_end(loop, KNURL_LOOP_DONE);
-        }
-    } else if (now - k->tried_at > RECONNECT_NS) {
-        (void)knurl_device_reopen(loop->desc.device);
-        k->tried_at = k->seen_at = knurl_system_now_ns(); /* no cycle could run while reopening */
-    }
-}
-
-static void watchdog_thread(void *argument) {
-    knurl_loop *loop = argument;
-    const int64_t limit = (int64_t)(loop->desc.watchdog_s * 1e9);
-    /* at most 20 ms, because knurl_loop_destroy() waits for this thread */
-    const int64_t nap = limit > 80000000 || limit == 0 ? 20000000 : limit < 400000 ? 100000 : limit / 4;
-    knurl_store_release(&loop->watchdog_thread, knurl_system_thread_id());
-    watchdog k = {0, knurl_system_now_ns(), 0, 0, 0.0};
-    while (is_running(loop)) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + nap);
-        const int64_t now = knurl_system_now_ns();
-        watch(loop, &k, now);
-        look_for_stall(loop, &k, 1e-9 * (double)nap);
-        look_for_device(loop, &k, now);
-    }
+    return knurl_loop_is_running(loop) && knurl_load_relaxed(&loop->process) == knurl_system_process_id();
 }
 
 static const knurl_field fields[] = {
@@ -250,27 +159,8 @@ static knurl_result start_haptics(knurl_loop *loop) {
     if (knurl_port_owns_thread(device)) {
         return knurl_port_serve(device, knurl_loop_serve, loop);
     }
-    loop->thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, STACK_BYTES);
+    loop->thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, KNURL_LOOP_STACK_BYTES);
     return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
-}
-
-static knurl_result start_watchdog(knurl_loop *loop) {
-    const int is_needed =
-        loop->desc.watchdog_s > 0.0 || loop->desc.reconnect || knurl_port_owns_thread(loop->desc.device);
-    if (!is_needed || loop->desc.clock) { /* with the caller's clock, real time is meaningless */
-        return KNURL_OK;
-    }
-    loop->watchdog = knurl_system_start_thread(watchdog_thread, loop, STACK_BYTES);
-    return loop->watchdog ? KNURL_OK
-                          : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused a thread for the watchdog");
-}
-
-static void end_watchdog(knurl_loop *loop) {
-    if (loop->watchdog) {
-        knurl_system_join_thread(loop->watchdog);
-        loop->watchdog = NULL;
-        knurl_store_release(&loop->watchdog_thread, (uintptr_t)0);
-    }
 }
 
 /* Returns 1 if the loop's own memory and its scene's are locked into RAM. */
@@ -297,11 +187,11 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     knurl_store_relaxed(&loop->process, knurl_system_process_id());
     knurl_store_release(&loop->threaded, 1u);
     knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
-    knurl_result result = start_watchdog(loop); /* before the haptic thread: no force without a watchdog */
+    knurl_result result = knurl_loop_start_watchdog(loop); /* before the haptic thread: no force without a watchdog */
     result = result ? result : start_haptics(loop);
     if (result) {
         knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
-        end_watchdog(loop);
+        knurl_loop_end_watchdog(loop);
         knurl_store_release(&loop->threaded, 0u);
     }
     return result;
@@ -318,7 +208,8 @@ static void finish_stepping(knurl_loop *loop) {
 /* 1 if called from inside the loop: from a callback of its haptic thread, or from its watchdog thread. */
 static int is_inside(const knurl_loop *loop) {
     const uintptr_t here = knurl_system_thread_id();
-    const int runs = is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
+    const int runs =
+        knurl_loop_is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
     return (runs && knurl_load_acquire(&loop->haptic_thread) == here) ||
            knurl_load_acquire(&loop->watchdog_thread) == here;
 }
@@ -341,7 +232,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
         knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
     }
     knurl_store_relaxed(&loop->stepping, 1u);
-    for (uint64_t i = 0; i < ticks && is_running(loop) && !knurl_loop_at_end(loop); i++) {
+    for (uint64_t i = 0; i < ticks && knurl_loop_is_running(loop) && !knurl_loop_at_end(loop); i++) {
         if (loop->desc.reconnect && knurl_port_is_lost(device)) {
             (void)knurl_device_reopen(device);
         }
@@ -349,7 +240,7 @@ knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
             knurl_loop_end(loop, loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE);
         }
     }
-    if (is_running(loop) && knurl_loop_at_end(loop)) {
+    if (knurl_loop_is_running(loop) && knurl_loop_at_end(loop)) {
         finish_stepping(loop);
     }
     knurl_store_relaxed(&loop->stepping, 0u);
@@ -421,10 +312,10 @@ void knurl_loop_destroy(knurl_loop *loop) {
         if (loop->thread) {
             knurl_system_join_thread(loop->thread);
         }
-    } else if (is_running(loop)) {
+    } else if (knurl_loop_is_running(loop)) {
         finish_stepping(loop);
     }
-    end_watchdog(loop);
+    knurl_loop_end_watchdog(loop);
     knurl_system_unlock_memory(loop, sizeof *loop);
     release(&loop->desc);
     knurl_handle_clear(&loop->handle);

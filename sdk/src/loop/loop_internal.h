@@ -14,6 +14,9 @@
 
 #include <math.h>
 
+/* A tick needs some kilobytes; callbacks get the rest. */
+#define KNURL_LOOP_STACK_BYTES ((size_t)256 * 1024)
+
 /* Periodic wake-ups by absolute deadlines (pace.c). */
 typedef struct knurl_pace {
     knurl_clock clock;
@@ -104,6 +107,10 @@ struct knurl_loop {
     knurl_histogram jitter_ns;
 };
 
+static inline int knurl_loop_is_running(const knurl_loop *loop) {
+    return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
+}
+
 /* loop_tick.c: sets up a loop that is zero except desc, hip and clock. */
 void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts);
 
@@ -156,5 +163,11 @@ void knurl_loop_end(knurl_loop *loop, int32_t state);
 /* The haptic thread, and the function called instead by a device with a thread of its own. argument: the loop. */
 void knurl_loop_haptic_thread(void *argument);
 uint32_t knurl_loop_serve(void *argument);
+
+/* watchdog.c: starts the loop's watchdog thread, if it needs one. Errors: KNURL_ERROR_SYSTEM. */
+knurl_result knurl_loop_start_watchdog(knurl_loop *loop);
+
+/* Waits for the thread to end, which it does once the loop does not run. */
+void knurl_loop_end_watchdog(knurl_loop *loop);
 
 #endif
