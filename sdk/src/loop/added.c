@@ -14,7 +14,7 @@
 #define LONGEST 3600.0
 
 static knurl_result check_scene(const knurl_loop *loop) {
-    if (!loop->desc.scene) {
+    if (!loop->shared.desc.scene) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: expected one with a scene, found one with a force callback, which "
                                              "adds forces itself");
     }
@@ -28,7 +28,7 @@ knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain) {
     if (!knurl_is_within(gain, 0.0, 1.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "gain: expected 0 to 1, found %g", gain);
     }
-    knurl_store_double(&loop->added.gain, gain);
+    knurl_store_double(&loop->shared.added.gain, gain);
     return KNURL_OK;
 }
 
@@ -42,7 +42,8 @@ knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]) {
     }
     const knurl_result result = check_scene(loop);
     if (!result) {
-        knurl_seqlock_write(&loop->added.force_sequence, loop->added.force_words, force, 3 * sizeof *force);
+        knurl_seqlock_write(&loop->shared.added.force_sequence, loop->shared.added.force_words, force,
+                            3 * sizeof *force);
     }
     return result;
 }
@@ -66,19 +67,21 @@ knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequen
         return knurl_fail(KNURL_ERROR_ARGUMENT, "direction: expected a vector with a length, found (%g, %g, %g)",
                           direction[0], direction[1], direction[2]);
     }
-    if (!knurl_is_within(frequency_hz, 0.1, 0.5 * loop->desc.update_rate_hz) ||
+    if (!knurl_is_within(frequency_hz, 0.1, 0.5 * loop->shared.desc.update_rate_hz) ||
         !knurl_is_within(amplitude, 0.0, MOST_FORCE) || !knurl_is_within(seconds, 0.0, LONGEST)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "vibration: expected 0.1 to %g Hz (half the update rate), 0 to %g N and 0 to %g s, found %g "
                           "Hz, %g N and %g s",
-                          0.5 * loop->desc.update_rate_hz, MOST_FORCE, LONGEST, frequency_hz, amplitude, seconds);
+                          0.5 * loop->shared.desc.update_rate_hz, MOST_FORCE, LONGEST, frequency_hz, amplitude,
+                          seconds);
     }
     knurl_result result = check_scene(loop);
-    result =
-        result ? result : knurl_wave_init(method, 1.0 / frequency_hz, amplitude, loop->desc.update_rate_hz, &cue.wave);
+    result = result
+                 ? result
+                 : knurl_wave_init(method, 1.0 / frequency_hz, amplitude, loop->shared.desc.update_rate_hz, &cue.wave);
     if (!result) {
-        cue.ticks = ticks_of(&cue.wave, seconds, loop->desc.update_rate_hz);
-        knurl_seqlock_write(&loop->added.cue_sequence, loop->added.cue_words, &cue, sizeof cue);
+        cue.ticks = ticks_of(&cue.wave, seconds, loop->shared.desc.update_rate_hz);
+        knurl_seqlock_write(&loop->shared.added.cue_sequence, loop->shared.added.cue_words, &cue, sizeof cue);
     }
     return result;
 }

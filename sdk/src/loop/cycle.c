@@ -13,29 +13,30 @@
 #define GAP_NS 50000000
 
 int knurl_loop_is_abandoned(const knurl_loop *loop) {
-    return knurl_device_is_closed(loop->desc.device) ||
-           (loop->desc.scene && knurl_scene_is_destroyed(loop->desc.scene));
+    return knurl_device_is_closed(loop->shared.desc.device) ||
+           (loop->shared.desc.scene && knurl_scene_is_destroyed(loop->shared.desc.scene));
 }
 
 int knurl_loop_at_end(const knurl_loop *loop) {
-    return knurl_load_acquire(&loop->stop_requested) ||
-           (loop->desc.tick_limit > 0 && knurl_load_relaxed(&loop->ticks) >= loop->desc.tick_limit) ||
+    return knurl_load_acquire(&loop->shared.stop_requested) ||
+           (loop->shared.desc.tick_limit > 0 &&
+            knurl_load_relaxed(&loop->shared.ticks) >= loop->shared.desc.tick_limit) ||
            knurl_loop_is_abandoned(loop);
 }
 
 static uint64_t ramp_steps(const knurl_loop *loop) {
-    return (uint64_t)(loop->desc.ramp_s * loop->desc.update_rate_hz);
+    return (uint64_t)(loop->shared.desc.ramp_s * loop->shared.desc.update_rate_hz);
 }
 
 /* Publishes a force sent without a tick. */
 static void tell_force(knurl_loop *loop, double gain, double force[3]) {
     double scene_force[3];
-    vec3_scale(gain, loop->force, force);
-    vec3_scale(gain, loop->scene_force, scene_force);
-    if (loop->desc.scene) {
-        knurl_scene_publish_force(loop->desc.scene, loop->desc.hip, scene_force, force);
+    vec3_scale(gain, loop->haptic.force, force);
+    vec3_scale(gain, loop->haptic.scene_force, scene_force);
+    if (loop->shared.desc.scene) {
+        knurl_scene_publish_force(loop->shared.desc.scene, loop->shared.desc.hip, scene_force, force);
     } else {
-        knurl_last_stage_note(loop->last, force);
+        knurl_last_stage_note(loop->haptic.last, force);
     }
     knurl_loop_tell_heat(loop);
 }
@@ -49,20 +50,20 @@ void knurl_loop_publish_zero_force(knurl_loop *loop) {
  * write. Returns 0 after the last step. */
 static int ramp_down(knurl_loop *loop) {
     const uint64_t steps = ramp_steps(loop);
-    if (loop->ramp_step >= steps) {
+    if (loop->haptic.ramp_step >= steps) {
         return 0;
     }
-    double gain = 1.0 - (double)++loop->ramp_step / (double)steps;
+    double gain = 1.0 - (double)++loop->haptic.ramp_step / (double)steps;
     double force[3];
     knurl_device_sample sample;
-    const knurl_result result = knurl_device_read(loop->desc.device, &sample);
-    gain = result || knurl_device_is_halted(loop->desc.device) ? 0.0 : gain;
+    const knurl_result result = knurl_device_read(loop->shared.desc.device, &sample);
+    gain = result || knurl_device_is_halted(loop->shared.desc.device) ? 0.0 : gain;
     tell_force(loop, gain, force);
-    if (result || knurl_device_write(loop->desc.device, force)) {
-        loop->ramp_step = steps; /* the device does not answer: skip the ramp */
+    if (result || knurl_device_write(loop->shared.desc.device, force)) {
+        loop->haptic.ramp_step = steps; /* the device does not answer: skip the ramp */
     }
-    knurl_count_up(&loop->cycles);
-    return loop->ramp_step < steps;
+    knurl_count_up(&loop->shared.cycles);
+    return loop->haptic.ramp_step < steps;
 }
 
 int knurl_loop_cycle(knurl_loop *loop) {
@@ -74,21 +75,21 @@ int knurl_loop_cycle(knurl_loop *loop) {
 
 void knurl_loop_end(knurl_loop *loop, int32_t state) {
     static const double none[3] = {0.0, 0.0, 0.0};
-    knurl_device *device = loop->desc.device;
+    knurl_device *device = loop->shared.desc.device;
     knurl_device_halt(device);
     knurl_loop_publish_zero_force(loop);
     knurl_loop_end_heat(loop);
     if (knurl_port_may_hold_force(device)) { /* otherwise it might keep playing its last force */
         (void)knurl_device_write(device, none);
     }
-    knurl_store_release(&loop->state, state);
+    knurl_store_release(&loop->shared.state, state);
 }
 
 /* After a gap the handle may be anywhere: no force until a tick has read its position, then the ramp. Does nothing if
  * the device or the watchdog has halted meanwhile, and reported it. */
 static void zero_after_gap(knurl_loop *loop, int64_t late) {
-    knurl_device *device = loop->desc.device;
-    if (late > GAP_NS && !loop->was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
+    knurl_device *device = loop->shared.desc.device;
+    if (late > GAP_NS && !loop->haptic.was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
         knurl_device_halt(device);
         knurl_port_report(device, KNURL_FAULT_GAP, 1e-9 * (double)late);
     }
@@ -97,24 +98,24 @@ static void zero_after_gap(knurl_loop *loop, int64_t late) {
 /* Records that a cycle began `late` ns after its deadline, except in the ramp at the end. */
 static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     zero_after_gap(loop, late);
-    if (overrun && !knurl_port_is_lost(loop->desc.device)) {        /* reconnecting resets this check */
-        knurl_port_add_gap(loop->desc.device, 1e-9 * (double)late); /* the hand kept moving meanwhile */
+    if (overrun && !knurl_port_is_lost(loop->shared.desc.device)) {        /* reconnecting resets this check */
+        knurl_port_add_gap(loop->shared.desc.device, 1e-9 * (double)late); /* the hand kept moving meanwhile */
     }
     if (knurl_loop_at_end(loop)) {
         return;
     }
-    knurl_histogram_add(&loop->jitter_ns, late);
+    knurl_histogram_add(&loop->shared.jitter_ns, late);
     if (overrun) {
-        knurl_count_up(&loop->overruns);
-        if (!loop->was_overrun) {
-            knurl_port_report(loop->desc.device, KNURL_FAULT_OVERRUN, 1e-9 * (double)late);
+        knurl_count_up(&loop->shared.overruns);
+        if (!loop->haptic.was_overrun) {
+            knurl_port_report(loop->shared.desc.device, KNURL_FAULT_OVERRUN, 1e-9 * (double)late);
         }
     }
-    loop->was_overrun = overrun;
+    loop->haptic.was_overrun = overrun;
 }
 
 static int32_t state_at_end(const knurl_loop *loop) {
-    return loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE;
+    return loop->haptic.is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE;
 }
 
 void knurl_loop_haptic_thread(void *argument) {
@@ -122,14 +123,14 @@ void knurl_loop_haptic_thread(void *argument) {
     uintptr_t stack = 0;
     int overrun;
     (void)knurl_error_message(); /* allocates this thread's storage now */
-    knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
-    knurl_device_enter_thread(loop->desc.device);
-    knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
-    knurl_store_relaxed(&loop->stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
-    knurl_pace_start(&loop->pace, &loop->clock, loop->desc.update_rate_hz);
-    while (!knurl_loop_at_end(loop) || ramp_steps(loop) > loop->ramp_step) {
-        const int64_t late = knurl_pace_wait(&loop->pace, &overrun);
-        knurl_loop_pass_time(loop, loop->pace.woke_at);
+    knurl_store_release(&loop->shared.haptic_thread, knurl_system_thread_id());
+    knurl_device_enter_thread(loop->shared.desc.device);
+    knurl_store_relaxed(&loop->shared.realtime, (uint32_t)knurl_system_make_realtime());
+    knurl_store_relaxed(&loop->shared.stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
+    knurl_pace_start(&loop->haptic.pace, &loop->shared.clock, loop->shared.desc.update_rate_hz);
+    while (!knurl_loop_at_end(loop) || ramp_steps(loop) > loop->haptic.ramp_step) {
+        const int64_t late = knurl_pace_wait(&loop->haptic.pace, &overrun);
+        knurl_loop_pass_time(loop, loop->haptic.pace.woke_at);
         note_lateness(loop, late, overrun);
         if (!knurl_loop_cycle(loop)) {
             break;
@@ -141,22 +142,22 @@ void knurl_loop_haptic_thread(void *argument) {
 
 uint32_t knurl_loop_serve(void *argument) {
     knurl_loop *loop = argument;
-    const double period = 1e9 / loop->desc.update_rate_hz;
-    knurl_store_release(&loop->is_served, 1u); /* before the watchdog can declare the device lost */
-    const int64_t now = loop->clock.now_ns(loop->clock.user);
-    if (loop->served_at == 0) {
+    const double period = 1e9 / loop->shared.desc.update_rate_hz;
+    knurl_store_release(&loop->shared.is_served, 1u); /* before the watchdog can declare the device lost */
+    const int64_t now = loop->shared.clock.now_ns(loop->shared.clock.user);
+    if (loop->haptic.served_at == 0) {
         (void)knurl_error_message(); /* as in knurl_loop_haptic_thread() */
-        knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
-        knurl_device_enter_thread(loop->desc.device);
-        knurl_store_relaxed(&loop->realtime, (uint32_t)knurl_system_make_realtime());
+        knurl_store_release(&loop->shared.haptic_thread, knurl_system_thread_id());
+        knurl_device_enter_thread(loop->shared.desc.device);
+        knurl_store_relaxed(&loop->shared.realtime, (uint32_t)knurl_system_make_realtime());
     } else {
-        const double late = fmax(0.0, (double)(now - loop->served_at) - period);
+        const double late = fmax(0.0, (double)(now - loop->haptic.served_at) - period);
         note_lateness(loop, (int64_t)late, late > 0.5 * period);
     }
-    loop->served_at = now;
+    loop->haptic.served_at = now;
     knurl_loop_pass_time(loop, now);
     if (knurl_loop_cycle(loop)) {
-        knurl_store_release(&loop->is_served, 0u);
+        knurl_store_release(&loop->shared.is_served, 0u);
         return 1;
     }
     knurl_loop_end(loop, state_at_end(loop)); /* the loop may be gone now */

@@ -8,37 +8,37 @@
 #include <math.h>
 
 void knurl_loop_tell_heat(knurl_loop *loop) {
-    knurl_store_double(&loop->theta, loop->last->heat.square * loop->per_force);
+    knurl_store_double(&loop->shared.theta, loop->haptic.last->heat.square * loop->haptic.per_force);
 }
 
 void knurl_loop_begin_heat(knurl_loop *loop) {
-    const knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
-    knurl_motor_heat_recall(loop->desc.device);
-    loop->last->heat.square = motors->square;
-    if (motors->now == loop->clock.now_ns && motors->user == loop->clock.user) { /* the same clock */
-        const double since = 1e-9 * (double)(loop->clock.now_ns(loop->clock.user) - motors->at);
-        knurl_heat_hold(&loop->last->heat, 0.0, fmax(0.0, since) * loop->desc.update_rate_hz);
+    const knurl_motor_heat *motors = knurl_port_motors(loop->shared.desc.device);
+    knurl_motor_heat_recall(loop->shared.desc.device);
+    loop->haptic.last->heat.square = motors->square;
+    if (motors->now == loop->shared.clock.now_ns && motors->user == loop->shared.clock.user) { /* the same clock */
+        const double since = 1e-9 * (double)(loop->shared.clock.now_ns(loop->shared.clock.user) - motors->at);
+        knurl_heat_hold(&loop->haptic.last->heat, 0.0, fmax(0.0, since) * loop->shared.desc.update_rate_hz);
     }
     knurl_loop_tell_heat(loop);
 }
 
 void knurl_loop_end_heat(knurl_loop *loop) {
-    knurl_motor_heat *motors = knurl_port_motors(loop->desc.device);
-    motors->square = loop->last->heat.square;
-    motors->at = loop->clock.now_ns(loop->clock.user);
-    motors->now = loop->clock.now_ns;
-    motors->user = loop->clock.user;
+    knurl_motor_heat *motors = knurl_port_motors(loop->shared.desc.device);
+    motors->square = loop->haptic.last->heat.square;
+    motors->at = loop->shared.clock.now_ns(loop->shared.clock.user);
+    motors->now = loop->shared.clock.now_ns;
+    motors->user = loop->shared.clock.user;
 }
 
 void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
-    const double periods = 1e-9 * (double)(now - loop->cycle_at) * loop->desc.update_rate_hz;
-    const double missed = loop->cycle_at ? periods - 1.0 : 0.0;
-    loop->cycle_at = now;
+    const double periods = 1e-9 * (double)(now - loop->haptic.cycle_at) * loop->shared.desc.update_rate_hz;
+    const double missed = loop->haptic.cycle_at ? periods - 1.0 : 0.0;
+    loop->haptic.cycle_at = now;
     if (missed < 1.0) {
         return;
     }
-    const int halted = knurl_device_is_halted(loop->desc.device) != 0;
-    const double force2 = halted ? 0.0 : vec3_dot(loop->force, loop->force);
-    knurl_heat_hold(&loop->last->heat, force2, missed);
+    const int halted = knurl_device_is_halted(loop->shared.desc.device) != 0;
+    const double force2 = halted ? 0.0 : vec3_dot(loop->haptic.force, loop->haptic.force);
+    knurl_heat_hold(&loop->haptic.last->heat, force2, missed);
     knurl_loop_tell_heat(loop);
 }

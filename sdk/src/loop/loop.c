@@ -23,7 +23,7 @@ static void system_sleep(int64_t deadline_ns, void *user) {
 
 /* A forked child does not have the threads that could end the loop. */
 static int is_running_here(const knurl_loop *loop) {
-    return knurl_loop_is_running(loop) && knurl_load_relaxed(&loop->process) == knurl_system_process_id();
+    return knurl_loop_is_running(loop) && knurl_load_relaxed(&loop->shared.process) == knurl_system_process_id();
 }
 
 static const knurl_field fields[] = {
@@ -118,10 +118,10 @@ static knurl_result make(const knurl_loop_desc *d, const knurl_hip_facts *facts,
         return knurl_fail(KNURL_ERROR_MEMORY, "loop: could not get %u bytes", (unsigned)sizeof *made);
     }
     made->handle = KNURL_HANDLE_LOOP;
-    made->process = knurl_system_process_id();
-    made->desc = *d;
-    made->clock = d->clock ? *d->clock : system_clock;
-    made->hip = d->scene ? &d->scene->hips[d->hip] : NULL;
+    made->shared.process = knurl_system_process_id();
+    made->shared.desc = *d;
+    made->shared.clock = d->clock ? *d->clock : system_clock;
+    made->shared.hip = d->scene ? &d->scene->hips[d->hip] : NULL;
     knurl_loop_init(made, facts);
     *loop = made;
     return KNURL_OK;
@@ -155,18 +155,18 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
 
 /* Starts the haptic thread, or uses the device's own. */
 static knurl_result start_haptics(knurl_loop *loop) {
-    knurl_device *device = loop->desc.device;
+    knurl_device *device = loop->shared.desc.device;
     if (knurl_port_owns_thread(device)) {
         return knurl_port_serve(device, knurl_loop_serve, loop);
     }
-    loop->thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, KNURL_LOOP_STACK_BYTES);
-    return loop->thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
+    loop->game.thread = knurl_system_start_thread(knurl_loop_haptic_thread, loop, KNURL_LOOP_STACK_BYTES);
+    return loop->game.thread ? KNURL_OK : knurl_fail(KNURL_ERROR_SYSTEM, "loop: the system refused another thread");
 }
 
 /* Returns 1 if the loop's own memory and its scene's are locked into RAM. */
 static int lock_memory(knurl_loop *loop) {
     const int own = knurl_system_lock_memory(loop, sizeof *loop);
-    const int scene = !loop->desc.scene || knurl_scene_lock_memory(loop->desc.scene) == KNURL_OK;
+    const int scene = !loop->shared.desc.scene || knurl_scene_lock_memory(loop->shared.desc.scene) == KNURL_OK;
     return own && scene;
 }
 
@@ -174,32 +174,33 @@ knurl_result knurl_loop_start(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (knurl_load_acquire(&loop->state) != KNURL_LOOP_IDLE) {
+    if (knurl_load_acquire(&loop->shared.state) != KNURL_LOOP_IDLE) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: expected one that never ran, found one that runs or has run");
     }
     if (knurl_loop_is_abandoned(loop)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: its %s",
-                          knurl_device_is_closed(loop->desc.device) ? "device was closed" : "scene was destroyed");
+                          knurl_device_is_closed(loop->shared.desc.device) ? "device was closed"
+                                                                           : "scene was destroyed");
     }
-    knurl_store_relaxed(&loop->scene_locked, (uint32_t)lock_memory(loop));
-    knurl_device_claim_thread(loop->desc.device);
+    knurl_store_relaxed(&loop->shared.scene_locked, (uint32_t)lock_memory(loop));
+    knurl_device_claim_thread(loop->shared.desc.device);
     knurl_loop_begin_heat(loop);
-    knurl_store_relaxed(&loop->process, knurl_system_process_id());
-    knurl_store_release(&loop->threaded, 1u);
-    knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
+    knurl_store_relaxed(&loop->shared.process, knurl_system_process_id());
+    knurl_store_release(&loop->shared.threaded, 1u);
+    knurl_store_release(&loop->shared.state, KNURL_LOOP_RUNNING);
     knurl_result result = knurl_loop_start_watchdog(loop); /* before the haptic thread: no force without a watchdog */
     result = result ? result : start_haptics(loop);
     if (result) {
-        knurl_store_release(&loop->state, KNURL_LOOP_IDLE);
+        knurl_store_release(&loop->shared.state, KNURL_LOOP_IDLE);
         knurl_loop_end_watchdog(loop);
-        knurl_store_release(&loop->threaded, 0u);
+        knurl_store_release(&loop->shared.threaded, 0u);
     }
     return result;
 }
 
 /* Runs the ramp at the end on this thread. */
 static void finish_stepping(knurl_loop *loop) {
-    knurl_store_relaxed(&loop->stepping, 1u);
+    knurl_store_relaxed(&loop->shared.stepping, 1u);
     knurl_loop_request_stop(loop);
     while (knurl_loop_cycle(loop)) {}
     knurl_loop_end(loop, KNURL_LOOP_DONE);
@@ -208,42 +209,42 @@ static void finish_stepping(knurl_loop *loop) {
 /* 1 if called from inside the loop: from a callback of its haptic thread, or from its watchdog thread. */
 static int is_inside(const knurl_loop *loop) {
     const uintptr_t here = knurl_system_thread_id();
-    const int runs =
-        knurl_loop_is_running(loop) && (knurl_load_acquire(&loop->threaded) || knurl_load_relaxed(&loop->stepping));
-    return (runs && knurl_load_acquire(&loop->haptic_thread) == here) ||
-           knurl_load_acquire(&loop->watchdog_thread) == here;
+    const int runs = knurl_loop_is_running(loop) &&
+                     (knurl_load_acquire(&loop->shared.threaded) || knurl_load_relaxed(&loop->shared.stepping));
+    return (runs && knurl_load_acquire(&loop->shared.haptic_thread) == here) ||
+           knurl_load_acquire(&loop->shared.watchdog_thread) == here;
 }
 
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_device *device = loop->desc.device;
-    if (knurl_load_acquire(&loop->threaded)) {
+    knurl_device *device = loop->shared.desc.device;
+    if (knurl_load_acquire(&loop->shared.threaded)) {
         return knurl_fail(KNURL_ERROR_STATE, "loop: it has a haptic thread and cannot be stepped");
     }
     if (!knurl_port_can_step(device)) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED, "loop: device '%s' runs in real time only and cannot be stepped",
                           knurl_port_uri(device));
     }
-    if (loop->state == KNURL_LOOP_IDLE) {
+    if (loop->shared.state == KNURL_LOOP_IDLE) {
         knurl_loop_begin_heat(loop);
-        knurl_store_release(&loop->state, KNURL_LOOP_RUNNING);
-        knurl_store_release(&loop->haptic_thread, knurl_system_thread_id());
+        knurl_store_release(&loop->shared.state, KNURL_LOOP_RUNNING);
+        knurl_store_release(&loop->shared.haptic_thread, knurl_system_thread_id());
     }
-    knurl_store_relaxed(&loop->stepping, 1u);
+    knurl_store_relaxed(&loop->shared.stepping, 1u);
     for (uint64_t i = 0; i < ticks && knurl_loop_is_running(loop) && !knurl_loop_at_end(loop); i++) {
-        if (loop->desc.reconnect && knurl_port_is_lost(device)) {
+        if (loop->shared.desc.reconnect && knurl_port_is_lost(device)) {
             (void)knurl_device_reopen(device);
         }
         if (!knurl_loop_cycle(loop)) {
-            knurl_loop_end(loop, loop->is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE);
+            knurl_loop_end(loop, loop->haptic.is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE);
         }
     }
     if (knurl_loop_is_running(loop) && knurl_loop_at_end(loop)) {
         finish_stepping(loop);
     }
-    knurl_store_relaxed(&loop->stepping, 0u);
+    knurl_store_relaxed(&loop->shared.stepping, 0u);
     return KNURL_OK;
 }
 
@@ -251,28 +252,28 @@ void knurl_loop_request_stop(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    knurl_store_release(&loop->stop_requested, 1u);
+    knurl_store_release(&loop->shared.stop_requested, 1u);
 }
 
 void knurl_loop_pause(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    knurl_store_release(&loop->paused, 1u);
+    knurl_store_release(&loop->shared.paused, 1u);
 }
 
 void knurl_loop_resume(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    knurl_store_release(&loop->paused, 0u);
+    knurl_store_release(&loop->shared.paused, 0u);
 }
 
 void knurl_loop_heartbeat(knurl_loop *loop) {
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }
-    (void)__atomic_fetch_add(&loop->heartbeats, 1, __ATOMIC_RELAXED);
+    (void)__atomic_fetch_add(&loop->shared.heartbeats, 1, __ATOMIC_RELAXED);
 }
 
 void knurl_loop_stop(knurl_loop *loop) {
@@ -283,7 +284,8 @@ void knurl_loop_stop(knurl_loop *loop) {
     if (is_inside(loop)) {
         return; /* the loop ends when this returns */
     }
-    while (knurl_load_acquire(&loop->threaded) && is_running_here(loop)) { /* a stepped loop ends in its next step */
+    /* a stepped loop ends in its next step */
+    while (knurl_load_acquire(&loop->shared.threaded) && is_running_here(loop)) {
         (void)knurl_loop_wait(loop, 1.0);
     }
 }
@@ -307,17 +309,17 @@ void knurl_loop_destroy(knurl_loop *loop) {
         knurl_loop_request_stop(loop);
         return;
     }
-    if (knurl_load_acquire(&loop->threaded)) {
+    if (knurl_load_acquire(&loop->shared.threaded)) {
         knurl_loop_stop(loop);
-        if (loop->thread) {
-            knurl_system_join_thread(loop->thread);
+        if (loop->game.thread) {
+            knurl_system_join_thread(loop->game.thread);
         }
     } else if (knurl_loop_is_running(loop)) {
         finish_stepping(loop);
     }
     knurl_loop_end_watchdog(loop);
     knurl_system_unlock_memory(loop, sizeof *loop);
-    release(&loop->desc);
+    release(&loop->shared.desc);
     knurl_handle_clear(&loop->handle);
     free(loop);
 }
@@ -335,18 +337,19 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     }
     knurl_loop_stats made;
     memset(&made, 0, sizeof made);
-    made.state = knurl_load_acquire(&loop->state);
-    made.ticks = knurl_load_relaxed(&loop->ticks);
-    made.overruns = knurl_load_relaxed(&loop->overruns);
-    made.watchdog_trips = knurl_load_relaxed(&loop->watchdog_trips);
-    made.realtime = knurl_load_relaxed(&loop->realtime);
-    made.memory_locked = knurl_load_relaxed(&loop->scene_locked) && knurl_load_relaxed(&loop->stack_locked);
-    made.tick_ns = percentiles_of(&loop->tick_ns);
-    made.jitter_ns = percentiles_of(&loop->jitter_ns);
-    made.heat_ticks = knurl_load_relaxed(&loop->heat_ticks);
-    made.heat = knurl_load_double(&loop->theta);
-    made.absences = knurl_load_relaxed(&loop->absences);
-    made.absent = knurl_load_relaxed(&loop->absent);
-    made.paused = knurl_load_relaxed(&loop->paused);
+    made.state = knurl_load_acquire(&loop->shared.state);
+    made.ticks = knurl_load_relaxed(&loop->shared.ticks);
+    made.overruns = knurl_load_relaxed(&loop->shared.overruns);
+    made.watchdog_trips = knurl_load_relaxed(&loop->shared.watchdog_trips);
+    made.realtime = knurl_load_relaxed(&loop->shared.realtime);
+    made.memory_locked =
+        knurl_load_relaxed(&loop->shared.scene_locked) && knurl_load_relaxed(&loop->shared.stack_locked);
+    made.tick_ns = percentiles_of(&loop->shared.tick_ns);
+    made.jitter_ns = percentiles_of(&loop->shared.jitter_ns);
+    made.heat_ticks = knurl_load_relaxed(&loop->shared.heat_ticks);
+    made.heat = knurl_load_double(&loop->shared.theta);
+    made.absences = knurl_load_relaxed(&loop->shared.absences);
+    made.absent = knurl_load_relaxed(&loop->shared.absent);
+    made.paused = knurl_load_relaxed(&loop->shared.paused);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

@@ -55,13 +55,8 @@ typedef struct knurl_loop_added {
     double latest;     /* N: the vibration's value in the last tick */
 } knurl_loop_added;
 
-struct knurl_loop {
-    uint32_t handle; /* KNURL_HANDLE_LOOP, first */
-    knurl_loop_desc desc;
-    knurl_clock clock;
-    knurl_hip *hip; /* the scene's; null without a scene */
-    knurl_thread *thread;
-    knurl_thread *watchdog; /* watchdog; also reconnects */
+/* Used by the haptic thread only, and by others while it cannot run. */
+typedef struct knurl_loop_haptic {
     knurl_pace pace;
     double force[3];        /* last force sent, device axes, N */
     double scene_force[3];  /* the same in scene axes; 0 without a scene */
@@ -79,7 +74,16 @@ struct knurl_loop {
     uint64_t since_heartbeat; /* ticks */
     int game_was_alive;
     int wanted; /* 1: not paused, and the heartbeat is not overdue */
-    knurl_loop_added added;
+} knurl_loop_haptic;
+
+/* Used by all threads. */
+typedef struct knurl_loop_shared {
+    /* constant once the loop is made */
+    knurl_loop_desc desc;
+    knurl_clock clock;
+    knurl_hip *hip; /* the scene's; null without a scene */
+
+    knurl_loop_added added; /* says which thread uses which of its fields */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -105,10 +109,23 @@ struct knurl_loop {
     uintptr_t process; /* the process that has these threads */
     knurl_histogram tick_ns;
     knurl_histogram jitter_ns;
+} knurl_loop_shared;
+
+/* Used by the game thread only, in knurl_loop_start() and knurl_loop_destroy(). */
+typedef struct knurl_loop_game {
+    knurl_thread *thread;
+    knurl_thread *watchdog; /* watchdog; also reconnects */
+} knurl_loop_game;
+
+struct knurl_loop {
+    uint32_t handle; /* KNURL_HANDLE_LOOP, first */
+    knurl_loop_haptic haptic;
+    knurl_loop_shared shared;
+    knurl_loop_game game;
 };
 
 static inline int knurl_loop_is_running(const knurl_loop *loop) {
-    return knurl_load_acquire(&loop->state) == KNURL_LOOP_RUNNING;
+    return knurl_load_acquire(&loop->shared.state) == KNURL_LOOP_RUNNING;
 }
 
 /* loop_tick.c: sets up a loop that is zero except desc, hip and clock. */
