@@ -31,7 +31,7 @@ static knurl_result open_any(knurl_session *session) {
     enum { MOST = 16 };
     knurl_device_listing *found = calloc(MOST, sizeof *found);
     if (!found) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "no memory to list devices in");
+        return knurl_fail(KNURL_ERROR_MEMORY, "no memory to list devices");
     }
     const uint32_t count = knurl_device_list(found, MOST);
     knurl_result result =

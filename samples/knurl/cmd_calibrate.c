@@ -29,11 +29,11 @@ static knurl_result weigh_both(double *heavier) {
         return result;
     }
     wait_for_enter("Pull the grip out and push it in, until its light is green. Hold it in the middle");
-    say(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+    say(stderr, "Release it slowly: it moves up and down for %g s.\n", WEIGH_SECONDS);
     result = weigh(device, &height, &empty);
     if (!result) {
         wait_for_enter("Hang the mass from the grip, and hold it in the middle");
-        say(stderr, "Let go of it slowly: it goes up and down for %g s.\n", WEIGH_SECONDS);
+        say(stderr, "Release it slowly: it moves up and down for %g s.\n", WEIGH_SECONDS);
         result = weigh(device, &height, &loaded);
     }
     knurl_device_close(device);
@@ -47,7 +47,7 @@ static int print_gain(out_file *file, const char *path, double gain, double heav
     if (out_keep(file)) {
         return TOOL_FAILURE;
     }
-    say(stderr, "Set KNURL_FALCON_GAIN=%s for what uses this Falcon.\n", path);
+    say(stderr, "Set KNURL_FALCON_GAIN=%s for programs that use this Falcon.\n", path);
     return TOOL_OK;
 }
 

@@ -137,7 +137,7 @@ static int load(run *r) {
     }
     if (knurl_scene_get_surface_count(r->scene) == 0) {
         return tool_error(TOOL_FAILURE,
-                          "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' says how to tag",
+                          "%s: nothing is tagged, so there is nothing to feel; 'knurl inspect' explains how to tag",
                           o->path);
     }
     return TOOL_OK;
@@ -227,7 +227,7 @@ static int open_view(run *r) {
     }
     (void)snprintf(index, sizeof index, "%s/index.html", page);
     if (access(index, R_OK) != 0) {
-        tool_tell("note", "the page is not built, so that a browser has nothing to open: ./run web");
+        tool_tell("note", "the page is not built, so a browser has nothing to open: ./run web");
     }
     tool_tell("note", "to see what is felt, open %s", view_url(r->view));
     return TOOL_OK;

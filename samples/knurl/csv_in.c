@@ -45,7 +45,7 @@ static int column_of(char *const *cells, uint32_t count, const char *name) {
 static const char *describe_header(const char *line, char *const *cells, uint32_t count, const char *name) {
     for (uint32_t i = 0; i < count; i++) {
         if (strcasecmp(cells[i], name) == 0) {
-            return "it in other case";
+            return "it in another case";
         }
     }
     return strchr(line, ';')                       ? "columns separated by ';'"

@@ -41,7 +41,7 @@ static const help_command commands[] = {
      {PRETTY,
       FULL,
       BUDGET,
-      {"--check", "", "exit with 3 where a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
+      {"--check", "", "exit with 3 if a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
      "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, turned_triangles, bytes, why,\n"
      "model_error, seam, touching_pairs, in_reach, double_sided, material, stretch, stretch_y}], skipped, bytes, hint.",
      NULL},
@@ -66,8 +66,8 @@ static const help_command commands[] = {
       PRETTY},
      "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres.\n"
      "CSV out (--out): t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz. x..z and f in scene axes (m, N), v in the\n"
-     "surface's frame (m/s), surface a name or none. An apostrophe stands before a name that is none, that begins with\n"
-     "one, or that a spreadsheet would take for a formula (= + - @).\n"
+     "surface's frame (m/s), surface a name or none. An apostrophe is put before a name that is 'none', begins with\n"
+     "an apostrophe, or would be a formula in a spreadsheet (= + - @).\n"
      "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
      "watchdogs, absences, force_limit_ticks, above_nyquist_ticks, non_finite_ticks, entry_ticks, slew_ticks,\n"
      "heat_ticks, passivity_ticks, squeezed_ticks, visit_limit_ticks, heat, force_max_n, faults, tick_ns and\n"
@@ -106,7 +106,7 @@ static const help_command commands[] = {
       {"--case", "NAME",
        "one case only; a wrong name lists all. worst_..., mesh_10m and ..._thrashed run by name only"},
       {"--ticks", "N", "ticks to time per case"}},
-     "The same ticks of worst_... are run 5 times, and each tick's least time counts: what interrupted it does not.\n"
+     "The same ticks of worst_... are run 5 times, and each tick's least time counts, so interruptions do not.\n"
      "JSON: version, timer_ns, clock_step_ns, machine, cases [{case, batch_ns, p50_ns, p99_ns, p999_ns, max_ns, bytes,\n"
      "build_ms, ...}], skipped [{case, why}].",
      NULL},
@@ -119,8 +119,8 @@ static const help_command commands[] = {
     {"calibrate",
      "falcon",
      "find the gain of a Falcon with a known mass",
-     {{"--mass", "KG", "that hangs from its grip, 0.05 to 0.4"}, {"--out", "FILE", "where the gain is written"}},
-     "JSON: gain, newtons. KNURL_FALCON_GAIN=FILE makes the Falcon's forces as strong as they are called.",
+     {{"--mass", "KG", "that hangs from its grip, 0.05 to 0.4"}, {"--out", "FILE", "file to write the gain to"}},
+     "JSON: gain, newtons. KNURL_FALCON_GAIN=FILE corrects the Falcon's forces.",
      NULL}};
 
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)

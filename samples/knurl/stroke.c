@@ -32,7 +32,7 @@ static int move_workspace(knurl_scene *scene, const knurl_surface_info *info, kn
     if (knurl_scene_configure_hip(scene, 0, &desc)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    tool_tell("note", "surface '%s' lies outside the workspace round all surfaces; the workspace is moved to it",
+    tool_tell("note", "surface '%s' lies outside the workspace around all surfaces; the workspace is moved to it",
               info->name);
     return TOOL_OK;
 }

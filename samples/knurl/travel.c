@@ -28,7 +28,7 @@ int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id sur
     }
     if (counts.contact_ticks == 0) {
         return tool_error(TOOL_NO_CONTACT,
-                          "run: nothing was touched in %.3g s: 'knurl inspect' tells which surfaces are in reach, and "
+                          "run: nothing was touched in %.3g s: 'knurl inspect' lists which surfaces are in reach, and "
                           "which way they face",
                           seconds);
     }

@@ -362,8 +362,7 @@ TEST(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one)
     knurl_handle_clear(scene);
     assert_false(KNURL_IS_HANDLE(scene, SCENE));
     assert_true(KNURL_BAD_HANDLE(scene, SCENE));
-    assert_string_equal(knurl_error_message(),
-                        "scene: expected a scene, found a handle that is none, or was destroyed already");
+    assert_string_equal(knurl_error_message(), "scene: expected a scene, found an invalid or destroyed handle");
 }
 
 TEST(a_null_parameter_is_named) {

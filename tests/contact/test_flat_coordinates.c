@@ -20,7 +20,7 @@ TEST(uvs_that_are_not_affine_keep_a_mesh) {
 }
 
 TEST(uvs_without_area_or_mirrored_in_part_keep_a_mesh) {
-    const char *const reason = "mesh: some of its uvs have no area, or run the other way round";
+    const char *const reason = "mesh: some of its uvs have no area, or are mirrored against the rest";
     shape none = DRAWING("####", "####");
     memset(none.uvs, 0, none.vertex_count * 2 * sizeof(float));
     CHECK_STAYS(&none, reason);
@@ -39,10 +39,10 @@ TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
     static const struct {
         float wrong[3];
         const char *why;
-    } cases[] = {{{1.0F, 3e-4F, 0.0F}, "mesh: its tangents do not all run one way"},
-                 {{-1.0F, 0.0F, 0.0F}, "mesh: its tangents do not all run one way"},
-                 {{0.0F, 0.0F, 1.0F}, "mesh: its x direction stands on it like a post"},
-                 {{0.0F, 0.0F, 0.0F}, "mesh: its x direction stands on it like a post"},
+    } cases[] = {{{1.0F, 3e-4F, 0.0F}, "mesh: its tangents do not all point in one direction"},
+                 {{-1.0F, 0.0F, 0.0F}, "mesh: its tangents do not all point in one direction"},
+                 {{0.0F, 0.0F, 1.0F}, "mesh: its x direction is perpendicular to it"},
+                 {{0.0F, 0.0F, 0.0F}, "mesh: its x direction is perpendicular to it"},
                  {{0.5F, 1e-5F, 0.3F}, "plane: a flat mesh, a rectangle"}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         for (uint32_t v = 0; v < 15; v++) {
@@ -60,14 +60,14 @@ TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
 TEST(axis_along_the_normal_keeps_a_mesh) {
     const double upright[3] = {0.0, sin(0.009), cos(0.009)};
     shape s = DRAWING("####", "####");
-    check_stays(&s, upright, "mesh: its x direction stands on it like a post", __LINE__);
+    check_stays(&s, upright, "mesh: its x direction is perpendicular to it", __LINE__);
 }
 
 TEST(mesh_without_axis_tangents_or_uvs_stays_one) {
     shape s = DRAWING("####", "####");
     free(s.uvs);
     s.uvs = NULL;
-    CHECK_STAYS(&s, "mesh: nothing says which way its x runs");
+    CHECK_STAYS(&s, "mesh: no axis, tangents or uvs to give its x direction");
 }
 
 TEST(axis_gives_metres_from_the_meshs_origin) {

@@ -126,7 +126,7 @@ TEST(the_scene_to_load) {
     file.more = R"(,"scenes":[{"nodes":[0]}],"scene":1)";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"scene: expected an index below 1 (scenes), found 1"});
     file.more = R"(,"scenes":[{"nodes":[0,0]}])";
-    assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"scene 0: nodes: node 'a' (0) stands there twice"});
+    assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"scene 0: nodes: node 'a' (0) is listed twice"});
 }
 
 TEST(names_are_stable_and_each_once) {

@@ -112,7 +112,7 @@ TEST(an_id_of_another_scene_is_stale_and_says_so) {
         CHECK_REFUSED(knurl_scene_get_surface_name(scenes[i], ids[1 - i], &name), KNURL_ERROR_STALE_ID, name);
         assert_int_equal(knurl_scene_get_surface_count(scenes[i]), 1);
         CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], 1), KNURL_ERROR_STALE_ID, parts);
-        check_message("names none");
+        check_message("names no surface");
     }
     assert_int_equal(knurl_scene_remove_surface(scenes[0], ids[0]), KNURL_OK);
     knurl_scene_destroy(scenes[0]);

@@ -128,7 +128,7 @@ static process play(const char *header, const char *row) {
 TEST(headers_that_were_written_otherwise_are_told_by_what_was_found) {
     static const char *const table[][3] = {{"t;x;y;z", "0;0;0;0", "separated by ';'"},
                                            {"t\tx\ty\tz", "0\t0\t0\t0", "separated by tabs"},
-                                           {"T,X,Y,Z", "0,0,0,0", "in other case"},
+                                           {"T,X,Y,Z", "0,0,0,0", "in another case"},
                                            {"0,0,0,0", "1,0,0,0", "numbers instead of names"},
                                            {"a,b,c,d", "0,0,0,0", "found none"}};
     for (size_t i = 0; i < COUNT_OF(table); i++) {

@@ -59,18 +59,18 @@ extern "C" {
 #define KNURL_RESULTS(X)                                                                                               \
     X(KNURL_OK, 0, "ok")                                                                                               \
     X(KNURL_ERROR_ARGUMENT, -1, "an argument is out of its range")                                                     \
-    X(KNURL_ERROR_STATE, -2, "the call does not fit the object's state")                                               \
-    X(KNURL_ERROR_MEMORY, -3, "memory could not be had")                                                               \
-    X(KNURL_ERROR_STALE_ID, -4, "the id names nothing that exists")                                                    \
+    X(KNURL_ERROR_STATE, -2, "the call is not allowed in the object's state")                                          \
+    X(KNURL_ERROR_MEMORY, -3, "out of memory")                                                                         \
+    X(KNURL_ERROR_STALE_ID, -4, "no object has this id")                                                               \
     X(KNURL_ERROR_FULL, -5, "a declared capacity is used up")                                                          \
-    X(KNURL_ERROR_UNSUPPORTED, -6, "this version cannot do what was asked")                                            \
+    X(KNURL_ERROR_UNSUPPORTED, -6, "not supported by this version")                                                    \
     X(KNURL_ERROR_IO, -7, "a file could not be read or written")                                                       \
-    X(KNURL_ERROR_FORMAT, -8, "a file does not hold what its format demands")                                          \
-    X(KNURL_ERROR_UNKNOWN, -9, "a name is not known")                                                                  \
+    X(KNURL_ERROR_FORMAT, -8, "a file does not follow its format")                                                     \
+    X(KNURL_ERROR_UNKNOWN, -9, "unknown name")                                                                         \
     X(KNURL_ERROR_DEVICE_LOST, -10, "the device no longer answers")                                                    \
     X(KNURL_ERROR_SYSTEM, -11, "the operating system refused")                                                         \
-    X(KNURL_ERROR_DEVICE_NOT_READY, -12, "the device gives no position that can be trusted")                           \
-    X(KNURL_ERROR_CANCELLED, -13, "the caller stopped it")
+    X(KNURL_ERROR_DEVICE_NOT_READY, -12, "the device has no valid position")                                           \
+    X(KNURL_ERROR_CANCELLED, -13, "cancelled by the caller")
 
 enum {
 #define KNURL_RESULT_ENUMERATOR(name, value, text) name = (value),

@@ -55,21 +55,21 @@ typedef struct knurl_device_listing {
 #define KNURL_FAULTS(X)                                                                                                \
     X(KNURL_FAULT_LOST, 1, "lost", "the device is gone: unplugged or switched off", "")                                \
     X(KNURL_FAULT_SILENT, 2, "silent", "no position came for too long", "s")                                           \
-    X(KNURL_FAULT_CORRUPT, 3, "corrupt", "what came was not a whole message and was thrown away", "bytes")             \
+    X(KNURL_FAULT_CORRUPT, 3, "corrupt", "an incomplete or corrupt message was discarded", "bytes")                    \
     X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number", "")                                      \
     X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move", "m")                            \
-    X(KNURL_FAULT_LATE, 6, "late", "the newest force was too old to be played on", "s")                                \
+    X(KNURL_FAULT_LATE, 6, "late", "the last force was too old to keep playing", "s")                                  \
     X(KNURL_FAULT_OVERRUN, 7, "overrun", "ticks came late; reported once for several in a row", "s")                   \
-    X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stood still", "s")                                       \
-    X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "the game gave no sign of life", "s")                                     \
+    X(KNURL_FAULT_WATCHDOG, 8, "watchdog", "the haptic thread stalled", "s")                                           \
+    X(KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "no heartbeat from the game", "s")                                        \
     X(KNURL_FAULT_REFUSED, 10, "refused", "the device refused the force", "(its own code)")                            \
     X(KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated",                                                                    \
-      "the device does not know where it is and needs homing: pull a Falcon's grip out and push it in, put a Touch's " \
-      "stylus into its inkwell, hold a WoodenHaptics in its home pose and press its button",                           \
+      "the device is not homed: pull a Falcon's grip out and push it in, put a Touch's stylus into its inkwell, "      \
+      "hold a WoodenHaptics in its home pose and press its button",                                                    \
       "")                                                                                                              \
-    X(KNURL_FAULT_UNGUARDED, 12, "unguarded", "the guard process is gone: when this one is killed, the force stays",   \
-      "")                                                                                                              \
-    X(KNURL_FAULT_GAP, 13, "gap", "the loop did not run for a while: the program or the machine stood still", "s")     \
+    X(KNURL_FAULT_UNGUARDED, 12, "unguarded",                                                                          \
+      "the guard process ended; if this process is killed now, the last force keeps playing", "")                      \
+    X(KNURL_FAULT_GAP, 13, "gap", "the loop did not run for a while: the program or the machine was paused", "s")      \
     X(KNURL_FAULT_BACKWARDS_X, 14, "backwards_x",                                                                      \
       "the handle does not follow the force along x: a motor is wired or signed backwards; swap its two wires "        \
       "(or, in a caller's device, change its sign), and open the device again",                                        \
@@ -83,9 +83,9 @@ typedef struct knurl_device_listing {
       "(or, in a caller's device, change its sign), and open the device again",                                        \
       "")                                                                                                              \
     X(KNURL_FAULT_FORCE_OFF, 17, "force_off",                                                                          \
-      "the device has switched its forces off, and is told none until they are on again", "")                          \
-    X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force comes back, by the ramp", "")                           \
-    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is there again", "")
+      "the device switched its forces off; no force is sent until they are on again", "")                              \
+    X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force ramps up again", "")                                    \
+    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is connected again", "")
 
 enum {
 #define KNURL_FAULT_ENUMERATOR(code, number, name, text, unit) code = (number),
@@ -95,15 +95,15 @@ enum {
 
 /** Why a device has switched its forces off: the value of a KNURL_FAULT_FORCE_OFF event. Constant, number, sentence. */
 #define KNURL_FORCE_OFF_CAUSES(X)                                                                                      \
-    X(KNURL_FORCE_OFF_UNTOLD, 0, "it does not tell why; press its force button, or open it again")                     \
+    X(KNURL_FORCE_OFF_UNTOLD, 0, "no reason given; press its force button, or open it again")                          \
     X(KNURL_FORCE_OFF_BUTTON, 1, "by its force button; press it again")                                                \
     X(KNURL_FORCE_OFF_VELOCITY, 2, "it moved faster than its controller allows; press its force button")               \
-    X(KNURL_FORCE_OFF_WATCHDOG, 3, "it heard nothing for too long; press its force button, or open it again")          \
+    X(KNURL_FORCE_OFF_WATCHDOG, 3, "no command reached it for too long; press its force button, or open it again")     \
     X(KNURL_FORCE_OFF_SOFTWARE, 4, "by another call of its maker's library; press its force button, or open it again") \
-    X(KNURL_FORCE_OFF_CABLE, 5, "its cable was out; press its force button, or open it again")                         \
-    X(KNURL_FORCE_OFF_DEADMAN, 6, "its grip was let go; hold it, and press its force button")                          \
-    X(KNURL_FORCE_OFF_POWER, 7, "its power supply is out; plug it in")                                                 \
-    X(KNURL_FORCE_OFF_NOT_READY, 8, "its maker's service says that it is not ready; the Haply Hub shows why")
+    X(KNURL_FORCE_OFF_CABLE, 5, "its cable was unplugged; press its force button, or open it again")                   \
+    X(KNURL_FORCE_OFF_DEADMAN, 6, "its grip was released; hold it, and press its force button")                        \
+    X(KNURL_FORCE_OFF_POWER, 7, "its power supply is unplugged; plug it in")                                           \
+    X(KNURL_FORCE_OFF_NOT_READY, 8, "its maker's service reports that it is not ready; the Haply Hub shows why")
 
 enum {
 #define KNURL_FORCE_OFF_ENUMERATOR(code, number, text) code = (number),

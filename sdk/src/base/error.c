@@ -30,7 +30,7 @@ const char *knurl_result_string(knurl_result result) {
         KNURL_RESULTS(KNURL_RESULT_CASE)
 #undef KNURL_RESULT_CASE
     default:
-        return "a result code that this version does not know";
+        return "a result code unknown to this version";
     }
 }
 
@@ -155,8 +155,8 @@ static knurl_result check_size(const char *type, const void *caller, uint32_t *s
     }
     memcpy(size, caller, sizeof *size);
     if (*size < 8 || *size > 65536) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s.struct_size: expected what %s_init() sets, found %u", type, type,
-                          (unsigned)*size);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s.struct_size: expected the value set by %s_init(), found %u", type,
+                          type, (unsigned)*size);
     }
     return KNURL_OK;
 }
@@ -186,7 +186,7 @@ knurl_result knurl_desc_read(const char *type, const void *caller, void *local, 
     }
     for (uint32_t i = local_size; i < size; i++) {
         if (((const unsigned char *)caller)[i] != 0) {
-            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: byte %u is set, but Knurl %s knows only %u bytes of it",
+            return knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: byte %u is set, but Knurl %s supports only %u bytes of it",
                               type, (unsigned)i, knurl_version_string(), (unsigned)local_size);
         }
     }

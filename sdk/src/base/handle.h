@@ -34,7 +34,7 @@ static inline const char *knurl_handle_kind(uint32_t number) {
            : number == KNURL_HANDLE_LOOP    ? "a loop"
            : number == KNURL_HANDLE_SESSION ? "a session"
            : number == KNURL_HANDLE_AUDIO   ? "an audio"
-                                            : "a handle that is none, or was destroyed already";
+                                            : "an invalid or destroyed handle";
 }
 
 static inline int knurl_is_bad_handle(const void *handle, uint32_t kind, const char *name) {

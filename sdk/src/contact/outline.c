@@ -277,7 +277,7 @@ static void simplify(outline *o, double limit, const char **why) {
     } else if (o->count > KNURL_OUTLINE_EDGES) {
         *why = too_many;
     } else if (o->count < 3) { /* straightened to nothing */
-        *why = "mesh: its outline is finer than a plane's may be off";
+        *why = "mesh: its outline is smaller than a plane's tolerance";
     }
 }
 

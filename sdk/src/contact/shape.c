@@ -198,9 +198,10 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
     knurl_result result = knurl_desc_read("knurl_mesh_desc", d->mesh, &desc, sizeof desc);
     result = result ? result : knurl_mesh_check(&desc);
     if (!result && !d->axis && !desc.uvs && !desc.tangents) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: a mesh with neither tangents nor uvs needs one, found none");
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "axis: expected one for a mesh with neither tangents nor uvs, found none");
     }
-    shape->why = "the full model was asked for (KNURL_FULL_MESHES)";
+    shape->why = "the full model was requested (KNURL_FULL_MESHES)";
     if (!result && !d->full_model) {
         result = knurl_plane_from_mesh(heap, &desc, d->axis, &plane, position, rotation, &shape->why);
     }

@@ -14,7 +14,7 @@
 /* rad: largest deviation of the tangents' directions from their mean. 1e-4 of a 1 m/s stroke is 0.1 mm/s. */
 #define SAME_DIRECTION 1e-4
 
-static const char *const along_normal = "mesh: its x direction stands on it like a post";
+static const char *const along_normal = "mesh: its x direction is perpendicular to it";
 
 /* Rotates the sheet's x to a direction in its present x and y; the map rotates with it. */
 static void align_x(knurl_sheet *sheet, const double direction[2], knurl_plane *plane) {
@@ -67,7 +67,7 @@ static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char
             const double across = mean[0] * flat[1] - mean[1] * flat[0];
             const double along = mean[0] * flat[0] + mean[1] * flat[1];
             if (pass == 1 && !(fabs(across) <= SAME_DIRECTION * along && along > 0.0)) {
-                *why = "mesh: its tangents do not all run one way";
+                *why = "mesh: its tangents do not all point in one direction";
                 return;
             }
             mean[0] += pass == 0 ? flat[0] / part : 0.0;
@@ -159,7 +159,7 @@ static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why)
     uv_sums sums = {.shortest = {HUGE_VAL, HUGE_VAL}};
     for (uint32_t i = 0; i < sheet->count; i++) {
         if (!add_uvs(sheet, sheet->kept[i], &sums)) {
-            *why = "mesh: some of its uvs have no area, or run the other way round";
+            *why = "mesh: some of its uvs have no area, or are mirrored against the rest";
             return;
         }
     }
@@ -189,7 +189,7 @@ void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_pla
         return;
     }
     if (!d->tangents && !d->uvs) {
-        *why = "mesh: nothing says which way its x runs";
+        *why = "mesh: no axis, tangents or uvs to give its x direction";
         return;
     }
     if (d->uvs) {

@@ -179,7 +179,7 @@ knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
             1e3 * KNURL_LINK_PATIENCE, 2.0 / KNURL_LINK_PATIENCE, update_rate_hz);
     }
     if (knurl_load_acquire(&device->lost) && knurl_device_reopen(device)) {
-        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and is not to be found",
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device '%s': it was lost, and cannot be found",
                           device->driver->uri);
     }
     knurl_result result = begin_check(device);
@@ -295,7 +295,7 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
     if (!KNURL_IS_HANDLE(device, DEVICE) || !sample) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
                                  "knurl_device_read: expected a device that is open and a sample, "
-                                 "found null or a handle that is none");
+                                 "found null or an invalid handle");
     }
     const knurl_result result = read_device(device, sample);
     return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
@@ -332,7 +332,7 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
     if (!KNURL_IS_HANDLE(device, DEVICE) || !force) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
                                  "knurl_device_write: expected a device that is open and a force, "
-                                 "found null or a handle that is none");
+                                 "found null or an invalid handle");
     }
     const knurl_result result = write_device(device, force);
     return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;

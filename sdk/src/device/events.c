@@ -70,7 +70,7 @@ static const struct {
 #define KNURL_FAULT_ROW(constant, number, name, text, unit) {constant, name, text, unit},
     KNURL_FAULTS(KNURL_FAULT_ROW)
 #undef KNURL_FAULT_ROW
-        {0, "unknown", "a fault that this version does not know", ""}};
+        {0, "unknown", "a fault unknown to this version", ""}};
 
 #define FAULT_COUNT (sizeof faults / sizeof *faults - 1)
 

@@ -84,7 +84,8 @@ Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &reso
             return {texts_.emplace_back(read_data_uri(uri, size)).data(), length};
         }
         if (!resources.folder)
-            throw Failure(KNURL_ERROR_IO, "an external file cannot be read, for no folder was given: embed the buffer");
+            throw Failure(KNURL_ERROR_IO,
+                          "an external file cannot be read, because no folder was given: embed the buffer");
         const Place place = locate(uri, *resources.folder);
         auto known = files_.find(place.file);
         if (known == files_.end()) {

@@ -175,7 +175,7 @@ class Filter {
         put(kept.bufferView, view_place(accessor));
         put(kept.byteOffset, accessor.whole("byteOffset"));
         put(kept.componentType, component_type_of(accessor));
-        put(kept.count, accessor.required(accessor.whole("count", 1), "count", "how many elements there are"));
+        put(kept.count, accessor.required(accessor.whole("count", 1), "count", "the number of elements"));
         kept.normalized = accessor.flag("normalized").value_or(false);
         kept.type = type_of(accessor);
         kept.sparse.isSparse = false;
@@ -187,7 +187,7 @@ class Filter {
     void keep_sparse(tinygltf::Accessor &kept, const Fields &sparse) {
         auto &to = kept.sparse;
         to.isSparse = true;
-        put(to.count, sparse.required(sparse.whole("count", 1), "count", "how many elements are replaced"));
+        put(to.count, sparse.required(sparse.whole("count", 1), "count", "the number of replaced elements"));
         const Fields indices = sparse_part(sparse, "indices");
         put(to.indices.bufferView, required_view_place(indices));
         put(to.indices.byteOffset, indices.whole("byteOffset").value_or(0));

@@ -86,7 +86,7 @@ std::vector<uint32_t> scene_roots(const Fields &root, const std::vector<int32_t>
                                           node_label(root, static_cast<size_t>(parents[node])) +
                                           ": expected nodes without a parent");
         if (seen[node])
-            scene.refuse_key("nodes", node_label(root, node) + " stands there twice");
+            scene.refuse_key("nodes", node_label(root, node) + " is listed twice");
         seen[node] = true;
     }
     return roots;

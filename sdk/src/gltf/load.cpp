@@ -182,7 +182,7 @@ class Maker {
             for (int k = 0; k < 3; ++k)
                 surface.axis[k] = turned[k];
         } else if (geometry.tangents.empty() && geometry.uvs.empty()) {
-            refuse(where, "knurl.axis: missing: expected one (3 numbers, the grating's x in object space), for the "
+            refuse(where, "knurl.axis: missing: expected one (3 numbers, the grating's x in object space), because the "
                           "primitive has neither TANGENT nor TEXCOORD_0: add an axis to the tag, or UVs to the mesh");
         }
         return addition.add(surface, where);
@@ -230,14 +230,14 @@ knurl_gltf_options complete(const knurl_gltf_options *options) {
         return all;
     const uint32_t size = options->struct_size;
     if (size < options_size_first || size > 65536)
-        throw Failure(KNURL_ERROR_ARGUMENT, "knurl_gltf_options.struct_size: expected what knurl_gltf_options_init() "
-                                            "sets, found " +
-                                                std::to_string(size));
+        throw Failure(KNURL_ERROR_ARGUMENT,
+                      "knurl_gltf_options.struct_size: expected the value set by knurl_gltf_options_init(), found " +
+                          std::to_string(size));
     const auto *bytes = reinterpret_cast<const unsigned char *>(options);
     for (size_t i = sizeof all; i < size; ++i)
         if (bytes[i] != 0)
             throw Failure(KNURL_ERROR_UNSUPPORTED, "knurl_gltf_options: byte " + std::to_string(i) +
-                                                       " is set, but this version knows only " +
+                                                       " is set, but this version supports only " +
                                                        std::to_string(sizeof all) + " bytes of it");
     std::memcpy(&all, options, std::min<size_t>(size, sizeof all));
     return all;
@@ -246,7 +246,7 @@ knurl_gltf_options complete(const knurl_gltf_options *options) {
 void check(const knurl_gltf_report *report) {
     if (report != nullptr && (report->struct_size < report_size_first || report->struct_size > 65536))
         throw Failure(KNURL_ERROR_ARGUMENT,
-                      "knurl_gltf_report.struct_size: expected what knurl_gltf_report_init() sets, found " +
+                      "knurl_gltf_report.struct_size: expected the value set by knurl_gltf_report_init(), found " +
                           std::to_string(report->struct_size));
 }
 
@@ -268,7 +268,7 @@ knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_
     } catch (const Failure &failure) {
         return knurl_fail(failure.code(), "%.400s: %s", file, failure.what());
     } catch (const std::bad_alloc &) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "%.400s: memory could not be had", file);
+        return knurl_fail(KNURL_ERROR_MEMORY, "%.400s: out of memory", file);
     } catch (const std::exception &error) {
         return knurl_fail(KNURL_ERROR_FORMAT, "%.400s: %s", file, error.what());
     } catch (...) {

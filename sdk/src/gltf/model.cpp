@@ -10,7 +10,7 @@ Bytes read_buffer(const BufferSource &source, const Resources &resources, Source
         return sources.read(*source.uri, source.byte_length, resources, where);
     const std::optional<Bytes> &bin = resources.bin;
     if (source.number != 0 || !bin)
-        refuse(where, "uri: missing: expected one, for only buffer 0 of a .glb with a BIN chunk does without");
+        refuse(where, "uri: missing: expected one; only buffer 0 of a .glb with a BIN chunk may omit it");
     if (bin->size < source.byte_length)
         refuse(where, "byteLength: expected at most " + std::to_string(bin->size) + " (the BIN chunk), found " +
                           std::to_string(source.byte_length));

@@ -117,7 +117,7 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
         (void)snprintf(sentence, sizeof sentence,
                        "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
                        farthest * 0x1p-24);
-        say(on, KNURL_LIMIT_FAR, sentence, "look for a vertex that went astray, or another unit than metres");
+        say(on, KNURL_LIMIT_FAR, sentence, "look for a stray vertex, or a unit other than metres");
     }
 }
 
@@ -129,7 +129,7 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
                        "in places contact looks at more than the %u triangles and nodes that a tick has time for",
                        (unsigned)max_visits);
         say(on, KNURL_LIMIT_VISITS, sentence,
-            "use fewer triangles, none that lie over one another, or crests lower than the mesh is wide");
+            "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width");
     }
 }
 
@@ -190,17 +190,16 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
     if (facts.turned > 0) {
-        (void)snprintf(
-            sentence, sizeof sentence,
-            "%u of its %u triangles faced another way than those they share edges with, and were turned over",
-            (unsigned)facts.turned, (unsigned)facts.triangle_count);
+        (void)snprintf(sentence, sizeof sentence,
+                       "%u of its %u triangles were wound against their neighbours, and were turned over",
+                       (unsigned)facts.turned, (unsigned)facts.triangle_count);
         say(on, KNURL_LIMIT_WINDING, sentence, "recalculate the normals in the editor");
     }
     if (facts.mixed > 0 && !surface->double_sided) {
         (void)snprintf(
             sentence, sizeof sentence,
-            "%u of its %u triangles face another way than those beside them, and may let the HIP through: too "
-            "many triangles touch there to tell which is right",
+            "%u of its %u triangles are wound against their neighbours, and may let the HIP through: too many "
+            "triangles touch there to find the right side",
             (unsigned)facts.mixed, (unsigned)facts.triangle_count);
         say(on, KNURL_LIMIT_WINDING, sentence,
             "recalculate the normals in the editor, or make each part a mesh of its own");

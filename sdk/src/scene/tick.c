@@ -279,7 +279,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
                               knurl_tick_output *output) {
     if (!KNURL_IS_HANDLE(scene, SCENE) || !input || !output) {
         return refuse(KNURL_ERROR_ARGUMENT,
-                      "knurl_scene_tick: expected a scene, an input and an output, found null or a handle that is none",
+                      "knurl_scene_tick: expected a scene, an input and an output, found null or an invalid handle",
                       output);
     }
     if (!is_reserved_zero(input)) { /* reserved for later versions */
@@ -304,9 +304,9 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
 knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *inputs,
                                     uint64_t count, knurl_tick_output *outputs) {
     if (!KNURL_IS_HANDLE(scene, SCENE) || !inputs || !outputs) {
-        return refuse(
-            KNURL_ERROR_ARGUMENT,
-            "knurl_scene_tick_batch: expected a scene, inputs and outputs, found null or a handle that is none", NULL);
+        return refuse(KNURL_ERROR_ARGUMENT,
+                      "knurl_scene_tick_batch: expected a scene, inputs and outputs, found null or an invalid handle",
+                      NULL);
     }
     knurl_result first = KNURL_OK;
     for (uint64_t i = 0; i < count; i++) {

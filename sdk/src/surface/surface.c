@@ -71,8 +71,9 @@ static knurl_result set_shared_shape(const knurl_surface_desc *d, const knurl_sh
         return knurl_fail(KNURL_ERROR_ARGUMENT, "shape: expected exactly one of plane, mesh and shape_of, found more");
     }
     if (vec3_length(surface->axis) > 0.0) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected none with shape_of, which has one, found [%g, %g, %g]",
-                          d->axis[0], d->axis[1], d->axis[2]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "axis: expected zeros with shape_of, whose axis is used, found [%g, %g, %g]", d->axis[0],
+                          d->axis[1], d->axis[2]);
     }
     vec3_copy(shared->axis, surface->axis);
     return KNURL_OK;

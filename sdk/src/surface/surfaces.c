@@ -89,9 +89,9 @@ knurl_surface_data *knurl_surfaces_get(const knurl_surfaces *s, knurl_surface_id
     const uint64_t tag = id >> KNURL_ID_TAG_AT & KNURL_ID_TAG_MAX;
     knurl_fail(KNURL_ERROR_STALE_ID, "surface: expected an id of this scene, found %#llx, which %s",
                (unsigned long long)id,
-               tag == 0        ? "names none"
+               tag == 0        ? "names no surface"
                : tag != s->tag ? "is another scene's"
-                               : "names none any more");
+                               : "names a surface that is gone");
     return NULL;
 }
 

@@ -230,7 +230,7 @@ static const struct {
 } faults[] = {
     {KNURL_FAULT_LOST, 1, "lost", "unplugged", ""},
     {KNURL_FAULT_SILENT, 2, "silent", "no position", "s"},
-    {KNURL_FAULT_CORRUPT, 3, "corrupt", "thrown away", "bytes"},
+    {KNURL_FAULT_CORRUPT, 3, "corrupt", "discarded", "bytes"},
     {KNURL_FAULT_NOT_FINITE, 4, "not_finite", "not a number", ""},
     {KNURL_FAULT_JUMP, 5, "jump", "hand", "m"},
     {KNURL_FAULT_LATE, 6, "late", "too old", "s"},
@@ -238,9 +238,9 @@ static const struct {
     {KNURL_FAULT_WATCHDOG, 8, "watchdog", "haptic thread", "s"},
     {KNURL_FAULT_HEARTBEAT, 9, "heartbeat", "game", "s"},
     {KNURL_FAULT_REFUSED, 10, "refused", "refused", "(its own code)"},
-    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "needs homing", ""},
+    {KNURL_FAULT_UNCALIBRATED, 11, "uncalibrated", "not homed", ""},
     {KNURL_FAULT_UNGUARDED, 12, "unguarded", "guard process", ""},
-    {KNURL_FAULT_GAP, 13, "gap", "stood still", "s"},
+    {KNURL_FAULT_GAP, 13, "gap", "paused", "s"},
     {KNURL_FAULT_FORCE_OFF, 17, "force_off", "forces off", ""},
     {KNURL_FAULT_RESUMED, 32, "resumed", "no fault", ""},
     {KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault", ""},
@@ -271,19 +271,19 @@ TEST(why_a_device_has_switched_its_forces_off_has_a_sentence) {
     static const struct {
         double value;
         const char *word;
-    } cases[] = {{KNURL_FORCE_OFF_UNTOLD, "does not tell"},
+    } cases[] = {{KNURL_FORCE_OFF_UNTOLD, "no reason given"},
                  {KNURL_FORCE_OFF_BUTTON, "force button"},
                  {KNURL_FORCE_OFF_VELOCITY, "faster"},
-                 {KNURL_FORCE_OFF_WATCHDOG, "heard nothing"},
+                 {KNURL_FORCE_OFF_WATCHDOG, "no command"},
                  {KNURL_FORCE_OFF_SOFTWARE, "library"},
                  {KNURL_FORCE_OFF_CABLE, "cable"},
-                 {KNURL_FORCE_OFF_DEADMAN, "let go"},
+                 {KNURL_FORCE_OFF_DEADMAN, "released"},
                  {KNURL_FORCE_OFF_POWER, "power supply"},
                  {KNURL_FORCE_OFF_NOT_READY, "is not ready"},
-                 {9.0, "does not tell"},
-                 {-1.0, "does not tell"},
-                 {(double)NAN, "does not tell"},
-                 {1e300, "does not tell"}};
+                 {9.0, "no reason given"},
+                 {-1.0, "no reason given"},
+                 {(double)NAN, "no reason given"},
+                 {1e300, "no reason given"}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         assert_non_null(strstr(knurl_fault_cause(KNURL_FAULT_FORCE_OFF, cases[i].value), cases[i].word));
         assert_string_equal(knurl_fault_cause(KNURL_FAULT_REFUSED, cases[i].value), "");

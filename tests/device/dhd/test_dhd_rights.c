@@ -11,7 +11,7 @@
 
 #define NOBODY 65534
 
-/* Where it says "none is connected", or something else. */
+/* Where it says "not connected", or something else. */
 static const char *reason_of_dhd(void) {
     static knurl_device_listing found[32];
     const uint32_t count = knurl_device_list(found, 32);
@@ -85,7 +85,7 @@ TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
     assert_int_equal(waitpid(child, &status, 0), child);
     check_child(status);
     g_object_unref(testbed);
-    assert_non_null(strstr(reason_of_dhd(), "none is connected"));
+    assert_non_null(strstr(reason_of_dhd(), "not connected"));
     CHECK_REFUSED(knurl_device_open("dhd", &out.device), KNURL_ERROR_DEVICE_LOST, out);
 }
 

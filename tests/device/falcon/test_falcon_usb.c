@@ -188,7 +188,7 @@ TEST(a_falcon_is_listed_and_one_that_is_not_there_says_so) {
     assert_string_equal(find_listing().reason, "");
     falcon_emulated_unplug();
     assert_non_null(strstr(find_listing().reason, "0403:cb48"));
-    assert_non_null(strstr(find_listing().reason, "none is connected"));
+    assert_non_null(strstr(find_listing().reason, "not connected"));
     knurl_device *device = NULL;
     CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_DEVICE_LOST, device);
     check_message("0403:cb48");

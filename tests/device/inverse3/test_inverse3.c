@@ -175,7 +175,7 @@ TEST(what_cannot_be_opened_says_why) {
     } out = {NULL};
     inverse3_double_begin();
     CHECK_REFUSED(knurl_inverse3_open("1234", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("no Inverse3 '1234', but of '049D'");
+    check_message("no Inverse3 '1234', only '049D'");
     CHECK_REFUSED(knurl_inverse3_open("a_name_that_is_too_long", service, &out.device), KNURL_ERROR_ARGUMENT, out);
     check_message("a_name_that_is_too_long");
     CHECK_REFUSED(knurl_inverse3_open("?port=0", service, &out.device), KNURL_ERROR_ARGUMENT, out);
@@ -215,7 +215,7 @@ TEST(its_devices_are_listed_by_id_or_why_there_is_none) {
     inverse3_double_sim()->has_second = 0;
     inverse3_double_sim()->is_gone = 1;
     knurl_inverse3_list(inverse3_double_service(), &listings);
-    assert_non_null(strstr(found[2].reason, "none is connected: plug it in"));
+    assert_non_null(strstr(found[2].reason, "not connected: plug it in"));
     inverse3_double_end_service(1);
     knurl_inverse3_list(inverse3_double_service(), &listings);
     assert_int_equal(strncmp(found[3].reason, "the Haply Inverse Service does not answer", 41), 0);
@@ -226,7 +226,7 @@ TEST(its_devices_are_listed_by_id_or_why_there_is_none) {
     listings.count = 0;
     knurl_inverse3_list(inverse3_double_service(), &listings);
     assert_string_equal(found[0].name, "Haply Minverse");
-    assert_non_null(strstr(found[0].reason, "its power supply is out"));
+    assert_non_null(strstr(found[0].reason, "its power supply is unplugged"));
     inverse3_double_sim()->is_unpowered = 0;
     inverse3_double_sim()->is_not_ready = 1;
     knurl_inverse3_list(inverse3_double_service(), &listings);

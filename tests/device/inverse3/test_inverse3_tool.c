@@ -47,7 +47,7 @@ TEST(faults_of_the_service_are_told) {
         const char *fault, *seconds, *words;
     } table[] = {{"unplugged", "0.2", "lost"},
                  {"unpowered", "0.2",
-                  "forces off, and is told none until they are on again: its power supply is out; plug it in"},
+                  "forces off; no force is sent until they are on again: its power supply is unplugged; plug it in"},
                  {"closed", "0.2", "lost"},
                  {"mute", "0.2", "silent"},
                  {"late", "0.2", "silent"},

@@ -54,7 +54,7 @@ TEST_WITH(what_hd_does_not_tell_comes_from_the_data_sheet, stub_by_hand, stub_ch
     stub.set(STUB_DEFAULT, STUB_TELLS_NOTHING, 1.0);
     knurl_device *device = stub_open("touch");
     assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
-    assert_string_equal(info.name, "3D Systems Touch (model not told)");
+    assert_string_equal(info.name, "3D Systems Touch (unknown model)");
     CHECK_CLOSE(info.workspace_max[0] - info.workspace_min[0], 0.160, 1e-12);
     CHECK_CLOSE(info.workspace_max[1] - info.workspace_min[1], 0.120, 1e-12);
     CHECK_CLOSE(info.workspace_max[2] - info.workspace_min[2], 0.070, 1e-12);
@@ -91,7 +91,7 @@ TEST_WITH(a_device_that_cannot_be_opened_is_given_back_and_says_why, stub_by_han
     } table[] = {{0x0600, KNURL_ERROR_SYSTEM, "licence"},
                  {0x0301, KNURL_ERROR_SYSTEM, "in use"},
                  {0x0303, KNURL_ERROR_DEVICE_LOST, "GTDD_HOME"},
-                 {0x0777, KNURL_ERROR_SYSTEM, "does not know"}};
+                 {0x0777, KNURL_ERROR_SYSTEM, "unknown to this version"}};
     for (size_t i = 0; i < COUNT_OF(table); i++) {
         knurl_device *device = NULL;
         stub.set(STUB_DEFAULT, STUB_INIT_ERROR, table[i].error);

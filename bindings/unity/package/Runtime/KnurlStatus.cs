@@ -14,7 +14,7 @@ namespace Knurl
         /// <summary>Ticks that came late, by more than half a period.</summary>
         public long Overruns;
 
-        /// <summary>Times the watchdog zeroed the force, because the haptic thread stood still.</summary>
+        /// <summary>Times the watchdog zeroed the force, because the haptic thread stalled.</summary>
         public long Watchdogs;
 
         /// <summary>Ticks left out because the device was lost or gave no position that can be trusted.</summary>

@@ -78,7 +78,7 @@ static int load_functions(const char *path, char *why, size_t why_size) {
 
 #define NO_LIBRARY                                                                                                     \
     "Force Dimension's DHD library cannot be loaded: %s; install its SDK, and name the library by ?library=PATH or "   \
-    "KNURL_DHD_LIBRARY where it lies elsewhere"
+    "KNURL_DHD_LIBRARY if it is elsewhere"
 
 /* --- the exchange --- */
 
@@ -297,7 +297,7 @@ static void dhd_list(knurl_listings *listings) {
     if (count <= 0) {
         const int is_denied = knurl_usb_is_denied(DHD_USB_VENDOR, why, sizeof why);
         knurl_listings_add(listings, "dhd", name, "%s",
-                           is_denied ? why : "none is connected: plug it in, and its power supply as well");
+                           is_denied ? why : "not connected: plug it in, and its power supply as well");
     }
 }
 

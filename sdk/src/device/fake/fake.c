@@ -181,7 +181,7 @@ knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *
     if (!KNURL_IS_HANDLE(device, DEVICE) || !truth) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
                                  "knurl_fake_get_truth: expected a device that is open and a truth, "
-                                 "found null or a handle that is none");
+                                 "found null or an invalid handle");
     }
     if (device->driver != &knurl_fake_driver || f->trace) {
         return knurl_fail_static(KNURL_ERROR_UNSUPPORTED,

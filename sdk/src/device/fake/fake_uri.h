@@ -23,20 +23,20 @@
     X(mass, 0.045, KNURL_RANGE_MASS, 0, "the device's moving mass")                                                    \
     X(viscous, 0.5, KNURL_RANGE_VISCOUS, 0, "the device's viscous friction")                                           \
     X(coulomb, 0.26, KNURL_RANGE_COULOMB, 0, "the device's dry friction")                                              \
-    X(hand_mass, 0, KNURL_FAKE_HAND_MASS, 0, "what of the hand moves with the device")                                 \
+    X(hand_mass, 0, KNURL_FAKE_HAND_MASS, 0, "mass of the hand that moves with the device")                            \
     X(hand_stiffness, 700, KNURL_FAKE_HAND_STIFFNESS, 0, "spring of the hand")                                         \
     X(hand_damping, 5, KNURL_FAKE_HAND_DAMPING, 0, "damper of the hand")                                               \
     X(resolution, 0.000055, KNURL_RANGE_QUANTUM, KNURL_OR_ZERO, "position quantum, 0 for none")                        \
-    X(max_force, 3.3, KNURL_RANGE_FORCE, 0, "what the motors can do")                                                  \
-    X(continuous_force, 0.88, KNURL_RANGE_FORCE, KNURL_OR_ZERO, "what they can do for ever, 0 for max_force")          \
-    X(heat_time, 60, KNURL_RANGE_HEAT_TIME, 0, "time constant with which they warm up")                                \
+    X(max_force, 3.3, KNURL_RANGE_FORCE, 0, "peak force of the motors")                                                \
+    X(continuous_force, 0.88, KNURL_RANGE_FORCE, KNURL_OR_ZERO, "force they can hold, 0 for max_force")                \
+    X(heat_time, 60, KNURL_RANGE_HEAT_TIME, 0, "thermal time constant of the motors")                                  \
     X(max_stiffness, 1020, KNURL_RANGE_STIFFNESS, KNURL_OR_ZERO,                                                       \
       "the stiffest wall that is promised, 0 for no promise")                                                          \
     X(delay, 1, KNURL_RANGE_DELAY, KNURL_WHOLE, "from a force written to a force felt, a whole number")                \
     X(width, 0.160, KNURL_FAKE_SIZE, 0, "workspace along x")                                                           \
     X(height, 0.120, KNURL_FAKE_SIZE, 0, "workspace along y")                                                          \
     X(depth, 0.070, KNURL_FAKE_SIZE, 0, "workspace along z")                                                           \
-    X(exact, 0, KNURL_FAKE_FLAG, KNURL_WHOLE, "1: exact motion, 0: four steps a tick where they are stable")           \
+    X(exact, 0, KNURL_FAKE_FLAG, KNURL_WHOLE, "1: exact motion, 0: four steps a tick if they are stable")              \
     X(tremor, 0.00002, KNURL_FAKE_TREMOR, 0, "rms of the hand's 10 Hz tremor")                                         \
     X(seed, 1, KNURL_FAKE_SEED, KNURL_WHOLE, "of the tremor's noise, a whole number")                                  \
     X(lose_at, 0, KNURL_FAKE_TIME, 0, "when the cable is pulled, until it is looked for; 0 for never")                 \

@@ -243,7 +243,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
 static knurl_result start_guard(falcon *f) {
     static const int16_t none[3] = {0, 0, 0};
     knurl_guard_order order = {0, KNURL_FALCON_FRAME_BYTES, {0}};
-    char why[256] = "its handle cannot be had";
+    char why[256] = "its handle is not available";
     if (!f->wants_guard) {
         return KNURL_OK;
     }

@@ -192,10 +192,10 @@ static knurl_result load_until_it_answers(const knurl_falcon_transport *t, const
             return gone("it was looked at");
         }
         result =
-            result
-                ? result
-                : knurl_fail(KNURL_ERROR_FORMAT,
-                             "device 'falcon': firmware '%s' was loaded, but nothing answers: it is no Falcon's", path);
+            result ? result
+                   : knurl_fail(KNURL_ERROR_FORMAT,
+                                "device 'falcon': firmware '%s' was loaded, but nothing answers: it is not a Falcon's",
+                                path);
     }
     return result;
 }

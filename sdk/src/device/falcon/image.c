@@ -16,7 +16,7 @@ static uint32_t address_at(const uint8_t *image, size_t at) {
 }
 
 static knurl_result refuse(const char *path, const char *expected, size_t at) {
-    return knurl_fail(KNURL_ERROR_FORMAT, "device 'falcon': firmware '%s': byte %lu: expected %s: it is no Falcon's",
+    return knurl_fail(KNURL_ERROR_FORMAT, "device 'falcon': firmware '%s': byte %lu: expected %s: it is not a Falcon's",
                       path, (unsigned long)at, expected);
 }
 

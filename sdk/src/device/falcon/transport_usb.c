@@ -321,14 +321,14 @@ static void usb_list(void *user, knurl_listings *listings) {
     }
     const int code = lib.init(&context);
     if (code) {
-        knurl_listings_add(listings, "falcon", "Novint Falcon", "USB cannot be looked at: libusb says '%s'",
+        knurl_listings_add(listings, "falcon", "Novint Falcon", "the USB devices cannot be listed: libusb reports '%s'",
                            lib.strerror((enum libusb_error)code));
         return;
     }
     const long count = visit_falcons(context, visit_to_list, listings);
     if (listings->count == before) {
         knurl_listings_add(listings, "falcon", "Novint Falcon",
-                           "none is connected: 0403:cb48 is not among the %ld USB devices here; plug it in, and its "
+                           "not connected: 0403:cb48 is not among the %ld USB devices here; plug it in, and its "
                            "power supply as well",
                            count > 0 ? count : 0);
     }

@@ -180,7 +180,7 @@ static knurl_result receive_first(const knurl_inverse3_service *service, int por
     channel->close(channel->self);
     channel->self = NULL;
     return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                      "device 'inverse3': what answers at localhost:%d is not the Haply Inverse Service 3.5 or newer: "
+                      "device 'inverse3': the server at localhost:%d is not the Haply Inverse Service 3.5 or newer: "
                       "expected its devices in JSON within %g s, found %s",
                       port, 1e-3 * HELLO_MS, came > 0 ? "something else" : "nothing");
 }
@@ -202,7 +202,7 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     }
     if (!entry) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                          "device 'inverse3': its service lists no Inverse3 '%s', but of '%s': " PLUG_IN, d->id,
+                          "device 'inverse3': its service lists no Inverse3 '%s', only '%s': " PLUG_IN, d->id,
                           first->id);
     }
     if (!entry->has_preset) {
@@ -212,10 +212,11 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     }
     const size_t model = find_model(entry);
     if (model == MODEL_COUNT) {
-        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
-                          "device 'inverse3:%s': expected an inverse3, inverse3x or minverse, found '%s': this version "
-                          "does not know what force it can play",
-                          entry->id, entry->type);
+        return knurl_fail(
+            KNURL_ERROR_UNSUPPORTED,
+            "device 'inverse3:%s': expected an inverse3, inverse3x or minverse, found '%s': its force limit is "
+            "unknown to this version",
+            entry->id, entry->type);
     }
     (void)snprintf(d->id, sizeof d->id, "%s", entry->id); /* a reopen must find the same device */
     if (d->base.max_force == 0.0) {                       /* once: other threads may read it later */
@@ -315,9 +316,9 @@ static void inverse3_close(knurl_device *device) {
 
 /* The reason for the listing; "" if it plays forces. Once the device is open, faults are events. */
 static const char *why_not(const knurl_inverse3_entry *entry, size_t model) {
-    return model == MODEL_COUNT  ? "it is of a type whose forces this version does not know"
-           : entry->is_unpowered ? "its power supply is out: plug it in"
-           : entry->is_not_ready ? "its service says that it is not ready: the Haply Hub shows why"
+    return model == MODEL_COUNT  ? "its type, and so its force limit, is unknown to this version"
+           : entry->is_unpowered ? "its power supply is unplugged: plug it in"
+           : entry->is_not_ready ? "its service reports that it is not ready: the Haply Hub shows why"
                                  : "";
 }
 
@@ -332,7 +333,7 @@ void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *
     }
     channel.close(channel.self);
     if (!knurl_inverse3_find(&state, "")) {
-        knurl_listings_add(listings, "inverse3", NAME, "none is connected: " PLUG_IN);
+        knurl_listings_add(listings, "inverse3", NAME, "not connected: " PLUG_IN);
     }
     for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
         const knurl_inverse3_entry *entry = &state.entries[i];

@@ -179,7 +179,7 @@ void knurl_rawhid_list(const knurl_rawhid_bus *bus, knurl_listings *listings) {
     if (listed == 0) {
         name_wanted(&wanted, text, sizeof text);
         knurl_listings_add(listings, "rawhid", "raw HID device (WoodenHaptics)",
-                           "none is connected (looked for %s): plug it in; another is opened as "
+                           "not connected (looked for %s): plug it in; another is opened as "
                            "rawhid:VID:PID?geometry=FILE",
                            text);
     }

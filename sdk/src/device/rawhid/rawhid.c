@@ -175,7 +175,7 @@ static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
     }
     return knurl_fail(KNURL_ERROR_DEVICE_LOST,
                       "device '%s' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
-                      "bytes that make none; switch its power on, or plug it in again",
+                      "bytes that form no report; switch its power on, or plug it in again",
                       r->base.driver->uri, r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
                       outcome == GONE ? "that it went away" : "none within 0.5 s", (unsigned long)r->bad_bytes);
 }
@@ -209,7 +209,7 @@ static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
 static knurl_result start_guard(rawhid *r, const knurl_rawhid_found *found) {
     static const int16_t none[3];
     knurl_guard_order order = {0, 0, {0}};
-    char why[256] = "its handle cannot be had";
+    char why[256] = "its handle is not available";
     if (!r->wants_guard) {
         return KNURL_OK;
     }
@@ -430,11 +430,10 @@ static void serial_list(knurl_listings *listings) {
     } else if (ports->find(ports->user, path, sizeof path)) {
         knurl_listings_add(listings, "serial", name, "%s", "");
     } else {
-        knurl_listings_add(
-            listings, "serial", name,
-            "none is connected (looked for a Teensy, %04x:%04x, among /dev/ttyACM*): plug it in; another "
-            "port is opened as serial:PATH",
-            KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
+        knurl_listings_add(listings, "serial", name,
+                           "not connected (looked for a Teensy, %04x:%04x, among /dev/ttyACM*): plug it in; another "
+                           "port is opened as serial:PATH",
+                           KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
     }
 }
 

@@ -154,7 +154,7 @@ static int say_hello(serial_port *p, char *why, size_t why_size) {
         }
         if (got == 1 && p->model != 0 && p->model != MODEL) {
             (void)snprintf(why, why_size,
-                           "its firmware says model %d (1: Polhem, 2: Phantom); expected %d, WoodenHaptics",
+                           "its firmware reports model %d (1: Polhem, 2: Phantom); expected %d, WoodenHaptics",
                            (int)p->model, MODEL);
             return 0;
         }

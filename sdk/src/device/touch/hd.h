@@ -95,25 +95,26 @@ typedef struct hd_api {
 
 /* Errors: code, and problem; remedy. */
 #define HD_ERRORS(X)                                                                                                   \
-    X(0x0100, "HD knows no such parameter; another version of OpenHaptics may know it")                                \
-    X(0x0101, "HD allows no such value")                                                                               \
+    X(0x0100, "HD has no such parameter; another version of OpenHaptics may have it")                                  \
+    X(0x0101, "HD does not allow this value")                                                                          \
     X(0x0102, "HD does not allow this now")                                                                            \
     X(0x0103, "HD has no such parameter of this type; another version of OpenHaptics may have it")                     \
-    X(0x0104, "HD knows no such device any more; open it again")                                                       \
+    X(0x0104, "HD no longer has this device; open it again")                                                           \
     X(0x0200, "its motors are too warm; let it rest for some minutes")                                                 \
     X(0x0201, "the force is greater than it can play; play weaker forces")                                             \
     X(0x0202, "the force rises faster than it allows; play softer surfaces")                                           \
-    X(0x0203, "it moves faster than it allows; hold it more firmly, or let it cool down where its motors are warm")    \
+    X(0x0203, "it moves faster than it allows; hold it more firmly, or let it cool down if its motors are warm")       \
     X(0x0204, "it could not play the force; see that the arm is free, and unplug its power for a moment")              \
     X(0x0300, "it reports a fault of its own; unplug power and cable for a moment, then run Touch_Diagnostic")         \
     X(0x0301, "it is in use already; close the other program (or the other part of this one) that has opened it")      \
     X(0x0302, "it does not answer; see that its cable and its power are plugged in, then run its set-up program "      \
               "(Touch Setup; Linux: Touch_AdvancedConfig), which must find it")                                        \
-    X(0x0303, "it cannot be reached the way that its set-up says; run its set-up program again (Touch Setup; Linux: "  \
-              "Touch_AdvancedConfig), and see that GTDD_HOME names the folder of its configuration")                   \
+    X(0x0303,                                                                                                          \
+      "it cannot be reached by the connection in its set-up; run its set-up program again (Touch Setup; Linux: "       \
+      "Touch_AdvancedConfig), and see that GTDD_HOME names the folder of its configuration")                           \
     X(0x0304, "the system gave HD no timer for its scheduler; see that no other program runs one")                     \
-    X(0x0400, "a frame was begun where none may be")                                                                   \
-    X(0x0401, "a frame was ended where none was begun")                                                                \
+    X(0x0400, "a frame was begun where it is not allowed")                                                             \
+    X(0x0401, "a frame was ended that was not begun")                                                                  \
     X(0x0402, "a frame was begun twice")                                                                               \
     X(0x0500, "HD's scheduler has no such priority")                                                                   \
     X(0x0501, "HD's scheduler is full; end other uses of it")                                                          \

@@ -18,8 +18,8 @@ const char *hd_error_sentence(uint32_t code) {
             return table[i].sentence;
         }
     }
-    return code ? "HD reports an error that this version does not know; its own programs may tell more"
-                : "HD gives no reason; its set-up program (Touch Setup; Linux: Touch_AdvancedConfig) may tell more";
+    return code ? "HD reports an error unknown to this version; its own programs may show more"
+                : "HD gives no reason; its set-up program (Touch Setup; Linux: Touch_AdvancedConfig) may show more";
 }
 
 int hd_error_is_loss(uint32_t code) {

@@ -15,9 +15,9 @@ static const char *const usual[] = {"hd.dll"};
 static const char *const usual[] = {"libHD.so", "libHD.so.3.4", "libHD.so.3.4.0", "libHD.so.3.0"};
 #endif
 
-static const char help[] = "install 3D Systems' OpenHaptics (for Linux or Windows) and the Touch device driver, set "
-                           "GTDD_HOME as they say, and name the library by ?library=PATH or KNURL_HD_LIBRARY where it "
-                           "lies elsewhere";
+static const char help[] =
+    "install 3D Systems' OpenHaptics (for Linux or Windows) and the Touch device driver, set "
+    "GTDD_HOME as they say, and name the library by ?library=PATH or KNURL_HD_LIBRARY if it is elsewhere";
 
 /* One library for all devices of the process, because HD has one scheduler. */
 static struct {
@@ -94,7 +94,8 @@ static int try_path(const char *path, attempts *tried) {
     }
     const char *missing = find_functions(library, &api);
     if (missing) {
-        (void)snprintf(why, sizeof why, "it has no function %s, so it is none of OpenHaptics, or too old", missing);
+        (void)snprintf(why, sizeof why, "it has no function %s, so it is not OpenHaptics' library, or is too old",
+                       missing);
         note(tried, path, why);
         knurl_system_unload_library(library);
         return 0;

@@ -189,8 +189,7 @@ static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *arg
         return result;
     }
     if (!touch_detach(t)) { /* the last loop's last call */
-        result =
-            knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the latest loop", t->uri);
+        result = knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the last loop", t->uri);
     } else {
         touch_unschedule(t);
         t->tick = tick;

@@ -35,7 +35,7 @@ static const char *ask_string(touch *t, hd_enum what, const char *otherwise) {
 void touch_ask_info(touch *t) {
     knurl_device_info *info = &t->info;
     knurl_device_info_init(info, sizeof *info);
-    const char *model = ask_string(t, HD_MODEL, "model not told");
+    const char *model = ask_string(t, HD_MODEL, "unknown model");
     (void)snprintf(info->name, sizeof info->name, "3D Systems Touch (%.40s)", model);
     (void)snprintf(t->title, sizeof t->title, "3D Systems Touch (%.40s, ", model);
     const size_t used = strlen(t->title);

@@ -367,7 +367,7 @@ namespace Knurl
         /// <summary>No position came for too long.</summary>
         Silent = 2,
 
-        /// <summary>What came was not a whole message and was thrown away.</summary>
+        /// <summary>An incomplete or corrupt message was discarded.</summary>
         Corrupt = 3,
 
         /// <summary>A position was not a number.</summary>
@@ -376,28 +376,28 @@ namespace Knurl
         /// <summary>The position jumped further than a hand can move.</summary>
         Jump = 5,
 
-        /// <summary>The newest force was too old to be played on.</summary>
+        /// <summary>The last force was too old to keep playing.</summary>
         Late = 6,
 
         /// <summary>Ticks came late; reported once for several in a row.</summary>
         Overrun = 7,
 
-        /// <summary>The haptic thread stood still.</summary>
+        /// <summary>The haptic thread stalled.</summary>
         Watchdog = 8,
 
-        /// <summary>The game gave no sign of life.</summary>
+        /// <summary>No heartbeat from the game.</summary>
         Heartbeat = 9,
 
         /// <summary>The device refused the force.</summary>
         Refused = 10,
 
-        /// <summary>The device does not know where it is: it needs homing.</summary>
+        /// <summary>The device is not homed.</summary>
         Uncalibrated = 11,
 
-        /// <summary>The guard process is gone: when this one is killed, the force stays.</summary>
+        /// <summary>The guard process ended; if this process is killed now, the last force keeps playing.</summary>
         Unguarded = 12,
 
-        /// <summary>The loop did not run for a while: the program or the machine stood still.</summary>
+        /// <summary>The loop did not run for a while: the program or the machine was paused.</summary>
         Gap = 13,
 
         /// <summary>The handle does not follow the force along x: a motor is wired or signed backwards.</summary>
@@ -413,10 +413,10 @@ namespace Knurl
         /// supply. The message tells which.</summary>
         ForceOff = 17,
 
-        /// <summary>No fault: the force comes back, by the ramp.</summary>
+        /// <summary>No fault: the force ramps up again.</summary>
         Resumed = 32,
 
-        /// <summary>No fault: the device is there again.</summary>
+        /// <summary>No fault: the device is connected again.</summary>
         Reconnected = 33,
     }
 }
