@@ -52,9 +52,10 @@ static knurl_result open_device(knurl_session *session, const char *device) {
         return open_any(session);
     }
     if (strncmp(device, "touch", strlen("touch")) == 0 && strstr(device, "library=")) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "device 'touch': an engine's scene may come from anybody, so it cannot name "
-                          "a library to run: expected no ?library=; set KNURL_HD_LIBRARY instead");
+        return knurl_fail(
+            KNURL_ERROR_ARGUMENT,
+            "device 'touch': an engine's scene may come from anyone, so it must not name a library to load: expected "
+            "no ?library=; set KNURL_HD_LIBRARY instead");
     }
     if (strcmp(device, "mouse") == 0) {
         return knurl_mouse_open(&session->mouse, &session->device);

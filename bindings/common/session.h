@@ -159,8 +159,8 @@ KNURL_API void knurl_session_set_paused(knurl_session *session, uint32_t paused)
  * [game thread] */
 KNURL_API uint32_t knurl_session_next_event(knurl_session *session, knurl_session_event *event);
 
-/** A fault's sentence with its value and unit, like "no position came for too long (0.012 s)". Texts in a caller's
- * buffer are UTF-8 and end with a 0; a text longer than `size` bytes is cut after a whole character. [any thread] */
+/** A fault's sentence with its value and unit, like "no heartbeat from the game (0.05 s)". Texts in a caller's buffer
+ * are UTF-8 and end with a 0; a text longer than `size` bytes is cut after a whole character. [any thread] */
 KNURL_API void knurl_session_fault_text(int32_t code, double value, char *text, uint32_t size);
 
 /** Reads the state of the run. [game thread] */

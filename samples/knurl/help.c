@@ -53,7 +53,8 @@ static const help_command commands[] = {
       {"--surface", "NAME", "the surface to stroke; default: the first"},
       {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},
       {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand"},
-      {"--seconds", "S", "of the clock, with fake of its ticks; default 5 (with --view 600), or the trace's length"},
+      {"--seconds", "S",
+       "run time by the clock, with fake by its ticks; default 5 (with --view 600), or the trace's length"},
       {"--rate", "HZ", "update rate, 100 to 10000; default 1000"},
       {"--method", METHODS, "for all surfaces, instead of their own"},
       {"--fast", "", "fake only: as fast as the machine can, with the same forces"},
@@ -127,7 +128,7 @@ static const help_command commands[] = {
 
 static const char exit_codes[] =
     "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 3 inspect --check found a problem,\n"
-    "4 a simulated run that touched nothing or hardly moved (its output is written all the same), 128 + N ended by\n"
+    "4 a simulated run that touched nothing or hardly moved (its output is still written), 128 + N ended by\n"
     "signal N (130: Ctrl-C; nothing is written then).\n";
 
 static const help_command *find(const char *name) {

@@ -73,7 +73,7 @@ static void check_cuts(const char *whole, uint32_t size, const char *text) {
 TEST(a_fault_is_its_sentence_with_value_and_unit) {
     char text[256];
     knurl_session_fault_text(KNURL_FAULT_SILENT, 0.012, text, sizeof text);
-    assert_string_equal(text, "no position came for too long (0.012 s)");
+    assert_string_equal(text, "no position from the device for too long (0.012 s)");
     knurl_session_fault_text(KNURL_FAULT_LOST, 0.0, text, sizeof text);
     assert_string_equal(text, "the device is gone: unplugged or switched off");
     knurl_session_fault_text(12345, 1.0, text, sizeof text);
@@ -81,7 +81,7 @@ TEST(a_fault_is_its_sentence_with_value_and_unit) {
 }
 
 TEST(texts_are_cut_off_at_their_size) {
-    const char *whole = "no position came for too long (0.012 s)";
+    const char *whole = "no position from the device for too long (0.012 s)";
     for (uint32_t size = 1; size < 64; size++) {
         char text[64];
         memset(text, '#', sizeof text);

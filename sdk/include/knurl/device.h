@@ -54,7 +54,7 @@ typedef struct knurl_device_listing {
 /** All faults: code, number, name, sentence, and the unit of an event's value ("": no value). */
 #define KNURL_FAULTS(X)                                                                                                \
     X(KNURL_FAULT_LOST, 1, "lost", "the device is gone: unplugged or switched off", "")                                \
-    X(KNURL_FAULT_SILENT, 2, "silent", "no position came for too long", "s")                                           \
+    X(KNURL_FAULT_SILENT, 2, "silent", "no position from the device for too long", "s")                                \
     X(KNURL_FAULT_CORRUPT, 3, "corrupt", "an incomplete or corrupt message was discarded", "bytes")                    \
     X(KNURL_FAULT_NOT_FINITE, 4, "not_finite", "a position was not a number", "")                                      \
     X(KNURL_FAULT_JUMP, 5, "jump", "the position jumped further than a hand can move", "m")                            \

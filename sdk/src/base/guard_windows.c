@@ -6,7 +6,7 @@
 knurl_guard_process *knurl_guard_process_start(int device, const knurl_guard_order *order, char *why, size_t why_size) {
     (void)device;
     (void)order;
-    (void)snprintf(why, why_size, "the guard process is for Linux alone so far");
+    (void)snprintf(why, why_size, "the guard process is available on Linux only");
     return NULL;
 }
 

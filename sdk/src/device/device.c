@@ -77,10 +77,10 @@ void knurl_device_enter_thread(knurl_device *device) {
 
 knurl_result knurl_device_check_unused(const knurl_device *device, uint32_t use) {
     if (knurl_load_acquire(&device->use) & use) {
-        return knurl_fail(KNURL_ERROR_STATE,
-                          "device '%s' is in use by a loop; do this before that is created or after "
-                          "it was destroyed",
-                          device->driver->uri);
+        return knurl_fail(
+            KNURL_ERROR_STATE,
+            "device '%s' is in use by a loop; do this before the loop is created or after it is destroyed",
+            device->driver->uri);
     }
     return KNURL_OK;
 }
@@ -103,7 +103,7 @@ knurl_result knurl_device_claim(knurl_device *device) {
                           device->driver->uri);
     }
     return knurl_fail(KNURL_ERROR_STATE,
-                      "device '%s' is in use by another loop; destroy that loop first: a device is one loop's alone",
+                      "device '%s' is in use by another loop; destroy that loop first: a device belongs to one loop",
                       device->driver->uri);
 }
 

@@ -176,10 +176,11 @@ static void check_crowd(const inspection *on, const knurl_scene *scene, const kn
     knurl_pose_to_parent(&pose, anchor.proxy, point);
     const uint32_t count = surface->shape.plane ? 0 : count_meshes_near(scene, point);
     if (count >= CROWD) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "%u meshes come within 1 mm of [%.4g, %.4g, %.4g], more than a tick has time for when a hand is "
-                       "fast there",
-                       (unsigned)count, point[0], point[1], point[2]);
+        (void)snprintf(
+            sentence, sizeof sentence,
+            "%u meshes come within 1 mm of [%.4g, %.4g, %.4g], more than a tick has time for if the hand moves fast "
+            "there",
+            (unsigned)count, point[0], point[1], point[2]);
         say(on, KNURL_LIMIT_VISITS, sentence, "join them to one mesh, or move them apart");
     }
 }

@@ -37,10 +37,10 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     if (!result) {
         knurl_scene_lock(scene); /* a loop that claims the HIP meanwhile sets it up after this */
         if (knurl_load_acquire(&scene->use) >> hip & 1) {
-            result = knurl_fail(KNURL_ERROR_STATE,
-                                "scene: HIP %u is in use by a loop; configure it before that is created or after it "
-                                "was destroyed",
-                                (unsigned)hip);
+            result = knurl_fail(
+                KNURL_ERROR_STATE,
+                "scene: HIP %u is in use by a loop; configure it before the loop is created or after it is destroyed",
+                (unsigned)hip);
         } else {
             result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
         }

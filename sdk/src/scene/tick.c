@@ -290,8 +290,8 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
         return refuse(KNURL_ERROR_ARGUMENT, "knurl_scene_tick: hip: expected below hip_count, found more", output);
     }
     if (knurl_load_relaxed(&scene->use) >> hip_index & 1) {
-        return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: hip: expected one that no loop has, found a loop's",
-                      output);
+        return refuse(KNURL_ERROR_STATE,
+                      "knurl_scene_tick: hip: expected one that no loop uses, found one in use by a loop", output);
     }
     if (!knurl_load_acquire(&scene->committed)) {
         return refuse(KNURL_ERROR_STATE, "knurl_scene_tick: expected a scene that is committed, found one that is not",

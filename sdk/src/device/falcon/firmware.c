@@ -189,7 +189,7 @@ static knurl_result load_until_it_answers(const knurl_falcon_transport *t, const
             return KNURL_OK;
         }
         if (outcome == KNURL_FALCON_GONE) {
-            return gone("it was looked at");
+            return gone("it was probed");
         }
         result =
             result ? result
@@ -231,5 +231,5 @@ knurl_result knurl_falcon_prepare(const knurl_falcon_transport *t, const char *p
     if (outcome == KNURL_FALCON_NOTHING) {
         return load_file(t, path);
     }
-    return outcome == KNURL_FALCON_GONE ? gone("it was looked at") : KNURL_OK;
+    return outcome == KNURL_FALCON_GONE ? gone("it was probed") : KNURL_OK;
 }

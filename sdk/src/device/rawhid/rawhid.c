@@ -177,7 +177,7 @@ static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
                       "device '%s' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
                       "bytes that form no report; switch its power on, or plug it in again",
                       r->base.driver->uri, r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
-                      outcome == GONE ? "that it went away" : "none within 0.5 s", (unsigned long)r->bad_bytes);
+                      outcome == GONE ? "that it was unplugged" : "none within 0.5 s", (unsigned long)r->bad_bytes);
 }
 
 static int is_home(const rawhid *r, const knurl_rawhid_in *in) {

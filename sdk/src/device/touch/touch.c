@@ -57,7 +57,7 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
     }
     const hd_api *hd = NULL;
     if (!touch_find_slot(HD_NO_DEVICE)) {
-        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'touch': expected at most %d open ones", TOUCH_ROOM);
+        return knurl_fail(KNURL_ERROR_SYSTEM, "device 'touch': expected at most %d open devices", TOUCH_ROOM);
     }
     char uri[KNURL_URI_ROOM + 8];
     (void)snprintf(uri, sizeof uri, "touch%s%s", name[0] ? ":" : "", name);
@@ -98,9 +98,10 @@ static knurl_result touch_open(const char *options, knurl_device **device) {
     knurl_result result = knurl_uri_parse("touch", options, name, keys, 2);
     result = result ? result : knurl_uri_flag("touch", "guard", guard, &wants_guard);
     if (wants_guard) {
-        result = knurl_fail(KNURL_ERROR_UNSUPPORTED,
-                            "device 'touch': guard: cannot: 3D Systems' library drives it from inside of this process, "
-                            "by a protocol that is not published");
+        result = knurl_fail(
+            KNURL_ERROR_UNSUPPORTED,
+            "device 'touch': guard: not possible: 3D Systems' library drives it from within this process, by an "
+            "unpublished protocol");
     }
     result = result ? result : lock();
     if (!result) {
@@ -141,7 +142,7 @@ static knurl_result start_locked(touch *t, double rate) {
     const unsigned long whole = (unsigned long)rate;
     if ((double)whole != rate) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,
-                          "device '%s': expected a whole number of Hz, found %g Hz; HD's scheduler keeps no other",
+                          "device '%s': expected a whole number of Hz, found %g Hz; HD's scheduler supports no other",
                           t->uri, rate);
     }
     for (int i = 0; i < TOUCH_ROOM; i++) {
@@ -159,9 +160,10 @@ static knurl_result start_locked(touch *t, double rate) {
         return KNURL_OK; /* OpenHaptics 3.0 cannot change its rate, which is already right */
     }
     if (code == 0x0102) {
-        return knurl_fail(KNURL_ERROR_UNSUPPORTED,
-                          "device '%s': expected %lu Hz, found %lu Hz; this version of HD's scheduler changes no rate",
-                          t->uri, rate_now, whole);
+        return knurl_fail(
+            KNURL_ERROR_UNSUPPORTED,
+            "device '%s': expected %lu Hz, found %lu Hz; this version of HD's scheduler cannot change its rate", t->uri,
+            rate_now, whole);
     }
     if (code) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,

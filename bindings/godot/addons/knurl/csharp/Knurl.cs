@@ -364,7 +364,7 @@ namespace Knurl
         /// <summary>The device is gone: unplugged or switched off.</summary>
         Lost = 1,
 
-        /// <summary>No position came for too long.</summary>
+        /// <summary>No position from the device for too long.</summary>
         Silent = 2,
 
         /// <summary>An incomplete or corrupt message was discarded.</summary>
