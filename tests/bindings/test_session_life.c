@@ -144,7 +144,7 @@ TEST(a_scene_cannot_name_a_library_to_run) {
         const knurl_session_desc desc = describe(uris[i], "");
         (void)knurl_fail(KNURL_ERROR_STATE, "stale message");
         assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_ARGUMENT);
-        check_message("cannot name a library to run");
+        check_message("must not name a library to load");
         assert_null(knurl_session_get_device(s));
     }
     knurl_session_destroy(s);
