@@ -47,10 +47,6 @@ static inline int64_t heap_bytes(HANDLE heap) {
     return bytes;
 }
 
-#if !__GLIBC_PREREQ(2, 33)
-#define mallinfo2 mallinfo /* in ints, which differences of less than 2 GB get over */
-#endif
-
 static inline counts count_all(void) {
     counts c = {count_threads(), 0, 0, 0};
     DWORD handles = 0;
@@ -65,6 +61,10 @@ static inline counts count_all(void) {
 }
 
 #else
+
+#if !__GLIBC_PREREQ(2, 33)
+#define mallinfo2 mallinfo /* in ints, which differences of less than 2 GB get over */
+#endif
 
 static inline int64_t count_entries(const char *folder) {
     int64_t entries = 0;
@@ -89,10 +89,6 @@ static inline int64_t count_lines(const char *path) {
     }
     return lines;
 }
-
-#if !__GLIBC_PREREQ(2, 33)
-#define mallinfo2 mallinfo /* in ints, which differences of less than 2 GB get over */
-#endif
 
 static inline counts count_all(void) {
     const counts c = {count_entries("/proc/self/task"), count_entries("/proc/self/fd"), (int64_t)mallinfo2().uordblks,
