@@ -35,8 +35,10 @@ void judge_edits(judge *j) {
 }
 
 void judge_surface_is(judge *j, knurl_surface_id id, const knurl_material_desc *material) {
-    static const double peaks[] = {[KNURL_METHOD_DEFAULT] = 1.2733, [KNURL_METHOD_S1] = 1.0,
-                                   [KNURL_METHOD_S2] = 1.7320509, [KNURL_METHOD_BANDLIMITED] = 1.2733};
+    static const double peaks[] = {[KNURL_METHOD_DEFAULT] = 1.2733,
+                                   [KNURL_METHOD_S1] = 1.0,
+                                   [KNURL_METHOD_S2] = 1.7320509,
+                                   [KNURL_METHOD_BANDLIMITED] = 1.2733};
     judge_surface *s = judge_find_surface(j, id);
     s = s ? s : judge_find_surface(j, 0);
     if (s) {

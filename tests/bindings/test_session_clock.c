@@ -116,7 +116,8 @@ static int play_steps(int32_t method, double fps, double rate, double unsteady) 
 TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
+        failed +=
+            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
     }
     assert_int_equal(failed, 0);
 }
@@ -124,7 +125,8 @@ TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
 TEST(so_it_is_where_frames_come_unevenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
+        failed +=
+            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
     }
     assert_int_equal(failed, 0);
 }

@@ -43,7 +43,8 @@ static surface_parts tile(uint64_t *seed, const shape *s, double x, double y) {
     parts.material.friction = kind == 7 ? 0.4 : 0.0;
     parts.material.damping = kind == 8 ? 0.5 : 0.0;
     if (kind % 3 == 0) {
-        set_grating(&parts, kind == 6 ? KNURL_METHOD_S1 : KNURL_METHOD_S2, 500.0, 200.0, random_between(seed, 0.0, 0.0008));
+        set_grating(&parts, kind == 6 ? KNURL_METHOD_S1 : KNURL_METHOD_S2, 500.0, 200.0,
+                    random_between(seed, 0.0, 0.0008));
     }
     return parts;
 }

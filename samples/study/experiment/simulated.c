@@ -43,7 +43,8 @@ static double grating_badness(int32_t method, const exp_trial *trial, double sti
         if (method == KNURL_METHOD_S2) {
             period = period < 2.25 ? 2.0 : period <= 2.75 ? 2.5 : floor(period + 0.5);
         }
-        sum += exp_badness(method == KNURL_METHOD_S1 ? KNURL_WAVE_T1 : KNURL_WAVE_T3, period, stiffness_n_per_mm * trial->amplitude);
+        sum += exp_badness(method == KNURL_METHOD_S1 ? KNURL_WAVE_T1 : KNURL_WAVE_T3, period,
+                           stiffness_n_per_mm * trial->amplitude);
     }
     return sum / count;
 }

@@ -167,7 +167,7 @@ func _why_not(tag: Tags.Tag, node_index: int, mesh_index: int, primitive: Dictio
 	):
 		return (
 			"knurl.axis: missing: expected one (3 numbers, the grating's x in object space), "
-			+ "for the primitive has neither TANGENT nor TEXCOORD_0: "
+			+ "because the primitive has neither TANGENT nor TEXCOORD_0: "
 			+ "add an axis to the tag, or UVs to the mesh"
 		)
 	return ""
