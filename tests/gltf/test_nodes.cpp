@@ -92,6 +92,9 @@ TEST(bad_transforms_name_the_node) {
         assert_fails(file.glb(), KNURL_ERROR_FORMAT, parts);
     };
     fails(R"("scale":[1,0,1])", {"node 'N' (0): its transform flattens the mesh"});
+    fails(R"("scale":[1e-170,1e30,1e30])", {"node 'N' (0): its transform flattens the mesh"});
+    fails(R"("matrix":[1,0,0,0, 1e-155,1e-163,0,0, 0,0,1,0, 0,0,0,1])",
+          {"node 'N' (0): its transform flattens the mesh"});
     fails(R"("scale":[1e300,1e300,1])", {"node 'N' (0): its transform is not finite"});
     fails(R"("scale":[1e40,1e40,1e40])",
           {"node 'N' (0)", "POSITION (accessor 0): its used vertex 1: expected within 1e+09 m"});

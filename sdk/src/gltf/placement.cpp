@@ -17,6 +17,9 @@ constexpr double affine_tolerance = 1e-6;
 // If the volume is smaller than this times the product of the sides, float32 positions cannot represent it.
 constexpr double flat_tolerance = 1e-9;
 
+// The least length of an axis of a node's transform.
+constexpr double shortest_axis = 1e-100;
+
 const tinygltf::Node &node_at(const Model &model, uint32_t number) {
     return model.filtered.nodes.at(model.filtered.node_places.at(number));
 }
@@ -101,8 +104,10 @@ Frame Placement::frame(uint32_t node) {
         if (!is_in_range(frame.position[axis]))
             refuse(node_label(model_, node), "its transform puts it at " + shown(frame.position[axis]) +
                                                  " m: expected within " + shown(KNURL_COORDINATE_MAX) + " m");
+    const double least = std::fmin(glm::length(linear[0]), std::fmin(glm::length(linear[1]), glm::length(linear[2])));
     const bool finite = knurl_is_finite(volume);
-    if (!finite || !(std::fabs(glm::determinant(linear)) > flat_tolerance * volume))
+    // Shorter axes underflow below, where they are normalised.
+    if (!finite || !(least > shortest_axis && std::fabs(glm::determinant(linear)) > flat_tolerance * volume))
         refuse(node_label(model_, node),
                finite ? "its transform flattens the mesh: expected a scale without 0" : "its transform is not finite");
     // Gram-Schmidt. The third axis is a cross product, so that the rotation is proper and mirroring stays in `bake`.
