@@ -174,6 +174,27 @@ TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
     knurl_scene_destroy(scene);
 }
 
+/* As above, with 200 ticks without a position: the velocity after them is that of one tick. */
+TEST(a_zoom_that_goes_on_without_a_position_is_not_made_up_for_in_one_tick) {
+    knurl_scene *scene = wall();
+    const knurl_workspace to = zoomed(0.0, 2.0);
+    knurl_tick_input input;
+    knurl_tick_output out;
+    memset(&input, 0, sizeof input);
+    (void)tick_at(scene, 0.01, 0.02, 0.03);
+    move(scene, &to, 1.0);
+    (void)tick_at(scene, 0.01, 0.02, 0.03);
+    input.absent = 1;
+    for (int k = 2; k <= 201; k++) {
+        assert_int_equal(knurl_scene_tick(scene, 0, &input, &out), KNURL_OK);
+    }
+    const double scale = exp2(0.202), rate = (scale - exp2(0.201)) / TICK;
+    out = tick_at(scene, 0.01, 0.02, 0.03);
+    CHECK_VECTOR(out.hip, 0.01 * scale, 0.02 * scale, 0.03 * scale, 1e-12);
+    CHECK_VECTOR(out.hip_velocity, 0.01 * rate, 0.02 * rate, 0.03 * rate, 1e-9);
+    knurl_scene_destroy(scene);
+}
+
 TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
     knurl_scene *scene = wall();
     const knurl_workspace in = zoomed(0.0, exp(-2.0));

@@ -69,6 +69,9 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;
     double estimate[3];
+    /* also without a position: otherwise the next tick would take the growth since for its own */
+    const int is_moving = knurl_workspace_is_moving(&hip->move);
+    const double zoom = is_moving ? move_workspace(hip) : 0.0;
     if (KNURL_UNLIKELY(input->absent)) {
         return 0;
     }
@@ -79,8 +82,6 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         knurl_velocity_update(&hip->velocity, input->position, estimate);
         velocity = estimate;
     }
-    const int is_moving = knurl_workspace_is_moving(&hip->move);
-    const double zoom = is_moving ? move_workspace(hip) : 0.0;
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
         knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
