@@ -165,6 +165,7 @@ TEST_WITH(numbers_that_are_none_are_refused_and_change_nothing, NULL, end_bench)
     assert_int_equal(knurl_loop_set_force(b.loop, much), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, none, 1.0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, nonsense, 1.0), KNURL_ERROR_ARGUMENT);
+    assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, much, 1.0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 501.0, 1.0, up, 1.0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, NAN, up, 1.0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, up, -1.0), KNURL_ERROR_ARGUMENT);

@@ -63,7 +63,8 @@ knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequen
     knurl_vibration cue;
     memset(&cue, 0, sizeof cue);
     vec3_copy(direction, cue.direction);
-    if (!vec3_finite(direction) || !(vec3_normalise(cue.direction) > 0.0)) {
+    const double length = vec3_normalise(cue.direction);
+    if (!(length > 0.0 && knurl_is_finite(length))) { /* its square may overflow */
         return knurl_fail(KNURL_ERROR_ARGUMENT, "direction: expected a vector with a length, found (%g, %g, %g)",
                           direction[0], direction[1], direction[2]);
     }
