@@ -31,15 +31,6 @@ static void init_odd(int32_t length, double amplitude, knurl_vibration_event *ev
     event->negative = event->positive / ratio;
 }
 
-void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) {
-    event->above_nyquist = 0;
-    if (length % 2 == 0) {
-        init_even(length, amplitude, event);
-    } else {
-        init_odd(length, amplitude, event);
-    }
-}
-
 void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
     const double ticks = knurl_snap_ticks(period_ticks);
     event->above_nyquist = ticks < 2.0;
@@ -52,8 +43,12 @@ void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_
         event->positive = amplitude;
         event->negative = 0.0;
     } else {
-        knurl_vibration_event_set_length((int32_t)floor(ticks + 0.5), amplitude,
-                                         event); /* half up, as the paper rounds */
+        const int32_t length = (int32_t)floor(ticks + 0.5); /* half up, as the paper rounds */
+        if (length % 2 == 0) {
+            init_even(length, amplitude, event);
+        } else {
+            init_odd(length, amplitude, event);
+        }
     }
 }
 

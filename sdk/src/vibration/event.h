@@ -12,9 +12,6 @@ extern const double knurl_mixed_heights[6];
 void knurl_vibration_event_prepare(double period_ticks, double amplitude,
                                    knurl_vibration_event *event) KNURL_NONBLOCKING;
 
-/* Algorithm 2 or 4: an event of `length` ticks, 2 or more. */
-void knurl_vibration_event_set_length(int32_t length, double amplitude, knurl_vibration_event *event) KNURL_NONBLOCKING;
-
 /* knurl_vibration_event_value() of an event that is not mixed. */
 static inline double knurl_vibration_event_level(const knurl_vibration_event *event, int32_t index) {
     return index < event->positive_ticks ? event->positive : -event->negative;
