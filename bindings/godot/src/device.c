@@ -175,8 +175,9 @@ int64_t device_start(device *d) {
     enum { OK = 0, UNAVAILABLE = 2 };
     char warning[512] = "";
     d->wants_start = 0;
-    if (d->is_leaving) {
-        device_stop(d);
+    if (d->is_leaving) { /* not device_stop(), whose handlers may free it */
+        device_end(d);
+        signals_tell_later(0);
     }
     if (d->runs) {
         return OK;
@@ -206,6 +207,9 @@ static void start_by_itself(device *d) {
     const knurl_result result = d->runs ? KNURL_OK : run(d, warning);
     d->has_failed = result != KNURL_OK;
     if (!result) {
+        if (warning[0]) {
+            gd_warning("KnurlDevice", "KnurlDevice: %s", warning);
+        }
         return;
     }
     (void)snprintf(text, sizeof text, "%s", knurl_error_message());

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So many surfaces are looked at, and so many lines told, when a device starts. */
+/* Most surfaces checked, and most warnings printed, when a device starts. */
 enum { MOST_LOOKED_AT = 1000, MOST_WARNINGS = 8 };
 
-/* What knurl_session_explain() says first of a surface out of reach. */
+/* Start of knurl_session_explain()'s line for a surface out of reach (common/move.c). */
 #define OUT_OF_REACH "It lies outside of the device's workspace"
 
 static void say(char *text, size_t size, const char *sentence) {
@@ -222,7 +222,7 @@ static int is_new(const char *name, const char *line, int length) {
     return 1;
 }
 
-/* Warns of one surface. Returns 1 where it is out of the device's reach. */
+/* Warns of one surface. Returns 1 if it is out of the device's reach. */
 static int warn_of(surface *s, const device *d, uint32_t *told) {
     static char text[8192];
     char name[128];

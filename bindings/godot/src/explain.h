@@ -11,9 +11,9 @@ void explain_surface(surface *s, const device *only, char *text, size_t size);
 /* The same of a device. */
 void explain_device(const device *d, char *text, size_t size);
 
-/* When a device starts: warns of all that it does not play as asked for, of many only the first, and of each once in a
- * process, because games start their devices in scene after scene. Surfaces out of its reach are what a game's world is
- * full of: it warns where all are. */
+/* When a device starts: warns of everything that it does not play as asked for; only of the first few, and of each once
+ * per process, because games start their devices in scene after scene. Most surfaces of a game are out of its reach, so
+ * it warns of those only if all are. */
 void explain_start(const device *d);
 
 #endif

@@ -128,7 +128,7 @@ static void register_property(const gd_class *class, const gd_property *property
     const int is_boolean = property->type == GDEXTENSION_VARIANT_TYPE_BOOL;
     const int has_range = property->most > property->least && property->hint == GD_HINT_NONE;
     const int is_read_only = property->get && !property->set;
-    /* What only a run tells is shown where games run, which have the remote inspector. */
+    /* State of a running device is shown only in games (remote inspector), not in the editor. */
     const uint32_t told = gd_is_in_editor() ? 0 : (uint32_t)USAGE_SHOWN_ONLY;
     char enum_name[64];
     const gd_argument argument = {property->name, property->type, class_of(class, property, enum_name)};

@@ -14,7 +14,7 @@ typedef struct ending {
 static ending *endings, **last_ending = &endings;
 static GDExtensionObjectPtr teller;
 static void (*tell_device)(GDObjectInstanceID id);
-static GDObjectInstanceID paused_tree; /* whose frames the teller is told of, or 0 */
+static GDObjectInstanceID paused_tree; /* the tree whose process_frame the teller is connected to, or 0 */
 
 /* The object of an instance id, or null, as a signal's argument. */
 static gd_variant wrap_object(GDObjectInstanceID id) {
@@ -27,7 +27,7 @@ static gd_variant wrap_object(GDObjectInstanceID id) {
     return argument;
 }
 
-/* Emits a signal whose argument is an object, unless the one that emits is no more. */
+/* Emits a signal with an object as its argument, unless the emitter has been freed. */
 static void emit_about(GDObjectInstanceID from, const char *signal, GDObjectInstanceID about) {
     const GDExtensionObjectPtr object = gd.object_get_instance_from_id(from);
     if (object) {
@@ -46,7 +46,7 @@ void signals_end_contact(device *d) {
         *last_ending = made;
         last_ending = &made->next;
     } else if (d->touched) {
-        gd_error("KnurlDevice.contact_ended", "KnurlDevice.contact_ended: no memory to tell it with");
+        gd_error("KnurlDevice.contact_ended", "KnurlDevice.contact_ended: out of memory, signal not emitted");
     }
     d->touched = 0;
     d->touched_node = 0;
@@ -64,7 +64,7 @@ void signals_tell_ends(void) {
     }
 }
 
-/* The surface says it of the device, and the device of the surface, unless the surface's handler has ended it. */
+/* Emits the surface's signal, then the device's, unless a handler of the first has ended the contact. */
 static void start_contact(device *d, knurl_surface_id id) {
     const GDObjectInstanceID me = gd.object_get_instance_id(d->base.object);
     const surface *s = surface_in(d, id);

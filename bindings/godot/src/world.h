@@ -9,7 +9,7 @@
 /* Devices that run at once; each has a bit in a surface's masks. */
 enum { DEVICE_SLOTS = 8, ALL_SLOTS = 255 };
 
-/* Frames that a node which makes its meshes itself has for it before it is told that it has none. */
+/* Frames to wait for a node that makes its own meshes, before it counts as having none. */
 enum { TRIES = 10 };
 
 /* A surface in a running device's scene, as it was put or moved there last. */
@@ -99,7 +99,7 @@ extern device *devices[DEVICE_SLOTS];
 device *device_of(GDObjectInstanceID id);
 surface *surface_of(GDObjectInstanceID id);
 
-/* The surface of that id in a running device's scene, or null: one of a file, or none. */
+/* The node of a surface id in a running device's scene; null if the id is stale or from load_gltf(). */
 surface *surface_in(const device *d, knurl_surface_id id);
 
 #endif
