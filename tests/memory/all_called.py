@@ -7,8 +7,8 @@ import pathlib
 import re
 import sys
 
-# A tick's functions ask for no memory, which tests/scene/test_no_heap.c and others see to; these fill in a struct.
-EXEMPT = re.compile(r"_init$|^knurl_(vibration_event|wave)_init$")
+# Functions that fill in a struct. A tick's (KNURL_NONBLOCKING) are left out too: tests/scene/test_no_heap.c has those.
+EXEMPT = re.compile(r"_init$")
 
 
 def functions(header):

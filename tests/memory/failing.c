@@ -254,6 +254,9 @@ static void run_call(const failing_call *c) {
             tell(&report->crashes, "crash", strsignal(WTERMSIG(status)));
         }
     } while (WIFSIGNALED(status) && report->at > 0);
+    if (WIFEXITED(status) && report->all < 2) {
+        tell(&report->other, "the process ended", "by exit()");
+    }
 }
 
 static void add(struct report *sum) {
@@ -288,6 +291,7 @@ void failing_run(const failing_call *calls, size_t count) {
     (void)snprintf(name, sizeof name, "%zu calls", count);
     print(name, &sum);
     (void)munmap(report, sizeof *report);
+    assert_true(sum.needed > 0);
     assert_int_equal(sum.crashes + sum.leaks + sum.changes + sum.other, 0);
 }
 

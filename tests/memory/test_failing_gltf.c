@@ -31,7 +31,7 @@ static const char many_ways[] =
     "AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AACAPwAAgD8DAAECAgEDAM3MzD3NzMw9AAAAAA==\"}]}";
 
 static knurl_scene *scene;
-static char *large; /* 1 MB of JSON that nothing in it is tagged in */
+static char *large; /* 1 MB of JSON without a tag */
 
 static void make_scene(void) {
     knurl_scene_desc desc;

@@ -134,7 +134,7 @@ TEST(motors_that_are_too_warm_get_the_continuous_force_and_cool_to_it) {
     CHECK_CLOSE(knurl_heat_theta(&stage.heat), 1.0 + 8.0 * exp(-1.0), 1e-9);
 }
 
-/* As while a device plays a force that it was given before. */
+/* A device may go on playing a force that it was given before. */
 TEST(motors_that_are_too_warm_are_not_cooled_by_a_force_that_nothing_limits) {
     static const double latest[3] = {0.0, 3.3, 0.0};
     knurl_last_stage stage = ready(KNURL_PROTECT_ALL, latest);
