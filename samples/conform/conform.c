@@ -27,9 +27,10 @@ static void say(const judge *j) {
         const judge_breach *b = &j->breaches[i];
         if (b->count > 0) {
             fprintf(stderr,
-                    "conform: broken, %s: %s %llu times, at worst by %.3g; first after %s: --seed %llu --seconds 0\n",
-                    judge_promises[i].name, judge_promises[i].sentence, (unsigned long long)b->count, b->worst,
-                    b->after, (unsigned long long)b->seed);
+                    "conform: promise '%s' broken %llu times, at worst by %.3g; first after %s: --seed %llu "
+                    "--seconds 0. %s\n",
+                    judge_promises[i].name, (unsigned long long)b->count, b->worst, b->after,
+                    (unsigned long long)b->seed, judge_promises[i].sentence);
         }
     }
 }

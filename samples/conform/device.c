@@ -1,5 +1,5 @@
-/* The device that conform judges where no URI is given: a mass that a hand leads about by a spring. A maker of an own
- * device builds conform with another file in this one's place (cmake -DKNURL_CONFORM_DEVICE=FILE).
+/* The device that conform tests if no URI is given: a mass that a simulated hand moves by a spring. To test your own
+ * device, build conform with your file instead of this one (cmake -DKNURL_CONFORM_DEVICE=FILE).
  * SPDX-License-Identifier: MIT */
 #include "device.h"
 
@@ -14,8 +14,8 @@ typedef struct hand {
     double max_force, continuous, heat_time, resolution;
     double mass, stiffness, damping; /* of grip and hand: kg, N/m, N s/m */
     double position[3], velocity[3], force[3];
-    double target[3], speed[3]; /* where the hand wants to be */
-    double left;                /* s until it wants something else */
+    double target[3], speed[3]; /* of the hand: m, m/s */
+    double left;                /* s until the next target */
 } hand;
 
 /* xorshift64* (Vigna 2016): 0 to 1. */
@@ -26,7 +26,7 @@ static double uniform(hand *h) {
     return (double)((h->random * 0x2545f4914f6cdd1du) >> 11) / 9007199254740992.0;
 }
 
-/* Evenly in the exponent. */
+/* Uniform in the logarithm. */
 static double between(hand *h, double low, double high) {
     return low * pow(high / low, uniform(h));
 }

@@ -1,15 +1,15 @@
-/* What a trial waits for: faults of the device and their end, another loop, a force when all is well; and its ends.
+/* The parts of a trial that wait: device faults and recovery, another loop, a force after recovery; and its ends.
  * SPDX-License-Identifier: MIT */
 #include "trial.h"
 
 #include <string.h>
 
-/* s: in which a fault must be seen and the force gone. Longer than an old position or force counts; a library that owns
- * the servo thread may take 60 ms more to say so. */
+/* s: time limit for detecting a fault and zeroing the force. Longer than an old position or force stays valid; a
+ * library that owns the servo thread may take 60 ms more to report it. */
 #define SETTLED 0.06
 #define SEEN    0.15
 
-/* Faults that nobody injected are the device's own; late threads are the machine's. */
+/* Faults that were not injected are the device's own; late threads are the machine's. */
 static void take_events(trial *t) {
     knurl_device_event event;
     while (knurl_device_next_event(t->device, &event)) {
@@ -20,18 +20,16 @@ static void take_events(trial *t) {
     }
 }
 
-static void expect_limp(trial *t) {
-    if (t->on->is_limp && !t->on->is_limp()) {
-        judge_wait(t->j);
-        judge_breaks(t->j, JUDGE_SILENCED, 0.0);
-        judge_leave(t->j);
-    }
-}
-
 static void breaks(trial *t, int promise) {
     judge_wait(t->j);
     judge_breaks(t->j, promise, 0.0);
     judge_leave(t->j);
+}
+
+static void expect_limp(trial *t) {
+    if (t->on->is_limp && !t->on->is_limp()) {
+        breaks(t, JUDGE_SILENCED);
+    }
 }
 
 static void expect_no_faults(trial *t) {
@@ -42,7 +40,7 @@ static void expect_no_faults(trial *t) {
     }
 }
 
-/* Up to 2 s: a lost device is looked for four times a second. */
+/* Up to 2 s: the loop tries to reopen a lost device four times a second. */
 static void wait_until_well(trial *t) {
     uint64_t ticked = 0;
     for (int i = 0; i < 200 && ticked < 40; i++) {
@@ -57,7 +55,7 @@ void trial_inject(trial *t) {
     if (t->on->faults == 0) {
         return;
     }
-    trial_advance(t, 30); /* a jump is one from an earlier position */
+    trial_advance(t, 30); /* a jump needs an earlier position */
     expect_no_faults(t);
     const int no_force_until_well = t->on->inject(1 + trial_below(t, t->on->faults));
     trial_advance(t, (int)(((t->is_stepped ? SETTLED : SEEN) + t->on->alone_s) * t->rate));
@@ -74,14 +72,14 @@ void trial_inject(trial *t) {
     t->faults = 0;
 }
 
-/* Where writes are not seen, the ramp's last force is told. */
+/* If writes are not seen, the last force of the ramp is read from the scene. */
 static void end_loop(trial *t) {
     t->j->ending = 1;
     knurl_loop_destroy(t->loop);
     t->loop = NULL;
     knurl_tick_output last;
     memset(&last, 0, sizeof last);
-    if (!t->j->sees_writes) { /* of a scene that is gone nothing is told */
+    if (!t->j->sees_writes) { /* a destroyed scene reports nothing */
         (void)(t->scene && knurl_scene_get_tick(t->scene, 0, &last, NULL));
         memcpy(t->j->force, last.device_force, sizeof t->j->force);
     }
@@ -103,7 +101,7 @@ void trial_change_loop(trial *t) {
     (void)trial_make_loop(t, ramp_s);
 }
 
-/* With a force held and nothing wrong there is one. */
+/* If a force is held and there is no fault, the device must get it. */
 void trial_prove_alive(trial *t) {
     const double force[3] = {0.0, 0.3 * t->info.max_force, 0.0};
     uint64_t with = 0;

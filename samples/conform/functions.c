@@ -1,5 +1,5 @@
-/* A maker's functions with the judge between them and the library: it sees every write, and has faults come that the
- * device need not have. SPDX-License-Identifier: MIT */
+/* Wraps the caller's device functions: the judge sees every write, and faults are injected that the device itself need
+ * not have. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "trial.h"
 
@@ -9,7 +9,7 @@
 
 enum { WELL, LOST, SILENT, NOT_FINITE, JUMP, FAULTS = JUMP };
 
-/* s without a position after which the latest one counts no longer. */
+/* s without a position, after which the latest one is no longer valid. */
 #define PATIENCE 0.01
 
 static struct {
@@ -23,7 +23,8 @@ static struct {
     int is_limp; /* the latest force was zero */
 } f;
 
-/* An I/O thread's writes are none of a tick's: they are judged by what ticks tell. Here, only what holds of each. */
+/* An I/O thread's writes belong to no tick. The ticks' forces are judged by their outputs; here, each write by itself.
+ */
 static int is_threaded(void) {
     return f.inner.blocking != 0;
 }
@@ -44,7 +45,7 @@ static knurl_result start(void *user, double update_rate_hz) {
     return f.inner.start ? f.inner.start(user, update_rate_hz) : KNURL_OK;
 }
 
-/* What a maker's read() may give. */
+/* Checks the result and position of the caller's read(). */
 static void check_answer(knurl_result result, const knurl_device_sample *sample) {
     const double *q = sample->orientation;
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
@@ -56,7 +57,7 @@ static void check_answer(knurl_result result, const knurl_device_sample *sample)
     }
 }
 
-/* 1: the position of this read is none, so that there must be no force. */
+/* 1: this read gave no valid position, so that the force must be zero. */
 static int spoil(knurl_device_sample *sample, int fault) {
     const int jumps = (fault == JUMP) != f.is_off;
     f.is_off = fault == JUMP;
@@ -139,7 +140,7 @@ static knurl_device *open_it(uint64_t seed, judge *j) {
 
 static int inject(int which) {
     __atomic_store_n(&f.fault, which, __ATOMIC_RELEASE);
-    return which == SILENT || which == NOT_FINITE; /* nothing reaches a lost one; after a jump it goes on */
+    return which == SILENT || which == NOT_FINITE; /* a lost device gets no force; after a jump it continues */
 }
 
 static void closed(void) {

@@ -1,4 +1,4 @@
-/* What a game may do, at random: one table. SPDX-License-Identifier: MIT */
+/* The random calls of a trial's game: one table. SPDX-License-Identifier: MIT */
 #include "trial.h"
 
 #include <math.h>

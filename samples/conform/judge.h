@@ -1,5 +1,5 @@
-/* Judges the forces of a device against the promises of docs/safety.md, in the device's axes. It is told what the game
- * asks for and shown every force; it shares no code with the library. SPDX-License-Identifier: MIT */
+/* Judges the forces of a device against the promises of docs/safety.md, in the device's axes. It gets
+ * the game's calls and every force; it shares no code with the library. SPDX-License-Identifier: MIT */
 #ifndef KNURL_CONFORM_JUDGE_H
 #define KNURL_CONFORM_JUDGE_H
 
@@ -12,14 +12,14 @@
     X(SLEW, "slew",                                                                                                    \
       "The force grows from zero to max_force in 5 ms at the fastest, whatever turns: only a texture's and a "         \
       "vibration's own steps are faster, and a falling force.")                                                        \
-    X(SQUEEZED, "squeezed", "Where surfaces close over the hand and release it, the force falls no faster.")           \
+    X(SQUEEZED, "squeezed", "If surfaces close over the hand and release it, the force falls no faster.")              \
     X(HEAT, "heat", "The motors never get warmer than continuous_force makes them in the long run.")                   \
     X(RAMP, "ramp", "After a halt, a fault or a pause the force comes back by the ramp.")                              \
     X(HALTED, "halted", "The first force after a halt is zero.")                                                       \
     X(ABSENT, "absent", "Without a valid position the force is zero.")                                                 \
     X(PAUSED, "paused", "In a pause the force is zero once its ramp is over.")                                         \
     X(MUTED, "muted", "With a gain of 0 the force is zero once the ramp is over.")                                     \
-    X(TOLD, "told", "The force that a tick tells is the force that the device gets.")                                  \
+    X(TOLD, "told", "The force that a tick reports is the force that the device gets.")                                \
     X(ENDED, "ended", "When a loop has ended its device has no force.")                                                \
     X(CLOSED, "closed", "When knurl_device_close() returns the force is zero, and it stays zero.")                     \
     X(SILENCED, "silenced", "Motors have no force soon after a pause, a gain of 0, a fault or an end.")                \
@@ -45,9 +45,9 @@ extern const judge_promise judge_promises[JUDGE_COUNT];
 typedef struct judge_breach {
     uint64_t count;    /* forces */
     uint64_t seed;     /* of the first */
-    uint64_t tick;     /* its force, counted from the trial's begin */
+    uint64_t tick;     /* its force, counted from the trial's start */
     double worst;      /* N beyond what is allowed */
-    const char *after; /* what was done last before the first; static */
+    const char *after; /* the game's latest call before the first; static */
 } judge_breach;
 
 #define JUDGE_SURFACES 32
@@ -56,7 +56,7 @@ typedef struct judge_breach {
 typedef struct judge_surface {
     knurl_surface_id id; /* 0: none */
     double stiffness;    /* N/m, at most */
-    double crest;        /* m: the greatest height since it is there */
+    double crest;        /* m: the greatest height since it was added */
     int touched;         /* at the latest tick */
 } judge_surface;
 
@@ -64,31 +64,31 @@ typedef struct judge {
     /* the device and its HIP */
     double max_force;  /* N */
     double continuous; /* N */
-    double cooling;    /* share of the way to its long run that heat goes in a tick */
+    double cooling;    /* share of the way to its final value that heat goes in a tick */
     double slew;       /* N a tick */
-    double ramp;       /* ticks from full force to none */
+    double ramp;       /* ticks from full force to zero */
     double rate;       /* Hz */
     int slack;         /* ticks by which haptic thread and game may differ; 0: the loop is stepped */
     int sees_writes;   /* 1: judge_write() is called by the device's own write() */
     uint64_t seed;
-    const char *after; /* what the game did last */
+    const char *after; /* the game's latest call */
     int lock;
 
-    /* what the game asked for */
+    /* the game's state */
     int paused, halted, absent, ending, closed, edited;
     double gain;
     judge_surface surfaces[JUDGE_SURFACES];
     knurl_wave wave;
     uint64_t wave_tick, wave_ticks;
 
-    /* what may be sent */
+    /* limits */
     double loop_gain, game_gain; /* by the ramp */
     double cap;                  /* share of max_force, of this tick */
     int reset;                   /* 1: the force comes from zero */
     double paused_ticks, muted_ticks;
     double theta; /* heat */
 
-    /* what came */
+    /* forces seen */
     double previous[3], force[3]; /* N; the latest, once judge_tick() has judged its step */
     int pending;                  /* `force` was written, its step is not judged yet */
     double height, wave_value;
@@ -100,55 +100,55 @@ typedef struct judge {
     judge_breach breaches[JUDGE_COUNT];
 } judge;
 
-/* A trial begins: a device and a loop of its own. Breaches and counts stay. ramp_s: the loop's. slew_rate: the HIP's,
+/* Starts a trial, with its own device and loop. Breaches and counts stay. ramp_s: the loop's. slew_rate: the HIP's,
  * or 0. */
 void judge_begin(judge *j, const knurl_device_info *info, double rate_hz, double ramp_s, double slew_rate);
 
-/* Another loop on the same device: gains and contacts begin again, heat goes on. */
+/* Another loop on the same device: gains and contacts start again, heat continues. */
 void judge_begin_loop(judge *j, double ramp_s);
 
 /* A force reaches the device. */
 void judge_write(judge *j, const double force[3]);
 
-/* A force reaches a device whose writes belong to no tick: judged by itself. */
+/* A force reaches a device whose writes belong to no tick: each is judged by itself. */
 void judge_look(judge *j, const double force[3]);
 
-/* The tick that made it; after its judge_write(). */
+/* The tick that made that force; call it after judge_write(). */
 void judge_tick(judge *j, const knurl_tick_output *output, const knurl_hip_contact *contacts, uint32_t count);
 
-/* A tick that was not judged: the next one's step is not known. */
+/* A tick that was not judged: the next one's change is unknown. */
 void judge_pass_over(judge *j, const knurl_tick_output *output);
 
-/* The device could not be read for so many cycles, and got no force. */
+/* The device could not be read for that many cycles, and got no force. */
 void judge_miss(judge *j, uint64_t cycles);
 
-/* A surface is there, or its material was changed. */
+/* A surface was added, or its material changed. */
 void judge_surface_is(judge *j, knurl_surface_id id, const knurl_material_desc *material);
 void judge_surface_gone(judge *j, knurl_surface_id id);
 
-/* Surfaces or workspace are moved: gratings may begin anew. */
+/* Surfaces or the workspace moved: gratings may restart. */
 void judge_edits(judge *j);
 
 void judge_vibrate(judge *j, int32_t method, double frequency_hz, double amplitude, double seconds);
 
-/* Null: it is not there. id 0: a free place. */
+/* Null: not found. id 0: a free place. */
 judge_surface *judge_find_surface(judge *j, knurl_surface_id id);
 
-/* N: what the textures in contact, and the vibration, may change the force by in this tick (judge_steps.c). */
+/* N: the change of force that textures in contact and the vibration may cause in this tick (judge_steps.c). */
 double judge_texture_steps(judge *j, const knurl_tick_output *output, const knurl_hip_contact *contacts,
                            uint32_t count);
 double judge_wave_step(judge *j);
 
-/* Gratings begin anew. */
+/* Gratings restart. */
 void judge_forget_contacts(judge *j);
 
-/* The latest force must be zero: else `promise` is broken. */
+/* Records that `promise` is broken unless the latest force is zero. */
 void judge_expect_zero(judge *j, int promise);
 
-/* A promise is broken, by so much. */
+/* Records a broken promise and its excess, N. */
 void judge_breaks(judge *j, int promise, double excess);
 
-/* What a haptic thread and the game share: the game waits, the haptic thread does without (0). */
+/* The lock of haptic thread and game: the game waits, the haptic thread does not (returns 0). */
 void judge_wait(judge *j);
 int judge_try(judge *j);
 void judge_leave(judge *j);

@@ -18,7 +18,7 @@ static double length_of(const double v[3]) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* From `a` to the nearest point between zero and `b`: what falls along its own line has not changed. */
+/* From `a` to the nearest point between zero and `b`: a force that only gets shorter does not count as changed. */
 static double distance_to_fall(const double a[3], const double b[3]) {
     const double square = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
     const double along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -27,7 +27,7 @@ static double distance_to_fall(const double a[3], const double b[3]) {
     return length_of(apart);
 }
 
-/* --- the checks of each force: by how much it is too great, N; above 0 is a breach --- */
+/* --- the checks of each force: N above its limit; above 0: broken --- */
 
 static double excess_finite(const judge *j, double length) {
     (void)j;
@@ -43,7 +43,7 @@ static double excess_heat(const judge *j, double length) {
     return j->ending ? 0.0 : j->theta - 1.01; /* a tick's worth; the ramp at a loop's end is not limited by it */
 }
 
-/* What falls may fall more slowly: after a squeeze. */
+/* After a squeeze the force may fall more slowly. */
 static double excess_ramp(const judge *j, double length) {
     const double most = j->max_force * (j->cap + (1.0 + j->slack) / j->ramp);
     return length - fmax(most, length_of(j->reset ? zero : j->force)) - ROUNDING;
@@ -88,7 +88,7 @@ void judge_breaks(judge *j, int promise, double excess) {
 
 void judge_look(judge *j, const double force[3]) {
     const double length = length_of(force);
-    for (int i = 0; i < 2; i++) { /* the first two hold of each force by itself */
+    for (int i = 0; i < 2; i++) { /* the first two apply to each force by itself */
         const double excess = checks[i].excess(j, length);
         if (excess > 0.0) {
             judge_breaks(j, checks[i].promise, excess);
@@ -96,14 +96,14 @@ void judge_look(judge *j, const double force[3]) {
     }
 }
 
-/* The player's gain moves on whether there is a position or not. */
+/* The game's gain ramps with and without a position. */
 static void advance_game_gain(judge *j, double ticks) {
     const double most = ticks / j->ramp;
     j->game_gain += fmin(most, fmax(-most, j->gain - j->game_gain));
     j->muted_ticks = j->gain == 0.0 ? j->muted_ticks + ticks : 0.0;
 }
 
-/* What the loop's ramp and the player's gain leave of max_force in this tick. */
+/* The share of max_force that the loop's ramp and the game's gain allow in this tick. */
 static void advance_gains(judge *j) {
     const double step = 1.0 / j->ramp;
     j->loop_gain = j->reset || j->halted ? 0.0 : j->loop_gain;

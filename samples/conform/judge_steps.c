@@ -19,7 +19,7 @@ judge_surface *judge_find_surface(judge *j, knurl_surface_id id) {
     return NULL;
 }
 
-/* N: the texture's step of one contact. The height of the deepest is told; of others it is within their crests. */
+/* N: the texture's step of one contact. The deepest contact's height is reported; others are within their crests. */
 static double texture_step(judge *j, const knurl_hip_contact *contact, const knurl_tick_output *output) {
     const judge_surface *s = judge_find_surface(j, contact->surface);
     if (!s) {

@@ -36,7 +36,7 @@ void trial_direction(trial *t, double out[3]) {
     }
 }
 
-/* By `angle` (rad) about a random axis. */
+/* A rotation by `angle` (rad) about a random axis. */
 void trial_rotation(trial *t, double angle, double quaternion[4]) {
     trial_direction(t, quaternion);
     for (int axis = 0; axis < 3; axis++) {
@@ -56,7 +56,7 @@ double trial_rate(trial *t) {
     return trial_uniform(t) < 0.7 ? 1000.0 : rates[trial_below(t, 4)];
 }
 
-/* s: none, shorter than the slew limit's 5 ms, or longer. */
+/* s: 0, shorter than the slew limit's 5 ms, or longer. */
 double trial_ramp(trial *t) {
     const double kind = trial_uniform(t);
     return kind < 0.2 ? 0.0 : kind < 0.4 ? trial_between(t, 0.0, 0.005) : trial_between(t, 0.01, 0.05);

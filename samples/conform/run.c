@@ -1,4 +1,4 @@
-/* A trial from its begin to one of its ends. Read trial_run(), at the end, first. SPDX-License-Identifier: MIT */
+/* A trial, from start to end. Read trial_run(), at the end, first. SPDX-License-Identifier: MIT */
 #include "trial.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@ static void no_force(uint64_t tick, const knurl_device_sample *sample, double fo
     force[0] = force[1] = force[2] = 0.0;
 }
 
-/* 1: its loop can be stepped. -1: it has none. */
+/* 1: its loop can be stepped. -1: no loop can be made. */
 static int can_step(knurl_device *device) {
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;

@@ -1,4 +1,4 @@
-/* The surfaces of a trial's scene, and what a game does to them. SPDX-License-Identifier: MIT */
+/* The surfaces of a trial's scene, and the game's changes to them. SPDX-License-Identifier: MIT */
 #include "trial.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static void random_material(trial *t, knurl_material_desc *m) {
     m->orientation = trial_between(t, -3.0, 3.0);
 }
 
-/* Near the HIP, where there has been a tick, and turned anyhow. */
+/* Near the HIP, if there was a tick, and turned at random. */
 static void random_pose(trial *t, double position[3], double quaternion[4]) {
     const double spread = trial_scale(t, 0.0005, 0.03);
     knurl_tick_output latest;
@@ -45,7 +45,7 @@ static void box(trial *t, float corners[24], knurl_mesh_desc *mesh) {
     mesh->index_count = 36;
 }
 
-/* Adds one, or puts it in another's place. */
+/* Adds a surface, or replaces another. */
 static void put_surface(trial *t, int replaced) {
     float corners[24];
     knurl_plane_desc plane;
@@ -63,7 +63,7 @@ static void put_surface(trial *t, int replaced) {
         desc.plane = &plane;
     } else {
         desc.mesh = &mesh;
-        desc.axis[trial_below(t, 3)] = trial_uniform(t) < 0.7 ? 1.0 : 0.0; /* without one it has no coordinates */
+        desc.axis[trial_below(t, 3)] = trial_uniform(t) < 0.7 ? 1.0 : 0.0; /* all 0: no coordinates */
     }
     desc.double_sided = trial_uniform(t) < 0.5;
     desc.material = &material;

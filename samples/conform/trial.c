@@ -1,7 +1,7 @@
 /* The loop of a trial and its ticks. SPDX-License-Identifier: MIT */
 #include "trial.h"
 
-/* The clock of loops that are stepped, so that motors cool by the same time in every run. */
+/* The clock of stepped loops, so that motors cool equally in every run. */
 static int64_t simulated_now(void *user) {
     const trial *t = user;
     return t->simulated_ns;

@@ -1,4 +1,4 @@
-/* Where `bandlimited` fails, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
+/* Cases in which `bandlimited` fails, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
 #include "contender.h"
 #include "failures.h"
 #include "gratings.h"

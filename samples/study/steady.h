@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /** A line belongs to the ridges if it is within this share of f_t, or this many Hz if that is more, of an odd multiple
- * of f_t. What beats with the ridges' own line is false therefore. */
+ * of f_t. So a tone that beats with the ridges' own line is false. */
 #define STEADY_TOLERANCE    0.05
 #define STEADY_TOLERANCE_HZ 4.0
 

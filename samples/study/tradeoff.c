@@ -100,7 +100,9 @@ static int print_rows(FILE *f) {
         for (size_t line = 0; done && line < lines; line++) {
             c.ridge = ridges[line];
             done = accuracy_measure(&c, &found);
-            print_row(f, &c, &cost, instructions, &found);
+            if (done) {
+                print_row(f, &c, &cost, instructions, &found);
+            }
         }
         if (!done) {
             return tool_error(1, "study: tradeoff: %s could not be measured", name);

@@ -43,7 +43,7 @@ typedef struct knurl_gltf_report {
     uint32_t reserved; /**< 0 */
 } knurl_gltf_report;
 
-/** Sets struct_size; `size` is the caller's sizeof. [any thread] */
+/** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
 
 /** Loads all tagged surfaces of a .gltf or .glb file into a scene, committed or not. If it fails, the scene is
@@ -54,7 +54,7 @@ KNURL_API void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size);
  * scale and axis share one shape (knurl_surface_desc.shape_of). Limits: JSON nested 32 deep, node trees 1024 deep,
  * coordinates of KNURL_COORDINATE_MAX, with transforms; names are cut to 255 bytes.
  *
- * Errors: KNURL_ERROR_FULL (a limit of the budget, named), KNURL_ERROR_CANCELLED, KNURL_ERROR_IO, KNURL_ERROR_FORMAT
+ * Errors: KNURL_ERROR_FULL (a limit of the options, named), KNURL_ERROR_CANCELLED, KNURL_ERROR_IO, KNURL_ERROR_FORMAT
  * (file, object and key are named), KNURL_ERROR_UNSUPPORTED (a required extension, another glTF version, a skin or
  * morph target on a tagged mesh), and those of knurl_scene_add_surface(). Needs under 128 KiB of stack. [any thread but
  * the haptic] */

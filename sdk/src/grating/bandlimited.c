@@ -46,7 +46,7 @@ static double fade(double x, double from, double to) {
 }
 
 /* The first, third and fifth harmonic: with c = cos a, cos 3a = c (4 c^2 - 3) and cos 5a = c (16 c^4 - 20 c^2 + 5).
- * Sorted by powers of c, so that what depends on d alone is ready before c is. */
+ * Sorted by powers of c, so that the factors of d alone are ready before c. */
 static inline double harmonics(double amplitude, double phase, double d) {
     const double first = FUNDAMENTAL * amplitude;
     const double c = cosine(phase);
@@ -77,10 +77,11 @@ static double mean(double from, double to) {
     return height > 1.0 ? 1.0 : height > -1.0 ? height : -1.0;
 }
 
-/* Moves a tracked position by one tick's velocity, and no farther from the measured one than half a count, which is
- * where the true one is. So it is smooth in steady motion, never late and never more than half a count off, and it
- * stands still if an encoder flickers between two counts, because FOAW's velocity is 0 there. A second-order observer
- * at 12 Hz within the same bound was worse in every figure, and made half cycles of a flicker (`knurl study tradeoff`).
+/* Moves a tracked position by one tick's velocity, and no farther from the measured one than half a count: the
+ * true one is within that too. So it is smooth in steady motion, never late and never more than half a count off, and
+ * it stands still if an encoder flickers between two counts, because FOAW's velocity is 0 there. A second-order
+ * observer at 12 Hz within the same bound was worse in every figure, and made half cycles of a flicker (`knurl study
+ * tracking`).
  */
 static double track(double tracked, double moved, double measured, double count) {
     const double at = tracked + moved;
@@ -114,7 +115,7 @@ static inline void follow(const knurl_grating *g, knurl_grating_state *s, knurl_
 static void choose_axis(const knurl_grating *g, knurl_grating_state *s, const double velocity[2]) {
     const double *fs = g->spatial_frequency;
     const int32_t now = s->axis, other = 1 - s->axis;
-    const double margin = s->direction ? TAKE_OVER : 1.0; /* at the first tick none */
+    const double margin = s->direction ? TAKE_OVER : 1.0; /* no margin at the first tick */
     if (!(fs[other] * fabs(velocity[other]) > margin * fs[now] * fabs(velocity[now]))) {
         return;
     }

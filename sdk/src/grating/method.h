@@ -1,11 +1,11 @@
-/* A spatial method: all that other code asks about it. SPDX-License-Identifier: MIT */
+/* A spatial method: its properties and its height function. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_METHOD_H
 #define KNURL_SRC_METHOD_H
 
 #include <knurl/grating.h>
 
-/* Along a surface's x and y. By value it stays in registers: what was just stored as two numbers and is loaded as one
- * vector costs a tick a third of its time. */
+/* Along a surface's x and y. Passed by value, so that it stays in registers: storing two numbers and at once loading
+ * them as one vector takes a third of a tick's time. */
 typedef struct knurl_along {
     double x, y;
 } knurl_along;
@@ -14,7 +14,7 @@ typedef struct knurl_along {
 typedef struct knurl_grating_input {
     knurl_along position; /* m; not used unless has_position */
     knurl_along velocity; /* m/s */
-    double period;        /* s, 1/f_h: a division less a tick */
+    double period;        /* s: 1/f_h */
     int32_t has_position;
 } knurl_grating_input;
 

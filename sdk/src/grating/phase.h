@@ -4,8 +4,8 @@
 
 #include "base/finite.h"
 
-/* Added and taken off again it rounds to a whole number, as its unit in the last place is 1; base/finite.h sees to it
- * that no compiler folds the two. */
+/* Adding and then subtracting it rounds to a whole number, because its unit in the last place is 1. base/finite.h
+ * ensures that no compiler removes the two operations. */
 #define KNURL_WHOLE 6755399441055744.0 /* 3 * 2^51 */
 
 /* The nearest whole number. Exact to 2^51; beyond, a double has no phase left, and this is some whole number near it. A

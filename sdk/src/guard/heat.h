@@ -14,7 +14,7 @@
  * enough for a hand to follow. */
 #define KNURL_HEAT_WARM 0.9
 
-/* Heat of motors under a force: square' = (F^2 - square)/time. In N^2 it is the same whatever the continuous force. */
+/* Heat of motors under a force: square' = (F^2 - square)/time. In N^2 it does not depend on the continuous force. */
 typedef struct knurl_heat {
     double square;    /* N^2: of the constant force that would make the motors as warm */
     double share;     /* of the change towards a force's heat, per tick */

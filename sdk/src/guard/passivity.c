@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What counts as a runaway: the HIP swings in and out of a wall, faster than hands do, repeatedly and as far each time,
+/* A runaway: the HIP swings in and out of a wall, faster than hands do, repeatedly and as far each time,
  * and not because of a texture. The energy that a sampled wall gives is no criterion: near the limit it equals what
  * friction and hand absorb, and these are not known.
  *

@@ -7,7 +7,6 @@
 #include "scene/scene.h"
 
 #include <math.h>
-#include <string.h>
 
 /* A cycle later than this comes after a gap. Equal to the watchdog's default. */
 #define GAP_NS 50000000

@@ -83,7 +83,7 @@ typedef struct knurl_loop_shared {
     knurl_clock clock;
     knurl_hip *hip; /* the scene's; null without a scene */
 
-    knurl_loop_added added; /* says which thread uses which of its fields */
+    knurl_loop_added added; /* threads: see its fields */
 
     /* atomics */
     int32_t state;           /* KNURL_LOOP_ */
@@ -114,7 +114,7 @@ typedef struct knurl_loop_shared {
 /* Used by the game thread only, in knurl_loop_start() and knurl_loop_destroy(). */
 typedef struct knurl_loop_game {
     knurl_thread *thread;
-    knurl_thread *watchdog; /* watchdog; also reconnects */
+    knurl_thread *watchdog; /* also reopens a lost device */
 } knurl_loop_game;
 
 struct knurl_loop {
