@@ -108,6 +108,7 @@ static knurl_result custom_reopen(knurl_device *device) {
     }
     const knurl_result result = c->functions.reopen(c->functions.user);
     c->has_latest = 0;
+    c->without = 0;
     return result || !c->functions.blocking ? result : open_link(c);
 }
 

@@ -319,7 +319,7 @@ static knurl_result write_device(knurl_device *device, const double force[3]) {
     }
     const knurl_result result =
         device->link ? knurl_link_write(device->link, safe) : device->driver->write(device, safe);
-    if (!device->link && !device->driver->serve) { /* otherwise the sending thread does this after the transfer */
+    if (!result && !device->link && !device->driver->serve) { /* otherwise the sending thread does this */
         knurl_device_after_force(device, safe);
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {

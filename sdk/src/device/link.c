@@ -92,7 +92,9 @@ static int run_cycle(knurl_link *link) {
         knurl_histogram_add(&link->durations, now - before);
         publish(link, &sample);
     }
-    knurl_device_after_force(link->device, force);
+    if (outcome != KNURL_LINK_NOTHING) { /* after that it is unknown whether the force was sent */
+        knurl_device_after_force(link->device, force);
+    }
     knurl_count_up(&link->cycles);
     tell_guard(link, now);
     judge(link, outcome, now);

@@ -213,6 +213,7 @@ static knurl_result touch_reopen(knurl_device *device) {
         touch_disconnect(t);
         result = touch_connect(t);
         if (!result) {
+            t->uncalibrated = 0; /* the servo thread is detached */
             knurl_store_release(&t->slot->key, t->handle + 1u);
             knurl_store_release(&t->slot->refusal, 0u);
             knurl_store_release(&t->slot->loss, 0u);
