@@ -134,8 +134,9 @@ typedef struct knurl_surface_info {
     uint32_t struct_size;
     uint32_t triangle_count;    /**< 0 for a plane */
     uint32_t dropped_triangles; /**< left out: without area, or duplicates */
-    uint32_t double_sided;      /**< 1: as given, or because the mesh has reversed pairs of triangles, or because mixed
-                                   winding leaves it without a front (halves of the same area, a Moebius strip) */
+    uint32_t double_sided;      /**< 1: as given, or because triangles with a reversed twin are more than a tenth of the
+                                   mesh's area (fewer are taken for mistakes), or because mixed winding leaves it
+                                   without a front (halves of the same area, a Moebius strip) */
     const char *name;           /**< the scene's, valid while the surface exists */
     const char *shape;          /**< "plane" or "mesh", as given; static */
     const char *model;          /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
@@ -413,7 +414,8 @@ enum {
                                there */
     KNURL_LIMIT_VISITS = 128,  /**< contact reaches knurl_hip_desc.max_visits at one of 65 places of the mesh; or, once
                                   committed, 15 other meshes are within 1 mm of its anchor */
-    KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not */
+    KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not; or reversed
+                                  twins of some triangles, but not of all */
     KNURL_LIMIT_STRETCH = 32 /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
                                 material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };

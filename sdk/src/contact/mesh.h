@@ -45,7 +45,7 @@ typedef struct knurl_mesh {
     uint32_t reversed_twins; /* triangles dropped because another has the same corners with opposite winding */
     uint32_t turned;         /* triangles turned over to face like the rest of their connected component */
     uint32_t mixed;          /* triangles that still face against the rest of their component */
-    int32_t double_sided;    /* 1: it has reversed twins, or no front was found */
+    int32_t double_sided;    /* 1: more than a few have reversed twins, or no front was found */
     double seam;             /* m: edges side by side within this distance touch */
     uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
     int32_t has_axis;        /* 1: x runs along `axis`, not along tangents or uvs */

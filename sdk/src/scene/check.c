@@ -190,6 +190,12 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
     char sentence[256];
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
+    if (facts.reversed_twins > 0 && facts.reversed_twins < facts.triangle_count) {
+        (void)snprintf(sentence, sizeof sentence, "%u of its %u triangles have a reversed twin, %s",
+                       (unsigned)facts.reversed_twins, (unsigned)facts.triangle_count,
+                       surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
+        say(on, KNURL_LIMIT_WINDING, sentence, "merge or delete the doubled faces in the editor");
+    }
     if (facts.turned > 0) {
         (void)snprintf(sentence, sizeof sentence,
                        "%u of its %u triangles were wound against their neighbours, and were turned over",
