@@ -3,7 +3,7 @@
 #ifndef KNURL_COMMON_MOUSE_H
 #define KNURL_COMMON_MOUSE_H
 
-#include <knurl/device.h>
+#include <knurl/device_functions.h>
 
 typedef struct knurl_mouse {
     /* from the game thread, atomics: a seqlock */

@@ -9,6 +9,7 @@
 
 #include <knurl/audio.h>
 #include <knurl/loop.h>
+#include <knurl/stroke.h>
 
 #ifdef __cplusplus
 extern "C" {

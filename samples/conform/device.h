@@ -2,7 +2,7 @@
 #ifndef KNURL_CONFORM_DEVICE_H
 #define KNURL_CONFORM_DEVICE_H
 
-#include <knurl/device.h>
+#include <knurl/device_functions.h>
 
 /* Fills in the functions (initialised to defaults) of a device that is about to be opened. The only function that your
  * file needs; see device.c. seed: of a simulated device, so that a run can be repeated; real devices ignore it. Set

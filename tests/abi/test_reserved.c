@@ -2,7 +2,7 @@
  * version can give them a meaning. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
-#include <knurl/device.h>
+#include <knurl/device_functions.h>
 
 #include <string.h>
 

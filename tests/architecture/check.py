@@ -33,7 +33,8 @@ MODULES = {
 }
 # Public headers that a room may use beside its own modules': the scene's rooms are declared in one.
 DECLARED_IN = {room: {"scene"} for room in ("surface", "proxy", "guard", "hip")}
-DECLARED_IN["stroke"] = {"scene", "loop"}
+DECLARED_IN["stroke"] = {"scene", "fake"}
+DECLARED_IN["device"] = {"device_functions", "fake"}
 # Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.
 HEADER_ONLY = {"base/atomic", "base/finite", "base/handle", "base/regular_file", "base/seqlock"}
 

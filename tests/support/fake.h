@@ -4,7 +4,7 @@
 
 #include "support/close.h"
 
-#include <knurl/device.h>
+#include <knurl/fake.h>
 
 /** Hz: what the tests run their devices at. */
 #define RATE 1000.0

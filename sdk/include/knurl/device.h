@@ -1,5 +1,5 @@
-/* Knurl: force-feedback devices behind one interface: 3D Systems Touch, Novint Falcon, raw HID devices, a caller's own,
- * and a fake one (a simulated Touch in a simulated hand) for developing without hardware.
+/* Knurl: force-feedback devices behind one interface: 3D Systems Touch, Novint Falcon, raw HID devices and others, a
+ * caller's own (device_functions.h), and a fake one for developing without hardware (fake.h).
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_DEVICE_H
 #define KNURL_DEVICE_H
@@ -136,76 +136,9 @@ typedef struct knurl_device_status {
     double orientation[4];  /**< of the last reading, as knurl_device_sample.orientation */
 } knurl_device_status;
 
-/** A caller's own device, for hardware that Knurl does not support. Each function gets `user`. */
-typedef struct knurl_device_functions {
-    uint32_t struct_size; /**< set by knurl_device_functions_init() */
-    uint32_t blocking;    /**< 1: read and write may block. A separate I/O thread calls them in turn; the haptic thread
-                             exchanges the newest position and force with it. 0 (default): the haptic thread calls them;
-                             nothing zeroes the force while it hangs */
-    void *user;
-    /** Fills in the properties; max_force must be set. `info` has these defaults: heat_time 60 s, INFINITY in
-     * continuous_force, max_stiffness and max_damping, 0 in all others. Required. Do not call knurl_device_info_init().
-     * [any thread] */
-    void (*get_info)(void *user, knurl_device_info *info);
-    /** Prepares for this rate of reads; or null. Called before the first read, and, if blocking, also later while the
-     * I/O thread is reading. [game thread] */
-    knurl_result (*start)(void *user, double update_rate_hz);
-    /** Fills in the newest position; the sample is zeroed before. Required. Returns KNURL_OK,
-     * KNURL_ERROR_DEVICE_NOT_READY (no position this time: the last one is used for up to 10 ms, then the device is
-     * reported as silent) or KNURL_ERROR_DEVICE_LOST. [haptic thread; if blocking, the I/O thread: it should return
-     * within 5 ms, and after 1 s without a position the device is lost] */
-    knurl_result (*read)(void *user, knurl_device_sample *sample);
-    /** Applies a force, finite and at most max_force. Required. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST. [as read;
-     * also once at the end, on the closing thread] */
-    knurl_result (*write)(void *user, const double force[3]);
-    /** Tries to find a lost device again; null if that is not possible. Returns KNURL_OK or KNURL_ERROR_DEVICE_LOST. [a
-     * thread of the loop, while nothing is read or written] */
-    knurl_result (*reopen)(void *user);
-    /** Frees the device; or null. It is the last call. [the thread that closes the device, or that destroys the last
-     * loop that uses it] */
-    void (*close)(void *user);
-    uint32_t motors_known; /**< 1: the motors are known to push in the right direction and are not checked, see
-                              knurl_device_open(). Default 0 */
-    uint32_t reserved;     /**< 0 */
-} knurl_device_functions;
-
-/** The fake device's strokes: motions of the simulated hand's target over a surface. */
-enum {
-    KNURL_STROKE_LINE = 1,   /**< back and forth along x at constant speed, slower at the ends */
-    KNURL_STROKE_SWEEP = 2,  /**< back and forth along x, speed 0 to `speed` and back to 0 within `period` */
-    KNURL_STROKE_CIRCLE = 3, /**< a circle at constant speed: every direction of the grating */
-    KNURL_STROKE_PRESS = 4,  /**< down to three times the depth and up again, at one point */
-    KNURL_STROKE_REST = 5    /**< rests at the depth */
-};
-
-/** A stroke of the fake device's hand, in device coordinates. The target starts 5 mm above the surface, comes down
- * within 0.25 s and then moves, `depth` below the surface. */
-typedef struct knurl_stroke_desc {
-    uint32_t struct_size; /**< set by knurl_stroke_desc_init() */
-    int32_t stroke;       /**< KNURL_STROKE_; default LINE */
-    double centre[3];     /**< on the surface, m; default 0 */
-    double x[3];          /**< unit: the direction of the stroke; default 1, 0, 0 */
-    double normal[3];     /**< unit, outward, at right angles to x; default 0, 1, 0 */
-    double reach[2];      /**< m either side of the centre along x and along normal x x, > 0; default 0.05, 0.02 */
-    double depth;         /**< m below the surface; default 0.001 */
-    double speed;         /**< m/s, > 0; default 0: 0.25 for SWEEP, else 0.1 */
-    double period;        /**< s, for SWEEP and PRESS, > 0; default 5 */
-    const double *path;   /**< a path over a curved surface, instead of centre, x, normal and reach: rows of x, y, z on
-                               the surface (m) and its outward normal (unit); copied. LINE and SWEEP start in its middle
-                               and move back and forth between its ends; CIRCLE moves from the first row to the last and
-                               then loops from row path_loop; the others stay in its middle. Default null */
-    uint32_t path_rows;   /**< 2 to KNURL_PATH_ROWS_MAX; 0 without a path */
-    uint32_t path_loop;   /**< CIRCLE: the row, below path_rows - 1, that closes the loop: the same point as the last */
-} knurl_stroke_desc;
-
-/** The most rows of a stroke's path. */
-#define KNURL_PATH_ROWS_MAX 65536
-
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_device_info_init(knurl_device_info *info, uint32_t size);
 KNURL_API void knurl_device_status_init(knurl_device_status *status, uint32_t size);
-KNURL_API void knurl_device_functions_init(knurl_device_functions *functions, uint32_t size);
-KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
 
 /** Opens a device by URI; "name:" is the same as "name".
  *
@@ -244,11 +177,6 @@ KNURL_API void knurl_stroke_desc_init(knurl_stroke_desc *desc, uint32_t size);
  * program has it open), KNURL_ERROR_IO and KNURL_ERROR_FORMAT (a firmware or geometry file), KNURL_ERROR_MEMORY. [game
  * thread] */
 KNURL_API knurl_result knurl_device_open(const char *uri, knurl_device **device);
-
-/** Opens a device made of a caller's functions. Its positions are checked like any device's: a position that is not
- * finite, or moves faster than 10 m/s, is a fault. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_MEMORY, KNURL_ERROR_SYSTEM
- * (no thread). [game thread] */
-KNURL_API knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device);
 
 /** Zeroes the force and closes the device; null is allowed. The force is zero on return. (It waits for a period of the
  * device's loop, or a transfer; if one of these hangs, no longer than 50 ms.) A loop that uses the device ends by
@@ -334,36 +262,6 @@ KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
  * The calling thread gets a signal stack unless it has one. Only the first call has an effect.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_SYSTEM. [game thread] */
 KNURL_API knurl_result knurl_device_zero_on_exit(uint32_t faults_recover);
-
-/** The keys of a fake URI with units, defaults and meaning, one per line; static. [any thread] */
-KNURL_API const char *knurl_fake_keys(void);
-
-/** Sets the stroke of the fake device's hand, from the next knurl_device_start() on.
- * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE (a loop with a haptic
- * thread uses it). [game thread] */
-KNURL_API knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc);
-
-/** The exact state of the simulation, for studies and tests; no real device could report it. */
-typedef struct knurl_fake_truth {
-    double position[3]; /**< m, device frame: before quantisation */
-    double velocity[3]; /**< m/s */
-    double motor[3];    /**< N: the motors' force during the last period, after delay and limits */
-    double hand[3];     /**< N: the force of the hand's spring and damper now */
-} knurl_fake_truth;
-
-/** The fake device's state at its last reading. Errors: KNURL_ERROR_UNSUPPORTED (not a fake device, or one that plays a
- * trace). No heap or lock. [haptic thread] */
-KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth);
-
-/** Plays recorded positions instead of a simulated hand: rows of t (s, ascending), x, y, z (m, device frame). Copied;
- * interpolated linearly; the last one is held. Positions are exact unless the URI sets a resolution, and no force
- * moves them. Errors: KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE
- * (a loop with a haptic thread uses it), KNURL_ERROR_MEMORY. [game thread] */
-KNURL_API knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count);
-
-/** Finds a stroke by its name ("line", "sweep", "circle", "press", "rest").
- * Errors: KNURL_ERROR_UNKNOWN, with the known names. [any thread] */
-KNURL_API knurl_result knurl_stroke_from_name(const char *name, int32_t *stroke);
 
 #ifdef __cplusplus
 }

@@ -7,11 +7,14 @@
 #include <knurl/base.h>
 #include <knurl/contact.h>
 #include <knurl/device.h>
+#include <knurl/device_functions.h>
+#include <knurl/fake.h>
 #include <knurl/gltf.h>
 #include <knurl/grating.h>
 #include <knurl/loop.h>
 #include <knurl/motion.h>
 #include <knurl/scene.h>
+#include <knurl/stroke.h>
 #include <knurl/vibration.h>
 
 #endif

@@ -2,6 +2,8 @@
 #include "base/base.h"
 #include "device/link.h"
 
+#include <knurl/device_functions.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -150,12 +152,10 @@ knurl_result knurl_device_open_functions(const knurl_device_functions *functions
     if (result) {
         return result;
     }
-    custom *made = calloc(1, sizeof *made);
+    custom *made = knurl_device_allocate(&custom_driver, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device: could not get %u bytes", (unsigned)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
-    knurl_device_init(&made->base, &custom_driver);
-    made->base.max_speed = KNURL_HAND_SPEED;
     made->functions = f;
     result = knurl_device_ask(&made->base, &info);
     made->base.max_force = result ? 0.0 : info.max_force;

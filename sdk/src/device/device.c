@@ -24,6 +24,17 @@ void knurl_device_status_init(knurl_device_status *status, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, status, size);
 }
 
+void *knurl_device_allocate(const knurl_driver *driver, size_t size) {
+    knurl_device *made = calloc(1, size);
+    if (!made) {
+        (void)knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %lu bytes", driver->uri, (unsigned long)size);
+        return NULL;
+    }
+    knurl_device_init(made, driver);
+    made->max_speed = KNURL_HAND_SPEED;
+    return made;
+}
+
 static void close_now(knurl_device *device) {
     knurl_device_unregister(device);
     knurl_motor_heat_keep(device);

@@ -22,8 +22,8 @@ typedef struct knurl_driver {
     uint32_t keeps_heat; /* 1: a newly opened device inherits the heat of the last closed one of its kind */
     /* Lists connected devices; if there is no device, adds one entry with the reason. [game thread] */
     void (*list)(knurl_listings *listings);
-    /* options: the URI after "uri:", or "". Allocates a zeroed knurl_device, calls knurl_device_init() and sets
-     * max_force; the device can then be started. Errors: as knurl_device_open(). */
+    /* options: the URI after "uri:", or "". Calls knurl_device_allocate() and sets max_force; the device can then be
+     * started. Errors: as knurl_device_open(). */
     knurl_result (*open)(const char *options, knurl_device **device);
     /* Sets the force to zero unless it is already; ends with knurl_device_free(). */
     void (*close)(knurl_device *device);
@@ -68,7 +68,7 @@ typedef struct knurl_position_check {
 #define KNURL_HALTED_FOR_GOOD  2u
 #define KNURL_HALTED_BACKWARDS 4u
 
-/* First member of every driver's own struct; zeroed except handle, driver and max_force. */
+/* First member of every driver's own struct. */
 struct knurl_device {
     uint32_t handle; /* KNURL_HANDLE_DEVICE, first */
     const knurl_driver *driver;
@@ -96,11 +96,17 @@ static inline void knurl_device_init(knurl_device *device, const knurl_driver *d
     device->driver = driver;
 }
 
-/* Frees a driver's own struct, which calloc() allocated. */
+/* Allocates a driver's own struct of `size` bytes, zeroed except handle, driver and max_speed (KNURL_HAND_SPEED). Null,
+ * with a message, if there is no memory: KNURL_ERROR_MEMORY. */
+void *knurl_device_allocate(const knurl_driver *driver, size_t size);
+
 static inline void knurl_device_free(knurl_device *device) {
     knurl_handle_clear(&device->handle);
     free(device);
 }
+
+/* Sets the workspace to the largest cube within a sphere of `radius` (m) around the device's origin. */
+void knurl_device_info_sphere(knurl_device_info *info, double radius);
 
 /* The device's properties. Checked, so that a number out of its range never reaches a limit, a protection or a period.
  * Errors: KNURL_ERROR_ARGUMENT (which, expected, found). */

@@ -39,6 +39,13 @@ void knurl_device_info_init(knurl_device_info *info, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, info, size);
 }
 
+void knurl_device_info_sphere(knurl_device_info *info, double radius) {
+    for (int axis = 0; axis < 3; axis++) {
+        info->workspace_max[axis] = 0.577350269189626 * radius; /* sqrt(1 / 3) */
+        info->workspace_min[axis] = -info->workspace_max[axis];
+    }
+}
+
 knurl_result knurl_device_ask(const knurl_device *device, knurl_device_info *info) {
     char type[64];
     knurl_device_info made;

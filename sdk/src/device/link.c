@@ -133,7 +133,8 @@ knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_
     knurl_mailbox_init(&link->positions);
     knurl_mailbox_init(&link->orders);
     memset(link->forces, 0, sizeof link->forces);
-    link->has_sample = link->is_silent = link->is_off = link->is_late = link->is_unguarded = 0;
+    link->has_sample = link->is_silent = link->is_off = link->is_late = link->is_unguarded = link->is_corrupt = 0;
+    link->trouble = 0;
     link->stale = link->watched = link->stuck = 0;
     link->cycles = 0;
     knurl_store_release(&link->stop, 0u);
@@ -150,6 +151,35 @@ void knurl_link_close(knurl_link *link) {
         knurl_system_join_thread(link->thread);
         link->thread = NULL;
     }
+    knurl_guard_process_stop(link->guard);
+    link->guard = NULL;
+}
+
+knurl_result knurl_link_start_guard(knurl_link *link, const knurl_device *device, int shared,
+                                    const knurl_guard_order *order) {
+    char why[256] = "its handle is not available";
+    if (shared >= 0) {
+        link->guard = knurl_guard_process_start(shared, order, why, sizeof why);
+    }
+    return link->guard ? KNURL_OK
+                       : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device '%s': guard: %s", device->driver->uri, why);
+}
+
+void knurl_link_count_bad(knurl_link *link, knurl_device *device, uint64_t bytes) {
+    knurl_store_relaxed(&link->bad_bytes, knurl_load_relaxed(&link->bad_bytes) + bytes);
+    if (!link->is_corrupt) {
+        link->is_corrupt = 1;
+        knurl_events_report(&device->events, KNURL_FAULT_CORRUPT, (double)bytes);
+    }
+}
+
+int knurl_link_take_trouble(knurl_link *link, int32_t trouble, int32_t cause) {
+    if (trouble && trouble != link->trouble) {
+        knurl_device_halt(link->device);
+        knurl_events_report(&link->device->events, trouble, cause);
+    }
+    link->trouble = trouble;
+    return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
 }
 
 void knurl_link_start(knurl_link *link, double update_rate_hz) {
@@ -201,6 +231,7 @@ knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status) {
     status->lost |= knurl_load_acquire(&link->lost); /* also if no read has happened since */
     status->exchanges = knurl_load_relaxed(&link->exchanges);
+    status->bad_bytes = knurl_load_relaxed(&link->bad_bytes);
     status->exchange_ns_p50 = knurl_histogram_percentile(&link->durations, 0.5);
     status->exchange_ns_p99 = knurl_histogram_percentile(&link->durations, 0.99);
 }

@@ -34,7 +34,7 @@ typedef struct knurl_link {
     knurl_link_exchange exchange;
     double native_rate; /* Hz: the highest rate of exchanges */
     knurl_thread *thread;
-    knurl_guard_process *guard; /* the driver's, running from before the thread until after it; may be null */
+    knurl_guard_process *guard; /* running from before the thread until after it; may be null */
     uint64_t patience;          /* reads for which the last position stays valid */
     /* to the haptic thread */
     knurl_mailbox positions;
@@ -54,6 +54,8 @@ typedef struct knurl_link {
     int64_t told_guard_at;
     uint32_t is_late;      /* 1: already reported */
     uint32_t is_unguarded; /* 1: already reported */
+    uint32_t is_corrupt;   /* 1: already reported; cleared by the driver, with a valid message */
+    int32_t trouble;       /* KNURL_FAULT_ why the device plays no forces, reported; 0 if it plays them */
     /* atomics */
     uint32_t is_silent; /* 1: already reported, by either thread */
     uint32_t is_off;    /* the last exchange ended with KNURL_LINK_OFF */
@@ -61,14 +63,27 @@ typedef struct knurl_link {
     uint32_t lost;
     uint64_t cycles;    /* of the I/O thread */
     uint64_t exchanges; /* with a position */
+    uint64_t bad_bytes;
     knurl_histogram durations;
 } knurl_link;
 
 /* Starts the I/O thread and sets device->link; `link` is zeroed, or was closed. Errors: KNURL_ERROR_SYSTEM. */
 knurl_result knurl_link_open(knurl_link *link, knurl_device *device, knurl_link_exchange exchange, double native_rate);
 
-/* Ends the thread after it has sent a zero force. No effect if the link was never opened. */
+/* Ends the thread after it has sent a zero force, and the guard process. No effect on a zeroed link. */
 void knurl_link_close(knurl_link *link);
+
+/* Starts the guard process, before the thread. shared: a descriptor of the device, closed by the guard; -1: this system
+ * cannot share one. Errors: KNURL_ERROR_UNSUPPORTED. */
+knurl_result knurl_link_start_guard(knurl_link *link, const knurl_device *device, int shared,
+                                    const knurl_guard_order *order);
+
+/* For exchanges. Counts bytes that form no message; the first of several in a row are reported. */
+void knurl_link_count_bad(knurl_link *link, knurl_device *device, uint64_t bytes);
+
+/* For exchanges of a device that tells why it plays no forces: trouble, 0 or a KNURL_FAULT_, is reported once, with
+ * `cause` as its value. Returns KNURL_LINK_POSITION, or KNURL_LINK_OFF. */
+int knurl_link_take_trouble(knurl_link *link, int32_t trouble, int32_t cause);
 
 /* The driver functions of a device with a link. */
 void knurl_link_start(knurl_link *link, double update_rate_hz);

@@ -5,7 +5,7 @@
 
 #include "base/base.h"
 
-#include <knurl/loop.h>
+#include <knurl/stroke.h>
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "support/double.h"
 #include "support/fake.h"
 
+#include <knurl/device_functions.h>
 #include <knurl/loop.h>
 #include <knurl/scene.h>
 

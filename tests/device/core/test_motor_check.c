@@ -5,6 +5,8 @@
 #include "device/fake/plant.h"
 #include "device/motor_check.h"
 
+#include <knurl/device_functions.h>
+#include <knurl/fake.h>
 #include <knurl/loop.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,8 @@
 
 #include "device/touch/stub_hd.h"
 
-#include <knurl/device.h>
+#include <knurl/device_functions.h>
+#include <knurl/fake.h>
 #include <pthread.h>
 
 /** What child and test share. */

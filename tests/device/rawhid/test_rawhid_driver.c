@@ -100,7 +100,7 @@ TEST_WITH(why_it_cannot_be_opened_is_said_in_a_sentence, set_up, tear_down) {
 TEST_WITH(a_device_that_does_not_answer_is_not_opened, set_up, tear_down) {
     fake_hid_inject(&hid, DOUBLE_SHORT);
     check_open_refused("", KNURL_ERROR_DEVICE_LOST, "none within 0.5 s");
-    check_message("175 bytes that form no report"); /* 25 times 7 */
+    check_message("175 bytes of other data"); /* 25 times 7 */
 }
 
 TEST_WITH(what_it_is_is_told, set_up, tear_down) {

@@ -5,6 +5,8 @@
 #include "base/system.h"
 #include "device/touch/stub_hd.h"
 
+#include <knurl/fake.h>
+
 static struct {
     knurl_library *library;
     stub_set_function set;

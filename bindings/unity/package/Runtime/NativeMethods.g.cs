@@ -629,7 +629,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "f7e2b166e7ee0d05";
+        internal const string Interface = "b80a5038959dc068";
 
         internal const string Version = "0.3.0";
 
@@ -1050,17 +1050,7 @@ namespace Knurl
         internal static extern void knurl_device_status_init(knurl_device_status* status, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_functions_init(knurl_device_functions* functions, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_device_open(byte* uri, knurl_device** device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
-            knurl_device** device);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_device_close(knurl_device* device);
@@ -1109,6 +1099,16 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_device_zero_on_exit(uint faults_recover);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_device_functions_init(knurl_device_functions* functions, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
+            knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* knurl_fake_keys();

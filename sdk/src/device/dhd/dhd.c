@@ -47,9 +47,7 @@ typedef struct dhd {
     uint32_t is_open;
     size_t model; /* index into models[] */
     char name[64];
-    /* of the I/O thread */
-    uint32_t until_status;
-    int32_t trouble; /* KNURL_FAULT_ why it plays no forces, reported; 0 if it plays them */
+    uint32_t until_status; /* exchanges; of the I/O thread */
 } dhd;
 
 static dhd_api api;
@@ -108,7 +106,7 @@ static int look_at_status(dhd *d) {
     int32_t cause = 0;
     if (d->until_status > 0) {
         d->until_status--;
-        return d->trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
+        return d->link.trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
     }
     d->until_status = STATUS_CYCLES - 1;
     if (api.status(status, d->id) < 0) {
@@ -118,12 +116,7 @@ static int look_at_status(dhd *d) {
         return KNURL_LINK_LOST;
     }
     const int32_t trouble = find_trouble(status, &cause);
-    if (trouble && trouble != d->trouble) {
-        knurl_device_halt(&d->base);
-        knurl_events_report(&d->base.events, trouble, cause);
-    }
-    d->trouble = trouble;
-    return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
+    return knurl_link_take_trouble(&d->link, trouble, cause);
 }
 
 /* Converts from the library's axes. The rows form a matrix whose columns are the stylus' axes x, y, z. */
@@ -227,7 +220,6 @@ static knurl_result connect(dhd *d) {
     d->id = (char)id;
     d->is_open = 1;
     d->until_status = 0;
-    d->trouble = 0;
     knurl_result result = identify(d);
     result = result ? result : api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
@@ -259,12 +251,10 @@ static knurl_result parse(const char *options, dhd *d) {
 }
 
 static knurl_result dhd_open(const char *options, knurl_device **device) {
-    dhd *made = calloc(1, sizeof *made);
+    dhd *made = knurl_device_allocate(&knurl_dhd_driver, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device 'dhd': could not get %lu bytes", (unsigned long)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
-    knurl_device_init(&made->base, &knurl_dhd_driver);
-    made->base.max_speed = KNURL_HAND_SPEED;
     knurl_result result = parse(options, made);
     result = result ? result : connect(made);
     made->base.max_force = models[made->model].max_force;
@@ -304,10 +294,7 @@ static void dhd_list(knurl_listings *listings) {
 static void dhd_info(const knurl_device *device, knurl_device_info *info) {
     const dhd *d = (const dhd *)(const void *)device;
     (void)snprintf(info->name, sizeof info->name, "%s", d->name);
-    for (int axis = 0; axis < 3; axis++) { /* the cube inside the sphere */
-        info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
-        info->workspace_min[axis] = -info->workspace_max[axis];
-    }
+    knurl_device_info_sphere(info, models[d->model].radius);
     info->resolution = 0.00001; /* assumed */
     info->max_force = device->max_force;
     info->max_stiffness = models[d->model].max_stiffness;

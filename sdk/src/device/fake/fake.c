@@ -41,12 +41,12 @@ static knurl_result fake_open(const char *options, knurl_device **device) {
     if (result) {
         return result;
     }
-    fake *made = calloc(1, sizeof *made);
+    fake *made = knurl_device_allocate(&knurl_fake_driver, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device fake: could not get %u bytes", (unsigned)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
-    knurl_device_init(&made->base, &knurl_fake_driver);
     made->base.max_force = settings.max_force;
+    made->base.max_speed = 0.0; /* traces may jump */
     made->settings = settings;
     knurl_stroke_desc_init(&made->stroke, sizeof made->stroke);
     (void)knurl_stroke_check(&made->stroke); /* cannot fail for the default; sets its speed */

@@ -4,7 +4,7 @@
 
 #include "base/range.h"
 
-#include <knurl/device.h>
+#include <knurl/fake.h>
 
 /* Minimum, maximum and unit of quantities that real devices do not have. */
 #define KNURL_FAKE_HAND_MASS      0.0, 10.0, "kg"

@@ -4,7 +4,7 @@
 
 #include "base/finite.h"
 
-#include <knurl/device.h>
+#include <knurl/fake.h>
 
 /* A path over a surface, with rows at even distances. */
 typedef struct knurl_hand_path {

@@ -2,7 +2,6 @@
  * exchange() first. SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
-#include "base/atomic.h"
 #include "base/system.h"
 #include "device/drivers.h"
 #include "device/link.h"
@@ -52,11 +51,7 @@ typedef struct inverse3 {
     double force_gate;               /* as knurl_inverse3_entry */
     /* of the I/O thread */
     uint32_t unanswered; /* messages sent but not answered; each is answered once, in order */
-    uint32_t is_corrupt; /* 1: already reported */
     uint32_t left_out;   /* consecutive states without the device */
-    int32_t trouble;     /* KNURL_FAULT_ why it plays no forces, reported; 0 if it plays them */
-    /* atomic */
-    uint64_t bad_bytes;
 } inverse3;
 
 static inverse3 *of(knurl_device *device) {
@@ -82,12 +77,10 @@ static int await_answer(inverse3 *d, int64_t until, knurl_inverse3_message *mess
 }
 
 static int report_corrupt(inverse3 *d, const knurl_inverse3_message *message) {
-    if (!d->is_corrupt) {
-        d->is_corrupt = 1;
+    if (!d->link.is_corrupt) {
         knurl_device_halt(&d->base);
-        knurl_events_report(&d->base.events, KNURL_FAULT_CORRUPT, (double)message->size);
     }
-    __atomic_fetch_add(&d->bad_bytes, message->size, __ATOMIC_RELAXED);
+    knurl_link_count_bad(&d->link, &d->base, message->size);
     return KNURL_LINK_NOTHING;
 }
 
@@ -101,19 +94,9 @@ static int32_t find_trouble(const knurl_inverse3_entry *entry, int32_t *cause) {
     return *cause ? KNURL_FAULT_FORCE_OFF : 0;
 }
 
-static int take_status(inverse3 *d, const knurl_inverse3_entry *entry) {
-    int32_t cause = 0;
-    const int32_t trouble = find_trouble(entry, &cause);
-    if (trouble && trouble != d->trouble) {
-        knurl_device_halt(&d->base);
-        knurl_events_report(&d->base.events, trouble, cause);
-    }
-    d->trouble = trouble;
-    return trouble ? KNURL_LINK_OFF : KNURL_LINK_POSITION;
-}
-
 /* Takes the device's state from an answer. */
 static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_device_sample *sample) {
+    int32_t cause = 0;
     knurl_inverse3_state state;
     if (!knurl_inverse3_read(message->text, message->size, &state)) {
         return report_corrupt(d, message);
@@ -126,11 +109,12 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
     if (!entry->has_position) {
         return report_corrupt(d, message);
     }
-    d->is_corrupt = 0;
+    d->link.is_corrupt = 0;
     knurl_inverse3_to_knurl(entry->position, sample->position);
     knurl_inverse3_orientation(&state, sample->orientation);
     sample->buttons = state.wireless.buttons | state.custom.buttons | state.wired.buttons;
-    return take_status(d, entry);
+    const int32_t trouble = find_trouble(entry, &cause);
+    return knurl_link_take_trouble(&d->link, trouble, cause);
 }
 
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
@@ -246,8 +230,7 @@ static knurl_result configure(inverse3 *d) {
 
 static knurl_result connect(inverse3 *d) {
     knurl_inverse3_state state;
-    d->is_corrupt = d->left_out = 0;
-    d->trouble = 0;
+    d->left_out = 0;
     knurl_result result = receive_first(d->service, d->port, &d->channel, &state);
     result = result ? result : choose(d, &state);
     result = result ? result : configure(d);
@@ -282,13 +265,10 @@ static knurl_result parse(const char *options, inverse3 *d) {
 }
 
 knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_service *service, knurl_device **device) {
-    inverse3 *made = calloc(1, sizeof *made);
+    inverse3 *made = knurl_device_allocate(&knurl_inverse3_driver, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device 'inverse3': could not get %lu bytes",
-                          (unsigned long)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
-    knurl_device_init(&made->base, &knurl_inverse3_driver);
-    made->base.max_speed = KNURL_HAND_SPEED;
     made->service = service;
     knurl_result result = parse(options, made);
     result = result ? result : connect(made);
@@ -362,10 +342,7 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     if (d->force_gate != 0.0) {
         (void)snprintf(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
     }
-    for (int axis = 0; axis < 3; axis++) { /* the cube inside its maker's sphere */
-        info->workspace_max[axis] = 0.577350269189626 * models[d->model].radius;
-        info->workspace_min[axis] = -info->workspace_max[axis];
-    }
+    knurl_device_info_sphere(info, models[d->model].radius);
     info->resolution = 0.00001; /* data sheet of the Inverse3 */
     info->max_force = device->max_force;
     info->max_stiffness = models[d->model].max_stiffness;
@@ -379,10 +356,6 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     info->native_rate = NATIVE_RATE;
 }
 
-static void inverse3_status(const knurl_device *device, knurl_device_status *status) {
-    status->bad_bytes = knurl_load_relaxed(&((const inverse3 *)(const void *)device)->bad_bytes);
-}
-
 const knurl_driver knurl_inverse3_driver = {
     .uri = "inverse3",
     .keeps_heat = 1,
@@ -390,6 +363,5 @@ const knurl_driver knurl_inverse3_driver = {
     .open = inverse3_open,
     .close = inverse3_close,
     .get_info = inverse3_info,
-    .get_status = inverse3_status,
     .reopen = inverse3_reopen,
 };

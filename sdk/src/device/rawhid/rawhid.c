@@ -1,183 +1,41 @@
-/* WoodenHaptics and similar devices: a microcontroller with encoders and current-controlled motors, over raw HID. Read
- * exchange() first. SPDX-License-Identifier: MIT */
+/* WoodenHaptics and similar devices: a microcontroller with encoders and current-controlled motors, over raw HID.
+ * SPDX-License-Identifier: MIT */
 #include "device/rawhid/rawhid.h"
 
-#include "base/atomic.h"
 #include "device/drivers.h"
-#include "device/link.h"
 #include "device/listings.h"
-#include "device/rawhid/choose.h"
-#include "device/rawhid/kinematics.h"
-#include "device/rawhid/serial.h"
+#include "device/rawhid/rawhid_device.h"
 #include "device/uri.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#define ANSWER_NS     4000000 /* to wait for a report: an exchange takes 5 ms at most */
-#define QUEUE_ROOM    64      /* reports that the kernel queues */
-#define GREET_TRIES   25      /* of 20 ms: the firmware starts slowly after power-up */
-#define HOME_MARGIN   100     /* counts that the hand may have moved since the counters were set */
-#define STRANGE_LIMIT 3       /* impossible poses in a row after which the counters are not trusted */
-#define HOLD_CYCLES   50 /* exchanges without a position after homing: the loop zeroes the force first, then ramps */
-
-typedef struct rawhid {
-    knurl_device base;
-    knurl_link link;
-    const knurl_rawhid_bus *bus;
-    knurl_serial_bus serial; /* if on a serial port; `ports` is null on USB HID */
-    knurl_rawhid_port port;  /* self is null if closed */
-    knurl_rawhid_geometry geometry;
-    knurl_rawhid_arm arm;
-    knurl_rawhid_wanted wanted;
-    size_t report_bytes;
-    int16_t home[3];
-    uint32_t home_on_open;
-    uint32_t motors_known;
-    uint32_t wants_guard;
-    /* of the I/O thread */
-    double angles[3];
-    uint32_t knows_angles;
-    uint32_t is_corrupt; /* 1: already reported */
-    uint32_t is_lost;    /* 1: the counters are wrong until it is homed; reported */
-    uint32_t strange;    /* impossible poses in a row */
-    uint32_t hold;       /* exchanges still to come without a position */
-    uint64_t bad_bytes;  /* atomic */
-} rawhid;
+#define GREET_TRIES 25  /* of 20 ms: the firmware starts slowly after power-up */
+#define HOME_MARGIN 100 /* counts that the hand may have moved since the counters were set */
 
 static rawhid *of(knurl_device *device) {
     return (rawhid *)(void *)device; /* first member */
 }
 
-static const rawhid *look_at(const knurl_device *device) {
-    return (const rawhid *)(const void *)device;
-}
-
-/* --- reports --- */
-
-enum { GONE = -1, NOTHING = 0, REPORT = 1, BAD = 2 };
-
-static int take_report(rawhid *r, int milliseconds, knurl_rawhid_in *in) {
-    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1]; /* one more, to detect a report that is too long */
-    const int got = r->port.read(r->port.self, bytes, sizeof bytes, milliseconds);
-    if (got <= 0) {
-        return got < 0 ? GONE : NOTHING;
-    }
-    if (knurl_rawhid_parse(bytes, (size_t)got, r->report_bytes, in)) {
-        r->is_corrupt = 0;
-        return REPORT;
-    }
-    knurl_store_relaxed(&r->bad_bytes, knurl_load_relaxed(&r->bad_bytes) + (uint64_t)got);
-    if (!r->is_corrupt) {
-        r->is_corrupt = 1;
-        knurl_events_report(&r->base.events, KNURL_FAULT_CORRUPT, got);
-    }
-    return BAD;
-}
-
-/* Discards reports that came too late to answer the next one sent. Returns 0 if the device is gone. */
-static int drain(rawhid *r) {
-    knurl_rawhid_in ignored;
-    int outcome = REPORT;
-    for (int i = 0; i < QUEUE_ROOM && outcome > NOTHING; i++) {
-        outcome = take_report(r, 0, &ignored);
-    }
-    return outcome != GONE;
-}
-
-/* Waits up to `ns` for a valid report. */
-static int await_report(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
-    const int64_t until = knurl_system_now_ns() + ns;
-    for (int i = 0; i < QUEUE_ROOM; i++) {
-        const int64_t left = until - knurl_system_now_ns();
-        const int outcome = take_report(r, left > 0 ? (int)((left + 999999) / 1000000) : 0, in);
-        if (outcome != BAD) {
-            return outcome;
-        }
-    }
-    return NOTHING;
-}
-
-/* Returns 0 if nothing was sent. */
-static int send_currents(rawhid *r, const double force[3]) {
-    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
-    int16_t ma[3] = {0, 0, 0};
-    if (r->knows_angles) {
-        knurl_rawhid_currents(&r->arm, r->angles, force, ma);
-    }
-    return r->port.write(r->port.self, bytes, knurl_rawhid_put_currents(bytes, r->report_bytes, ma));
-}
-
-static int send_home(rawhid *r) {
-    uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
-    return r->port.write(r->port.self, bytes, knurl_rawhid_put_counters(bytes, r->report_bytes, r->home));
-}
-
-/* --- the exchange --- */
-
-/* The grip's position from its counters, unless they cannot be trusted. */
-static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sample) {
-    if (in->info == 1) { /* its button was pressed: the grip is in the home pose */
-        if (r->hold == 0 && !r->is_lost) {
-            knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
-        }
-        r->knows_angles = 0;
-        r->hold = HOLD_CYCLES;
-        r->strange = r->is_lost = 0;
-        (void)send_home(r);
-        return KNURL_LINK_NO_POSITION;
-    }
-    knurl_rawhid_angles(&r->arm, in->counts, r->angles);
-    r->strange = knurl_rawhid_is_pose(&r->arm, r->angles) ? 0 : r->strange + 1;
-    if (r->strange >= STRANGE_LIMIT && !r->is_lost) { /* until it is homed: it lost power, or was never homed */
-        r->is_lost = 1;
-        knurl_events_report(&r->base.events, KNURL_FAULT_UNCALIBRATED, 0.0);
-    }
-    r->hold -= r->hold > 0;
-    r->knows_angles = r->strange == 0 && !r->is_lost && r->hold == 0;
-    if (!r->knows_angles) {
-        return KNURL_LINK_NO_POSITION;
-    }
-    knurl_rawhid_position(&r->arm, r->angles, sample->position);
-    return KNURL_LINK_POSITION;
-}
-
-/* The firmware answers each report with one. The motor currents are computed for the arm's pose in the last exchange, a
- * millisecond ago. */
-static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
-    rawhid *r = of(device);
-    knurl_rawhid_in in;
-    if (!drain(r)) {
-        return KNURL_LINK_LOST;
-    }
-    if (!send_currents(r, force)) {
-        knurl_rawhid_in ignored; /* only a read distinguishes a device that is gone from one that is busy */
-        return take_report(r, 0, &ignored) == GONE ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
-    }
-    const int outcome = await_report(r, ANSWER_NS, &in);
-    return outcome == GONE ? KNURL_LINK_LOST : outcome == REPORT ? locate(r, &in, sample) : KNURL_LINK_NOTHING;
-}
-
-/* --- opening --- */
-
 /* Sends zero currents until the device answers: it starts with the first report it receives. */
 static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
     static const double none[3] = {0.0, 0.0, 0.0};
-    int outcome = NOTHING;
-    for (int i = 0; i < GREET_TRIES && outcome == NOTHING; i++) {
-        outcome = drain(r) ? NOTHING : GONE;
-        (void)(outcome == NOTHING && send_currents(r, none));
-        outcome = outcome == NOTHING ? await_report(r, 20000000, in) : outcome;
+    int outcome = RAWHID_NOTHING;
+    for (int i = 0; i < GREET_TRIES && outcome == RAWHID_NOTHING; i++) {
+        outcome = rawhid_drain(r) ? RAWHID_NOTHING : RAWHID_GONE;
+        (void)(outcome == RAWHID_NOTHING && rawhid_send_currents(r, none));
+        outcome = outcome == RAWHID_NOTHING ? rawhid_await(r, 20000000, in) : outcome;
     }
-    if (outcome == REPORT) {
+    if (outcome == RAWHID_REPORT) {
         return KNURL_OK;
     }
-    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                      "device '%s' (%04x:%04x): it does not answer: expected reports of %u bytes, found %s, and %lu "
-                      "bytes that form no report; switch its power on, or plug it in again",
-                      r->base.driver->uri, r->wanted.vendor, r->wanted.product, (unsigned)r->report_bytes,
-                      outcome == GONE ? "that it was unplugged" : "none within 0.5 s", (unsigned long)r->bad_bytes);
+    return knurl_fail(
+        KNURL_ERROR_DEVICE_LOST,
+        "device '%s' (%04x:%04x): %s: expected reports of %u bytes, found none within 0.5 s and %lu bytes "
+        "of other data; switch its power on, or plug it in again",
+        r->base.driver->uri, r->wanted.vendor, r->wanted.product,
+        outcome == RAWHID_GONE ? "it was unplugged" : "it does not answer", (unsigned)r->report_bytes,
+        (unsigned long)r->link.bad_bytes);
 }
 
 static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
@@ -192,8 +50,8 @@ static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
 static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
     knurl_result result = KNURL_OK;
     for (int i = 0; i < GREET_TRIES && !result; i++) {
-        (void)send_home(r);
-        result = await_report(r, 20000000, in) == GONE ? KNURL_ERROR_DEVICE_LOST : greet(r, in);
+        (void)rawhid_send_home(r);
+        result = rawhid_await(r, 20000000, in) == RAWHID_GONE ? KNURL_ERROR_DEVICE_LOST : greet(r, in);
         if (!result && is_home(r, in)) {
             return KNURL_OK;
         }
@@ -209,23 +67,16 @@ static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
 static knurl_result start_guard(rawhid *r, const knurl_rawhid_found *found) {
     static const int16_t none[3];
     knurl_guard_order order = {0, 0, {0}};
-    char why[256] = "its handle is not available";
     if (!r->wants_guard) {
         return KNURL_OK;
     }
     order.size = (uint32_t)knurl_rawhid_put_currents(order.bytes, r->report_bytes, none);
     const int shared = r->bus->share ? r->bus->share(r->bus->user, found) : -1;
-    if (shared >= 0) {
-        r->link.guard = knurl_guard_process_start(shared, &order, why, sizeof why);
-    }
-    return r->link.guard ? KNURL_OK
-                         : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device '%s' (%04x:%04x): guard: %s",
-                                      r->base.driver->uri, found->vendor, found->product, why);
+    return knurl_link_start_guard(&r->link, &r->base, shared, &order);
 }
 
-static void close_port(rawhid *r) {
-    knurl_guard_process_stop(r->link.guard);
-    r->link.guard = NULL;
+static void disconnect(rawhid *r) {
+    knurl_link_close(&r->link); /* its last exchanges set the force to zero */
     if (r->port.self) {
         r->port.close(r->port.self);
         r->port.self = NULL;
@@ -268,7 +119,7 @@ static knurl_result connect(rawhid *r, int is_again) {
     knurl_rawhid_in in = {{0, 0, 0, 0, 0, 0}, 0};
     double angles[3];
     knurl_rawhid_found found;
-    r->knows_angles = r->is_corrupt = r->is_lost = r->strange = r->hold = 0;
+    r->knows_angles = r->link.is_corrupt = r->is_lost = r->strange = r->hold = 0;
     r->serial.is_again = (uint32_t)is_again;
     knurl_result result = open_port(r, &found);
     if (result) {
@@ -281,9 +132,9 @@ static knurl_result connect(rawhid *r, int is_again) {
         result = home(r, &in);
     }
     result = result ? result : start_guard(r, &found);
-    result = result ? result : knurl_link_open(&r->link, &r->base, exchange, 1000.0);
+    result = result ? result : knurl_link_open(&r->link, &r->base, rawhid_exchange, 1000.0);
     if (result) {
-        close_port(r);
+        disconnect(r);
     }
     return result;
 }
@@ -326,16 +177,13 @@ static knurl_result read_options(const char *options, const knurl_serial_ports *
 static knurl_result open_on(const char *options, const knurl_rawhid_bus *bus, const knurl_serial_ports *ports,
                             knurl_device **device) {
     const knurl_driver *driver = ports ? &knurl_serial_driver : &knurl_rawhid_driver;
-    rawhid *made = calloc(1, sizeof *made);
+    rawhid *made = knurl_device_allocate(driver, sizeof *made);
     if (!made) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %u bytes", driver->uri,
-                          (unsigned)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
     made->bus = bus;
-    knurl_device_init(&made->base, driver);
     knurl_result result = read_options(options, ports, made);
     made->base.max_force = made->geometry.max_force;
-    made->base.max_speed = KNURL_HAND_SPEED;
     if (!made->motors_known) {
         knurl_motor_check_init(&made->base.motor_check, made->base.max_force);
     }
@@ -354,27 +202,20 @@ knurl_result knurl_serial_open(const char *options, const knurl_serial_ports *po
 /* --- the driver --- */
 
 static void rawhid_close(knurl_device *device) {
-    rawhid *r = of(device);
-    knurl_link_close(&r->link); /* its last exchanges set the force to zero */
-    close_port(r);
+    disconnect(of(device));
     knurl_device_free(device);
 }
 
 static knurl_result rawhid_reopen(knurl_device *device) {
-    rawhid *r = of(device);
-    knurl_link_close(&r->link); /* its thread has already ended */
-    close_port(r);
-    return connect(r, 1);
+    disconnect(of(device)); /* the thread has already ended */
+    return connect(of(device), 1);
 }
 
 static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
-    const rawhid *r = look_at(device);
+    const rawhid *r = (const rawhid *)(const void *)device;
     const knurl_rawhid_geometry *g = &r->geometry;
     (void)snprintf(info->name, sizeof info->name, "%s", g->name);
-    for (int axis = 0; axis < 3; axis++) { /* the cube inside the makers' sphere: the joints' stops are not published */
-        info->workspace_max[axis] = 0.577350269189626 * g->workspace_radius;
-        info->workspace_min[axis] = -info->workspace_max[axis];
-    }
+    knurl_device_info_sphere(info, g->workspace_radius); /* the makers': the joints' stops are not published */
     info->resolution = knurl_rawhid_resolution(&r->arm); /* from its encoders and gears */
     info->max_force = g->max_force;                      /* as far as 2 A reach */
     info->max_stiffness = g->max_stiffness;              /* CHAI3D */
@@ -386,11 +227,6 @@ static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
     info->coulomb = g->coulomb;                          /* assumed */
     info->delay = 2.0;          /* assumed: the force waits for the next exchange, the position for the next tick */
     info->native_rate = 1000.0; /* its interrupt endpoints are polled every millisecond */
-}
-
-static void rawhid_status(const knurl_device *device, knurl_device_status *status) {
-    const rawhid *r = look_at(device);
-    status->bad_bytes = knurl_load_relaxed(&r->bad_bytes);
 }
 
 static void rawhid_list(knurl_listings *listings) {
@@ -417,7 +253,6 @@ const knurl_driver knurl_rawhid_driver = {
     .open = rawhid_open,
     .close = rawhid_close,
     .get_info = rawhid_info,
-    .get_status = rawhid_status,
     .reopen = rawhid_reopen,
 };
 
@@ -450,6 +285,5 @@ const knurl_driver knurl_serial_driver = {
     .open = serial_open,
     .close = rawhid_close,
     .get_info = rawhid_info,
-    .get_status = rawhid_status,
     .reopen = rawhid_reopen,
 };

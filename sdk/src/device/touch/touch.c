@@ -65,10 +65,10 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
     if (result) {
         return result;
     }
-    touch *made = calloc(1, sizeof *made);
+    touch *made = knurl_device_allocate(&knurl_touch_driver, sizeof *made);
     if (!made) {
         hd_release();
-        return knurl_fail(KNURL_ERROR_MEMORY, "device '%s': could not get %u bytes", uri, (unsigned)sizeof *made);
+        return KNURL_ERROR_MEMORY;
     }
     made->hd = hd;
     memcpy(made->uri, uri, sizeof uri);
@@ -76,14 +76,12 @@ static knurl_result open_locked(const char *name, const char *library, knurl_dev
     result = touch_connect(made);
     if (result) {
         hd_release();
-        free(made);
+        knurl_device_free(&made->base);
         return result;
     }
     rate_now = is_first ? HD_RATE : rate_now;
     take_slot(made);
-    knurl_device_init(&made->base, &knurl_touch_driver);
     made->base.max_force = made->info.max_force;
-    made->base.max_speed = KNURL_HAND_SPEED;
     made->base.quiet = 1;
     *device = &made->base;
     return KNURL_OK;
